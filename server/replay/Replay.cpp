@@ -15,7 +15,7 @@ Replay::Replay(const RecordedRound& round, const RoundStage& stage)
     throw RoundError("The game " + m_world.failure() + " before it began. " +
                      safeText(m_world.printed(), 500));
   compareFiles(round);
-  m_next = m_reader->next();
+  readAhead();
 }
 
 void Replay::compareFiles(const RecordedRound& round) {
@@ -27,11 +27,17 @@ void Replay::compareFiles(const RecordedRound& round) {
   }
 }
 
+// Sessions are for servers that go on with the round.
+void Replay::readAhead() {
+  do m_next = m_reader->next();
+  while (m_next && std::holds_alternative<KeptSession>(*m_next));
+}
+
 bool Replay::nextTurn() {
-  while (m_next && !std::holds_alternative<WorldTurn>(*m_next)) m_next = m_reader->next();
+  while (m_next && !std::holds_alternative<WorldTurn>(*m_next)) readAhead();
   if (!m_next) return false;
   m_turn = std::get<WorldTurn>(std::move(*m_next));
-  m_next = m_reader->next();
+  readAhead();
   return true;
 }
 
@@ -65,7 +71,7 @@ bool Replay::step(bool pictures) {
 
 /// What the file has of this tick beside its turn.
 void Replay::takeRest(std::string_view answer, bool exact) {
-  for (; m_next && !std::holds_alternative<WorldTurn>(*m_next); m_next = m_reader->next()) {
+  for (; m_next && !std::holds_alternative<WorldTurn>(*m_next); readAhead()) {
     if (const auto* p_result = std::get_if<TickResult>(&*m_next)) compare(*p_result, answer, exact);
     if (auto* p_picture = std::get_if<RecordedPicture>(&*m_next)) m_recorded = std::move(*p_picture);
   }

@@ -47,6 +47,7 @@ class Replay {
   const std::string& why() const { return m_reader->why(); }
 
  private:
+  void readAhead();
   bool nextTurn();
   void takeRest(std::string_view answer, bool exact);
   void compare(const TickResult& result, std::string_view answer, bool exact);

@@ -110,15 +110,12 @@ std::vector<Input> OpenRound::closingInputs() const {
     inputs.push_back(release);
   }
   for (const std::uint32_t player : m_players) {
-    if (!m_sessions.contains(player))
-      inputs.push_back({.kind = df::InputQueue::kLeave, .player = player});
+    if (!m_sessions.contains(player)) inputs.push_back({.kind = df::InputQueue::kLeave, .player = player});
   }
   for (const auto& [player, session] : m_sessions) {
     if (std::find(m_players.begin(), m_players.end(), player) != m_players.end()) continue;
-    inputs.push_back({.kind = df::InputQueue::kJoin,
-                      .player = player,
-                      .name = session.name,
-                      .color = session.color});
+    inputs.push_back(
+        {.kind = df::InputQueue::kJoin, .player = player, .name = session.name, .color = session.color});
   }
   return inputs;
 }

@@ -233,7 +233,8 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
   p_first->accompany(session);
 }
 
-// ---- sessions of a server that was killed ------------------------------------------------------------------
+// ---- sessions of a server that was killed
+// ------------------------------------------------------------------
 
 // Clients that look for a lost server ask again in a moment, and show the sentence.
 bool Admission::isRecovering(Session& session) {
@@ -275,8 +276,7 @@ void Admission::takeOverSession(Session& before, Session& session, const wire::H
   m_setup.prefixes.forget(before.id());
   m_setup.prefixes.note(session.id(), prefixOf(session));
   if (p_room != nullptr)
-    p_room->port().noteSession(
-        keptOf(welcome, m_tokens.hashed(session.id()), before.standing().isMuted()));
+    p_room->port().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), before.standing().isMuted()));
   session.setGrace(graceTime());
   session.welcome(welcome, std::move(datagrams));
   session.takeOver(before);

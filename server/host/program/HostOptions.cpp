@@ -100,7 +100,8 @@ std::vector<Row> tableOf(HostOptions& o) {
         "NAIAD_NO_JOURNAL"}},
       {{"--recover",
         &o.recover,
-        "When this server was killed in a round that --journal has: on = the round is executed again, and its "
+        "When this server was killed in a round that --journal has: on = the round is executed again, and "
+        "its "
         "players go on with it; off = another one begins",
         "NAIAD_RECOVER",
         {},

@@ -286,8 +286,8 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
       return;
     }
     journal->addFacts({{kFactAttempts, "0"}});
-    const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(
-        std::chrono::steady_clock::now() - began);
+    const auto took =
+        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - began);
     log("the round goes on after " + std::to_string(ticks) + " ticks, which were executed again in " +
         std::to_string(took.count()) + " ms");
   };
@@ -326,10 +326,11 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
     return world;
   }
   if (again && !std::exchange(m_checked, true)) {
-    book.check = std::make_unique<RepeatCheck>(std::move(again), [log = m_log, journal = book.journal](const std::string& sentence) {
-      journal->addFacts({{kFactRepeatable, "no"}});
-      log({LogEvent::Level::kWarning, "warning: " + sentence});
-    });
+    book.check = std::make_unique<RepeatCheck>(
+        std::move(again), [log = m_log, journal = book.journal](const std::string& sentence) {
+          journal->addFacts({{kFactRepeatable, "no"}});
+          log({LogEvent::Level::kWarning, "warning: " + sentence});
+        });
   }
   m_writer->add(book.journal);
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));

@@ -48,13 +48,13 @@ class Journals {
   const std::size_t m_ring;
   DfrFacts m_facts;
   LogLine m_log;
-  bool m_checked = false;  ///< a round has been, or is
+  bool m_checked = false;             ///< a round has been, or is
   std::unique_ptr<OpenRound> m_open;  ///< to go on with
   std::shared_ptr<JournalWriter> m_writer = std::make_shared<JournalWriter>();
 };
 
-/// The round that a server of this folder was killed in, if this one can go on with it: the same game with the
-/// same settings, on the same port, by `expected` facts. Else null, and `said` has why, if there is one.
+/// The round that a server of this folder was killed in, if this one can go on with it: the same game with
+/// the same settings, on the same port, by `expected` facts. Else null, and `said` has why, if there is one.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
                                          std::uint64_t frame_nanos, std::string& said);
 
@@ -74,14 +74,15 @@ inline constexpr const char* kFactModule = "module_sha256";  ///< missing: the g
 inline constexpr const char* kFactVersion = "naiad";
 inline constexpr const char* kFactPlayers = "players";
 inline constexpr const char* kFactGameOver = "on_game_over";
-inline constexpr const char* kFactAddresses = "addresses";  ///< "fixed" or "random"
-inline constexpr const char* kFactClocks = "clocks";        ///< "repeatable" or "real"
-inline constexpr const char* kFactSettings = "settings";    ///< the text of df-config.txt
-inline constexpr const char* kFactPort = "port";            ///< that players joined by
-inline constexpr const char* kFactFirstTick = "first_tick";  ///< by which the server's log and players count
+inline constexpr const char* kFactAddresses = "addresses";    ///< "fixed" or "random"
+inline constexpr const char* kFactClocks = "clocks";          ///< "repeatable" or "real"
+inline constexpr const char* kFactSettings = "settings";      ///< the text of df-config.txt
+inline constexpr const char* kFactPort = "port";              ///< that players joined by
+inline constexpr const char* kFactFirstTick = "first_tick";   ///< by which the server's log and players count
 inline constexpr const char* kFactRepeatable = "repeatable";  ///< "no": a second world answered otherwise
-inline constexpr const char* kFactAttempts = "attempts";  ///< to go on with it that have not come to their end
-inline constexpr const char* kFactFile = "file ";          ///< and its name: the hash of a file that was read
+inline constexpr const char* kFactAttempts =
+    "attempts";                                    ///< to go on with it that have not come to their end
+inline constexpr const char* kFactFile = "file ";  ///< and its name: the hash of a file that was read
 inline constexpr const char* kFactVariable = "variable ";  ///< and its name: its value
 
 }  // namespace naiad

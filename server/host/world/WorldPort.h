@@ -22,10 +22,10 @@ class Publisher;
 /// How a world ended.
 struct WorldEnd {
   enum Why : std::uint8_t {
-    kGameOver,  ///< the game said so, or its process ended in order
-    kCrashed,   ///< a signal or an error code
-    kHung,      ///< it did not answer in time
-    kBroken,    ///< it sent a malformed frame
+    kGameOver,      ///< the game said so, or its process ended in order
+    kCrashed,       ///< a signal or an error code
+    kHung,          ///< it did not answer in time
+    kBroken,        ///< it sent a malformed frame
     kNotRecovered,  ///< a round of a server that was killed could not be executed again
   } why = kGameOver;
   std::string text = {};  ///< for the log and for players, like "crashed (SIGABRT)"
