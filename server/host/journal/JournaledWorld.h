@@ -17,9 +17,11 @@ namespace naiad {
 
 class JournaledWorld : public WorldPort {
  public:
-  /// Ticks between two hashes of the state, and between two pictures. A picture is some 500 bytes, a hash 8.
+  /// Ticks between two hashes of the state, and between two pictures, of which the first comes earlier. A
+  /// picture takes some 500 bytes of the file, a hash 8.
   static constexpr std::uint32_t kHashTicks = 30;
   static constexpr std::uint32_t kPictureTicks = 900;
+  static constexpr std::uint32_t kFirstPicture = 300;
 
   /// Where it is written, and what is to be said of it.
   struct Book {
