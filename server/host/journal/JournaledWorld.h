@@ -54,6 +54,7 @@ class JournaledWorld : public WorldPort {
   df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }
   void checkProcess(std::uint32_t tick) override;
   std::optional<WorldEnd> end() const override { return m_world->end(); }
+  std::optional<std::string> takeWarning() override { return m_world->takeWarning(); }
   void close() override { m_world->close(); }
 
  private:
