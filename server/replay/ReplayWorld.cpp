@@ -24,7 +24,7 @@ ReplayWorld::ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order)
 }
 
 ReplayWorld::~ReplayWorld() {
-  for (const int one : {m_started.socket, m_started.keeper, m_started.output}) close(one);
+  for (const int one : {m_started.socket, m_started.keeper, m_started.output, m_started.page}) close(one);
 }
 
 std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {

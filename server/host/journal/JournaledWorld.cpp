@@ -78,7 +78,7 @@ void JournaledWorld::tick(bool watched, bool truth) {
   m_turn.wants_truth = truth;
   m_turn.pictured = m_pictured;
   m_turn.checked = m_ticks % kHashTicks == 0;
-  if (watched && m_ticks % kPictureTicks == 0 && !m_players.empty()) choosePicture();
+  if (watched && m_ticks % kPictureTicks == kFirstPicture && !m_players.empty()) choosePicture();
   storeTurn();
   m_world->setChecked(m_turn.checked);
   truth = m_turn.wants_truth;

@@ -22,9 +22,11 @@ namespace naiad {
 
 class JournaledWorld : public WorldPort {
  public:
-  /// Ticks between two hashes of the state, and between two pictures. A picture is some 500 bytes, a hash 8.
+  /// Ticks between two hashes of the state, and between two pictures, of which the first comes earlier. A
+  /// picture takes some 500 bytes of the file, a hash 8.
   static constexpr std::uint32_t kHashTicks = 30;
   static constexpr std::uint32_t kPictureTicks = 900;
+  static constexpr std::uint32_t kFirstPicture = 300;
 
   /// Where it is written, and what is to be said of it.
   struct Book {
@@ -62,12 +64,17 @@ class JournaledWorld : public WorldPort {
   bool isGameOver() const override { return m_world->isGameOver(); }
   df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }
   void checkProcess(std::uint32_t tick) override;
+<<<<<<< HEAD
   std::optional<int> recovering() const override;
   std::optional<std::vector<KeptSession>> takeSessions() override {
     return std::exchange(m_sessions, std::nullopt);
   }
   void noteSession(const KeptSession& session) override;
   std::optional<WorldEnd> end() const override { return m_unrecovered ? m_unrecovered : m_world->end(); }
+=======
+  std::optional<WorldEnd> end() const override { return m_world->end(); }
+  std::optional<std::string> takeWarning() override { return m_world->takeWarning(); }
+>>>>>>> 8b8c51e7780fd2677d556ed2e68e0923ad7769d5
   void close() override { m_world->close(); }
 
  private:

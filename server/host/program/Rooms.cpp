@@ -17,6 +17,9 @@ constexpr std::uint64_t kShortestRound = 30;  ///< ticks; a shorter one has hard
 constexpr int kMaxShortRounds = 5;            ///< in a row
 constexpr std::size_t kEndingWorlds = 8;      ///< of players who left, beside one for each player allowed
 
+constexpr const char* kHowToSeeMore =
+    "to see where: run the game by itself in a debugger, as docs/when-it-goes-wrong.md says";
+
 }  // namespace
 
 Rooms::Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
@@ -180,8 +183,12 @@ void Rooms::checkWorlds() {
   if (!m_new_world) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
+<<<<<<< HEAD
     if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
       m_on_sessions(*room, *sessions);
+=======
+    if (const auto warning = room->port().takeWarning()) m_log(*warning);
+>>>>>>> 8b8c51e7780fd2677d556ed2e68e0923ad7769d5
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
@@ -213,6 +220,8 @@ void Rooms::countEnd(WorldEnd::Why why) {
 // soon as it begins: it would do so for ever.
 void Rooms::endRound(Room& room, const WorldEnd& end) {
   m_log("the round is over: the game " + end.text + (end.when.empty() ? "" : " " + end.when));
+  for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
+  if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
   countEnd(end.why);
   // What this server was started for is the next round.
   if (end.why == WorldEnd::kNotRecovered && beginRound(room))

@@ -1,6 +1,6 @@
-#include "shared/program/BuildId.h"
-
 #include <gtest/gtest.h>
+
+#include "shared/program/BuildId.h"
 
 namespace naiad {
 namespace {

@@ -144,10 +144,10 @@ TEST_F(JournaledWorldTest, EveryThirtiethTickHasAHashOfTheState) {
 TEST_F(JournaledWorldTest, NowAndThenATickHasAPictureOfThePlayerWhoHasBeenThereLongest) {
   world->addInput({.kind = df::InputQueue::kJoin, .player = 1, .name = "Ann"});
   world->addInput({.kind = df::InputQueue::kJoin, .player = 2, .name = "Bob"});
-  for (std::uint32_t i = 1; i <= JournaledWorld::kPictureTicks + 1; ++i) {
+  for (std::uint32_t i = 1; i <= JournaledWorld::kFirstPicture + 1; ++i) {
     world->tick(true, false);
-    EXPECT_EQ(p_fake->had_truth, i == JournaledWorld::kPictureTicks) << i;
-    if (i == JournaledWorld::kPictureTicks) {
+    EXPECT_EQ(p_fake->had_truth, i == JournaledWorld::kFirstPicture) << i;
+    if (i == JournaledWorld::kFirstPicture) {
       EXPECT_EQ(p_fake->pictured_in_tick, 101u);
     }
   }
