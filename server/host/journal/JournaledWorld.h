@@ -64,17 +64,14 @@ class JournaledWorld : public WorldPort {
   bool isGameOver() const override { return m_world->isGameOver(); }
   df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }
   void checkProcess(std::uint32_t tick) override;
-<<<<<<< HEAD
   std::optional<int> recovering() const override;
   std::optional<std::vector<KeptSession>> takeSessions() override {
     return std::exchange(m_sessions, std::nullopt);
   }
   void noteSession(const KeptSession& session) override;
   std::optional<WorldEnd> end() const override { return m_unrecovered ? m_unrecovered : m_world->end(); }
-=======
   std::optional<WorldEnd> end() const override { return m_world->end(); }
   std::optional<std::string> takeWarning() override { return m_world->takeWarning(); }
->>>>>>> 8b8c51e7780fd2677d556ed2e68e0923ad7769d5
   void close() override { m_world->close(); }
 
  private:

@@ -183,12 +183,9 @@ void Rooms::checkWorlds() {
   if (!m_new_world) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
-<<<<<<< HEAD
     if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
       m_on_sessions(*room, *sessions);
-=======
     if (const auto warning = room->port().takeWarning()) m_log(*warning);
->>>>>>> 8b8c51e7780fd2677d556ed2e68e0923ad7769d5
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
