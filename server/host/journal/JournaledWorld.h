@@ -70,7 +70,6 @@ class JournaledWorld : public WorldPort {
   }
   void noteSession(const KeptSession& session) override;
   std::optional<WorldEnd> end() const override { return m_unrecovered ? m_unrecovered : m_world->end(); }
-  std::optional<WorldEnd> end() const override { return m_world->end(); }
   std::optional<std::string> takeWarning() override { return m_world->takeWarning(); }
   void close() override { m_world->close(); }
 
