@@ -333,6 +333,7 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
         });
   }
   m_writer->add(book.journal);
+  m_writer->wake();  // a server that is killed within the first second leaves a file, too
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
 }
 
