@@ -1,6 +1,5 @@
 #include "tests/server/replay/Recorder.h"
 
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <asio/io_context.hpp>
