@@ -38,6 +38,10 @@ bool Replay::nextTurn() {
   if (!m_next) return false;
   m_turn = std::get<WorldTurn>(std::move(*m_next));
   readAhead();
+  if (m_next && std::holds_alternative<InputsDropped>(*m_next)) {
+    dropKeys(m_turn);
+    readAhead();
+  }
   return true;
 }
 

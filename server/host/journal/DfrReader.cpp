@@ -54,6 +54,12 @@ void DfrReader::readHeader() {
   m_at = kDfrHeaderSize;
 }
 
+// The first chunk of them may have been read already, for the facts before it.
+void DfrReader::copyRecordsTo(std::string& records) {
+  m_p_copy = &records;
+  if (m_offset > 0) records = m_unpacked;
+}
+
 std::optional<TurnRecord> DfrReader::next() {
   while (true) {
     if (auto record = m_records.next()) return record;
@@ -130,6 +136,7 @@ bool DfrReader::readTurns(std::string_view payload) {
     return false;
   }
   m_records.add(m_unpacked);
+  if (m_p_copy != nullptr) m_p_copy->append(m_unpacked);
   return true;
 }
 

@@ -42,6 +42,8 @@ class DfrReader {
   std::size_t wholeBytes() const { return m_at; }
   /// Bytes of the stream of records in them.
   std::uint64_t streamBytes() const { return m_offset; }
+  /// Append the records, as they are unpacked, to `records`, which outlives this. Before next().
+  void copyRecordsTo(std::string& records);
   /// The records that have been read end with the chunk: none is cut off.
   bool isBetweenRecords() const { return m_records.atEnd(); }
   /// For the chunks that come behind those that were read; nothing can be read from then on.
@@ -70,6 +72,7 @@ class DfrReader {
   std::uint64_t m_offset = 0;  ///< of the stream of records
   RecordUnpacker m_unpacker;
   std::string m_unpacked;
+  std::string* m_p_copy = nullptr;
   bool m_ended = false;
   DfrEnd m_end = DfrEnd::kTorn;
   std::string m_why;

@@ -1,6 +1,7 @@
 #include "host/journal/JournaledWorld.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "host/world/WorldProcess.h"
@@ -16,8 +17,14 @@ using Input = df::InputQueue::Input;
 JournaledWorld::JournaledWorld(std::unique_ptr<WorldPort> world, Book book)
     : m_world(std::move(world)), m_book(std::move(book)) {
   if (m_book.recovery) m_writer = TurnRecordWriter(m_book.recovery->round().lastTurn());
+  m_history = std::move(m_book.history);
+  listenToWorld();
+}
+
+void JournaledWorld::listenToWorld() {
   m_world->setOnTick([this] {
     if (m_book.recovery) return endRepeatedTick();
+    m_in_tick = false;
     storeResult();
     reportTick();
   });
@@ -32,12 +39,12 @@ std::uint32_t JournaledWorld::addInput(Input input) {
   const bool lasts = input.kind == df::InputQueue::kJoin || input.kind == df::InputQueue::kLeave;
   if (!lasts && m_turn.inputs.size() >= WorldProcess::kMaxInputs) return input.player;
   Input kept = input;
-  const std::uint32_t player = m_world->addInput(std::move(input));
+  const std::uint32_t player = isTakingOver() ? input.player : m_world->addInput(std::move(input));
   if (!m_goes_on) return player;
   kept.player = player;
   kept.seen.base -= m_later;
   kept.seen.drawn -= m_later;
-  noteInput(kept);
+  if (!isTakingOver()) noteInput(kept);
   m_turn.inputs.push_back(std::move(kept));
   return player;
 }
@@ -56,12 +63,12 @@ void JournaledWorld::setHeard(std::uint32_t player) {
 
 void JournaledWorld::endGame() {
   m_turn.ends_game = true;
-  m_world->endGame();
+  if (!isTakingOver()) m_world->endGame();
 }
 
 void JournaledWorld::setPictured(std::uint32_t player) {
   m_pictured = player;
-  m_world->setPictured(player);
+  if (!isTakingOver()) m_world->setPictured(player);
 }
 
 void JournaledWorld::begin() {
@@ -73,6 +80,7 @@ void JournaledWorld::begin() {
 void JournaledWorld::tick(bool watched, bool truth) {
   begin();
   ++m_ticks;
+  m_in_tick = true;
   if (!m_goes_on) return m_world->tick(watched, truth);
   m_turn.watched = watched;
   m_turn.wants_truth = truth;
@@ -123,25 +131,34 @@ void JournaledWorld::storeResult() {
 }
 
 void JournaledWorld::store() {
+  if (m_book.new_world && m_history.size() + m_record.size() <= kMaxHistory) {
+    m_history += m_record;
+  } else {
+    m_history.clear();
+    m_book.new_world = {};
+  }
   m_goes_on = m_book.journal->add(m_record);
   if (m_goes_on && m_book.journal->isFilling()) m_book.writer->wake();
 }
 
 void JournaledWorld::checkProcess(std::uint32_t tick) {
-  m_world->checkProcess(tick);
+  m_world->checkProcess(m_book.recovery && m_began ? m_later + 1 : tick);  // the first one keeps its number
   if (m_book.recovery && !m_repeating && m_world->isReady()) {
     m_repeating = true;
     const std::string difference = m_book.find_difference ? m_book.find_difference() : std::string();
     begin();
     difference.empty() ? repeatNextTurn() : endRecovery(difference);
   }
-  if (const auto end = m_world->end(); end && m_book.recovery) endRecovery("the game " + end->text);
+  if (const auto end = m_world->end(); end && !m_unrecovered) {
+    if (takeOver(*end)) return;
+    if (m_book.recovery) endRecovery("the game " + end->text);
+  }
   if (m_book.check && (!m_goes_on || !m_book.check->update())) m_book.check.reset();
   if (const auto problem = m_book.journal->takeProblem()) {
     m_goes_on = false;
     if (m_book.on_problem) m_book.on_problem(*problem);
   }
-  if (const auto end = m_world->end()) finish(end->text);
+  if (const auto ended = end()) finish(ended->text);
 }
 
 void JournaledWorld::finish(const std::string& why) {
@@ -178,6 +195,7 @@ void JournaledWorld::sendTurn(const WorldTurn& turn) {
     input.seen.drawn += m_later;
     m_world->addInput(std::move(input));
   }
+  m_world->takeLeavers();  // of the tick before, whom its players know
   m_world->setHeard(turn.heard_player);
   if (turn.ends_game) m_world->endGame();
   m_world->setPictured(turn.pictured);
@@ -194,11 +212,14 @@ void JournaledWorld::endRepeatedTick() {
   const std::string difference = m_book.recovery->compareResult(*m_world);
   if (!difference.empty())
     return endRecovery("in tick " + std::to_string(m_book.recovery->turns()) + " " + difference);
-  if (m_book.recovery->isResultMissing()) storeResult();
+  if (m_book.recovery->isResultMissing() && !isTakingOver()) storeResult();
   m_world->isGameOver() ? endRecovery({}) : repeatNextTurn();
 }
 
+// A world that took over is where its players are.
+
 void JournaledWorld::closeRecovery() {
+  if (isTakingOver()) return endTakeOver({});
   m_closing = true;
   m_turn = m_book.recovery->closingTurn();
   storeTurn();
@@ -207,14 +228,88 @@ void JournaledWorld::closeRecovery() {
 
 // Players who left while the round was played have left.
 void JournaledWorld::endRecovery(const std::string& problem) {
+  if (isTakingOver()) return endTakeOver(problem);
   const auto recovery = std::move(m_book.recovery);
   m_sessions = recovery->sessions();
   m_world->takeLeavers();
+  if (m_on_repeated) std::exchange(m_on_repeated, {})();
   if (m_book.on_recovered) m_book.on_recovered(recovery->turns(), problem);
   if (problem.empty()) return;
   m_unrecovered = WorldEnd{WorldEnd::kNotRecovered, "could not go on: " + problem};
   finish(m_unrecovered->text);
   m_world->close();
+}
+
+// ---- a world that crashed or hangs ------------------------------------------------------------------------
+
+// False: the round ends with it.
+bool JournaledWorld::takeOver(const WorldEnd& end) {
+  const bool failed = end.why == WorldEnd::kCrashed || end.why == WorldEnd::kHung;
+  if (!failed || !m_book.new_world || !m_goes_on || !m_began) return false;
+  const auto tick = m_ticks;
+  const bool again = m_died_at && tick < *m_died_at + kSameDeath;
+  // A server that goes on with a round knows no more than that the world had the last turn.
+  const bool in_last_turn = m_book.recovery ? m_book.recovery->isAtUnknownResult() : m_in_tick;
+  const bool goes_on = !again && (!m_book.recovery || in_last_turn);
+  if (m_book.on_death) m_book.on_death(end, tick, goes_on);
+  if (!goes_on) return false;
+  m_died_at = tick;
+  if (!m_book.recovery) {
+    m_death = end;
+    m_next_tick = m_world->nextTick();
+    m_view = m_world->view();
+  }
+  return beginAgain(in_last_turn);
+}
+
+bool JournaledWorld::beginAgain(bool drops_keys) {
+  if (drops_keys) {
+    m_record.clear();
+    m_writer.write(InputsDropped(), m_record);
+    store();
+  }
+  try {
+    AnotherWorld another = m_book.new_world();
+    m_world = std::move(another.world);
+    m_on_repeated = std::move(another.on_repeated);
+  } catch (const std::system_error&) {
+    m_death.reset();
+    return false;
+  }
+  listenToWorld();
+  m_book.check.reset();
+  m_book.find_difference = {};  // of the world before
+  m_book.recovery =
+      std::make_unique<RoundRecovery>(std::make_shared<const OpenRound>(m_book.journal->header(), m_history));
+  m_ticks = 0;
+  m_players.clear();
+  m_repeating = m_closing = false;
+  return true;
+}
+
+// What came meanwhile is in the next turn. A tick that the world before did not end ends now.
+void JournaledWorld::endTakeOver(const std::string& problem) {
+  m_book.recovery.reset();
+  if (!problem.empty()) {
+    m_unrecovered = std::exchange(m_death, std::nullopt);
+    m_unrecovered->text += ", and another world did not do the same (" + problem + ")";
+    finish(m_unrecovered->text);
+    return m_world->close();
+  }
+  if (m_on_repeated) std::exchange(m_on_repeated, {})();
+  m_death.reset();
+  m_view = {};
+  const bool ends_tick = std::exchange(m_in_tick, false);
+  if (ends_tick) storeResult();
+  m_world->setPictured(m_pictured);
+  if (m_turn.ends_game) m_world->endGame();
+  for (Input input : m_turn.inputs) {
+    noteInput(input);
+    input.seen.base += m_later;
+    input.seen.drawn += m_later;
+    m_world->addInput(std::move(input));
+  }
+  if (ends_tick) reportTick();
 }
 
 }  // namespace naiad

@@ -1,7 +1,8 @@
 // A world whose turns are journaled: each is stored before the world gets it, and what came of it after.
 //
 // With a RoundRecovery it first gets the turns of a round whose server was killed, as fast as it answers, and
-// is ready when it has had all of them.
+// is ready when it has had all of them. In the same way another world takes over from one that crashed or
+// hangs, without the keys and clicks of the tick in which that happened.
 #pragma once
 
 #include <functional>
@@ -28,6 +29,18 @@ class JournaledWorld : public WorldPort {
   static constexpr std::uint32_t kPictureTicks = 900;
   static constexpr std::uint32_t kFirstPicture = 300;
 
+  /// A second death within so many ticks of the first one is the same: the round is over.
+  static constexpr std::uint32_t kSameDeath = 30;
+  /// Bytes of records that are kept for another world: days. A longer round ends with its world.
+  static constexpr std::size_t kMaxHistory = std::size_t{64} << 20;
+
+  /// Another world of the same round, and what is to be called when it has had its turns: what it prints
+  /// until then was printed.
+  struct AnotherWorld {
+    std::unique_ptr<WorldPort> world;
+    std::function<void()> on_repeated;
+  };
+
   /// Where it is written, and what is to be said of it.
   struct Book {
     std::shared_ptr<JournalWriter> writer;
@@ -43,6 +56,11 @@ class JournaledWorld : public WorldPort {
     /// Of a recovery, at its end: in how many ticks; or why the round cannot go on, and in which tick that
     /// showed.
     std::function<void(std::uint32_t ticks, const std::string& problem)> on_recovered = {};
+    std::string history = {};  ///< records of a recovery's round
+    /// Starts one; throws std::system_error. Empty: the round ends with its world.
+    std::function<AnotherWorld()> new_world = {};
+    /// The world has ended so in this tick. `goes_on`: another one takes over.
+    std::function<void(const WorldEnd& end, std::uint32_t tick, bool goes_on)> on_death = {};
   };
 
   JournaledWorld(std::unique_ptr<WorldPort> world, Book book);
@@ -57,8 +75,8 @@ class JournaledWorld : public WorldPort {
   bool isReady() const override { return !m_book.recovery && m_world->isReady(); }
   void setPictured(std::uint32_t player) override;
   void tick(bool watched, bool truth) override;
-  std::uint32_t nextTick() const override { return m_world->nextTick(); }
-  const df::WorldView& view() const override { return m_world->view(); }
+  std::uint32_t nextTick() const override { return isTakingOver() ? m_next_tick : m_world->nextTick(); }
+  const df::WorldView& view() const override { return isTakingOver() ? m_view : m_world->view(); }
   void notePublished(const Publisher& publisher) override { m_world->notePublished(publisher); }
   std::vector<std::uint32_t> takeLeavers() override { return m_world->takeLeavers(); }
   bool isGameOver() const override { return m_world->isGameOver(); }
@@ -86,6 +104,11 @@ class JournaledWorld : public WorldPort {
   void closeRecovery();
   void endRepeatedTick();
   void endRecovery(const std::string& problem);
+  void listenToWorld();
+  bool isTakingOver() const { return m_death.has_value(); }
+  bool takeOver(const WorldEnd& end);
+  bool beginAgain(bool drops_keys);
+  void endTakeOver(const std::string& problem);
 
   std::unique_ptr<WorldPort> m_world;
   Book m_book;
@@ -106,6 +129,15 @@ class JournaledWorld : public WorldPort {
   bool m_closing = false;    ///< the world has been sent the turn behind those of the file
   std::optional<std::vector<KeptSession>> m_sessions;
   std::optional<WorldEnd> m_unrecovered;
+
+  // Of a world that takes over.
+  bool m_in_tick = false;
+  std::string m_history;                   ///< all records; empty: they are too many
+  std::optional<WorldEnd> m_death;         ///< of the world before, while another one has its turns
+  std::optional<std::uint32_t> m_died_at;  ///< tick
+  std::function<void()> m_on_repeated;
+  std::uint32_t m_next_tick = 0;
+  df::WorldView m_view;
 };
 
 }  // namespace naiad

@@ -30,6 +30,12 @@ OpenRound::OpenRound(std::string path) : m_path(std::move(path)), m_bytes(bytesO
   readAll();
 }
 
+OpenRound::OpenRound(const DfrHeader& header, std::string_view records)
+    : m_bytes(spellDfrHeader(header) + spellDfrTurns(records, 0)) {
+  readAll();
+  m_records.clear();
+}
+
 std::string OpenRound::fact(const std::string& name) const {
   const auto found = m_facts.find(name);
   return found != m_facts.end() ? found->second : std::string();
@@ -43,8 +49,11 @@ void OpenRound::readAll() {
     DfrReader reader(m_bytes);
     if (!reader.problem().empty()) throw OpenRoundError(reader.problem());
     m_header = reader.header();
+    reader.copyRecordsTo(m_records);
     while (const auto record = reader.next()) {
       if (const auto* p_turn = std::get_if<WorldTurn>(&*record)) noteTurn(*p_turn);
+      m_has_last_result = std::holds_alternative<TickResult>(*record) ||
+                          (m_has_last_result && !std::holds_alternative<WorldTurn>(*record));
       if (const auto* p_session = std::get_if<KeptSession>(&*record)) noteSession(*p_session);
       if (reader.isBetweenRecords()) whole = reader.wholeBytes();
     }
@@ -59,6 +68,7 @@ void OpenRound::readAll() {
   }
   m_bytes.resize(whole);
   m_turns = 0;
+  m_records.clear();
   m_sessions.clear();
   m_players.clear();
   m_down.clear();

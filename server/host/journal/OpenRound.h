@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,8 @@ class OpenRound {
 
   /// Reads the whole file. Throws OpenRoundError. One that has come to its end is no error: isOver().
   explicit OpenRound(std::string path);
+  /// The same of a round that this process has in memory: its records from the beginning.
+  OpenRound(const DfrHeader& header, std::string_view records);
 
   const std::string& path() const { return m_path; }
   const DfrHeader& header() const { return m_header; }
@@ -40,6 +43,10 @@ class OpenRound {
 
   /// Bytes of the file up to the end of its last whole record.
   std::size_t wholeBytes() const { return m_bytes.size(); }
+  /// Its stream of records. Not of one from memory.
+  std::string takeRecords() { return std::move(m_records); }
+  /// The file says what came of the last turn.
+  bool hasLastResult() const { return m_has_last_result; }
   /// Turns that the world got.
   std::uint32_t turns() const { return m_turns; }
   /// The newest turn, without its inputs.
@@ -70,6 +77,8 @@ class OpenRound {
 
   std::string m_path;
   std::string m_bytes;
+  std::string m_records;
+  bool m_has_last_result = false;
   DfrHeader m_header;
   DfrFacts m_facts;
   std::filesystem::file_time_type m_written_at;

@@ -15,7 +15,7 @@ int RoundRecovery::percent() const {
 std::optional<TurnRecord> RoundRecovery::nextRecord() {
   if (m_ahead) return std::exchange(m_ahead, std::nullopt);
   while (auto record = m_reader->next()) {
-    if (std::holds_alternative<WorldTurn>(*record) || std::holds_alternative<TickResult>(*record))
+    if (!std::holds_alternative<RecordedPicture>(*record) && !std::holds_alternative<KeptSession>(*record))
       return record;
   }
   return std::nullopt;
@@ -26,6 +26,11 @@ std::optional<WorldTurn> RoundRecovery::nextTurn() {
     auto* p_turn = std::get_if<WorldTurn>(&*record);
     if (p_turn == nullptr) continue;
     ++m_turns;
+    m_ahead = nextRecord();
+    if (m_ahead && std::holds_alternative<InputsDropped>(*m_ahead)) {
+      m_ahead.reset();
+      dropKeys(*p_turn);
+    }
     return std::move(*p_turn);
   }
   return std::nullopt;

@@ -17,6 +17,9 @@ class RoundRecovery {
  public:
   explicit RoundRecovery(std::shared_ptr<const OpenRound> round);
 
+  /// It has had the last one, and the file does not say what came of it.
+  bool isAtUnknownResult() const { return m_turns == m_round->turns() && !m_round->hasLastResult(); }
+
   const OpenRound& round() const { return *m_round; }
   /// How far it is, in percent.
   int percent() const;
@@ -37,7 +40,7 @@ class RoundRecovery {
   std::vector<KeptSession> sessions() const;
 
  private:
-  /// The next record that is neither a picture nor a session.
+  /// The next record that says something of a turn.
   std::optional<TurnRecord> nextRecord();
 
   std::shared_ptr<const OpenRound> m_round;

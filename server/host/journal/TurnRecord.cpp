@@ -12,6 +12,7 @@ enum RecordKind : std::uint8_t {
   kRecordedResult = 2,
   kRecordedPicture = 3,
   kRecordedSession = 4,
+  kRecordedDrop = 5,
 };
 
 template <class F, class T>
@@ -80,6 +81,12 @@ TurnRecordWriter::TurnRecordWriter(const WorldTurn& last) {
   copyHead(last, m_last);
 }
 
+void dropKeys(WorldTurn& turn) {
+  std::erase_if(turn.inputs, [](const df::InputQueue::Input& input) {
+    return input.kind == df::InputQueue::kKey || input.kind == df::InputQueue::kMouse;
+  });
+}
+
 // The frame's length is taken off, and the record's, which is shorter, put in its place.
 void TurnRecordWriter::append(std::string& out) {
   const std::string_view record = std::string_view(m_fields).substr(kWorldFrameHead);
@@ -120,6 +127,12 @@ void TurnRecordWriter::write(const KeptSession& session, std::string& out) {
   FieldWriter fields(m_fields);
   fields.number(kRecordedSession, 0, 255);
   visitSession(fields, session);
+  append(out);
+}
+
+void TurnRecordWriter::write(const InputsDropped& /*dropped*/, std::string& out) {
+  FieldWriter fields(m_fields);
+  fields.number(kRecordedDrop, 0, 255);
   append(out);
 }
 
@@ -177,6 +190,8 @@ std::optional<TurnRecord> TurnRecordReader::read(std::string_view record) {
     KeptSession session;
     visitSession(in, session);
     found = std::move(session);
+  } else if (kind == kRecordedDrop) {
+    found = InputsDropped();
   } else if (in.ok()) {
     return std::nullopt;  // unknown
   }

@@ -31,7 +31,12 @@ struct RecordedPicture {
   df::Canvas canvas;
 };
 
-using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture, KeptSession>;
+/// The world ended in the last turn, and another one had it without its keys and clicks.
+struct InputsDropped {};
+/// Joins and leaves stay.
+void dropKeys(WorldTurn& turn);
+
+using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture, KeptSession, InputsDropped>;
 
 /// Eight bits of a hash of an answer.
 std::uint8_t checkOf(std::uint64_t answer_hash);
@@ -47,6 +52,7 @@ class TurnRecordWriter {
   void write(const TickResult& result, std::string& out);
   void write(const RecordedPicture& picture, std::string& out);
   void write(const KeptSession& session, std::string& out);
+  void write(const InputsDropped& dropped, std::string& out);
 
  private:
   void append(std::string& out);

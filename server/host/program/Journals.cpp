@@ -260,7 +260,7 @@ std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
 }
 
 std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
-                                          std::function<void()> on_recovered) {
+                                          std::function<void()> on_recovered, NewWorld another) {
   const auto round = std::shared_ptr<OpenRound>(std::move(m_open));
   const std::string path = round->path();
   JournaledWorld::Book book = makeBook(path, *world);
@@ -292,6 +292,8 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
         std::to_string(took.count()) + " ms");
   };
   m_log("the server was killed in a round, which is executed again: " + path);
+  book.history = round->takeRecords();
+  book.new_world = std::move(another);
   book.recovery = std::make_unique<RoundRecovery>(round);
   m_writer->add(book.journal);
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
@@ -305,11 +307,19 @@ JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProc
     log({LogEvent::Level::kError,
          "the round is not written down any more, and goes on: " + problem + " (" + path + ")"});
   };
+  book.on_death = [log = m_log, path](const WorldEnd& end, std::uint32_t tick, bool goes_on) {
+    log({LogEvent::Level::kError,
+         "the game " + end.text + (end.when.empty() ? "" : " " + end.when) +
+             (goes_on ? "; another world takes over, without the keys and clicks of that tick"
+                      : " again; the round is kept in " + path + ", where it is tick " +
+                            std::to_string(tick) + " (dfreplay)")});
+    for (const std::string& line : end.last_lines) log("the game's log: " + line);
+  };
   return book;
 }
 
 std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
-                                          RepeatCheck::NewWorld again) {
+                                          RepeatCheck::NewWorld again, NewWorld another) {
   DfrHeader header;
   std::random_device device;
   for (std::uint8_t& byte : header.uuid) byte = static_cast<std::uint8_t>(device());
@@ -325,6 +335,7 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
     m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
     return world;
   }
+  book.new_world = std::move(another);
   if (again && !std::exchange(m_checked, true)) {
     book.check = std::make_unique<RepeatCheck>(
         std::move(again), [log = m_log, journal = book.journal](const std::string& sentence) {

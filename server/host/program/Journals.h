@@ -21,6 +21,8 @@ class Journals {
   static std::shared_ptr<Journals> open(const HostOptions& options, const std::string& game,
                                         const std::string& module, const LogLine& log);
 
+  using NewWorld = std::function<JournaledWorld::AnotherWorld()>;
+
   Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log);
 
   /// For the next world.
@@ -29,11 +31,13 @@ class Journals {
   /// or it has been begun.
   std::optional<WorldOrder> orderOfOpenRound() const;
   /// That world, which first gets the turns of its round. `on_recovered`: it has had them.
-  std::unique_ptr<WorldPort> goOn(std::unique_ptr<WorldProcess> world, std::function<void()> on_recovered);
+  std::unique_ptr<WorldPort> goOn(std::unique_ptr<WorldProcess> world, std::function<void()> on_recovered,
+                                  NewWorld another);
   /// That world, its turns written down. If they cannot be, the log says so, and it plays without. `again`
-  /// starts another one from the same order: the first round of this server is held against it.
+  /// starts another one from the same order: the first round of this server is held against it. `another`
+  /// starts one that takes over from a world that crashed or hangs.
   std::unique_ptr<WorldPort> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
-                                  RepeatCheck::NewWorld again = {});
+                                  RepeatCheck::NewWorld again = {}, NewWorld another = {});
 
  private:
   void findRound(const HostOptions& options);

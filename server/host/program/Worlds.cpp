@@ -62,17 +62,37 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
   return launcher;
 }
 
-/// Null: there is no round to go on with. What the game prints a second time is dropped.
-std::unique_ptr<WorldPort> goOnWithRound(const WorldLauncher& launcher, const LogLine& print,
-                                         Journals& journals, asio::io_context& home) {
-  const auto order = journals.orderOfOpenRound();
-  if (!order) return nullptr;
+struct RepeatingWorld {
+  std::unique_ptr<WorldProcess> world;
+  std::function<void()> on_repeated;  ///< what it prints from then on is news
+};
+
+RepeatingWorld startRepeating(const WorldLauncher& launcher, const WorldOrder& order, const LogLine& print,
+                              asio::io_context& home) {
   const auto repeats = std::make_shared<bool>(true);
   const auto print_news = [print, repeats](const std::string& line) {
     if (!*repeats) print(line);
   };
-  auto world = std::make_unique<WorldProcess>(home, launcher.start(*order), print_news);
-  return journals.goOn(std::move(world), [repeats] { *repeats = false; });
+  return {std::make_unique<WorldProcess>(home, launcher.start(order), print_news),
+          [repeats] { *repeats = false; }};
+}
+
+Journals::NewWorld repeatLater(const std::shared_ptr<const WorldLauncher>& launcher, WorldOrder order,
+                               const LogLine& print, asio::io_context& home) {
+  order.again = true;  // or a game that sleeps would take as long as the round
+  return [launcher, order, print, &home] {
+    RepeatingWorld another = startRepeating(*launcher, order, print, home);
+    return JournaledWorld::AnotherWorld{std::move(another.world), std::move(another.on_repeated)};
+  };
+}
+
+/// Null: there is no round to go on with.
+std::unique_ptr<WorldPort> goOnWithRound(const std::shared_ptr<const WorldLauncher>& launcher,
+                                         const LogLine& print, Journals& journals, asio::io_context& home) {
+  const auto order = journals.orderOfOpenRound();
+  if (!order) return nullptr;
+  auto [world, on_repeated] = startRepeating(*launcher, *order, print, home);
+  return journals.goOn(std::move(world), std::move(on_repeated), repeatLater(launcher, *order, print, home));
 }
 
 }  // namespace
@@ -117,7 +137,7 @@ Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLin
   return [launcher = std::move(launcher), print = std::move(print),
           journals = std::move(journals)](asio::io_context& home) -> NewPort {
     if (journals == nullptr) return std::make_unique<WorldProcess>(home, launcher->start(), print);
-    if (auto world = goOnWithRound(*launcher, print, *journals, home)) return world;
+    if (auto world = goOnWithRound(launcher, print, *journals, home)) return world;
     const WorldOrder order = journals->makeOrder();
     auto world = std::make_unique<WorldProcess>(home, launcher->start(order), print);
     WorldOrder again = order;
@@ -129,7 +149,8 @@ Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLin
         return std::make_unique<WorldProcess>(home, launcher->start(again), OutputRelay::Line());
       };
     }
-    return journals->keep(std::move(world), order, std::move(start_again));
+    return journals->keep(std::move(world), order, std::move(start_again),
+                          repeatLater(launcher, order, print, home));
   };
 }
 
