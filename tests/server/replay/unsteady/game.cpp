@@ -1,6 +1,6 @@
 // A game that is another one each time, from tick 47 on, in the way that its module's name says:
 // unsteady_instruction.so, _entropy, _clock, _thread, _file cannot be repeated; unsteady_time.so, _device,
-// _pointers can, by the server's help.
+// _pointers can, by the server's help. unsteady_frail.so crashes by the key Q, and hangs by H.
 #include <dlfcn.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <fstream>
 #include <random>
@@ -16,6 +17,7 @@
 #include <thread>
 
 #include "DisplayManager.h"
+#include "EventKeyboard.h"
 #include "EventStep.h"
 #include "GameManager.h"
 #include "Object.h"
@@ -95,6 +97,28 @@ std::uint64_t number() {
   return value;
 }
 
+/// Moves with each key, but for those that end it.
+class Frail : public df::Object {
+ public:
+  Frail() {
+    setType("Frail");
+    setPosition(df::Vector(5, 5));
+    registerInterest(df::KEYBOARD_EVENT);
+  }
+  int eventHandler(const df::Event* p_event) override {
+    const auto* p_key = dynamic_cast<const df::EventKeyboard*>(p_event);
+    if (p_key == nullptr || p_key->getKeyboardAction() != df::KEY_PRESSED) return 0;
+    if (p_key->getKey() == df::Keyboard::Q) std::raise(SIGSEGV);
+    while (p_key->getKey() == df::Keyboard::H) std::atomic_signal_fence(std::memory_order_seq_cst);
+    setPosition(df::Vector(5 + static_cast<float>(++m_keys % 60), 5));
+    return 1;
+  }
+  int draw() override { return DM.drawCh(getPosition(), 'F', df::RED); }
+
+ private:
+  int m_keys = 0;
+};
+
 class Wanderer : public df::Object {
  public:
   Wanderer() {
@@ -120,7 +144,7 @@ class Wanderer : public df::Object {
 
 int main() {
   if (GM.startUp() != 0) return 1;
-  new Wanderer;
+  wayOf(modulePath()) == "frail" ? static_cast<void>(new Frail) : static_cast<void>(new Wanderer);
   GM.run();
   GM.shutDown();
   return 0;
