@@ -3,6 +3,8 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -22,6 +24,34 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenKeys{20};
+/// Ticks that clients may have on their way.
+constexpr std::uint32_t kSeenTicks = 10;
+
+/// The parent and the name of a process; nothing if there is none.
+std::optional<std::pair<pid_t, std::string>> factsOf(const std::string& process) {
+  std::ifstream file("/proc/" + process + "/stat");
+  std::string line;
+  if (!std::getline(file, line)) return std::nullopt;
+  const std::size_t name = line.find('(');
+  const std::size_t end = line.rfind(')');
+  if (name == std::string::npos || end == std::string::npos) return std::nullopt;
+  return std::pair(static_cast<pid_t>(std::atoi(line.c_str() + end + 4)),
+                   line.substr(name + 1, end - name - 1));
+}
+
+/// The process below the server's keepers that executes its program; 0: there is none.
+pid_t worldOf(pid_t server) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string process = entry.path().filename().string();
+    const auto facts = factsOf(process);
+    if (!facts || facts->second != "dfserver") continue;
+    for (auto above = facts; above && above->first > 1; above = factsOf(std::to_string(above->first))) {
+      if (above->first == server) return std::atoi(process.c_str());
+    }
+  }
+  return 0;
+}
+
 constexpr const char* kGoesOn = "the round goes on after ";
 
 }  // namespace
@@ -144,16 +174,24 @@ std::uint32_t RecoveryRun::recoveredTurns() const {
 }
 
 KillResult RecoveryRun::kill() {
+  killServer();
+  return comeBack();
+}
+
+void RecoveryRun::killServer() {
+  m_killed_at = Clock::now();
+  m_server->signal(SIGKILL);
+  m_server->wait();
+  m_log += m_server->log();
+  play(std::chrono::milliseconds(20));  // what was sent arrives
+}
+
+KillResult RecoveryRun::comeBack() {
   struct Before {
     WelcomeMessage welcome;
     const ClientSession* p_session;
   };
   KillResult result;
-  const auto began = Clock::now();
-  m_server->signal(SIGKILL);
-  m_server->wait();
-  m_log += m_server->log();
-  play(std::chrono::milliseconds(20));  // what was sent arrives
   const std::uint32_t first_tick =
       static_cast<std::uint32_t>(std::stoul(OpenRound(round().string()).fact(kFactFirstTick)));
   std::vector<Before> before;
@@ -164,7 +202,7 @@ KillResult RecoveryRun::kill() {
   }
   startServer();
   const bool back = serveUntilJoined();
-  result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
+  result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_killed_at);
   if (!back) result.problem = "not all are back: " + m_server->log();
   for (std::size_t i = 0; i < m_clients.size(); ++i) {
     RecoveryClient& client = *m_clients[i];
@@ -181,6 +219,29 @@ KillResult RecoveryRun::kill() {
   if (last > turns) result.ticks_lost = last - turns;
   if (result.problem.empty()) compare(result, first_tick);
   return result;
+}
+
+std::optional<std::chrono::milliseconds> RecoveryRun::killWorld() {
+  const pid_t world = worldOf(m_server->process());
+  if (world <= 0) return std::nullopt;
+  std::vector<std::pair<const ClientSession*, std::uint32_t>> before;
+  for (const auto& client : m_clients) before.emplace_back(client->session(), client->newestTick());
+  const auto began = Clock::now();
+  ::kill(world, SIGKILL);
+  const auto sees_more = [&] {
+    for (std::size_t i = 0; i < m_clients.size(); ++i) {
+      if (m_clients[i]->newestTick() < before[i].second + kSeenTicks) return false;
+    }
+    return true;
+  };
+  while (!sees_more()) {
+    if (Clock::now() > began + kPatience) return std::nullopt;
+    play(std::chrono::milliseconds(5));
+  }
+  for (std::size_t i = 0; i < m_clients.size(); ++i) {
+    if (m_clients[i]->session() != before[i].first) return std::nullopt;
+  }
+  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
 }
 
 // The world that goes on was executed from the file; executed again, it shows what its players saw.

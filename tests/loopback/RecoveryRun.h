@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -42,9 +43,17 @@ class RecoveryRun {
   void play(std::chrono::milliseconds time);
   /// Kill the server, start it again, and wait until all are back.
   KillResult kill();
+  /// The two halves of that.
+  void killServer();
+  KillResult comeBack();
+  /// Kill the world's process alone, and wait until its players see more of it. How long they waited;
+  /// nothing: they do not, or not in the sessions that they had.
+  std::optional<std::chrono::milliseconds> killWorld();
   /// End the server, and execute its round from the beginning. Is it the same, tick by tick? `said`: what
   /// dfreplay --verify prints.
   bool verify(std::string& said);
+  /// The next server plays this one.
+  void setGame(const std::string& game) { m_game = game; }
   /// What the servers logged.
   const std::string& log() const { return m_log; }
   std::filesystem::path round() const;
@@ -65,6 +74,7 @@ class RecoveryRun {
   std::uint16_t m_port = 0;
   std::vector<std::unique_ptr<RecoveryClient>> m_clients;
   std::string m_log;
+  std::chrono::steady_clock::time_point m_killed_at;
 };
 
 }  // namespace naiad::test

@@ -2,16 +2,19 @@
 // as the same player. deploy/bench recovery does it a thousand times.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
 
 #include "RecoveryRun.h"
+#include "host/journal/DfrWriter.h"
+#include "host/program/Journals.h"
 
 namespace naiad::test {
 namespace {
 
-class Recovery : public testing::TestWithParam<const char*> {};
+class KilledServer : public testing::TestWithParam<const char*> {};
 
-TEST_P(Recovery, AServerThatIsKilledLosesNobodyAndNothing) {
+TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
   constexpr int kKills = 5;
   std::mt19937_64 random(7);
   RecoveryRun run(GetParam(), 2, random());
@@ -28,7 +31,41 @@ TEST_P(Recovery, AServerThatIsKilledLosesNobodyAndNothing) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
-INSTANTIATE_TEST_SUITE_P(Games, Recovery, testing::Values("saucershoot", "breakout", "platformer", "tron"),
+TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {
+  RecoveryRun run("saucershoot", 2, 3);
+  for (int i = 0; i < 3; ++i) {
+    run.play(std::chrono::milliseconds(700));
+    ASSERT_TRUE(run.killWorld()) << i << ": " << run.log();
+  }
+  run.play(std::chrono::milliseconds(300));
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
+}
+
+TEST(Recovery, ARoundThatKillsServersIsGivenUp) {
+  RecoveryRun run("hello", 1, 3);
+  run.play(std::chrono::milliseconds(500));
+  run.killServer();
+  std::ofstream(run.round(), std::ios::binary | std::ios::app) << spellDfrMeta({{kFactAttempts, "3"}});
+  EXPECT_EQ(run.comeBack().returned, 0);
+  std::string said;
+  run.verify(said);
+  EXPECT_NE(run.log().find("has ended 3 servers that went on with it"), std::string::npos) << run.log();
+}
+
+TEST(Recovery, OfAnotherGameDoesNotHappen) {
+  RecoveryRun run("hello", 1, 3);
+  run.play(std::chrono::milliseconds(500));
+  run.killServer();
+  run.setGame("maze");
+  run.comeBack();
+  std::string said;
+  run.verify(said);
+  EXPECT_EQ(run.log().find("the round goes on"), std::string::npos) << run.log();
+}
+
+INSTANTIATE_TEST_SUITE_P(Games, KilledServer,
+                         testing::Values("saucershoot", "breakout", "platformer", "tron"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
