@@ -82,7 +82,10 @@ void Admission::changePassword(std::optional<PasswordHash> hash) {
 
 void Admission::judgeHello(Session& session, const wire::Hello& hello) {
   if (!checkHello(session, hello) || isBanned(session, cleanName(hello.player_name()))) return;
-  if (isRecovering(session)) return;
+  if (m_setup.rooms.recovering()) {
+    m_waiting.push_back({session.id(), std::make_shared<wire::Hello>(hello), session.now()});
+    return;
+  }
   if (hello.second_stream()) return addSecondStream(session, hello);
   if (!hello.resume_token().empty() && resumeSession(session, hello)) return;
   if (m_needs_password) return checkPassword(session, hello);
@@ -238,11 +241,20 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
 // ------------------------------------------------------------------
 
 // Clients that look for a lost server ask again in a moment, and show the sentence.
-bool Admission::isRecovering(Session& session) {
+void Admission::judgeWaiting() {
   const auto percent = m_setup.rooms.recovering();
-  if (!percent) return false;
-  refuseBusy(session, "The server was down and restores your game: " + std::to_string(*percent) + " %.");
-  return true;
+  for (const WaitingHello& one : std::exchange(m_waiting, {})) {
+    Session* p_session = m_setup.sessions.find(one.session);
+    if (p_session == nullptr || p_session->state() != Session::State::kGreeting) continue;
+    if (!percent) {
+      judgeHello(*p_session, *one.hello);
+    } else if (p_session->now() - one.since < kRecoveryWait) {
+      m_waiting.push_back(one);
+    } else {
+      refuseBusy(*p_session,
+                 "The server was down and restores your game: " + std::to_string(*percent) + " %.");
+    }
+  }
 }
 
 void Admission::restoreSessions(Room& room, const std::vector<KeptSession>& sessions) {

@@ -56,8 +56,14 @@ class Admission {
   /// The world whose window and help go into welcomes. Before the first hello.
   void setWorld(const df::World& world) { m_p_world = &world; }
 
-  /// Refuse or welcome the session that heard this hello: now, or once its password has been checked.
+  /// While a round is executed again, a hello waits for so long before the client hears how far that is.
+  static constexpr std::chrono::milliseconds kRecoveryWait{1000};
+
+  /// Refuse or welcome the session that heard this hello: now, or once its password has been checked, or the
+  /// round of a server that was killed has been executed again.
   void judgeHello(Session& session, const wire::Hello& hello);
+  /// Once a tick: judge the hellos that wait for a round.
+  void judgeWaiting();
   /// The client has the token that it was sent last (Session::takeProof).
   void confirmToken(Session& session);
   /// The players of a server that was killed are in this room, and may come back.
@@ -86,7 +92,11 @@ class Admission {
   void continueSession(Session& before, Session& session, const wire::Hello& hello, wire::Welcome& welcome);
   void addSecondStream(Session& session, const wire::Hello& hello);
   void takeOverSession(Session& before, Session& session, const wire::Hello& hello);
-  bool isRecovering(Session& session);
+  struct WaitingHello {
+    std::uint64_t session = 0;
+    std::shared_ptr<const wire::Hello> hello;
+    std::chrono::steady_clock::time_point since;
+  };
   std::chrono::milliseconds graceTime() const;
   KeptSession keptSession(const Session& session) const;
   wire::Welcome welcomeOf(std::uint32_t player, const std::string& name, df::Color color) const;
@@ -108,6 +118,7 @@ class Admission {
   std::unique_ptr<PasswordCheck> m_password;  ///< null: none was needed yet
   bool m_needs_password = false;
   std::uint32_t m_next_player = 1;
+  std::vector<WaitingHello> m_waiting;  ///< for a round; one of a session at most
 };
 
 }  // namespace naiad

@@ -539,6 +539,7 @@ void Host::tick() {
   ++m_counters.ticks;
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
+  m_admission.judgeWaiting();
   tickWorlds();
   m_stages.enter(Stage::kNews);
   sendPlayers();
