@@ -176,7 +176,7 @@ std::optional<int> JournaledWorld::recovering() const {
 }
 
 void JournaledWorld::noteSession(const KeptSession& session) {
-  if (!m_goes_on || m_book.recovery) return;
+  if (!m_goes_on || (m_book.recovery && !isTakingOver())) return;
   m_record.clear();
   m_writer.write(session, m_record);
   store();
@@ -216,8 +216,7 @@ void JournaledWorld::endRepeatedTick() {
   m_world->isGameOver() ? endRecovery({}) : repeatNextTurn();
 }
 
-// A world that took over is where its players are.
-
+// A world that takes over is then where its players are.
 void JournaledWorld::closeRecovery() {
   if (isTakingOver()) return endTakeOver({});
   m_closing = true;
@@ -267,6 +266,10 @@ bool JournaledWorld::beginAgain(bool drops_keys) {
     m_record.clear();
     m_writer.write(InputsDropped(), m_record);
     store();
+  }
+  if (!m_book.new_world) {  // the round has become too long by that
+    m_death.reset();
+    return false;
   }
   try {
     AnotherWorld another = m_book.new_world();
