@@ -291,7 +291,9 @@ void ProgramHost::serve(df::World& world) {
   addToHelp(world, how);
 
   if (launcher != nullptr) {
-    host->setWorlds(startWorlds(launcher, printLine, Journals::open(m_options, programName(), "", log)));
+    HostOptions journaled = m_options;
+    journaled.port = host->port();  // a round goes on where its players look for it
+    host->setWorlds(startWorlds(launcher, printLine, Journals::open(journaled, programName(), "", log)));
   }
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
