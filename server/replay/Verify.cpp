@@ -13,7 +13,7 @@ namespace naiad {
 
 namespace {
 
-using Input = df::InputQueue::Input;
+using WorldInput = df::InputQueue::Input;
 
 double secondsOf(const RecordedRound& round, std::uint32_t ticks) {
   return static_cast<double>(round.header().frame_nanos) * ticks / 1e9;
@@ -113,7 +113,7 @@ const char* actionName(df::EventMouseAction action) {
   return action == df::CLICKED ? "clicked" : action == df::PRESSED ? "pressed" : "moved";
 }
 
-void printInput(const Input& input, std::ostream& out) {
+void printInput(const WorldInput& input, std::ostream& out) {
   out << " player=" << input.player;
   switch (input.kind) {
     case df::InputQueue::kJoin:
@@ -166,7 +166,7 @@ void printInputs(const RecordedRound& round, std::ostream& out) {
     const auto* p_turn = std::get_if<WorldTurn>(&*record);
     if (p_turn == nullptr) continue;
     ++tick;
-    for (const Input& input : p_turn->inputs) {
+    for (const WorldInput& input : p_turn->inputs) {
       out << "tick=" << tick;
       printInput(input, out);
       out << "\n";

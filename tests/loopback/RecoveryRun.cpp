@@ -44,7 +44,7 @@ pid_t worldOf(pid_t server) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const std::string process = entry.path().filename().string();
     const auto facts = factsOf(process);
-    if (!facts || facts->second != "dfserver") continue;
+    if (!facts || facts->second != "exe") continue;  // of /proc/self/exe
     for (auto above = facts; above && above->first > 1; above = factsOf(std::to_string(above->first))) {
       if (above->first == server) return std::atoi(process.c_str());
     }
@@ -123,6 +123,17 @@ RecoveryRun::RecoveryRun(const std::string& game, int players, std::uint64_t see
         m_context, m_port, m_home.player("player" + std::to_string(i + 1)), m_random()));
   }
   if (!serveUntilJoined()) throw std::runtime_error("the players cannot join: " + m_server->log());
+  waitForFirstTick();
+}
+
+// It is in the file once the disk has taken it.
+void RecoveryRun::waitForFirstTick() {
+  const auto end = Clock::now() + kPatience;
+  while (m_first_tick == 0 && Clock::now() < end) {
+    play(std::chrono::milliseconds(10));
+    const OpenRound so_far(round().string());
+    m_first_tick = static_cast<std::uint32_t>(std::atoi(so_far.fact(kFactFirstTick).c_str()));
+  }
 }
 
 RecoveryRun::~RecoveryRun() = default;
@@ -192,8 +203,6 @@ KillResult RecoveryRun::comeBack() {
     const ClientSession* p_session;
   };
   KillResult result;
-  const std::uint32_t first_tick =
-      static_cast<std::uint32_t>(std::stoul(OpenRound(round().string()).fact(kFactFirstTick)));
   std::vector<Before> before;
   std::uint32_t seen = 0;
   for (const auto& client : m_clients) {
@@ -215,9 +224,9 @@ KillResult RecoveryRun::comeBack() {
       result.problem = before[i].welcome.name + " is not back: " + client.sentence() + "\n" + m_server->log();
   }
   const std::uint32_t turns = recoveredTurns();
-  const std::uint32_t last = seen + 1 - first_tick;  // by the world's own numbers
+  const std::uint32_t last = seen + 1 - m_first_tick;  // by the world's own numbers
   if (last > turns) result.ticks_lost = last - turns;
-  if (result.problem.empty()) compare(result, first_tick);
+  if (result.problem.empty()) compare(result);
   return result;
 }
 
@@ -245,13 +254,13 @@ std::optional<std::chrono::milliseconds> RecoveryRun::killWorld() {
 }
 
 // The world that goes on was executed from the file; executed again, it shows what its players saw.
-void RecoveryRun::compare(KillResult& result, std::uint32_t first_tick) {
+void RecoveryRun::compare(KillResult& result) {
   const RecordedRound recorded(round());
   const RoundStage stage(recorded, "");
   PictureReel reel(recorded, stage);
   for (const auto& client : m_clients) {
     if (!client->picture()) continue;
-    const std::uint32_t tick = client->pictureTick() + 1 - first_tick;
+    const std::uint32_t tick = client->pictureTick() + 1 - m_first_tick;
     if (reel.seek(tick) != tick) {
       result.problem = "the round has no tick " + std::to_string(tick);
       return;

@@ -61,7 +61,8 @@ class RecoveryRun {
  private:
   void startServer();
   bool serveUntilJoined();
-  void compare(KillResult& result, std::uint32_t first_tick);
+  void waitForFirstTick();
+  void compare(KillResult& result);
   std::uint32_t recoveredTurns() const;
 
   Home m_home;
@@ -72,6 +73,7 @@ class RecoveryRun {
   asio::io_context m_context;
   std::unique_ptr<GameProgram> m_server;
   std::uint16_t m_port = 0;
+  std::uint32_t m_first_tick = 0;  ///< what the server calls the world's first one
   std::vector<std::unique_ptr<RecoveryClient>> m_clients;
   std::string m_log;
   std::chrono::steady_clock::time_point m_killed_at;

@@ -66,7 +66,7 @@ TEST(Recovery, OfAnotherGameDoesNotHappen) {
 
 INSTANTIATE_TEST_SUITE_P(Games, KilledServer,
                          testing::Values("saucershoot", "breakout", "platformer", "tron"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
 }  // namespace naiad::test

@@ -74,7 +74,9 @@ void JournaledWorld::setPictured(std::uint32_t player) {
 void JournaledWorld::begin() {
   if (std::exchange(m_began, true)) return;
   m_later = m_world->nextTick() - 1;
-  if (m_book.late_facts) m_book.journal->addFacts(m_book.late_facts());
+  if (!m_book.late_facts) return;
+  m_book.journal->addFacts(m_book.late_facts());
+  m_book.writer->wake();  // a server that is killed within the first second knows them, too
 }
 
 void JournaledWorld::tick(bool watched, bool truth) {
@@ -142,7 +144,9 @@ void JournaledWorld::store() {
 }
 
 void JournaledWorld::checkProcess(std::uint32_t tick) {
-  m_world->checkProcess(m_book.recovery && m_began ? m_later + 1 : tick);  // the first one keeps its number
+  // The first tick of a round keeps its number, whichever world and server has it.
+  const std::uint32_t first = m_began ? m_later + 1 : m_book.first_tick;
+  m_world->checkProcess(m_book.recovery && first != 0 ? first : tick);
   if (m_book.recovery && !m_repeating && m_world->isReady()) {
     m_repeating = true;
     const std::string difference = m_book.find_difference ? m_book.find_difference() : std::string();

@@ -272,7 +272,8 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
   if (book.journal == nullptr) return nullptr;
   book.find_difference = [p_world = world.get(), round] {
     for (const auto& [name, value] : factsOfStart(*p_world)) {
-      if (name.starts_with(kFactFile) && round->fact(name) != value)
+      const std::string before = round->fact(name);
+      if (name.starts_with(kFactFile) && !before.empty() && before != value)
         return "it reads another " + name + " than it did";
     }
     return std::string();
@@ -293,6 +294,7 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
   };
   m_log("the server was killed in a round, which is executed again: " + path);
   book.history = round->takeRecords();
+  book.first_tick = static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
   book.new_world = std::move(another);
   book.recovery = std::make_unique<RoundRecovery>(round);
   m_writer->add(book.journal);
