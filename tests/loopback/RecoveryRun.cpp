@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "client/bot/BotPlayer.h"
 #include "client/session/Connection.h"
@@ -52,6 +53,7 @@ pid_t worldOf(pid_t server) {
   return 0;
 }
 
+constexpr const char* kIsBack = "\" is back, in the round that goes on";
 constexpr const char* kGoesOn = "the round goes on after ";
 
 }  // namespace
@@ -92,10 +94,12 @@ class RecoveryClient {
   const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
   const ClientSession* session() { return m_connection.session(); }
   std::uint32_t newestTick() const { return m_newest; }
-  const std::optional<df::Canvas>& picture() const { return m_picture; }
-  std::uint32_t pictureTick() const { return m_picture_tick; }
-  void forgetPicture() {
-    m_picture.reset();
+  /// The last one before freezePicture().
+  const std::optional<df::Canvas>& picture() const { return m_frozen; }
+  std::uint32_t pictureTick() const { return m_frozen_tick; }
+  void freezePicture() {
+    m_frozen = std::exchange(m_picture, std::nullopt);
+    m_frozen_tick = m_picture_tick;
     m_is_complete = false;
   }
 
@@ -112,6 +116,8 @@ class RecoveryClient {
   bool m_is_complete = false;
   std::optional<df::Canvas> m_picture;
   std::uint32_t m_picture_tick = 0;
+  std::optional<df::Canvas> m_frozen;
+  std::uint32_t m_frozen_tick = 0;
 };
 
 RecoveryRun::RecoveryRun(const std::string& game, int players, std::uint64_t seed,
@@ -145,7 +151,8 @@ void RecoveryRun::startServer() {
                                                      {"NAIAD_PORT", std::to_string(m_port)},
                                                      {"NAIAD_IDENTITY", m_home.identity("key").string()},
                                                      {"NAIAD_JOURNAL", m_rounds.string()},
-                                                     {"NAIAD_GAME", m_game}});
+                                                     {"NAIAD_GAME", m_game},
+                                                     {"DRAGONFLY_CONFIG", m_home.identity("none").string()}});
   m_port = m_server->port();
   if (m_port == 0) throw std::runtime_error("the server does not start: " + m_server->log());
 }
@@ -195,6 +202,7 @@ void RecoveryRun::killServer() {
   m_server->wait();
   m_log += m_server->log();
   play(std::chrono::milliseconds(20));  // what was sent arrives
+  for (const auto& client : m_clients) client->freezePicture();
 }
 
 KillResult RecoveryRun::comeBack() {
@@ -213,19 +221,25 @@ KillResult RecoveryRun::comeBack() {
   const bool back = serveUntilJoined();
   result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_killed_at);
   if (!back) result.problem = "not all are back: " + m_server->log();
+  const std::string log = m_server->log();
   for (std::size_t i = 0; i < m_clients.size(); ++i) {
     RecoveryClient& client = *m_clients[i];
     ++result.players;
     const bool same = client.isJoined() && client.session() != before[i].p_session &&
                       client.welcome().player == before[i].welcome.player &&
-                      client.welcome().name == before[i].welcome.name;
+                      client.welcome().name == before[i].welcome.name &&
+                      log.find("\"" + before[i].welcome.name + kIsBack) != std::string::npos;
     result.returned += same ? 1 : 0;
     if (!same && result.problem.empty())
       result.problem = before[i].welcome.name + " is not back: " + client.sentence() + "\n" + m_server->log();
   }
   const std::uint32_t turns = recoveredTurns();
   const std::uint32_t last = seen + 1 - m_first_tick;  // by the world's own numbers
-  if (last > turns) result.ticks_lost = last - turns;
+  if (last > turns) {
+    result.ticks_lost = last - turns;
+    result.problem = "a client saw tick " + std::to_string(seen) + ", the world's " + std::to_string(last) +
+                     "; there are " + std::to_string(turns) + " turns:\n" + m_log + m_server->log();
+  }
   if (result.problem.empty()) compare(result);
   return result;
 }
@@ -277,7 +291,6 @@ void RecoveryRun::compare(KillResult& result) {
         }
       }
     }
-    client->forgetPicture();
   }
   if (result.wrong_cells > 0) result.problem = std::to_string(result.wrong_cells) + " wrong cells";
 }

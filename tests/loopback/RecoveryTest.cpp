@@ -22,7 +22,7 @@ TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
     run.play(std::chrono::milliseconds(100 + random() % 900));
     const KillResult result = run.kill();
     EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
-    EXPECT_EQ(result.ticks_lost, 0u) << i;
+    EXPECT_EQ(result.ticks_lost, 0u) << i << ": " << result.problem;
     EXPECT_GT(result.cells, 0u) << i;
     EXPECT_EQ(result.wrong_cells, 0u) << i << " of " << result.cells;
     if (HasFailure()) return;
@@ -46,7 +46,8 @@ TEST(Recovery, ARoundThatKillsServersIsGivenUp) {
   RecoveryRun run("hello", 1, 3);
   run.play(std::chrono::milliseconds(500));
   run.killServer();
-  std::ofstream(run.round(), std::ios::binary | std::ios::app) << spellDfrMeta({{kFactAttempts, "3"}});
+  std::ofstream(run.round(), std::ios::binary | std::ios::app)
+      << spellDfrMeta({{kFactAttempts, "3 1000000"}});
   EXPECT_EQ(run.comeBack().returned, 0);
   std::string said;
   run.verify(said);

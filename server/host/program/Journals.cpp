@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <sstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -111,10 +112,11 @@ std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::
   for (const char* p_name : {kFactModule, kFactPlayers, kFactGameOver, kFactSettings, kFactClocks}) {
     const auto here = expected.find(p_name);
     if (round.fact(p_name) != (here != expected.end() ? here->second : std::string()))
-      return "it has another " + std::string(p_name);
+      return "of its facts, " + std::string(p_name) + " is another one here";
   }
   for (const auto& [name, value] : expected) {
-    if (name.starts_with(kFactVariable) && round.fact(name) != value) return "it has another " + name;
+    if (name.starts_with(kFactVariable) && round.fact(name) != value)
+      return "of its facts, " + name + " is another one here";
   }
   return {};
 }
@@ -241,11 +243,23 @@ std::optional<WorldOrder> Journals::orderOfOpenRound() const {
   return order;
 }
 
+namespace {
+
+/// Attempts to go on with the round from where it is. Each that comes to its end adds a turn.
+int attemptsOf(const OpenRound& round) {
+  std::istringstream fact(round.fact(kFactAttempts));
+  int attempts = 0;
+  std::uint32_t turns = 0;
+  return fact >> attempts >> turns && turns >= round.turns() ? attempts : 0;
+}
+
+}  // namespace
+
 // The attempt is noted in the file before it begins: a round that kills the server again and again is given
 // up.
 std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
   auto sink = std::make_unique<JournalFileSink>(round.path(), round.wholeBytes());
-  const int attempts = std::atoi(round.fact(kFactAttempts).c_str());
+  const int attempts = attemptsOf(round);
   if (attempts >= kMaxAttempts) {
     sink->write(spellDfrDone("given up: it could not go on " + std::to_string(attempts) + " times"));
     sink->sync();
@@ -253,7 +267,8 @@ std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
                                         " servers that went on with it; another one begins"});
     return nullptr;
   }
-  sink->write(spellDfrMeta({{kFactAttempts, std::to_string(attempts + 1)}}));
+  sink->write(
+      spellDfrMeta({{kFactAttempts, std::to_string(attempts + 1) + " " + std::to_string(round.turns())}}));
   sink->sync();
   return std::make_shared<Journal>(std::move(sink), round.header(), DfrFacts(), m_ring, true,
                                    round.takePlace());
@@ -278,7 +293,7 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
     }
     return std::string();
   };
-  book.on_recovered = [log = m_log, path, began = std::chrono::steady_clock::now(), journal = book.journal,
+  book.on_recovered = [log = m_log, path, began = std::chrono::steady_clock::now(),
                        on_recovered = std::move(on_recovered)](std::uint32_t ticks,
                                                                const std::string& problem) {
     on_recovered();
@@ -286,7 +301,6 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
       log({LogEvent::Level::kError, "the round cannot go on, and is kept in " + path + ": " + problem});
       return;
     }
-    journal->addFacts({{kFactAttempts, "0"}});
     const auto took =
         std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - began);
     log("the round goes on after " + std::to_string(ticks) + " ticks, which were executed again in " +
@@ -294,7 +308,8 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
   };
   m_log("the server was killed in a round, which is executed again: " + path);
   book.history = round->takeRecords();
-  book.first_tick = static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
+  book.first_tick =
+      static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
   book.new_world = std::move(another);
   book.recovery = std::make_unique<RoundRecovery>(round);
   m_writer->add(book.journal);

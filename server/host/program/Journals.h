@@ -84,9 +84,8 @@ inline constexpr const char* kFactSettings = "settings";      ///< the text of d
 inline constexpr const char* kFactPort = "port";              ///< that players joined by
 inline constexpr const char* kFactFirstTick = "first_tick";   ///< by which the server's log and players count
 inline constexpr const char* kFactRepeatable = "repeatable";  ///< "no": a second world answered otherwise
-inline constexpr const char* kFactAttempts =
-    "attempts";                                    ///< to go on with it that have not come to their end
-inline constexpr const char* kFactFile = "file ";  ///< and its name: the hash of a file that was read
+inline constexpr const char* kFactAttempts = "attempts";      ///< to go on with it, and behind how many turns
+inline constexpr const char* kFactFile = "file ";          ///< and its name: the hash of a file that was read
 inline constexpr const char* kFactVariable = "variable ";  ///< and its name: its value
 
 }  // namespace naiad
