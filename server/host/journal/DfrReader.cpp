@@ -24,7 +24,10 @@ DfrReader::DfrReader(std::string_view bytes) : m_bytes(bytes) {
     return;
   }
   // So that facts are there before the first turn is asked for.
-  while (!m_ended && m_records.atEnd() && readChunk()) continue;
+  while (!m_ended && m_records.atEnd()) {
+    m_whole_records = m_at;
+    readChunk();
+  }
 }
 
 void DfrReader::readHeader() {
@@ -67,6 +70,7 @@ std::optional<TurnRecord> DfrReader::next() {
       m_ended = true;
       m_end = DfrEnd::kDamaged;
     }
+    if (m_records.atEnd()) m_whole_records = m_at;
     if (m_ended || !readChunk()) return std::nullopt;
   }
 }

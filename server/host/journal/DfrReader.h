@@ -44,8 +44,9 @@ class DfrReader {
   std::uint64_t streamBytes() const { return m_offset; }
   /// Append the records, as they are unpacked, to `records`, which outlives this. Before next().
   void copyRecordsTo(std::string& records);
-  /// The records that have been read end with the chunk: none is cut off.
-  bool isBetweenRecords() const { return m_records.atEnd(); }
+  /// Bytes of the file up to the last chunk that ends with a record: behind the others, one is cut off. After
+  /// next() has come to the end.
+  std::size_t bytesOfWholeRecords() const { return m_whole_records; }
   /// For the chunks that come behind those that were read; nothing can be read from then on.
   JournalPlace takePlace() { return {DfrTurnPacker(m_unpacker.takeModel(), m_offset), m_offset}; }
   /// How the round ended, of DfrEnd::kDone.
@@ -76,6 +77,7 @@ class DfrReader {
   bool m_ended = false;
   DfrEnd m_end = DfrEnd::kTorn;
   std::string m_why;
+  std::size_t m_whole_records = 0;
 };
 
 }  // namespace naiad

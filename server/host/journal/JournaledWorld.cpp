@@ -175,8 +175,9 @@ void JournaledWorld::finish(const std::string& why) {
 
 // ---- a round of a server that was killed ------------------------------------------------------------------
 
+// While another world takes over, players may join and press keys as ever.
 std::optional<int> JournaledWorld::recovering() const {
-  return m_book.recovery ? std::optional(m_book.recovery->percent()) : std::nullopt;
+  return m_book.recovery && !isTakingOver() ? std::optional(m_book.recovery->percent()) : std::nullopt;
 }
 
 void JournaledWorld::noteSession(const KeptSession& session) {

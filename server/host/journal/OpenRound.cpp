@@ -55,9 +55,8 @@ void OpenRound::readAll() {
       m_has_last_result = std::holds_alternative<TickResult>(*record) ||
                           (m_has_last_result && !std::holds_alternative<WorldTurn>(*record));
       if (const auto* p_session = std::get_if<KeptSession>(&*record)) noteSession(*p_session);
-      if (reader.isBetweenRecords()) whole = reader.wholeBytes();
     }
-    if (reader.isBetweenRecords()) whole = reader.wholeBytes();  // facts, too, may stand there
+    whole = reader.bytesOfWholeRecords();
     m_facts = reader.facts();
     m_over = reader.end() == DfrEnd::kDone;
     if (m_over || whole == reader.wholeBytes()) {
@@ -68,6 +67,8 @@ void OpenRound::readAll() {
   }
   m_bytes.resize(whole);
   m_turns = 0;
+  m_last_turn = {};
+  m_has_last_result = false;
   m_records.clear();
   m_sessions.clear();
   m_players.clear();

@@ -210,7 +210,7 @@ TEST_F(RecoveryTest, AFileThatIsTornAnywhereGoesOn) {
       if (p_turn != nullptr) heard = p_turn->heard_player;
     }
     ASSERT_EQ(reader.end(), DfrEnd::kTorn) << size;
-    ASSERT_TRUE(reader.isBetweenRecords()) << size;
+    ASSERT_EQ(reader.bytesOfWholeRecords(), bytes.size()) << size;
     ASSERT_EQ(turns, torn.turns() + 1) << size;
     ASSERT_EQ(heard, 77u) << size;
   }
