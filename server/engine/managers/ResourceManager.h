@@ -35,7 +35,8 @@ class ResourceManager : public Manager {
   int loadSprite(const std::string& filename, const std::string& label);
   /// Objects that have it go on showing it. Return 0, or -1 if there is none.
   int unloadSprite(const std::string& label);
-  /// If there is none: one that shows a '?', with a line in the log (compat: null).
+  /// Null if none was loaded under this label, so that a game may ask; if its file could not be loaded, one
+  /// that shows a '?' (compat: null).
   Sprite* getSprite(const std::string& label) const;
 
   /// Return 0, or -1 for a file that cannot be read.

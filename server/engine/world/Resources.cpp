@@ -39,6 +39,10 @@ std::string labelsOf(const List& list) {
   return loadedAre(labels);
 }
 
+std::string nothingLoaded(const char* call, const std::string& label, const std::string& loaded) {
+  return "RM." + std::string(call) + "(\"" + label + "\"): nothing is loaded under this label" + loaded;
+}
+
 bool isFile(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::is_regular_file(path, error);
@@ -49,6 +53,7 @@ bool isFile(const std::filesystem::path& path) {
 void Resources::clear() {
   for (auto& p_sprite : m_sprites) m_unloaded.push_back(std::move(p_sprite));
   m_sprites.clear();
+  m_failed_sprites.clear();
   m_sounds.clear();
   m_musics.clear();
 }
@@ -88,22 +93,29 @@ std::optional<std::string> Resources::read(const std::string& filename) const {
 }
 
 int Resources::loadSprite(const std::string& filename, const std::string& label) {
+  std::unique_ptr<Sprite> loaded = readSprite(filename, label);
+  if (loaded == nullptr) {
+    m_failed_sprites.insert(label);
+    return -1;
+  }
+  m_failed_sprites.erase(label);
+  if (sprite(label) == nullptr) m_sprites.push_back(std::move(loaded));
+  return 0;
+}
+
+std::unique_ptr<Sprite> Resources::readSprite(const std::string& filename, const std::string& label) {
   const std::optional<std::string> text = read(filename);
   if (!text) {
     m_world.log("Sprite " + label + ": " + filename + ": cannot be read" + lookedIn(filename));
-    return -1;
+    return nullptr;
   }
   std::string error;
   std::vector<std::string> oddities;
   std::unique_ptr<Sprite> loaded = parseSprite(*text, label, error, m_world.compat() ? &oddities : nullptr);
   const std::string where = "Sprite " + label + ": " + filename + ":";
   for (const std::string& oddity : oddities) m_world.log(where + oddity + " (compat)");
-  if (loaded == nullptr) {
-    m_world.log(where + error);
-    return -1;
-  }
-  if (sprite(label) == nullptr) m_sprites.push_back(std::move(loaded));
-  return 0;
+  if (loaded == nullptr) m_world.log(where + error);
+  return loaded;
 }
 
 int Resources::unloadSprite(const std::string& label) {
@@ -130,15 +142,18 @@ std::string Resources::spriteLabels() const {
 
 // Games of the published engine ask for null pointers.
 bool Resources::standsIn(const char* call, const std::string& label, const std::string& loaded) {
-  if (m_world.compat()) return false;
-  m_world.logOnce("RM." + std::string(call) + "(\"" + label + "\"): nothing is loaded under this label" +
-                  loaded);
-  return true;
+  if (!m_world.compat()) m_world.logOnce(nothingLoaded(call, label, loaded));
+  return !m_world.compat();
 }
 
+// Games ask for a sprite to see whether it is still to be loaded, so null is no fault there. If one follows
+// it, the report of the crash has the line.
 Sprite* Resources::spriteOrStandIn(const std::string& label) {
-  if (Sprite* p_sprite = sprite(label)) return p_sprite;
-  return standsIn("getSprite", label, spriteLabels()) ? &missingSprite() : nullptr;
+  Sprite* p_sprite = sprite(label);
+  if (p_sprite != nullptr || m_world.compat()) return p_sprite;
+  if (m_failed_sprites.contains(label)) return &missingSprite();
+  m_world.noteOnce(nothingLoaded("getSprite", label, spriteLabels()));
+  return nullptr;
 }
 
 Sprite& Resources::missingSprite() {

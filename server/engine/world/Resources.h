@@ -4,6 +4,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ class Resources {
   int loadSprite(const std::string& filename, const std::string& label);
   int unloadSprite(const std::string& label);
   Sprite* sprite(const std::string& label) const;
-  /// The same; if there is none, one that shows a '?', and a line in the log. Null in compat.
+  /// The same. If its file could not be loaded: one that shows a '?'. If none was: null, and a report of a
+  /// crash says so. Null in compat.
   Sprite* spriteOrStandIn(const std::string& label);
   /// The one that stands in.
   Sprite& missingSprite();
@@ -52,6 +54,7 @@ class Resources {
 
  private:
   std::string locate(const std::string& filename) const;
+  std::unique_ptr<Sprite> readSprite(const std::string& filename, const std::string& label);
   bool standsIn(const char* call, const std::string& label, const std::string& loaded);
 
   World& m_world;
@@ -60,6 +63,7 @@ class Resources {
   std::vector<std::unique_ptr<Sprite>> m_unloaded;  // Objects may still show them
   std::list<Sound> m_sounds;                        // games keep pointers
   std::list<Music> m_musics;
+  std::set<std::string> m_failed_sprites;  // labels
   // For labels of which nothing is loaded. Made at first use.
   std::unique_ptr<Sprite> m_missing_sprite;
   std::unique_ptr<Sound> m_missing_sound;

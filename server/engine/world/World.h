@@ -232,6 +232,8 @@ class World {
   bool getLogFlush() const { return m_log_flush; }
   /// Log the line, unless it was logged by this before. Of very many different ones the first ones alone.
   void logOnce(const std::string& line) const;
+  /// The same for a line that only the report of a crash shows: where it is a fault, one follows.
+  void noteOnce(const std::string& line) const;
   /// Count a call that was refused, and log it, with what would have been right, if it is the first of its
   /// name for this type of Object.
   void refuse(const std::string& type, const char* what);

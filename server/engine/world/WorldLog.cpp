@@ -50,6 +50,11 @@ void World::logOnce(const std::string& line) const {
   if (m_logged.size() < kMaxLogged && m_logged.insert(line).second) log(line);
 }
 
+void World::noteOnce(const std::string& line) const {
+  if (m_p_page != nullptr && m_logged.size() < kMaxLogged && m_logged.insert(line).second)
+    m_p_page->addLine(line);
+}
+
 void World::refuse(const std::string& type, const char* what) {
   ++m_refusals;
   logOnce("Refused: " + std::string(what) + " of " + type + ": " + rightFor(what) +

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "engine/managers/Config.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/ResourceManager.h"
+#include "engine/world/ActivityPage.h"
 #include "engine/world/ClassName.h"
 #include "tests/server/engine/Probe.h"
 
@@ -129,12 +131,24 @@ TEST_F(Mistakes, ASpriteThatWasNotLoaded) {
   EXPECT_EQ(p_saucer->setSprite("saucr"), -1);
   expectLine("setSprite(\"saucr\") of Saucer: no sprite is loaded under this label; none is loaded");
   RM.loadSprite(std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/simple.txt", "saucer");
-  Sprite* p_sprite = RM.getSprite("saucr");
-  ASSERT_NE(p_sprite, nullptr);
-  EXPECT_EQ(p_sprite->getFrameCount(), 1);
-  EXPECT_EQ(p_saucer->setSprite(p_sprite), 0);
-  world.tick();
-  expectLine("RM.getSprite(\"saucr\"): nothing is loaded under this label; loaded are: saucer");
+  const auto p_page = std::make_unique<ActivityPage>();
+  world.setActivityPage(p_page.get());
+  EXPECT_EQ(RM.getSprite("saucr"), nullptr) << "games ask so whether it is still to be loaded";
+  EXPECT_EQ(RM.getSprite("saucr"), nullptr);
+  world.setActivityPage(nullptr);
+  const std::string line = "RM.getSprite(\"saucr\"): nothing is loaded under this label; loaded are: saucer";
+  EXPECT_EQ(p_page->lines[0].text, line);
+  EXPECT_EQ(p_page->lines_written, 1u);
+  EXPECT_EQ(logged(line), 0) << "it need not be a fault";
+  EXPECT_NE(page().find("`" + line + "`"), std::string::npos);
+}
+
+TEST_F(Mistakes, ASpriteThatCouldNotBeLoadedIsAQuestionMark) {
+  auto* p_saucer = new Saucer;
+  EXPECT_EQ(RM.loadSprite("sprites/saucr.txt", "saucer"), -1);
+  ASSERT_NE(RM.getSprite("saucer"), nullptr);
+  EXPECT_EQ(p_saucer->setSprite(RM.getSprite("saucer")), 0);
+  EXPECT_EQ(RM.getSprite("saucer")->getFrame(0).getString(), "?");
 }
 
 TEST_F(Mistakes, ASoundFileThatIsNotThere) {
