@@ -107,6 +107,13 @@ void Rooms::removeSession(const Session& session) {
   if (Room* p_room = roomOf(session)) p_room->remove(session);
 }
 
+std::optional<int> Rooms::recovering() const {
+  for (const auto& room : m_rooms) {
+    if (const auto percent = room->port().recovering()) return percent;
+  }
+  return std::nullopt;
+}
+
 std::size_t Rooms::objects() const {
   std::size_t count = 0;
   for (const auto& room : m_rooms) count += room->objects();
@@ -131,6 +138,7 @@ const std::vector<ListedPlayer>& Rooms::players() {
 void Rooms::beginTicks() {
   m_in_begin = true;
   for (const auto& room : m_rooms) {
+    if (room->port().recovering()) continue;
     if (!room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) ++m_counters.late_worlds;
   }
   m_in_begin = false;
@@ -175,6 +183,8 @@ void Rooms::checkWorlds() {
   if (!m_new_world) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
+    if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
+      m_on_sessions(*room, *sessions);
     if (const auto warning = room->port().takeWarning()) m_log(*warning);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
@@ -197,6 +207,9 @@ void Rooms::countEnd(WorldEnd::Why why) {
     case WorldEnd::kBroken:
       ++m_counters.rounds_broken;
       break;
+    case WorldEnd::kNotRecovered:
+      ++m_counters.rounds_unrecovered;
+      break;
   }
 }
 
@@ -207,6 +220,9 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
   for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
   if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
   countEnd(end.why);
+  // What this server was started for is the next round.
+  if (end.why == WorldEnd::kNotRecovered && beginRound(room))
+    return room.say("The round could not go on; the next one begins.");
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);
   const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);
@@ -234,6 +250,7 @@ bool Rooms::beginRound(Room& room) {
   }
   m_counters.sounds += room.sounds().sent() - sent;
   watchWorld(room);
+  if (m_on_round) m_on_round(room);
   return true;
 }
 
