@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/world/InputQueue.h"
+#include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
 #include "host/world/ViewCodec.h"
 #include "shared/values/Canvas.h"
@@ -41,7 +42,7 @@ struct WorldTurn {
   std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
 };
 
-/// The keys and clicks that wait for a world (WorldProcess::kMaxInputs), joins and leaves.
+/// The keys and clicks that wait for a world (WorldProcess::kMaxInputs), joins, leaves and scores.
 inline constexpr std::size_t kMaxTurnInputs = std::size_t{1} << 16;
 
 /// What one player sees.
@@ -56,6 +57,7 @@ struct WorldAnswer {
   std::vector<std::uint32_t> leavers;
   bool has_view = false;
   std::vector<WorldPicture> pictures;  ///< by player
+  std::vector<df::AddedScore> scores = {};  ///< at most HighScores::kMaxAddedInTick
 };
 
 // Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/world/InputQueue.h"
+#include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
 #include "shared/values/Canvas.h"
 
@@ -66,6 +67,8 @@ class WorldPort {
   virtual void notePublished(const Publisher& publisher) = 0;
   /// The players who wanted to leave since the last call.
   virtual std::vector<std::uint32_t> takeLeavers() = 0;
+  /// The scores that the game added in the last tick, in that order.
+  virtual std::vector<df::AddedScore> takeScores() = 0;
   virtual bool isGameOver() const = 0;
   /// What this player sees, as the engine drew it in the last tick.
   virtual df::Canvas renderPlayer(std::uint32_t player) const = 0;

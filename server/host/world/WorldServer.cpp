@@ -111,6 +111,7 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   answer.game_over = world.isGameOver();
   answer.leavers = world.takeLeavers();
   answer.has_view = turn.watched;
+  if (df::WorldExtras* p_extras = world.findExtras()) answer.scores = p_extras->scores.takeAdded();
   if (turn.watched && turn.wants_truth) {
     for (const df::PlayerFacts& player : world.view().players) {
       if (turn.pictured != 0 && turn.pictured != player.id) continue;
