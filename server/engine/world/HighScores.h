@@ -2,7 +2,7 @@
 //
 //   df::HighScores scores("arcade");
 //   scores.add(p_player->getName(), p_player->getScore());
-//   for (const df::HighScore& score : scores.best(3)) text += score.name + " " + std::to_string(score.points);
+//   for (const df::HighScore& best : scores.best(3)) show(best.name, best.points);
 //
 // A HighScores is a name for a table of the current world; the table has no more than that to do with it, so
 // make one where it is needed. What the server has kept is there from the first tick on, not before GM.run().
@@ -32,11 +32,11 @@ struct HighScore {
 /// On the thread that runs the tick.
 class HighScores {
  public:
-  static constexpr std::size_t kMaxTables = 16;      ///< of a game
-  static constexpr std::size_t kMaxTableName = 32;   ///< characters
-  static constexpr std::size_t kMaxName = 16;        ///< characters of a player's name; the rest is cut off
-  static constexpr std::size_t kMaxRows = 100;       ///< that a world knows; the server's file has more
-  static constexpr std::size_t kMaxAddedInTick = 16; ///< in all tables together
+  static constexpr std::size_t kMaxTables = 16;       ///< of a game
+  static constexpr std::size_t kMaxTableName = 32;    ///< characters
+  static constexpr std::size_t kMaxName = 16;         ///< characters of a player's name; the rest is cut off
+  static constexpr std::size_t kMaxRows = 100;        ///< that a world knows; the server's file has more
+  static constexpr std::size_t kMaxAddedInTick = 16;  ///< in all tables together
   static constexpr std::int64_t kMaxPoints = 1'000'000'000'000'000;  ///< and as many below zero
 
   /// The game's table of this name: 1 to 32 letters, digits, '-' and '_'.

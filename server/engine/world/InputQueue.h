@@ -17,8 +17,8 @@ class World;
 
 class InputQueue {
  public:
-  /// kScore is the host's own: a row that was kept of an earlier round (HighScores.h). It is there at once, and
-  /// sends no event.
+  /// kScore is the host's own: a row that was kept of an earlier round (HighScores.h). It is there at once,
+  /// and sends no event.
   enum Kind { kJoin, kLeave, kKey, kMouse, kScore };
   /// One input; of the fields below `player`, those of its kind.
   struct Input {

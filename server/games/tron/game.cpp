@@ -36,8 +36,8 @@ struct Cycle : Object {
   const std::uint32_t player;  // 0: a robot
   const std::string name;
   const Color color;
-  int way;   // index in kWays
-  int wish;  // where to turn with the next move
+  int way;        // index in kWays
+  int wish;       // where to turn with the next move
   int cells = 0;  // ridden in this round
   bool wrecked = false;
 

@@ -63,8 +63,7 @@ class AdminTarget {
   virtual AdminAnswer changePassword(std::optional<PasswordHash> hash) = 0;
   /// Rows of the file of scores, best first; of all tables if `table` is empty. `done` is called once, on the
   /// host's thread: now, or when the file has been read.
-  virtual void scores(const std::string& table, std::size_t count,
-                      std::function<void(AdminAnswer)> done) = 0;
+  virtual void scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> done) = 0;
   /// `option` without dashes.
   virtual AdminAnswer set(const std::string& option, const std::string& value) = 0;
   /// Those that set() knows, with their values.

@@ -13,7 +13,8 @@ constexpr const char* kKinds[] = {"name", "range", "exception"};  ///< by Ban::K
 constexpr StateFile::Kind kFileOfBans{
     "file of bans", 0x4e616942,  // "NaiB"
     1,
-    "CREATE TABLE bans(kind TEXT NOT NULL, target TEXT NOT NULL, reason TEXT NOT NULL, made_by TEXT NOT NULL, "
+    "CREATE TABLE bans(kind TEXT NOT NULL, target TEXT NOT NULL, reason TEXT NOT NULL, made_by TEXT NOT "
+    "NULL, "
     "made INTEGER NOT NULL, until INTEGER, PRIMARY KEY(kind, target)) STRICT",
     false};
 

@@ -181,8 +181,7 @@ LogLine Host::watchedLog(LogLine log) {
 AdminControls Host::adminControls() {
   return {[this](Ending::Plan plan) { end(std::move(plan)); },
           [this](std::function<void()> job) { asio::post(m_io, std::move(job)); },
-          [this] { return cancelEnd(); },
-          [this](Reloading done) { reload(std::move(done)); },
+          [this] { return cancelEnd(); }, [this](Reloading done) { reload(std::move(done)); },
           [this](const HostOptions& options) {
             takeOver(options, m_options);
             makePlaces();

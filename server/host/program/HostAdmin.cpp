@@ -188,8 +188,7 @@ AdminAnswer HostAdmin::changePassword(std::optional<PasswordHash> hash) {
                                   : "New players need no password any more.");
 }
 
-void HostAdmin::scores(const std::string& table, std::size_t count,
-                       std::function<void(AdminAnswer)> done) {
+void HostAdmin::scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> done) {
   ScoreKeeper& scores = m_setup.scores;
   if (!scores.hasFile())
     return done(AdminAnswer::refused("This server keeps no scores on disk (--state, or see its log)."));

@@ -22,7 +22,7 @@ namespace naiad {
 struct AdminControls {
   std::function<void(Ending::Plan plan)> end;
   std::function<void(std::function<void()> job)> post;  ///< run it on the host's thread; from any
-  std::function<bool()> cancel_end;  ///< false: nothing was planned
+  std::function<bool()> cancel_end;                     ///< false: nothing was planned
   std::function<void(std::function<void(bool is_done, const std::string& sentence)> done)> reload;
   std::function<void(const HostOptions& options)> take_over;  ///< those that may change while it runs
 };

@@ -60,8 +60,8 @@ void ScoreKeeper::add(const std::string& round, std::uint32_t tick,
       continue;
     }
     ++m_added;
-    rows.push_back({added.table, df::scoreName(added.score.name), added.score.points, m_clock(), round, tick,
-                    number});
+    rows.push_back(
+        {added.table, df::scoreName(added.score.name), added.score.points, m_clock(), round, tick, number});
   }
   if (m_store == nullptr || rows.empty()) return;
   const std::lock_guard lock(m_mutex);

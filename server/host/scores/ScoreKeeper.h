@@ -1,4 +1,5 @@
-// The best scores of a server's game: in memory, from where each round begins, and in a file, where they last.
+// The best scores of a server's game: in memory, from where each round begins, and in a file, where they
+// last.
 #pragma once
 
 #include <atomic>

@@ -10,8 +10,10 @@ namespace {
 constexpr StateFile::Kind kFileOfScores{
     "file of scores", 0x4e616953,  // "NaiS"
     1,
-    "CREATE TABLE scores(id INTEGER PRIMARY KEY, game TEXT NOT NULL, board TEXT NOT NULL, name TEXT NOT NULL, "
-    "points INTEGER NOT NULL, at INTEGER NOT NULL, round TEXT NOT NULL, tick INTEGER NOT NULL, number INTEGER "
+    "CREATE TABLE scores(id INTEGER PRIMARY KEY, game TEXT NOT NULL, board TEXT NOT NULL, name TEXT NOT "
+    "NULL, "
+    "points INTEGER NOT NULL, at INTEGER NOT NULL, round TEXT NOT NULL, tick INTEGER NOT NULL, number "
+    "INTEGER "
     "NOT NULL, recording TEXT NOT NULL, UNIQUE(round, tick, number)) STRICT; "
     "CREATE INDEX best ON scores(game, board, points DESC, id)",
     true};
@@ -45,7 +47,8 @@ ScoreStore::ScoreStore(std::filesystem::path file, std::string game)
     : m_file(std::move(file), kFileOfScores), m_game(std::move(game)) {}
 
 std::vector<std::string> ScoreStore::tables() {
-  StateStatement statement = m_file.prepare("SELECT DISTINCT board FROM scores WHERE game = ? ORDER BY board");
+  StateStatement statement =
+      m_file.prepare("SELECT DISTINCT board FROM scores WHERE game = ? ORDER BY board");
   statement.bind(1, m_game);
   std::vector<std::string> names;
   while (statement.step()) names.push_back(statement.text(0));

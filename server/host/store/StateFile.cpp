@@ -143,7 +143,8 @@ void StateFile::open() {
 void StateFile::check() {
   if (numberOf(m_database.get(), "SELECT count(*) FROM sqlite_master") < 1)
     fail("cannot be read: it is damaged, or none");
-  if (numberOf(m_database.get(), "PRAGMA application_id") != m_kind.id) fail("is a database of something else");
+  if (numberOf(m_database.get(), "PRAGMA application_id") != m_kind.id)
+    fail("is a database of something else");
   if (numberOf(m_database.get(), "PRAGMA user_version") != m_kind.format)
     fail("was written by another version of this program");
   StateStatement statement(m_database.get(), "PRAGMA quick_check(1)");

@@ -1,4 +1,5 @@
-// A file that lasts beyond a restart: an SQLite database in the server's state folder, of one kind and format.
+// A file that lasts beyond a restart: an SQLite database in the server's state folder, of one kind and
+// format.
 #pragma once
 
 #include <cstdint>

@@ -56,7 +56,7 @@ struct WorldAnswer {
   bool game_over = false;
   std::vector<std::uint32_t> leavers;
   bool has_view = false;
-  std::vector<WorldPicture> pictures;  ///< by player
+  std::vector<WorldPicture> pictures;       ///< by player
   std::vector<df::AddedScore> scores = {};  ///< at most HighScores::kMaxAddedInTick
 };
 

@@ -1,5 +1,3 @@
-#include "HighScores.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
@@ -9,6 +7,7 @@
 #include "EventStep.h"
 #include "GameManager.h"
 #include "GameTest.h"
+#include "HighScores.h"
 #include "Object.h"
 #include "World.h"
 #include "WorldManager.h"
@@ -24,7 +23,8 @@ class HighScoresTest : public testing::Test {
     world.setLogSink([this](const std::string& line) { log.push_back(line); });
   }
   void keep(const std::string& table, const std::string& name, std::int64_t points) {
-    world.inputs().push({.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
+    world.inputs().push(
+        {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
   }
   std::vector<AddedScore> taken() { return world.extras().scores.takeAdded(); }
 
@@ -151,7 +151,8 @@ struct BestSign : Object {
   BestSign() { setPosition(Vector(10, 10)); }
   int draw() override {
     for (const HighScore& best : HighScores("arcade").best(1))
-      DM.drawString(getPosition(), "best " + best.name + " " + std::to_string(best.points), LEFT_JUSTIFIED, RED);
+      DM.drawString(getPosition(), "best " + best.name + " " + std::to_string(best.points), LEFT_JUSTIFIED,
+                    RED);
     return 0;
   }
 };
