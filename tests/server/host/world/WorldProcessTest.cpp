@@ -77,7 +77,7 @@ TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
   EXPECT_EQ(play(crash).when, "");
   EXPECT_EQ(play(isReady() + takesTurn() + answer + takesTurn() + crash).when, "in tick 2");
   EXPECT_EQ(play(isReady() + takesTurn() + answer + "exit 0").when, "");
-  const std::string game_over = "printf '\\4\\0\\0\\0\\1\\0\\0\\0' >&3; ";
+  const std::string game_over = "printf '\\5\\0\\0\\0\\1\\0\\0\\0\\0' >&3; ";
   EXPECT_EQ(play(isReady() + takesTurn() + game_over + crash).when, "after tick 1");
 }
 
