@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "host/world/ActivityReader.h"
+#include "shared/values/FastHash.h"
 
 namespace naiad {
 
@@ -44,6 +45,12 @@ const df::ActivityPage* mapPage(int file) {
 }
 
 }  // namespace
+
+std::uint64_t hashAnswer(std::string_view fields) {
+  FastHash hash;
+  hash.bytes(fields);
+  return hash.value();
+}
 
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
@@ -97,7 +104,7 @@ void WorldProcess::readKeeper(int patience_millis) {
 // Players who join a world that has ended join the next one (Room::changeWorld).
 std::uint32_t WorldProcess::addInput(df::InputQueue::Input input) {
   const std::uint32_t player = input.player;
-  const bool lasts = input.kind == df::InputQueue::kJoin || input.kind == df::InputQueue::kLeave;
+  const bool lasts = input.kind != df::InputQueue::kKey && input.kind != df::InputQueue::kMouse;
   if (m_state >= State::kEnding || (!lasts && m_turn.inputs.size() >= kMaxInputs)) return player;
   input.seen.base -= m_later;
   input.seen.drawn -= m_later;
@@ -159,6 +166,7 @@ void WorldProcess::onFrame() {
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
     answer->leavers.insert(answer->leavers.begin(), m_answer.leavers.begin(), m_answer.leavers.end());
     m_answer = *std::move(answer);
+    m_answer_hash = std::exchange(m_hashes, false) ? hashAnswer(m_in) : 0;
     m_in_tick = false;
   }
   m_state = State::kReady;
@@ -169,6 +177,10 @@ void WorldProcess::onFrame() {
     m_expected = true;
   }
   if (!starts) reportTick();
+}
+
+std::vector<df::AddedScore> WorldProcess::takeScores() {
+  return std::exchange(m_answer.scores, {});
 }
 
 std::vector<std::uint32_t> WorldProcess::takeLeavers() {
