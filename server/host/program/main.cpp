@@ -63,13 +63,19 @@ ExitCode play(const naiad::GameModule& game) {
   return kGameFailed;
 }
 
-/// What is the same for a host and for a world that it has started in another process; `where` it is. `mark`:
-/// before lines of the game's own, which may have a player's name and read as a line of the server's.
+/// For lines of a game: they may have a player's name, and read as a line of the server's own, and so are
+/// marked.
+naiad::LogLine markedLog(naiad::LineLog& log) {
+  return [&log](const std::string& line) { log({"game", "game: " + line, {}}); };
+}
+
+/// What is the same for a host and for a world that it has started in another process; `where` it is.
+/// `game_log`: for the game's own lines.
 ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
-              naiad::HostOptions& options, naiad::LineLog& log, const std::string& mark) {
+              naiad::HostOptions& options, naiad::LineLog& log, const naiad::LogLine& game_log) {
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
-  const Installed installed(runner, [&log, &mark](const std::string& line) { log(mark + line); });
+  const Installed installed(runner, game_log);
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
@@ -151,8 +157,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   const auto module = naiad::GameModule::find(options.game);
   const auto launcher = naiad::launchModule(options, module.string(), start.config, log);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
-  // Marked, since a game may print what reads as a line of the server's own.
-  const naiad::LogLine print = [&lines](const std::string& line) { lines({"game", "game: " + line, {}}); };
+  const naiad::LogLine print = markedLog(lines);
   // Why a game cannot be loaded is for whoever has started the server, too.
   const naiad::Preview preview = naiad::previewWorld(*launcher, [&](const std::string& line) {
     print(line);
@@ -161,7 +166,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
-  host.setWorlds(naiad::startWorlds(launcher, print));
+  host.setWorlds(naiad::startWorlds(launcher, host.watchedGame(print)));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
@@ -179,7 +184,7 @@ int serve(Start& start) {
     naiad::LineLog log("", naiad::LineLog::Writer::kCaller);
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
     return play(naiad::GameModule(options.game), " in a world of its own", world, options, log,
-                "");  // the front marks
+                [&log](const naiad::LogEvent& event) { log(event); });  // the front marks
   }
   naiad::LineLog log(options.log_file);
   useLogOptions(options, log);
@@ -189,7 +194,8 @@ int serve(Start& start) {
   naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
   watchReloads(start, host, log);
   announce(options, host);
-  const ExitCode code = play(game, " on " + host.address(), host, options, log, "game: ");
+  const ExitCode code =
+      play(game, " on " + host.address(), host, options, log, host.watchedGame(markedLog(log)));
   noteEnd(host, start);
   return host.failure().empty() ? code : failGame(host.failure());
 }

@@ -25,6 +25,7 @@ struct WorldEnd {
     kCrashed,   ///< a signal or an error code
     kHung,      ///< it did not answer in time
     kBroken,    ///< it sent a malformed frame
+    kForeign,   ///< it is of another build than the host, which was upgraded meanwhile
   } why = kGameOver;
   std::string text = {};  ///< for the log and for players, like "crashed (SIGABRT)"
   int exit_code = 0;      ///< of kCrashed, unless it was a signal

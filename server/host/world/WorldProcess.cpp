@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "host/world/BuildId.h"
+
 namespace naiad {
 
 namespace {
@@ -135,8 +137,8 @@ void WorldProcess::onFrame() {
   const bool starts = m_state == State::kStarting;
   if (m_state == State::kReady) return fail(WorldEnd::kBroken, "spoke out of turn");
   if (starts) {
-    m_ready = readReady(m_in);
-    if (!m_ready) return fail(WorldEnd::kBroken, "sent what no world sends");
+    takeReady();
+    if (!m_ready) return;
   } else {
     auto answer = readAnswer(m_in, *m_views, m_view);
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
@@ -152,6 +154,15 @@ void WorldProcess::onFrame() {
     m_expected = true;
   }
   if (!starts) reportTick();
+}
+
+// An upgrade has replaced files from which this process's worlds are started, but not what this process is.
+void WorldProcess::takeReady() {
+  const auto build = readBuild(m_in);
+  if (build && *build != ownBuildId())
+    return fail(WorldEnd::kForeign, "is of another build (" + build->substr(0, kShownBuildId) + ")");
+  m_ready = readReady(m_in);
+  if (!m_ready) fail(WorldEnd::kBroken, "sent what no world sends");
 }
 
 std::vector<std::uint32_t> WorldProcess::takeLeavers() {

@@ -1,5 +1,6 @@
 // A game that knows of no players and keeps what it knows in globals, as programs do that were written for
 // one player. What it is good for is in RoundsTest.cpp.
+#include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include "EventOut.h"
 #include "EventStep.h"
 #include "GameManager.h"
+#include "LogManager.h"
 #include "Music.h"
 #include "Object.h"
 #include "WorldManager.h"
@@ -40,6 +42,11 @@ class Walker : public Object {
     if (p_k->getKey() == Keyboard::X) over = true;
     if (p_k->getKey() == Keyboard::C) abort();
     if (p_k->getKey() == Keyboard::H) pause();
+    if (p_k->getKey() == Keyboard::P) {
+      printf("printed \x1b[31mred\n");
+      fflush(stdout);
+    }
+    if (p_k->getKey() == Keyboard::L) LM.writeLog("logged \x1b[31mred");
     if (p_k->getKey() == Keyboard::RIGHTARROW) steps++;
     return 1;
   }
