@@ -91,17 +91,21 @@ class Rounds : public testing::Test {
     }
     return heard;
   }
-  /// What those who watch the server read of its game, when this key lets it write `part`.
-  std::string watchedLine(TestClient& client, df::Keyboard::Key key, const std::string& part) {
+  /// What those who watch the server read of its game, which writes a line at this key.
+  std::string watchedLine(TestClient& client, df::Keyboard::Key key) {
     Talk talk(game->control());
     EXPECT_EQ(talk.ask(R"({"command":"watch"})"), R"({"ok":true,"text":"The log follows."})");
     EXPECT_NE(talk.ask(R"({"command":"ping"})").find("\"ok\":true"), std::string::npos);  // it watches by now
     press(client, key);
-    EXPECT_TRUE(serve([&] { return (game->log() + gamesOwnLog()).find(part) != std::string::npos; }));
-    for (auto line = talk.readLine(); line; line = talk.readLine()) {
-      if (line->find("\"game\"") != std::string::npos) return *line;
-    }
-    return "(hung up)";
+    std::string line;
+    const bool comes = serve([&] {
+      while (talk.isReadable()) {
+        line = talk.readLine().value_or("\"game\" has hung up");
+        if (line.find("\"game\"") != std::string::npos) return true;
+      }
+      return false;
+    });
+    return comes ? line : "nothing";
   }
   std::string gamesOwnLog() const {
     std::ifstream file(game->directory() / "game.log");
@@ -305,15 +309,15 @@ TEST_F(Rounds, PrivateWorldsHaveRounds) {
 TEST_F(Rounds, WhoWatchesTheServerReadsWhatAWorldPrints) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
-  EXPECT_EQ(watchedLine(*ann, df::Keyboard::P, "printed"),
-            R"({"event":"game","text":"game: printed \\x1b[31mred"})");
+  EXPECT_EQ(watchedLine(*ann, df::Keyboard::P), R"({"event":"game","text":"game: printed \\x1b[31mred"})");
 }
 
 TEST_F(Rounds, WhoWatchesTheServerReadsWhatItsGameLogs) {
   start({});
   auto ann = join("ann");
-  EXPECT_EQ(watchedLine(*ann, df::Keyboard::L, "logged"),
-            R"({"event":"game","text":"game: logged \\x1b[31mred"})");
+  EXPECT_EQ(watchedLine(*ann, df::Keyboard::L), R"({"event":"game","text":"game: logged \\x1b[31mred"})");
+  game->signal(SIGTERM);
+  game->wait();
   EXPECT_NE(gamesOwnLog().find("logged"), std::string::npos) << "its own file has it as ever";
 }
 
@@ -383,11 +387,16 @@ TEST_F(Upgrade, PrivateWorldsGoOnUntilTheirPlayersHaveLeft) {
   upgrade();
   TestClient bob(context, game->port(), home.player("bob"));
   clients.push_back(&bob);
+  EXPECT_TRUE(serve([&] { return bob.connection().isOver(); })) << game->log();
+  EXPECT_EQ(bob.connection().sentence(),
+            "The server was upgraded. It begins again when those who play have left.");
   EXPECT_TRUE(logs("; it begins again when all have left")) << game->log();
   press(*ann, df::Keyboard::RIGHTARROW);
   EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << game->log();
   ann->connection().leave();
-  EXPECT_TRUE(serve([&] { return bob.joined() && shown(bob).steps == 0; })) << bob.connection().sentence();
+  EXPECT_TRUE(logs("stopped: ")) << game->log();
+  auto carl = join("carl");
+  EXPECT_EQ(shown(*carl).steps, 0) << "in a world of the new build";
 }
 
 }  // namespace
