@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "GameProgram.h"
+#include "RunCtl.h"
 #include "VisitedServer.h"
 #include "host/auth/PasswordHash.h"
 #include "tests/server/host/admin/Talk.h"

@@ -23,6 +23,7 @@
 
 #include "GameProgram.h"
 #include "Home.h"
+#include "RunCtl.h"
 #include "TestClient.h"
 #include "TestServer.h"
 #include "host/auth/PasswordHash.h"

@@ -255,7 +255,7 @@ void WorldProcess::finish(int status) {
   asio::error_code ignored;
   m_socket.close(ignored);
   m_end = m_failure ? *m_failure : endOf(status);
-  if (m_end->why == WorldEnd::kGameOver) return;
+  if (m_end->why == WorldEnd::kGameOver || m_end->why == WorldEnd::kForeign) return;
   m_end->when = when();
   m_end->last_lines = lastLines();
 }
