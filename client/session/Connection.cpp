@@ -182,6 +182,7 @@ void Connection::checkPending() {
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
   if (over->isRefusedForNow()) return waitForServer(over->sentence());
+  m_password_refused = over->isPasswordRefused();
   if (over->state() == S::kRefused) return finish(State::kRefused, over->sentence());
   if (over->state() == S::kEnded) return finish(State::kEnded, over->sentence());
   attemptFailed(over->sentence());
@@ -191,6 +192,7 @@ void Connection::checkPending() {
 void Connection::waitForServer(const std::string& sentence) {
   const Time now = Clock::now();
   if (m_state == State::kJoining && !std::exchange(m_busy, true)) m_lost_at = now;
+  if (m_state == State::kSearching) m_lost_at = now;  // it is there, and needs time
   m_put_off = true;
   m_sentence = sentence;
   ++m_revision;

@@ -6,7 +6,8 @@
 //   any --Refused--> kRefused
 //   any --Goodbye--> kEnded
 //   kJoined --Goodbye of a server that restarts--> kSearching
-//   kSearching --60 s without success, or as long as a server that restarts has asked for--> kLost
+//   kSearching --60 s without success, or as long as a server that restarts has asked for--> kLost; a server
+//     that says that it is busy is there, so the time begins again
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
 // banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another
@@ -74,6 +75,10 @@ class Connection {
   const std::string& sentence() const { return m_sentence; }
   /// The server has refused the last attempt for now. The next one comes by itself.
   bool isPutOff() const { return m_put_off; }
+  /// Refused, for the server's password was missing or wrong.
+  bool isPasswordRefused() const { return m_password_refused; }
+  /// The server's key, as of the newest stream; nothing without TLS.
+  const std::optional<Fingerprint>& key() const { return m_key; }
   /// The session to show; null before the first picture.
   ClientSession* session() { return m_session.get(); }
   /// How long a server that let the client in has not sent a first picture; zero while there is no such one.
@@ -120,6 +125,7 @@ class Connection {
   bool m_busy = false;              ///< while joining: it has refused for now
   std::chrono::seconds m_give_up{kGiveUp};
   bool m_put_off = false;
+  bool m_password_refused = false;
   std::uint64_t m_revision = 0;
 };
 

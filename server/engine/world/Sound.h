@@ -25,8 +25,11 @@ class Sound {
 
   /// From its beginning, or from where it paused; again and again, if `loop`.
   void play(bool loop = false);
-  void stop();
-  void pause();
+  void stop();   ///< The next play() is from its beginning.
+  void pause();  ///< The next play() goes on here.
+
+  /// From now on it plays nothing: it stands in for one that is missing.
+  void silence() { m_silent = true; }
 
   /// Stop it if it goes on again and again: it is about to be unloaded.
   void endLoop();
@@ -43,6 +46,7 @@ class Sound {
 
   std::string m_label;
   bool m_music = false;
+  bool m_silent = false;
 };
 
 }  // namespace df

@@ -131,6 +131,7 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_status(openStatus(game)),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
+      m_scores(m_options.state, game),
       m_rooms(
           m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
       m_client_log(m_log),
@@ -139,15 +140,25 @@ Host::Host(HostOptions options, std::string game, Log log)
                      m_client_log.logNews(address, std::move(event), m_network.now());
                    },
                    [this](const auto& stream, AeadId aead) { return m_network.openDatagrams(stream, aead); },
-                   [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); }},
+                   [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); },
+                   [this](const wire::Welcome& welcome) -> Session& {
+                     Session& session = m_sessions.addDetached(Clock::now());
+                     session.restore(welcome, sessionEvents());
+                     return session;
+                   }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
-      m_admin({m_options, m_sessions, m_admission, m_counters, m_network, adminControls()}),
+      m_admin({m_options, m_sessions, m_admission, m_counters, m_network, m_scores, adminControls()}),
       m_console({m_admin, m_admin_worker, m_bans, m_log,
                  [this](std::function<void()> job) { asio::post(m_io, std::move(job)); }}),
       m_chat_commands(chatCommands(), m_io.get_executor()),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
+  m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
+                      [this](Room& room, const std::vector<KeptSession>& sessions) {
+                        m_admission.restoreSessions(room, sessions);
+                      });
+  m_rooms.setScores(m_scores);
   openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
@@ -177,8 +188,9 @@ LogLine Host::watchedLog(LogLine log) {
 }
 
 AdminControls Host::adminControls() {
-  return {[this](Ending::Plan plan) { end(std::move(plan)); }, [this] { return cancelEnd(); },
-          [this](Reloading done) { reload(std::move(done)); },
+  return {[this](Ending::Plan plan) { end(std::move(plan)); },
+          [this](std::function<void()> job) { asio::post(m_io, std::move(job)); },
+          [this] { return cancelEnd(); }, [this](Reloading done) { reload(std::move(done)); },
           [this](const HostOptions& options) {
             takeOver(options, m_options);
             makePlaces();
@@ -346,6 +358,7 @@ std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
 Host::~Host() {
   m_control.reset();
   m_admin_worker.finish();
+  m_scores.finish();
 }
 
 void Host::setWorlds(NewWorld new_world) {
@@ -457,7 +470,8 @@ void Host::useIdentity(std::optional<ServerIdentity> identity) {
 // On the watchdog's thread. The game may hold any lock of the process, that of the log too, so nothing is
 // destroyed, and the log is not waited for without end.
 void Host::endProcess(const ForcedEnd& end, SideLog& log) {
-  log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick)
+  log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick) +
+                     crash::activity("handles")
                : std::string("ended at once by a second signal"));
   wire::ServerMessage message;
   message.mutable_goodbye()->set_sentence(kShuttingDown);
@@ -529,6 +543,7 @@ void Host::tick() {
   ++m_counters.ticks;
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
+  m_admission.judgeWaiting();
   tickWorlds();
   m_stages.enter(Stage::kNews);
   sendPlayers();
@@ -701,6 +716,7 @@ void Host::drain() {
   m_network.stop();
   m_control.reset();
   m_admin_worker.finish();
+  m_rooms.finishScores();
   m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);

@@ -53,6 +53,10 @@ struct Installed {
 ExitCode play(const naiad::GameModule& game) {
   try {
     const int result = game.main();
+    if (!df::World::current().hasBegun() && result == 0) {
+      std::cerr << "dfserver: the game's main() returned without GM.run(), so nothing was played\n";
+      return kGameFailed;
+    }
     if (result == 0) return kOk;
     std::cerr << "dfserver: the game ended with code " << result << "\n";
   } catch (const std::exception& error) {
@@ -67,6 +71,8 @@ ExitCode play(const naiad::GameModule& game) {
 /// before lines of the game's own, which may have a player's name and read as a line of the server's.
 ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
               naiad::HostOptions& options, naiad::LineLog& log, const std::string& mark) {
+  const auto given = naiad::takeWorldSeed();
+  if (given) options.seed = static_cast<std::int64_t>(*given);
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   const Installed installed(runner, [&log, &mark](const std::string& line) { log(mark + line); });
@@ -100,7 +106,8 @@ ExitCode failGame(const std::string& how) {
 ExitCode failPreview(const naiad::WorldEnd& end) {
   if (end.why == naiad::WorldEnd::kGameOver) return kOk;
   if (end.exit_code == kNoGame) return kNoGame;  // and it has said why
-  return failGame(end.text);
+  for (const std::string& line : end.last_lines) std::cerr << "dfserver: the game's log: " << line << "\n";
+  return failGame(end.text + (end.when.empty() ? " before GM.run()" : " " + end.when));
 }
 
 void useLogOptions(const naiad::HostOptions& options, naiad::LineLog& lines) {
@@ -161,7 +168,10 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
-  host.setWorlds(naiad::startWorlds(launcher, print));
+  naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
+  journaled.port = host.port();  // a round goes on where its players look for it
+  const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
+  host.setWorlds(naiad::startWorlds(launcher, print, journals));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
@@ -177,6 +187,7 @@ int serve(Start& start) {
   naiad::HostOptions& options = start.options;
   if (const auto socket = naiad::takeWorldSocket()) {
     naiad::LineLog log("", naiad::LineLog::Writer::kCaller);
+    df::World::current().setActivityPage(naiad::openWorldPage());
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
     return play(naiad::GameModule(options.game), " in a world of its own", world, options, log,
                 "");  // the front marks
@@ -185,6 +196,7 @@ int serve(Start& start) {
   useLogOptions(options, log);
   if (naiad::wantsWorlds(options)) return serveWorlds(start, log);
   const naiad::crash::Report crashes("dfserver", log.descriptor());
+  naiad::crash::setWorld(&df::World::current());
   const naiad::GameModule game(options.game);
   naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
   watchReloads(start, host, log);

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/world/ActivityPage.h"
 #include "host/world/WorldKeeper.h"
 
 namespace naiad {
@@ -61,9 +63,17 @@ std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
   return pair;
 }
 
-bool sendDescriptors(int to, const WorldDescriptors& numbers) {
-  char byte = 0;
-  iovec data{&byte, 1};
+/// Memory of an ActivityPage's size for good: a world that cut it off would end its reader by SIGBUS.
+Descriptor sharedPage(const char* what) {
+  Descriptor page(memfd_create("df-activity", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  require(page.get() >= 0 && ftruncate(page.get(), sizeof(df::ActivityPage)) == 0 &&
+              fcntl(page.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0,
+          what);
+  return page;
+}
+
+bool sendOrder(int to, WorldOrder order, const WorldDescriptors& numbers) {
+  iovec data{&order, sizeof order};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof numbers)> room{};
   msghdr message{};
   message.msg_iov = &data;
@@ -77,7 +87,7 @@ bool sendDescriptors(int to, const WorldDescriptors& numbers) {
   std::memcpy(CMSG_DATA(p_head), &numbers, sizeof numbers);
   ssize_t sent = 0;
   while ((sent = sendmsg(to, &message, MSG_NOSIGNAL)) < 0 && errno == EINTR) continue;
-  return sent == 1;
+  return sent == sizeof order;
 }
 
 /// False: too late, or the other end was closed.
@@ -114,13 +124,15 @@ WorldLauncher::~WorldLauncher() {
   while (waitpid(m_process, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-StartedWorld WorldLauncher::start() const {
+StartedWorld WorldLauncher::start(const WorldOrder& order) const {
   constexpr const char* kWhat = "a new world";
   auto [our_world, their_world] = socketPair(SOCK_STREAM, kWhat);
   auto [our_keeper, their_keeper] = socketPair(SOCK_STREAM, kWhat);
   auto [our_output, their_output] = outputPipe(kWhat);
-  require(sendDescriptors(m_socket, {their_world.get(), their_keeper.get(), their_output.get()}), kWhat);
-  return {our_world.release(), our_keeper.release(), our_output.release()};
+  Descriptor page = sharedPage(kWhat);
+  require(sendOrder(m_socket, order, {their_world.get(), their_keeper.get(), their_output.get(), page.get()}),
+          kWhat);
+  return {our_world.release(), our_keeper.release(), our_output.release(), page.release()};
 }
 
 }  // namespace naiad

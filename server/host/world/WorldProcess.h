@@ -9,8 +9,11 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "engine/world/ActivityPage.h"
 #include "host/world/OutputRelay.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
@@ -18,12 +21,17 @@
 
 namespace naiad {
 
+/// WorldPort::answerHash() of an answer's fields.
+std::uint64_t hashAnswer(std::string_view fields);
+
 class WorldProcess : public WorldPort {
  public:
   using Clock = std::chrono::steady_clock;
 
   /// For an answer; then the game hangs.
   static constexpr std::chrono::seconds kAnswerTime{5};
+  /// For an answer; then the log says what the game is doing.
+  static constexpr std::chrono::seconds kSlow{2};
   /// From the start of the process to GM.run().
   static constexpr std::chrono::seconds kStartTime{30};
   /// From the end of the game to that of its process: what main() does after GM.run().
@@ -44,6 +52,12 @@ class WorldProcess : public WorldPort {
   void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return m_state == State::kReady; }
   void setPictured(std::uint32_t player) override { m_pictured = player; }
+  void setChecked(bool state) override {
+    m_hashes = true;
+    m_turn.checked = state;
+  }
+  std::uint64_t answerHash() const override { return m_answer_hash; }
+  std::optional<std::uint64_t> stateHash() const override { return m_answer.state_hash; }
   void tick(bool watched, bool truth) override;
   /// Before the first tick: that of the host's. From there on it counts its own.
   std::uint32_t nextTick() const override { return m_next_tick; }
@@ -51,10 +65,12 @@ class WorldProcess : public WorldPort {
   /// Lag compensation is done in the world's own process.
   void notePublished(const Publisher& /*publisher*/) override {}
   std::vector<std::uint32_t> takeLeavers() override;
+  std::vector<df::AddedScore> takeScores() override;
   bool isGameOver() const override { return m_answer.game_over; }
   df::Canvas renderPlayer(std::uint32_t player) const override;
   void checkProcess(std::uint32_t tick) override;
   std::optional<WorldEnd> end() const override { return m_end; }
+  std::optional<std::string> takeWarning() override { return std::exchange(m_warning, std::nullopt); }
   void close() override;
 
   /// What the game has set up by GM.run(); nothing before.
@@ -77,6 +93,8 @@ class WorldProcess : public WorldPort {
   void finish(int status);
   WorldEnd endOf(int status) const;
   std::string when() const;
+  std::string activity(std::string_view verb) const;
+  std::vector<std::string> lastLines() const;
   void readKeeper(int patience_millis);
   template <class Message>
   std::optional<Message> takeFromKeeper(int patience_millis);
@@ -86,7 +104,8 @@ class WorldProcess : public WorldPort {
   asio::local::stream_protocol::socket m_socket;
   int m_keeper;  ///< the socket of its keeper
   OutputRelay m_output;
-  bool m_started = false;  ///< as the keeper says
+  const df::ActivityPage* m_p_page = nullptr;  ///< null: there is none
+  bool m_started = false;                      ///< as the keeper says
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
   std::optional<int> m_status;        ///< once it and all that it had started have ended
@@ -98,9 +117,13 @@ class WorldProcess : public WorldPort {
   std::uint32_t m_pictured = 0;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
-  bool m_in_tick = false;   ///< one was sent, and not answered
+  bool m_in_tick = false;  ///< one was sent, and not answered
+  bool m_warned = false;   ///< of this tick
+  std::optional<std::string> m_warning;
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
-  WorldTurn m_turn;         ///< the next one
+  bool m_hashes = false;    ///< the next answer is hashed
+  std::uint64_t m_answer_hash = 0;
+  WorldTurn m_turn;  ///< the next one
   std::string m_out;
   std::string m_in;
   std::optional<ViewReader> m_views;
