@@ -26,8 +26,9 @@ constexpr int kTurn = 64;
 /// What a notice of a frame takes beside the frame, so that many small ones fill a bound, too.
 constexpr std::size_t kNoticeBytes = 32;
 /// How often unsent bytes are counted while there are any. That takes a system call for each stream, so with
-/// many streams the pause is kCounting times as long as the counting took.
+/// many streams the pause is kCounting times as long as the counting took, up to kLongBusy.
 constexpr std::chrono::milliseconds kBusy{2};
+constexpr std::chrono::milliseconds kLongBusy{6};
 constexpr int kCounting = 20;
 /// How often new addresses are challenged.
 constexpr std::chrono::milliseconds kUnproven{50};
@@ -253,7 +254,7 @@ void NetworkThread::noteUnsent() {
     return !end->busy;
   });
   const Clock::time_point end = Clock::now();
-  m_count_at = end + std::max<Clock::duration>(kBusy, kCounting * (end - begin));
+  m_count_at = end + std::clamp<Clock::duration>(kCounting * (end - begin), kBusy, kLongBusy);
 }
 
 bool NetworkThread::hasUnsent() const {
