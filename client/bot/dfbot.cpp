@@ -27,8 +27,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One turn: so long frames are served as they come, then each bot is looked after once. Doing that after each
-/// frame would cost the square of the number of bots.
+/// One turn: so long frames are served as they come, then each bot is looked after once. Doing that after
+/// each frame would cost the square of the number of bots.
 constexpr std::chrono::milliseconds kTurn{5};
 /// A server sends a snapshot every kKeepAliveTicks at least, later if the line is bad. Longer silence at the
 /// end, or of a connection that broke, means that the server crashed or hangs.

@@ -243,8 +243,8 @@ void NetworkThread::endTurn() {
   if (std::exchange(m_urgent, false)) wakeHome();
 }
 
-// Counts the unsent bytes of the streams that had some at the last count, or have been sent more since. Not in
-// every turn: after a tick all streams are busy for many turns.
+// Counts the unsent bytes of the streams that had some at the last count, or have been sent more since. Not
+// in every turn: after a tick all streams are busy for many turns.
 void NetworkThread::noteUnsent() {
   const Clock::time_point begin = Clock::now();
   if (m_busy.empty() || begin < m_count_at) return;
