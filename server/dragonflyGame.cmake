@@ -14,6 +14,8 @@ function(dragonfly_game name)
   endif()
   target_link_libraries(${name} PRIVATE dragonfly::dragonfly)
   target_compile_definitions(${name} PRIVATE DF_COMPAT=$<BOOL:${arg_COMPAT}>)
+  # A handler without the const of `const df::Event*` overrides nothing, and is never called.
+  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-Woverloaded-virtual>)
   if(arg_COMPAT)  # Object's operator new is subject to access; the published engine has none
     target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang>:-fno-access-control>)
   endif()

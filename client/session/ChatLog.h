@@ -25,7 +25,7 @@ class ChatLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::size_t kMax = 100;  ///< lines kept
+  static constexpr std::size_t kMax = 500;  ///< lines kept
 
   /// A line of a player (one of `players`, or this one, `self`) or of the server.
   void addMessage(ChatMessage message, const std::vector<PlayerLine>& players, const WelcomeMessage& self,

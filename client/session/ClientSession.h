@@ -101,6 +101,8 @@ class ClientSession {
   State state() const { return m_state; }
   /// Refused, but another attempt in a moment may succeed.
   bool isRefusedForNow() const { return m_refused_for_now; }
+  /// Refused, for the server's password was missing or wrong.
+  bool isPasswordRefused() const { return m_password_refused; }
   /// A session that was lost: the server has said that it is back within this time; 0: it has not.
   std::chrono::seconds returnsIn() const { return m_returns_in; }
   /// Neither waiting for the server nor playing any more.
@@ -185,6 +187,7 @@ class ClientSession {
   WelcomeMessage m_welcome;
   State m_state = State::kGreeting;
   bool m_refused_for_now = false;
+  bool m_password_refused = false;
   std::string m_sentence;
   std::chrono::seconds m_returns_in{0};
   std::uint64_t m_revision = 0;

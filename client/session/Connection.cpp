@@ -182,6 +182,7 @@ void Connection::checkPending() {
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
   if (over->isRefusedForNow()) return waitForServer(over->sentence());
+  m_password_refused = over->isPasswordRefused();
   if (over->state() == S::kRefused) return finish(State::kRefused, over->sentence());
   if (over->state() == S::kEnded) return finish(State::kEnded, over->sentence());
   attemptFailed(over->sentence());

@@ -74,6 +74,10 @@ class Connection {
   const std::string& sentence() const { return m_sentence; }
   /// The server has refused the last attempt for now. The next one comes by itself.
   bool isPutOff() const { return m_put_off; }
+  /// Refused, for the server's password was missing or wrong.
+  bool isPasswordRefused() const { return m_password_refused; }
+  /// The server's key, as of the newest stream; nothing without TLS.
+  const std::optional<Fingerprint>& key() const { return m_key; }
   /// The session to show; null before the first picture.
   ClientSession* session() { return m_session.get(); }
   /// How long a server that let the client in has not sent a first picture; zero while there is no such one.
@@ -120,6 +124,7 @@ class Connection {
   bool m_busy = false;              ///< while joining: it has refused for now
   std::chrono::seconds m_give_up{kGiveUp};
   bool m_put_off = false;
+  bool m_password_refused = false;
   std::uint64_t m_revision = 0;
 };
 

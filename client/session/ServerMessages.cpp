@@ -96,6 +96,7 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
       return check(wire.players(), wire.number());
     case wire::ServerMessage::kRefused:
       return RefusedMessage{wire.refused().reason() == wire::Refused::BUSY,
+                            wire.refused().reason() == wire::Refused::PASSWORD,
                             safeText(wire.refused().sentence(), kMaxSentenceLength)};
     case wire::ServerMessage::kGoodbye:
       return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength),

@@ -48,7 +48,8 @@ struct WelcomeMessage {
 };
 
 struct RefusedMessage {
-  bool for_now = false;  ///< another attempt in a moment may succeed
+  bool for_now = false;   ///< another attempt in a moment may succeed
+  bool password = false;  ///< it was missing or wrong
   std::string sentence;
 };
 

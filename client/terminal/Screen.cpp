@@ -26,10 +26,19 @@ short pairOf(df::Color color, bool own_background) {
   return static_cast<short>(color + (own_background ? 1 : 1 + df::kColorCount));
 }
 
+/// The terminal has bright variants of the eight colours, at 8 to 15.
+bool hasBright() {
+  return COLORS >= 16;
+}
+
 short cursesColor(df::Color color) {
   static constexpr short kColors[] = {COLOR_BLACK, COLOR_RED,     COLOR_GREEN, COLOR_YELLOW,
                                       COLOR_BLUE,  COLOR_MAGENTA, COLOR_CYAN,  COLOR_WHITE};
   return kColors[color];
+}
+
+short brightColor(df::Color color) {
+  return static_cast<short>(cursesColor(color) + 8);
 }
 
 }  // namespace
@@ -51,11 +60,11 @@ Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(option
     const bool has_default = use_default_colors() == OK;
     for (int c = df::BLACK; c < df::kColorCount; ++c) {
       const auto color = static_cast<df::Color>(c);
-      short foreground = cursesColor(color);
+      // The colours of a Dragonfly are bright. The terminal's own black differs from its background only
+      // then.
+      short foreground = hasBright() ? brightColor(color) : cursesColor(color);
       if (color == df::COLOR_DEFAULT && has_default) foreground = -1;
-      // Dark on black can hardly be seen, or not at all: their bright variants.
       if (color == df::BLACK && COLORS > 8) foreground = 8;
-      if (color == df::BLUE && COLORS >= 16) foreground = 12;
       init_pair(pairOf(color, true), foreground,
                 has_default ? static_cast<short>(-1) : static_cast<short>(COLOR_BLACK));
     }
@@ -73,7 +82,10 @@ void Screen::setBackground(df::Color background) {
   m_background = background;
   for (int c = df::BLACK; c < df::kColorCount; ++c) {
     const auto color = static_cast<df::Color>(c);
-    init_pair(pairOf(color, false), cursesColor(color), cursesColor(background));
+    // Black stays black there.
+    const bool bright = hasBright() && color != df::BLACK;
+    init_pair(pairOf(color, false), bright ? brightColor(color) : cursesColor(color),
+              cursesColor(background));
   }
   m_redraw = true;
 }

@@ -124,14 +124,15 @@ ClientApp::Outcome ClientApp::outcome() const {
   const std::string& sentence = m_connection.sentence();
   switch (m_connection.state()) {
     case S::kUnreachable:
-      return {kExitUnreachable, sentence, 0};
+      return {kExitUnreachable, sentence, 0, {}};
     case S::kRefused:
-      return {kExitRefused, sentence, 0};
+      return {kExitRefused, sentence, 0,
+              m_connection.isPasswordRefused() ? m_connection.key() : std::nullopt};
     case S::kEnded:
     case S::kLost:
-      return {kExitEnded, sentence, 0};
+      return {kExitEnded, sentence, 0, {}};
     default:
-      return {kExitLeft, m_was_idle ? "You left, for you were away for too long." : "", m_signal};
+      return {kExitLeft, m_was_idle ? "You left, for you were away for too long." : "", m_signal, {}};
   }
 }
 

@@ -9,6 +9,7 @@
 #include <asio/posix/stream_descriptor.hpp>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ class ClientApp {
     ExitCode code = kExitLeft;
     std::string sentence;  ///< for stderr, once the terminal is restored; may be empty
     int signal = 0;        ///< the signal that ended it, to be raised again; 0: none
+    /// The server with this key refused the password, or that there was none.
+    std::optional<Fingerprint> wants_password;
   };
 
   explicit ClientApp(Options options);

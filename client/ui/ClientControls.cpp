@@ -124,9 +124,34 @@ ClientControls::Result ClientControls::toggle(Panel panel) {
   return Result::kHandled;
 }
 
+bool ClientControls::takeHistoryKey(Key key) {
+  const int page = std::max(m_shown.chat_page - 1, 1);
+  int to = std::min(m_chat_scroll, m_shown.max_chat_scroll);
+  switch (key) {
+    case UPARROW:
+      to += 1;
+      break;
+    case DOWNARROW:
+      to -= 1;
+      break;
+    case PAGEUP:
+      to += page;
+      break;
+    case PAGEDOWN:
+      to -= page;
+      break;
+    default:
+      return false;
+  }
+  m_chat_scroll = std::clamp(to, 0, m_shown.max_chat_scroll);
+  return true;
+}
+
 ClientControls::Result ClientControls::takeChatKey(const KeyEvent& event) {
+  if (takeHistoryKey(event.key)) return Result::kHandled;
   if (event.key == ESCAPE || event.key == RETURN) {
     m_chat_open = false;
+    m_chat_scroll = 0;
     return event.key == RETURN && !m_text.empty() ? Result::kSay : Result::kClosed;
   }
   if (event.key == BACKSPACE) {

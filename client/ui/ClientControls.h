@@ -20,6 +20,7 @@ enum class StatusMode : unsigned char { kAuto, kAlways, kNever };
 /// The lines of the help panel about the client itself.
 inline constexpr const char* kClientKeyHelp[] = {
     "Ctrl-] t   say something to all players (c does the same)",
+    "Up, PgUp   in the open chat line: what was said before",
     "Ctrl-] p   list of players",
     "Ctrl-] h   this help (? does the same)",
     "Ctrl-] s   status line on or off",
@@ -45,9 +46,11 @@ inline constexpr const char* kGuessedReleasesHelp =
 
 /// What of the controls the last picture showed.
 struct ShownControls {
-  bool status = true;  ///< a status line
-  int max_scroll = 0;  ///< lines of the open panel that are beyond its end
-  int page = 1;        ///< lines of it that are seen at a time
+  bool status = true;       ///< a status line
+  int max_scroll = 0;       ///< lines of the open panel that are beyond its end
+  int page = 1;             ///< lines of it that are seen at a time
+  int max_chat_scroll = 0;  ///< rows of the chat's history above those shown
+  int chat_page = 1;        ///< rows of it that are seen at a time
 };
 
 class ClientControls {
@@ -75,6 +78,8 @@ class ClientControls {
   Panel panel() const { return m_panel; }
   /// Lines of the panel that are scrolled out at its top.
   int scroll() const { return m_scroll; }
+  /// Rows of the chat that are scrolled out at its bottom.
+  int chatScroll() const { return m_chat_scroll; }
   StatusMode status() const { return m_status; }
   bool chatOpen() const { return m_chat_open; }
   /// Ctrl-] was typed, its command not yet.
@@ -88,10 +93,12 @@ class ClientControls {
   Result takeChatKey(const KeyEvent& event);
   Result takeCommand(const KeyEvent& event);
   bool takeScrollKey(df::Keyboard::Key key);
+  bool takeHistoryKey(df::Keyboard::Key key);
   Result toggle(Panel panel);
 
   Panel m_panel = Panel::kNone;
   int m_scroll = 0;
+  int m_chat_scroll = 0;
   StatusMode m_status = StatusMode::kAuto;
   ShownControls m_shown;
   bool m_prefixed = false;

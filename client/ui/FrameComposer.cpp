@@ -1,5 +1,6 @@
 #include "client/ui/FrameComposer.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "client/world/DrawnPlacement.h"
@@ -7,6 +8,12 @@
 
 namespace naiad {
 namespace {
+
+/// Rows of the chat's history that the highest terminal shows, and as many to scroll on.
+constexpr std::size_t kHistoryRows = 300;
+
+/// How long the player's own object is pointed at, when there is one for the first time.
+constexpr std::chrono::seconds kPointed{2};
 
 std::int64_t tenthsOfSilence(const ClientSession& session, FrameComposer::Time now) {
   return std::chrono::floor<std::chrono::milliseconds>(session.clock().silence(now)).count() / 100;
@@ -29,8 +36,19 @@ FrameComposer::FrameState FrameComposer::currentState(Time now) {
   state.chat_lines = recentChat(now).size();
   state.note = m_sounds.shownNote(now);
   m_status.update(session->welcome().player, session->roundTrip(), now);
+  noteOwnObject(*session, now);
+  state.pointer = now < m_point_until;
   state.status = m_controls.status() == StatusMode::kAlways || m_status.isShown(now);
   return state;
+}
+
+// It may come long after the player, behind a title.
+void FrameComposer::noteOwnObject(const ClientSession& session, Time now) {
+  if (m_joined_as != session.welcome().player) m_pointed = false;
+  m_joined_as = session.welcome().player;
+  if (m_pointed || session.replica().control().generation == 0) return;
+  m_pointed = true;
+  m_point_until = now + kPointed;
 }
 
 std::vector<ChatEntry> FrameComposer::recentChat(Time now) const {
@@ -80,6 +98,12 @@ ScreenModel FrameComposer::composeFrame(Time now) {
     model.server = session->welcome().server + " at " + (m_browser ? address.host : address.text());
     model.game = session->welcome().game;
     model.self = session->welcome().player;
+    model.self_name = session->welcome().name;
+    model.self_color = session->welcome().color;
+    if (m_composed.pointer) model.self_cell = replica.ownCell(m_composed.tick, &placement);
+    const auto& chat = session->chat();
+    const std::size_t shown = kHistoryRows + static_cast<std::size_t>(m_controls.chatScroll());
+    model.history.assign(chat.end() - static_cast<std::ptrdiff_t>(std::min(shown, chat.size())), chat.end());
     model.players = session->players();
     model.help = session->welcome().help;
     model.chat = recentChat(now);
@@ -91,6 +115,7 @@ ScreenModel FrameComposer::composeFrame(Time now) {
   model.status_over_game = m_composed.status;
   model.panel = m_controls.panel();
   model.scroll = m_controls.scroll();
+  model.chat_scroll = m_controls.chatScroll();
   model.chat_open = m_controls.chatOpen();
   model.chat_text = m_controls.chatText();
   return model;

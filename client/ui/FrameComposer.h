@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,13 +46,15 @@ class FrameComposer {
     std::int64_t silence = 0;  ///< in tenths of a second, once it is shown
     std::size_t chat_lines = 0;
     std::string note;
-    bool status = false;  ///< over the game
+    bool status = false;   ///< over the game
+    bool pointer = false;  ///< at the player's own object
     friend bool operator==(const FrameState&, const FrameState&) = default;
   };
 
   FrameState currentState(Time now);
   std::vector<ChatEntry> recentChat(Time now) const;
   std::string banner(Time now) const;
+  void noteOwnObject(const ClientSession& session, Time now);
 
   Connection& m_connection;
   const ClientControls& m_controls;
@@ -59,6 +62,9 @@ class FrameComposer {
   FrameState m_composed;
   ChatEntry m_notice;
   StatusTimer m_status;
+  std::optional<std::uint32_t> m_joined_as;
+  bool m_pointed = false;
+  Time m_point_until{};  ///< at the player's own object
   bool m_browser = false;
   bool m_key_releases = false;
 };

@@ -4,12 +4,13 @@
 #include <cstdio>
 #include <functional>
 
+#include "client/ui/SidePanel.h"
 #include "shared/net/base/SafeText.h"
 
 namespace naiad {
 namespace {
 
-constexpr std::size_t kChatRows = 6;
+constexpr int kChatRows = 6;
 constexpr std::size_t kMaxOverlayNote = 20;
 
 int columnCount(const std::string& text) {
@@ -37,7 +38,7 @@ void drawView(Picture& picture, const ScreenModel& model, const ViewPlacement& p
   }
 }
 
-/// "42 ms   tick 1200   2 players   30 points   naiad 0.1 …   Ctrl-] help", as much as fits.
+/// "ann  42 ms   tick 1200   2 players   30 points   naiad 0.1 …   Ctrl-] help", as much as fits.
 void drawStatusRow(Picture& picture, const ScreenModel& model) {
   const int y = picture.height() - 1;
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
@@ -59,6 +60,8 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
     end = note_at - 1;
   }
   int x = 1;
+  if (const int name = columnCount(model.self_name); name > 0 && x + name + 2 < end)
+    x = picture.write(x, y, " " + model.self_name + " ", end - x, model.self_color, Style::kReverse) + 2;
   for (const std::string& part : parts) {
     if (part.empty()) continue;
     if (end - x < columnCount(part)) break;
@@ -72,6 +75,7 @@ void drawStatusSide(Picture& picture, const ScreenModel& model) {
   const int x = picture.width() - kSideColumns + 1;
   const int width = kSideColumns - 1;
   const auto count = model.players.size();
+  picture.write(x, 0, model.self_name, width, model.self_color, Style::kBold);
   const std::string lines[] = {std::to_string(model.round_trip.count()) + " ms",
                                std::to_string(count) + (count == 1 ? " player" : " players"),
                                std::to_string(model.score) + " pts",
@@ -80,7 +84,7 @@ void drawStatusSide(Picture& picture, const ScreenModel& model) {
                                model.browser ? "" : "helps",
                                "",
                                model.note};
-  int y = 0;
+  int y = model.self_name.empty() ? 0 : 1;
   for (const std::string& line : lines) {
     if (!line.empty()) picture.write(x, y, safeText(line, static_cast<std::size_t>(width)), width);
     ++y;
@@ -131,33 +135,49 @@ void drawBanner(Picture& picture, const std::string& banner, int row) {
   picture.write((picture.width() - width) / 2, row, text, width, df::COLOR_DEFAULT, Style::kReverse);
 }
 
-/// The last chat lines, bottom up, and below them the line being typed.
-void drawChat(Picture& picture, const ScreenModel& model, int bottom) {
-  int y = bottom;
-  if (model.chat_open) {
-    const std::string prompt = "say: ";
-    picture.fill(0, y, picture.width(), 1, Style::kReverse);
-    int x = picture.write(0, y, prompt, picture.width(), df::COLOR_DEFAULT, Style::kReverse);
-    // The end of a long text is shown.
-    std::u32string text = df::decodeUtf8(model.chat_text);
-    const int room = std::max(picture.width() - x - 1, 1);
-    if (static_cast<int>(text.size()) > room) text.erase(0, text.size() - static_cast<std::size_t>(room));
-    for (const char32_t ch : text) picture.put(x++, y, {ch, df::COLOR_DEFAULT, Style::kReverse});
-    picture.cursor = CellPosition{x, y};
-    --y;
+/// The line being typed. Its end is shown where it is long.
+void drawChatLine(Picture& picture, const ScreenModel& model, int y) {
+  picture.fill(0, y, picture.width(), 1, Style::kReverse);
+  int x = picture.write(0, y, "say: ", picture.width(), df::COLOR_DEFAULT, Style::kReverse);
+  std::u32string text = df::decodeUtf8(model.chat_text);
+  const int room = std::max(picture.width() - x - 1, 1);
+  if (static_cast<int>(text.size()) > room) text.erase(0, text.size() - static_cast<std::size_t>(room));
+  for (const char32_t ch : text) picture.put(x++, y, {ch, df::COLOR_DEFAULT, Style::kReverse});
+  picture.cursor = CellPosition{x, y};
+}
+
+/// Chat lines over the game, the last one in row `bottom`. Sets how far they can be scrolled.
+void drawChatOver(Picture& picture, const ScreenModel& model, int bottom, ShownControls& shown) {
+  const std::vector<ChatRow> rows =
+      chatRows(model.chat, picture.width() - 1, 3 * kChatRows + model.chat_scroll);
+  const int count = static_cast<int>(rows.size());
+  const int room = std::min(model.chat_scroll > 0 ? std::max(bottom / 2, kChatRows) : kChatRows, bottom + 1);
+  shown.max_chat_scroll = std::max(count - kChatRows, 0);
+  shown.chat_page = kChatRows;
+  const int end = count - std::clamp(model.chat_scroll, 0, shown.max_chat_scroll);
+  for (int i = 0; i < std::min(end, room); ++i) {
+    const ChatRow& row = rows[static_cast<std::size_t>(end - 1 - i)];
+    const int width = std::min(columnCount(row.text) + 1, picture.width());
+    picture.fill(0, bottom - i, width, 1);
+    drawChatRow(picture, row, 0, bottom - i, width);
   }
-  const std::size_t count = std::min(model.chat.size(), kChatRows);
-  for (std::size_t i = 0; i < count && y >= 0; ++i, --y) {
-    const ChatEntry& entry = model.chat[model.chat.size() - 1 - i];
-    int x = 0;
-    if (entry.name.empty()) {
-      x = picture.write(x, y, "* ", picture.width(), df::COLOR_DEFAULT, Style::kBold);
-    } else {
-      x = picture.write(x, y, entry.name, picture.width() - x, entry.color, Style::kBold);
-      x = picture.write(x, y, ": ", picture.width() - x, entry.color, Style::kBold);
-    }
-    picture.write(x, y, entry.text + " ", picture.width() - x);
-  }
+}
+
+/// A pointer at the player's own object, with their name where there is room.
+void drawSelf(Picture& picture, const ScreenModel& model, const ViewPlacement& place) {
+  if (!model.self_cell) return;
+  const int x = model.self_cell->x - place.view_x;
+  const int y = model.self_cell->y - place.view_y;
+  if (x < 0 || y < 0 || x >= place.width || y >= place.height) return;
+  const bool below = y < 3;
+  const int arrow = place.top + (below ? std::min(y + 2, place.height - 1) : y - 2);
+  const int label = arrow + (below ? 1 : -1);
+  picture.put(place.left + x, arrow, {below ? U'▲' : U'▼', model.self_color, Style::kBold});
+  if (label < place.top || label >= place.top + place.height) return;
+  const std::string text = " you: " + model.self_name + " ";
+  const int width = std::min(columnCount(text), place.width);
+  const int left = std::clamp(x - width / 2, 0, place.width - width);
+  picture.write(place.left + left, label, text, width, model.self_color, Style::kReverse);
 }
 
 /// What a panel shows: lines, some of which stay when the others are scrolled.
@@ -200,9 +220,7 @@ void drawPanel(Picture& picture, const PanelLines& lines, int scroll, ShownContr
 }
 
 void drawPlayers(Picture& picture, const ScreenModel& model, ShownControls& shown) {
-  std::vector<PlayerLine> sorted = model.players;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const PlayerLine& a, const PlayerLine& b) { return a.score > b.score; });
+  const std::vector<PlayerLine> sorted = byScore(model.players);
   const auto draw = [&](int line, int x, int y, int width) {
     char text[64];
     const int numbers = x + std::max(0, width - 19);
@@ -219,32 +237,6 @@ void drawPlayers(Picture& picture, const ScreenModel& model, ShownControls& show
     picture.write(numbers, y, text, room, df::COLOR_DEFAULT, style);
   };
   drawPanel(picture, {"Players", 40, 1, static_cast<int>(sorted.size()) + 1, draw}, model.scroll, shown);
-}
-
-/// Where the explanation of a line like "Ctrl-] h   this help" begins, for lines that continue it.
-std::size_t indentOf(const std::u32string& line, std::size_t width) {
-  const std::size_t gap = line.find(U"  ");
-  const std::size_t text = gap != std::u32string::npos ? line.find_first_not_of(U' ', gap) : gap;
-  return text != std::u32string::npos && text <= width / 2 ? text : 2;
-}
-
-/// Break a line at blanks so that each part has `width` columns at most.
-void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_t width) {
-  std::u32string rest = df::decodeUtf8(text);
-  const std::size_t indent = std::min(indentOf(rest, width), width - 1);
-  while (rest.size() > width) {
-    const std::size_t first = rest.find_first_not_of(U' ');
-    std::size_t end = rest.rfind(U' ', width);
-    if (end == std::u32string::npos || end <= std::max(first, indent)) end = width;  // one long word
-    std::string part;
-    for (const char32_t ch : rest.substr(0, end)) df::appendUtf8(part, ch);
-    out.push_back(part);
-    const std::size_t next = rest.find_first_not_of(U' ', end);
-    rest = next == std::u32string::npos ? U"" : std::u32string(indent, U' ') + rest.substr(next);
-  }
-  std::string part;
-  for (const char32_t ch : rest) df::appendUtf8(part, ch);
-  out.push_back(part);
 }
 
 void drawHelp(Picture& picture, const ScreenModel& model, ShownControls& shown) {
@@ -281,12 +273,23 @@ ScreenLayout layOut(const ScreenModel& model, int columns, int rows) {
     drawBanner(picture, model.banner, rows / 2);
     return layout;
   }
-  layout.placement =
-      placeView(columns, rows, model.view.width(), model.view.height(), model.focus, model.status_shown);
+  const int panel = sidePanelColumns(columns, rows, model);
+  layout.placement = placeView(columns - panel, rows, model.view.width(), model.view.height(), model.focus,
+                               model.status_shown);
   drawView(picture, model, layout.placement);
-  drawChat(picture, model, rows - (layout.placement.status_row ? 2 : 1));
-  layout.shown.status = layout.placement.status_row || layout.placement.status_side;
-  if (layout.placement.status_row) {
+  drawSelf(picture, model, layout.placement);
+  const bool has_row = layout.placement.status_row;
+  const int bottom = rows - (has_row ? 2 : 1);
+  if (panel > 0) {
+    drawSidePanel(picture, model, columns - panel, bottom + (model.chat_open ? 0 : 1),
+                  layout.shown.max_chat_scroll);
+    layout.shown.chat_page = rows / 3;
+  } else {
+    drawChatOver(picture, model, bottom - (model.chat_open ? 1 : 0), layout.shown);
+  }
+  if (model.chat_open) drawChatLine(picture, model, bottom);
+  layout.shown.status = has_row || layout.placement.status_side;
+  if (has_row) {
     drawStatusRow(picture, model);
   } else if (layout.placement.status_side) {
     drawStatusSide(picture, model);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct ScreenModel {
   Panel panel = Panel::kNone;
   int scroll = 0;          ///< lines of the panel above its first one, if it has more than fit
   std::uint32_t self = 0;  ///< this player's id
+  std::string self_name;
+  df::Color self_color = df::COLOR_DEFAULT;
+  std::optional<CellPosition> self_cell;  ///< where to point at the player's own object, in view cells
   std::vector<PlayerLine> players;
   std::vector<std::string> help;  ///< the game's own lines
   bool browser = false;           ///< a page shows it, not a terminal
@@ -42,7 +46,9 @@ struct ScreenModel {
 
   bool chat_open = false;
   std::string chat_text;
-  std::vector<ChatEntry> chat;  ///< lines to show, oldest first
+  std::vector<ChatEntry> chat;     ///< lines to show over the game, oldest first
+  std::vector<ChatEntry> history;  ///< all lines, for a panel beside it
+  int chat_scroll = 0;             ///< rows of the chat below the last one shown
 };
 
 struct ScreenLayout {

@@ -75,6 +75,10 @@ std::size_t printProblems(const naiad::SessionFile* p_file, std::size_t from) {
   return p_file->problems().size();
 }
 
+std::string passwordQuestion(const naiad::ServerAddress& server) {
+  return "Password of " + server.text() + ": ";
+}
+
 /// Die of the signal that ended us, so that the parent process sees it. The terminal must be restored.
 void endBySignal(int signal) {
   if (signal == 0) return;
@@ -170,6 +174,25 @@ std::string listComplaint(const CommandLine& line) {
   return {};
 }
 
+/// As ssh does: where the server wants a password, ask for it, three times at most. The question is the
+/// client's own, about the address that the player gave; what is typed goes only to the key that has asked.
+naiad::ClientApp::Outcome joinWithPassword(naiad::ClientApp::Options& options) {
+  constexpr int kTries = 3;
+  naiad::ClientApp::Outcome outcome;
+  for (int tried = 0;; ++tried) {
+    {
+      naiad::ClientApp app(options);
+      outcome = app.run();
+    }
+    if (!outcome.wants_password || options.session.visit || tried == kTries) return outcome;
+    if (tried > 0) std::fputs("Wrong password, try again.\n", stderr);
+    const auto password = naiad::askPassword(passwordQuestion(options.address));
+    if (!password || password->empty()) return outcome;
+    options.session.password = *password;
+    options.trust.fingerprint = outcome.wants_password;
+  }
+}
+
 int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool attached) {
   if (!naiad::TerminalGuard::isTerminal()) {
     return complain(naiad::kExitNoTerminal,
@@ -177,13 +200,10 @@ int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool att
   }
   // Before the server hears anything: a client that cannot draw must not leave a player behind.
   options.terminal = naiad::chooseTerminalType(std::getenv("TERM"));
-  naiad::ClientApp::Outcome outcome;
   options.p_tokens = p_file;
   const std::size_t printed = printProblems(p_file, 0);
-  {
-    naiad::ClientApp app(options);
-    outcome = app.run();
-  }
+  const naiad::ClientApp::Outcome outcome =
+      attached ? naiad::ClientApp(options).run() : joinWithPassword(options);
   printProblems(p_file, printed);
   endBySignal(outcome.signal);
   // The game runs in the same terminal: its end is seen there.
@@ -256,7 +276,7 @@ int join(CommandLine& line) {
       naiad::resolveServer(line.server, options.address, options.trust, options.session);
   if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
   if (line.ask_password) {
-    const auto password = naiad::askPassword("Password of " + options.address.text() + ": ");
+    const auto password = naiad::askPassword(passwordQuestion(options.address));
     if (!password) return complain(naiad::kExitNoTerminal, "no password was typed.");
     options.session.password = *password;
   }

@@ -213,6 +213,17 @@ CellPosition Replica::focus(std::uint32_t tick, const Placement* p_placement) co
   return {inView(df::cellOf(at.x), corner.x, viewWidth()), inView(df::cellOf(at.y), corner.y, viewHeight())};
 }
 
+std::optional<CellPosition> Replica::ownCell(std::uint32_t tick, const Placement* p_placement) const {
+  const Entry* p_entry = m_control.generation != 0 ? find(m_control.slot) : nullptr;
+  if (p_entry == nullptr || p_entry->generation != m_control.generation) return std::nullopt;
+  const CellPosition corner = viewCorner(tick, p_placement);
+  const df::FixedVector at = placed(p_entry->state, tick, p_placement);
+  const std::int64_t x = std::int64_t{df::cellOf(at.x)} - corner.x;
+  const std::int64_t y = std::int64_t{df::cellOf(at.y)} - corner.y;
+  if (x < 0 || y < 0 || x >= viewWidth() || y >= viewHeight()) return std::nullopt;
+  return CellPosition{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
+}
+
 df::Canvas Replica::render(std::uint32_t tick, const Placement* p_placement) const {
   df::Canvas canvas(viewWidth(), viewHeight());
   const CellPosition corner = viewCorner(tick, p_placement);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -71,6 +72,9 @@ class Replica {
   CellPosition viewCorner(std::uint32_t tick, const Placement* p_placement = nullptr) const;
   /// Where the followed object is drawn at `tick`, in view cells; the view's centre if there is none.
   CellPosition focus(std::uint32_t tick, const Placement* p_placement = nullptr) const;
+  /// Where the object that the player steers is drawn at `tick`, in view cells; nothing if there is none, or
+  /// it is outside the view.
+  std::optional<CellPosition> ownCell(std::uint32_t tick, const Placement* p_placement = nullptr) const;
   /// The view at `tick` by its record, and the world it looks into.
   ViewFrame viewFrame(std::uint32_t tick) const;
   /// The object that the view follows; null if there is none.

@@ -194,6 +194,8 @@ TEST_F(Trouble, AGameThatHangsIsReportedAndTheFirstSignalEndsItInOrder) {
   auto ann = join("ann");
   press(*ann, df::Keyboard::H);
   ASSERT_TRUE(logs("the game has not finished tick ")) << game->log();
+  EXPECT_TRUE(logs(" for 2 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
+      << game->log();
   game->signal(SIGTERM);
   EXPECT_TRUE(isDismissed(*ann)) << ann->connection().sentence();
   const int status = game->wait();
@@ -226,7 +228,8 @@ TEST_F(Trouble, TheSecondSignalEndsAtOnceWithAGoodbye) {
 
 class Crash : public Trouble {
  protected:
-  void expectLine(df::Keyboard::Key key, int signal, const std::string& name) {
+  void expectLine(df::Keyboard::Key key, int signal, const std::string& name,
+                  const std::string& activity = "Trouble handled EventKeyboard") {
     if (kSanitized) GTEST_SKIP() << "the sanitizer reports crashes itself";
     start();
     auto ann = join("ann");
@@ -241,7 +244,9 @@ class Crash : public Trouble {
       const std::string line = " trouble_game: crashed (" + name + ") in tick ";
       ASSERT_NE(text.find(line), std::string::npos) << file << ": " << text;
       EXPECT_GT(std::atoi(text.c_str() + text.find(line) + line.size()), 0) << text;
-      EXPECT_NE(text.find(", while an Object handled EventKeyboard\n"), std::string::npos) << text;
+      EXPECT_NE(text.find(", while " + activity + "\n"), std::string::npos) << text;
+      EXPECT_NE(text.find("trouble_game: the game's log: a key\\x1b[2J\n"), std::string::npos) << text;
+      EXPECT_NE(text.find("trouble_game: to see where: gdb "), std::string::npos) << text;
     }
   }
 };
@@ -252,6 +257,70 @@ TEST_F(Crash, ByEndlessRecursionLeavesALine) {
 
 TEST_F(Crash, ByAnAbortLeavesALine) {
   expectLine(df::Keyboard::A, SIGABRT, "SIGABRT");
+}
+
+TEST_F(Crash, InDrawLeavesALine) {
+  expectLine(df::Keyboard::D, SIGSEGV, "SIGSEGV", "Trouble ran draw()");
+}
+
+TEST_F(Crash, ByADivisionLeavesALine) {
+  expectLine(df::Keyboard::Z, SIGFPE, "SIGFPE");
+}
+
+TEST_F(Crash, AfterTheHandlerThatItCalledNamesTheOuterOne) {
+  expectLine(df::Keyboard::N, SIGSEGV, "SIGSEGV");
+}
+
+/// The same in a world of its own, of which the front reads the shared page.
+TEST_F(Trouble, AWorldThatCrashesLeavesTheSameLines) {
+  start({{"NAIAD_ON_GAME_OVER", "restart"}});
+  auto ann = join("ann");
+  ASSERT_TRUE(ticks(*ann, 1));
+  press(*ann, df::Keyboard::K);
+  EXPECT_TRUE(logs("the round is over: the game crashed (SIGKILL) in tick ")) << game->log();
+  EXPECT_TRUE(logs(", while Trouble handled EventKeyboard\n")) << game->log();
+  EXPECT_TRUE(logs(" the game's log: a key\\x1b[2J\n")) << game->log();
+  EXPECT_TRUE(logs(" to see where: run the game by itself in a debugger")) << game->log();
+  EXPECT_TRUE(ticks(*ann)) << "the next round";
+  press(*ann, df::Keyboard::H);
+  EXPECT_TRUE(logs(" for 2 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
+      << game->log();
+  EXPECT_TRUE(logs("the game did not answer any more in tick ")) << game->log();
+}
+
+// ---- a program that plays nothing -------------------------------------------------------------------------
+
+/// What is left of a program with this mistake; its exit code in `code`.
+std::string lastWords(const std::string& mistake, int& code) {
+  GameProgram game("trouble_game", {{"TROUBLE", mistake}});
+  const int status = game.wait();
+  code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return game.log();
+}
+
+TEST(ProgramMistakes, EndInALine) {
+  int code = 0;
+  EXPECT_NE(lastWords("no-run", code)
+                .find("trouble_game: the program ended without GM.run(), so nothing was played\n"),
+            std::string::npos);
+  const std::string no_start = lastWords("no-start", code);
+  EXPECT_NE(
+      no_start.find("trouble_game: GM.run() was called before GM.startUp(), which reads the settings\n"),
+      std::string::npos)
+      << no_start;
+  EXPECT_EQ(code, 1);
+  const std::string exits = lastWords("exit", code);
+  EXPECT_NE(exits.find("trouble_game: exit() was called in tick 1, while Exits handled EventStep; "
+                       "GM.setGameOver() ends a game in order\n"),
+            std::string::npos)
+      << exits;
+  if (kSanitized) return;  // which reports crashes itself
+  const std::string before = lastWords("crash-before-run", code);
+  EXPECT_NE(before.find("trouble_game: crashed (SIGSEGV) before the first tick\n"), std::string::npos)
+      << before;
+  EXPECT_NE(before.find("trouble_game: the game's log: Sprite ship: no/such.txt: cannot be read; looked in "),
+            std::string::npos)
+      << before;
 }
 
 /// A log that a game can hold: as the engine's own is, which writes to a file under a lock.

@@ -308,6 +308,8 @@ TEST_F(LanListTest, AServerThatSaysItWantsNoPasswordGetsNoneFromTheEnvironment) 
   })) << ann->output();
   ASSERT_TRUE(choose(*ann)) << ann->output();
   ann->type("\r");
+  ASSERT_TRUE(ann->waitFor("Password of ")) << ann->output();
+  ann->type("\003");
   expectEnd(*ann, 3, "--ask-password");
 }
 

@@ -91,12 +91,33 @@ TEST_F(LinkTest, AMalformedOneIsAUsageError) {
 
 TEST_F(LinkTest, ThePasswordIsAskedForAndTheOneInTheEnvironmentIsNotSent) {
   const std::string link = serve({}, "xyzzy");
-  expectEnd(*client(link, {}, "xyzzy"), 3, "--ask-password");
+  const auto eve = client(link, {}, "xyzzy");
+  ASSERT_TRUE(eve->waitFor("Password of 127.0.0.1:")) << eve->output();
+  eve->type("\003");
+  expectEnd(*eve, 3, "--ask-password");
   const auto ann = client(link, {"--ask-password"});
   ASSERT_TRUE(ann->waitFor("Password of 127.0.0.1:")) << ann->output();
   ann->type("xyzzy\r");
   ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();
   EXPECT_EQ(ann->output().find("xyzzy"), std::string::npos) << "echoed";
+  ASSERT_TRUE(ann->waitFor(" player")) << ann->output();
+  ann->type("\003");
+  expectEnd(*ann, 0, "");
+}
+
+TEST_F(LinkTest, AServerThatWantsAPasswordIsAnsweredAsInSsh) {
+  const std::string link = serve({}, "xyzzy");
+  const auto ann = client(link);
+  ASSERT_TRUE(ann->waitFor("Password of 127.0.0.1:")) << ann->output();
+  EXPECT_EQ(ann->currentModes().c_lflag & ECHO, 0u);
+  ann->forget();
+  ann->type("plugh\r");
+  ASSERT_TRUE(ann->waitFor("Wrong password, try again.")) << ann->output();
+  ASSERT_TRUE(ann->waitFor("Password of 127.0.0.1:")) << ann->output();
+  ann->type("xyzzy\r");
+  ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();
+  for (const char* p_typed : {"plugh", "xyzzy"})
+    EXPECT_EQ(ann->output().find(p_typed), std::string::npos) << "echoed";
   ASSERT_TRUE(ann->waitFor(" player")) << ann->output();
   ann->type("\003");
   expectEnd(*ann, 0, "");

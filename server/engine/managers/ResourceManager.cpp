@@ -41,7 +41,7 @@ int ResourceManager::unloadSprite(const std::string& label) {
 }
 
 Sprite* ResourceManager::getSprite(const std::string& label) const {
-  return resources().sprite(label);
+  return resources().spriteOrStandIn(label);
 }
 
 int ResourceManager::loadSound(const std::string& filename, const std::string& label) {
@@ -53,7 +53,7 @@ int ResourceManager::unloadSound(const std::string& label) {
 }
 
 Sound* ResourceManager::getSound(const std::string& label) {
-  return resources().sound(label);
+  return resources().soundOrStandIn(label);
 }
 
 int ResourceManager::loadMusic(const std::string& filename, const std::string& label) {
@@ -65,7 +65,7 @@ int ResourceManager::unloadMusic(const std::string& label) {
 }
 
 Music* ResourceManager::getMusic(const std::string& label) {
-  return resources().music(label);
+  return resources().musicOrStandIn(label);
 }
 
 }  // namespace df

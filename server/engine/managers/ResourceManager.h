@@ -35,21 +35,22 @@ class ResourceManager : public Manager {
   int loadSprite(const std::string& filename, const std::string& label);
   /// Objects that have it go on showing it. Return 0, or -1 if there is none.
   int unloadSprite(const std::string& label);
-  /// Null if there is none.
+  /// Null if none was loaded under this label, so that a game may ask; if its file could not be loaded, one
+  /// that shows a '?' (compat: null).
   Sprite* getSprite(const std::string& label) const;
 
   /// Return 0, or -1 for a file that cannot be read.
   int loadSound(const std::string& filename, const std::string& label);
   /// Return 0, or -1 if there is none.
   int unloadSound(const std::string& label);
-  /// Null if there is none.
+  /// If there is none: one that plays nothing, with a line in the log (compat: null).
   Sound* getSound(const std::string& label);
 
   /// Return 0, or -1 for a file that cannot be read.
   int loadMusic(const std::string& filename, const std::string& label);
   /// Return 0, or -1 if there is none.
   int unloadMusic(const std::string& label);
-  /// Null if there is none.
+  /// If there is none: one that plays nothing, with a line in the log (compat: null).
   Music* getMusic(const std::string& label);
 
  private:

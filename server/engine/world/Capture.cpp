@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "engine/world/ActivityPage.h"
 #include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
@@ -86,7 +87,9 @@ void Capture::drawOne(ObjectKey key) {
 
   m_drawing = key;
   try {
-    store.object(key.slot)->draw();
+    Object& object = *store.object(key.slot);
+    const ActivityScope running(m_world.activity(), classOf(object), Activity::kDraw);
+    object.draw();
   } catch (const std::exception& e) {
     m_world.quarantine(key, e.what());
   } catch (...) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <exception>
-#include <utility>
 
+#include "engine/world/ActivityPage.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
@@ -11,17 +11,20 @@
 
 namespace df {
 
+inline void World::nameClassOf(const Event& event) {
+  if (m_p_page != nullptr && classOf(event) != m_named_event) nameEvent(event);
+}
+
 inline void World::runHandler(ObjectKey key, Object& object, const Event& event) {
   ++m_handlers;
-  const Event* const p_outer = std::exchange(m_p_handled, &event);
   try {
+    const ActivityScope running(*m_p_activity, classOf(object), classOf(event));
     object.eventHandler(&event);
   } catch (const std::exception& e) {
     quarantine(key, e.what());
   } catch (...) {
     quarantine(key, "an exception of unknown type");
   }
-  m_p_handled = p_outer;
   --m_handlers;
   if (m_shutdown_pending) finishShutDown();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/world/InterestDispatch.h"
 #include "engine/world/Object.h"
 #include "engine/world/ObjectExtras.h"
 #include "engine/world/World.h"
@@ -57,6 +58,7 @@ int Interests::send(const Event& event, Audience audience) {
   Table& table = m_tables[it->second];
   const std::size_t count = table.entries.size();
   int delivered = 0;
+  m_world.nameClassOf(event);
   ++table.walks;
   for (std::size_t i = 0; i < count; ++i) {
     if (audience == kWhilePaused && !hearsWhilePaused(m_world.find(table.entries[i]))) continue;

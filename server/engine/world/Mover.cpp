@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/events/EventOut.h"
+#include "engine/world/ClassName.h"
 #include "engine/world/CollisionRule.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/InterestDispatch.h"
@@ -117,7 +118,7 @@ void Mover::takeTurn(ObjectKey key) {
     if (WorldStore::isPosition(where)) {
       blocked = move(key, where) != 0;
     } else {
-      m_world.refuse(store.object(s)->getType(), "update, at the end of the number range");
+      m_world.refuse(nameOf(*store.object(s)), "update, at the end of the number range");
       blocked = true;
     }
     if (!store.isCurrent(key)) return;

@@ -18,6 +18,7 @@ class Music : private Sound {
   using Sound::getLabel;
   using Sound::pause;
   using Sound::setLabel;
+  using Sound::silence;
   using Sound::stop;
   /// From its beginning, or from where it paused; again and again, unless `loop` is false.
   void play(bool loop = true) { Sound::play(loop); }

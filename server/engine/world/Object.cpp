@@ -1,14 +1,32 @@
 #include "engine/world/Object.h"
 
+#include <string_view>
 #include <utility>
 
 #include "engine/collision/Mask.h"
+#include "engine/world/ClassName.h"
 #include "engine/world/Interests.h"
 #include "engine/world/ObjectExtras.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
+
+namespace {
+
+/// The constant that was meant by a name that lacks the engine's "df-"; null for all others.
+const char* engineEventFor(std::string_view name) {
+  if (name.starts_with("df-") || name.size() > 9) return nullptr;
+  for (const auto& [word, constant] :
+       {std::pair{"step", "STEP_EVENT"}, std::pair{"keyboard", "KEYBOARD_EVENT"},
+        std::pair{"mouse", "MSE_EVENT"}, std::pair{"collision", "COLLISION_EVENT"},
+        std::pair{"out", "OUT_EVENT"}}) {
+    if (name == word) return constant;
+  }
+  return nullptr;
+}
+
+}  // namespace
 
 ObjectKey Object::key() const {
   return m_p_store->key(m_slot);
@@ -20,7 +38,7 @@ World* Object::getWorld() const {
 }
 
 int Object::refuse(const char* what) const {
-  if (World* p_world = getWorld()) p_world->refuse(m_p_profile->type, what);
+  if (World* p_world = getWorld()) p_world->refuse(nameOf(*this), what);
   return -1;
 }
 
@@ -147,7 +165,12 @@ bool Object::isVisible() const {
 
 int Object::registerInterest(const std::string& event_type) {
   World* p_world = getWorld();
-  return p_world != nullptr ? p_world->interests().add(*this, event_type) : -1;
+  if (p_world == nullptr) return -1;
+  if (const char* p_meant = engineEventFor(event_type)) {
+    p_world->logOnce("registerInterest(\"" + event_type +
+                     "\"): the engine sends no such event; it sends df::" + p_meant);
+  }
+  return p_world->interests().add(*this, event_type);
 }
 
 int Object::unregisterInterest(const std::string& event_type) {

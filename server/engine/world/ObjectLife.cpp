@@ -130,7 +130,7 @@ Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
   if (world.compat()) {
     m_p_store->setBox(m_slot, kCompatBox);
     m_p_store->setPosition(m_slot, kCompatPlace);
-    m_p_profile->type = "(Undefined)";
+    m_p_profile->type = kUndefinedType;
   }
   // Here it is still nothing but an Object.
   if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);

@@ -4,6 +4,7 @@
 
 #include "engine/collision/Mask.h"
 #include "engine/sprites/AnimationLook.h"
+#include "engine/world/ClassName.h"
 #include "engine/world/Geometry.h"
 #include "engine/world/Object.h"
 #include "engine/world/ObjectExtras.h"
@@ -50,15 +51,19 @@ int Object::setSprite(std::string sprite_label) {
 }
 
 int Object::setSprite(const std::string& sprite_label, bool set_box) {
-  const World* p_world = getWorld();
-  Sprite* p_sprite = p_world != nullptr && p_world->findExtras() != nullptr
-                         ? p_world->findExtras()->resources.sprite(sprite_label)
-                         : nullptr;
-  if (p_sprite == nullptr) {
-    if (p_world != nullptr) p_world->log("Object of type " + getType() + ": no sprite " + sprite_label);
-    return -1;
+  World* p_world = getWorld();
+  if (p_world == nullptr) return -1;
+  Resources& resources = p_world->extras().resources;
+  if (Sprite* p_sprite = resources.sprite(sprite_label)) return setSprite(p_sprite, set_box);
+  p_world->logOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
+                   ": no sprite is loaded under this label" + resources.spriteLabels());
+  // So that there is something to see, and getAnimation().getSprite() is no null pointer.
+  if (getSprite() == nullptr && !p_world->compat()) {
+    Animation animation;
+    animation.setSprite(&resources.missingSprite());
+    Object::setAnimation(std::move(animation), false);  // a game's own is for what it has asked for
   }
-  return setSprite(p_sprite, set_box);
+  return -1;
 }
 
 int Object::setSprite(Sprite* p_new_sprite, bool set_box) {

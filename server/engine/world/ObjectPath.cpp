@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/world/InterestDispatch.h"
 #include "engine/world/Object.h"
 #include "engine/world/ObjectExtras.h"
 #include "engine/world/PathFind.h"
@@ -21,6 +22,7 @@ void Object::pathTo(Vector position) {
   setFollowPath(false);
   setPath(std::move(path));
   if (event.getResult() == FOUND) setFollowPath();
+  p_world->nameClassOf(event);
   p_world->deliver(key(), event);  // the last thing: it may delete this
 }
 

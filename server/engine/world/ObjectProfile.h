@@ -10,6 +10,9 @@
 
 namespace df {
 
+/// The type of Objects without one, in the published engine.
+inline constexpr const char* kUndefinedType = "(Undefined)";
+
 struct ObjectProfile {
   std::string type = "Object";
   // What setSpeed and setDirection said. After an acceleration (a flag in the store) or setVelocity, which

@@ -19,6 +19,30 @@ auto findSound(List& list, const std::string& label) {
   return std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.getLabel() == label; });
 }
 
+/// "; loaded are: saucer, ship"
+template <class Labels>
+std::string loadedAre(const Labels& labels) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  std::size_t count = 0;
+  for (const std::string& label : labels) {
+    if (++count > kMost) return text + ", …";
+    text += (text.empty() ? "; loaded are: " : ", ") + label;
+  }
+  return text.empty() ? "; none is loaded" : text;
+}
+
+template <class List>
+std::string labelsOf(const List& list) {
+  std::vector<std::string> labels;
+  for (const auto& one : list) labels.push_back(one.getLabel());
+  return loadedAre(labels);
+}
+
+std::string nothingLoaded(const char* call, const std::string& label, const std::string& loaded) {
+  return "RM." + std::string(call) + "(\"" + label + "\"): nothing is loaded under this label" + loaded;
+}
+
 bool isFile(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::is_regular_file(path, error);
@@ -29,6 +53,7 @@ bool isFile(const std::filesystem::path& path) {
 void Resources::clear() {
   for (auto& p_sprite : m_sprites) m_unloaded.push_back(std::move(p_sprite));
   m_sprites.clear();
+  m_failed_sprites.clear();
   m_sounds.clear();
   m_musics.clear();
 }
@@ -46,6 +71,14 @@ std::string Resources::locate(const std::string& filename) const {
   return found.empty() ? filename : found;
 }
 
+std::string Resources::lookedIn(const std::string& filename) const {
+  if (std::filesystem::path(filename).is_absolute()) return {};
+  std::error_code error;
+  std::string text = "; looked in " + std::filesystem::current_path(error).string();
+  for (const std::string& folder : m_folders) text += ", " + folder;
+  return text;
+}
+
 bool Resources::open(const std::string& filename) const {
   const std::string path = locate(filename);
   return isFile(path) && std::ifstream(path).good();
@@ -60,22 +93,29 @@ std::optional<std::string> Resources::read(const std::string& filename) const {
 }
 
 int Resources::loadSprite(const std::string& filename, const std::string& label) {
+  std::unique_ptr<Sprite> loaded = readSprite(filename, label);
+  if (loaded == nullptr) {
+    m_failed_sprites.insert(label);
+    return -1;
+  }
+  m_failed_sprites.erase(label);
+  if (sprite(label) == nullptr) m_sprites.push_back(std::move(loaded));
+  return 0;
+}
+
+std::unique_ptr<Sprite> Resources::readSprite(const std::string& filename, const std::string& label) {
   const std::optional<std::string> text = read(filename);
   if (!text) {
-    m_world.log("Sprite " + label + ": " + filename + ": cannot be read");
-    return -1;
+    m_world.log("Sprite " + label + ": " + filename + ": cannot be read" + lookedIn(filename));
+    return nullptr;
   }
   std::string error;
   std::vector<std::string> oddities;
   std::unique_ptr<Sprite> loaded = parseSprite(*text, label, error, m_world.compat() ? &oddities : nullptr);
   const std::string where = "Sprite " + label + ": " + filename + ":";
   for (const std::string& oddity : oddities) m_world.log(where + oddity + " (compat)");
-  if (loaded == nullptr) {
-    m_world.log(where + error);
-    return -1;
-  }
-  if (sprite(label) == nullptr) m_sprites.push_back(std::move(loaded));
-  return 0;
+  if (loaded == nullptr) m_world.log(where + error);
+  return loaded;
 }
 
 int Resources::unloadSprite(const std::string& label) {
@@ -92,6 +132,39 @@ Sprite* Resources::sprite(const std::string& label) const {
     if (p_sprite->getLabel() == label) return p_sprite.get();
   }
   return nullptr;
+}
+
+std::string Resources::spriteLabels() const {
+  std::vector<std::string> labels;
+  for (const auto& p_sprite : m_sprites) labels.push_back(p_sprite->getLabel());
+  return loadedAre(labels);
+}
+
+// Games of the published engine ask for null pointers.
+bool Resources::standsIn(const char* call, const std::string& label, const std::string& loaded) {
+  if (!m_world.compat()) m_world.logOnce(nothingLoaded(call, label, loaded));
+  return !m_world.compat();
+}
+
+// Games ask for a sprite to see whether it is still to be loaded, so null is no fault there. If one follows
+// it, the report of the crash has the line.
+Sprite* Resources::spriteOrStandIn(const std::string& label) {
+  Sprite* p_sprite = sprite(label);
+  if (p_sprite != nullptr || m_world.compat()) return p_sprite;
+  if (m_failed_sprites.contains(label)) return &missingSprite();
+  m_world.noteOnce(nothingLoaded("getSprite", label, spriteLabels()));
+  return nullptr;
+}
+
+Sprite& Resources::missingSprite() {
+  if (m_missing_sprite == nullptr) {
+    m_missing_sprite = std::make_unique<Sprite>(1);
+    m_missing_sprite->setLabel("missing");
+    m_missing_sprite->setWidth(1);
+    m_missing_sprite->setHeight(1);
+    m_missing_sprite->addFrame(Frame(1, 1, "?"));
+  }
+  return *m_missing_sprite;
 }
 
 int Resources::loadSound(const std::string& filename, const std::string& label) {
@@ -116,6 +189,16 @@ Sound* Resources::sound(const std::string& label) {
   return it == m_sounds.end() ? nullptr : &*it;
 }
 
+Sound* Resources::soundOrStandIn(const std::string& label) {
+  if (Sound* p_sound = sound(label)) return p_sound;
+  if (!standsIn("getSound", label, labelsOf(m_sounds))) return nullptr;
+  if (m_missing_sound == nullptr) {
+    m_missing_sound = std::make_unique<Sound>();
+    m_missing_sound->silence();
+  }
+  return m_missing_sound.get();
+}
+
 int Resources::loadMusic(const std::string& filename, const std::string& label) {
   if (music(label) != nullptr) return 0;
   Music& loaded = m_musics.emplace_back();
@@ -136,6 +219,16 @@ int Resources::unloadMusic(const std::string& label) {
 Music* Resources::music(const std::string& label) {
   const auto it = findSound(m_musics, label);
   return it == m_musics.end() ? nullptr : &*it;
+}
+
+Music* Resources::musicOrStandIn(const std::string& label) {
+  if (Music* p_music = music(label)) return p_music;
+  if (!standsIn("getMusic", label, labelsOf(m_musics))) return nullptr;
+  if (m_missing_music == nullptr) {
+    m_missing_music = std::make_unique<Music>();
+    m_missing_music->silence();
+  }
+  return m_missing_music.get();
 }
 
 }  // namespace df

@@ -10,7 +10,8 @@ namespace df {
 int Sound::loadSound(const std::string& filename) {
   World& world = World::current();
   if (world.extras().resources.open(filename)) return 0;
-  world.log(std::string(m_music ? "Music: " : "Sound: ") + filename + ": cannot be read");
+  world.log(std::string(m_music ? "Music: " : "Sound: ") + filename + ": cannot be read" +
+            world.extras().resources.lookedIn(filename));
   return -1;
 }
 
@@ -31,6 +32,7 @@ void Sound::endLoop() {
 }
 
 void Sound::notePlayed(SoundPlayed::What what, bool loop) {
+  if (m_silent) return;
   World& world = World::current();
   world.noteSound({m_label, what, m_music, loop, world.inputPlayer()});
 }

@@ -28,6 +28,9 @@ class Sound {
   void stop();
   void pause();
 
+  /// From now on it plays nothing: it stands in for one that is missing.
+  void silence() { m_silent = true; }
+
   /// Stop it if it goes on again and again: it is about to be unloaded.
   void endLoop();
 
@@ -43,6 +46,7 @@ class Sound {
 
   std::string m_label;
   bool m_music = false;
+  bool m_silent = false;
 };
 
 }  // namespace df

@@ -3,8 +3,11 @@
 #include <typeinfo>
 #include <utility>
 
+#include "engine/events/EventOut.h"
 #include "engine/events/EventStep.h"
+#include "engine/world/ActivityPage.h"
 #include "engine/world/Capture.h"
+#include "engine/world/ClassName.h"
 #include "engine/world/ControlApplier.h"
 #include "engine/world/EventPlayer.h"
 #include "engine/world/InputQueue.h"
@@ -12,6 +15,7 @@
 #include "engine/world/Interests.h"
 #include "engine/world/Mover.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectProfile.h"
 #include "engine/world/Runner.h"
 #include "engine/world/Started.h"
 #include "engine/world/Views.h"
@@ -44,7 +48,9 @@ World::World()
       m_views(std::make_unique<Views>(*this)),
       m_capture(std::make_unique<Capture>(*this)),
       m_input(std::make_unique<InputQueue>(*this)),
-      m_mover(std::make_unique<Mover>(*this)) {}
+      m_mover(std::make_unique<Mover>(*this)),
+      m_own_activity(std::make_unique<Activity>()),
+      m_p_activity(m_own_activity.get()) {}
 
 World::~World() {
   {
@@ -79,9 +85,11 @@ WorldScope::~WorldScope() {
 void World::tick() {
   if (m_in_tick || m_in_update || m_in_draw) return;
   const Scope scope(*this);
+  m_begun = true;
   {
     const During during(m_in_tick);
     ++m_step_count;
+    learnNewcomers();
     m_capture->clearPicture();
     if (m_p_extras != nullptr) m_p_extras->beginTick();
     if (!isPaused()) {
@@ -102,11 +110,10 @@ void World::tick() {
 void World::update() {
   if (m_in_update) return;
   const Scope scope(*this);
+  m_begun = true;
   {
     const During during(m_in_update);
-    for (const ObjectKey key : m_p_store->takeNewcomers()) {
-      if (m_p_store->isCurrent(key)) learnType(key.slot);
-    }
+    learnNewcomers();
     m_mover->moveAll();
     for (std::size_t i = 0; i < m_layers.size(); ++i) m_layers[i]->step(*this);  // handlers may add one
     deleteMarked();
@@ -135,8 +142,12 @@ void World::drawObjects() {
 
 void World::run() {
   // A handler that ran the game would wait for ticks that cannot begin before it returns.
-  if (m_in_tick || m_in_update || m_in_draw) return;
+  if (m_in_tick || m_in_update || m_in_draw) {
+    logOnce("GM.run() inside a handler does nothing: the game is running");
+    return;
+  }
   const Scope scope(*this);
+  m_begun = true;
   if (m_p_runner != nullptr) {
     m_p_runner->run(*this);
     return;
@@ -169,6 +180,9 @@ void World::setStarted(unsigned manager, bool started) {
 
 int World::onEvent(const Event* p_event) {
   if (p_event == nullptr) return 0;
+  if (&p_event->getType() == &UNDEFINED_EVENT)
+    logOnce("WM.onEvent() of a " + classNameOf(typeid(*p_event)) +
+            " without a type: setType() was forgotten");
   const Scope scope(*this);
   // Joins and leaves during a pause count when the game goes on.
   const EventType& type = p_event->getType();
@@ -184,17 +198,56 @@ bool World::deliver(ObjectKey key, const Event& event) {
   return true;
 }
 
+void World::learnNewcomers() {
+  for (const ObjectKey key : m_p_store->takeNewcomers()) {
+    if (m_p_store->isCurrent(key)) learnType(key.slot);
+  }
+}
+
 // The constructors of Object could not know what is derived from it.
 void World::learnType(std::uint32_t slot) {
   const Object& object = *m_p_store->object(slot);
+  if (m_p_page != nullptr) nameClass(slot);
   m_p_store->set(slot, WorldStore::kTyped, true);
   m_p_store->set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
-  m_p_store->set(slot, WorldStore::kDeaf, object.isDeaf());
+  const bool deaf = object.isDeaf();
+  m_p_store->set(slot, WorldStore::kDeaf, deaf);
+  if (deaf && !object.m_p_profile->interests.empty() && typeid(object) != typeid(Object)) {
+    logOnce(nameOf(object) +
+            " registers interest in events and has no eventHandler() that gets them: it must be declared "
+            "\"int eventHandler(const df::Event*) override\"");
+  }
+}
+
+// ---- what a report on a crash needs -----------------------------------------------------------------------
+
+void World::setActivityPage(ActivityPage* p_page) {
+  m_p_page = p_page;
+  m_p_activity = p_page != nullptr ? &p_page->now : m_own_activity.get();
+  m_named_event = 0;
+  if (p_page == nullptr) return;
+  const WorldStore::Walk walk(*m_p_store);
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    if (walk[i] != WorldStore::kNoSlot && m_p_store->has(walk[i], WorldStore::kTyped)) nameClass(walk[i]);
+  }
+  // Those that are sent without onEvent().
+  nameEvent(EventCollision());
+  nameEvent(EventOut());
+}
+
+void World::nameClass(std::uint32_t slot) {
+  const Object& object = *m_p_store->object(slot);
+  m_p_page->addName(classOf(object), typeid(object).name());
+}
+
+void World::nameEvent(const Event& event) {
+  m_named_event = classOf(event);
+  m_p_page->addName(m_named_event, typeid(event).name());
 }
 
 void World::quarantine(ObjectKey key, const std::string& why) {
   Object* p_o = find(key);
-  log("An object" + (p_o != nullptr ? " of type " + p_o->getType() : std::string()) +
+  log("An object" + (p_o != nullptr ? " of type " + nameOf(*p_o) : std::string()) +
       " failed and is taken out of the game: " + why);
   if (p_o == nullptr) return;
   p_o->setActive(false);

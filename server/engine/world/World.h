@@ -35,6 +35,8 @@
 
 namespace df {
 
+struct Activity;
+struct ActivityPage;
 class Capture;
 class InputQueue;
 class Interests;
@@ -88,6 +90,8 @@ class World {
   void run();
   /// Ticks begun since the world began.
   int getStepCount() const { return m_step_count; }
+  /// Was run() or tick() called, ever?
+  bool hasBegun() const { return m_begun; }
   void setGameOver(bool game_over = true);
   bool isGameOver() const { return m_game_over; }
   /// From now on a setGameOver() while a player's input is handled does not end the game: that player wants
@@ -226,7 +230,12 @@ class World {
   int getLogLevel() const { return m_log_level; }
   void setLogFlush(bool flush) { m_log_flush = flush; }
   bool getLogFlush() const { return m_log_flush; }
-  /// Count a call that was refused, and log it if it is the first for this type of Object.
+  /// Log the line, unless it was logged by this before. Of very many different ones the first ones alone.
+  void logOnce(const std::string& line) const;
+  /// The same for a line that only the report of a crash shows: where it is a fault, one follows.
+  void noteOnce(const std::string& line) const;
+  /// Count a call that was refused, and log it, with what would have been right, if it is the first of its
+  /// name for this type of Object.
   void refuse(const std::string& type, const char* what);
   /// Calls refused so far because of a number that was not finite or out of range.
   std::uint64_t getRefusals() const { return m_refusals; }
@@ -267,8 +276,12 @@ class World {
   InputQueue& inputs() { return *m_input; }
   /// Run the eventHandler() of an Object in the world; see deliver(). Defined in InterestDispatch.h.
   inline void runHandler(ObjectKey key, Object& object, const Event& event);
-  /// The event that an eventHandler() is handling; null if none is. For a report on a crash.
-  const Event* handledEvent() const { return m_p_handled; }
+  /// From now on note on this page what the game does (ActivityPage.h). Not owned; null for none.
+  void setActivityPage(ActivityPage* p_page);
+  /// Where the handler that runs is noted, with or without a page.
+  Activity& activity() { return *m_p_activity; }
+  /// Name the event's class on the page. Before the event is sent out.
+  inline void nameClassOf(const Event& event);
   /// Note what the Object's class overrides.
   void learnType(std::uint32_t slot);
   /// Draw a static look again.
@@ -285,6 +298,10 @@ class World {
   friend class InputQueue;
   friend class Object;
 
+  void learnNewcomers();
+  void explainMissing(const std::string& type) const;
+  void nameClass(std::uint32_t slot);
+  void nameEvent(const Event& event);
   void drawObjects();
   void deleteMarked();
   void deleteAll();
@@ -309,7 +326,8 @@ class World {
   std::uint64_t m_seed = 1;
   Runner* m_p_runner = nullptr;
   LogSink m_log_sink;
-  std::set<std::string> m_refused;  // types of Objects that were logged
+  mutable std::set<std::string> m_logged;   // by logOnce()
+  mutable std::set<std::string> m_missing;  // types that objectsOfType() was asked for in vain
   std::set<std::string> m_unowned;  // types marked for deletion, but not made with new, that were logged
   std::vector<std::string> m_help;
   std::uint64_t m_refusals = 0;
@@ -323,6 +341,7 @@ class World {
   int m_log_level = 0;
   unsigned m_started = 0;
   bool m_log_flush = false;
+  bool m_begun = false;
   bool m_game_over = false;
   bool m_game_over_leaves = false;
   bool m_is_default = false;
@@ -330,8 +349,11 @@ class World {
   bool m_in_tick = false;
   bool m_in_update = false;
   bool m_in_draw = false;
-  int m_handlers = 0;                  // eventHandler()s that are running, one inside the other
-  const Event* m_p_handled = nullptr;  // by the innermost of them
+  int m_handlers = 0;  // eventHandler()s that are running, one inside the other
+  std::unique_ptr<Activity> m_own_activity;
+  Activity* m_p_activity;            // that, or the page's
+  ActivityPage* m_p_page = nullptr;  // null: nobody reads what the game does
+  std::uintptr_t m_named_event = 0;  // class of the event that was named last
   bool m_shutdown_pending = false;
 };
 

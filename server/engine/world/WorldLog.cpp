@@ -1,5 +1,8 @@
 // The part of World that logs.
 
+#include <cstring>
+
+#include "engine/world/ActivityPage.h"
 #include "engine/world/LogFile.h"
 #include "engine/world/Settings.h"
 #include "engine/world/World.h"
@@ -7,7 +10,35 @@
 
 namespace df {
 
+namespace {
+
+/// Different lines of logOnce(). A game that makes up names by the thousand fills no memory.
+constexpr std::size_t kMaxLogged = 500;
+
+/// What a setter would have taken.
+const char* rightFor(const char* what) {
+  struct Rule {
+    const char* what;
+    const char* right;
+  };
+  static constexpr Rule kRules[] = {
+      {"setAltitude", "an altitude is 0 to 4"},
+      {"setSolidness", "a solidness is HARD, SOFT or SPECTRAL"},
+      {"setMass", "a mass is finite and above 0"},
+      {"setControls", "a table of controls has known keys and finite speeds"},
+      {"setText", "a text's id is 0 to 15, and it begins inside the window"},
+      {"setSize", "a window has 20 to 400 by 10 to 150 characters"},
+  };
+  for (const Rule& rule : kRules) {
+    if (std::strcmp(rule.what, what) == 0) return rule.right;
+  }
+  return "a number is not finite (a division by 0?) or out of range";
+}
+
+}  // namespace
+
 void World::log(const std::string& line) const {
+  if (m_p_page != nullptr) m_p_page->addLine(line);
   if (m_log_sink) {
     m_log_sink(line);
   } else {
@@ -15,11 +46,19 @@ void World::log(const std::string& line) const {
   }
 }
 
+void World::logOnce(const std::string& line) const {
+  if (m_logged.size() < kMaxLogged && m_logged.insert(line).second) log(line);
+}
+
+void World::noteOnce(const std::string& line) const {
+  if (m_p_page != nullptr && m_logged.size() < kMaxLogged && m_logged.insert(line).second)
+    m_p_page->addLine(line);
+}
+
 void World::refuse(const std::string& type, const char* what) {
   ++m_refusals;
-  if (!m_refused.insert(type).second) return;
-  log("Refused a number that is not finite or out of range: " + std::string(what) + ", object of type " +
-      type + " (further ones of this type are only counted)");
+  logOnce("Refused: " + std::string(what) + " of " + type + ": " + rightFor(what) +
+          " (further ones are only counted)");
 }
 
 }  // namespace df

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/world/Capture.h"
+#include "engine/world/ClassName.h"
 #include "engine/world/InputQueue.h"
 #include "engine/world/Interests.h"
 #include "engine/world/Mover.h"
@@ -39,7 +40,11 @@ void World::forget(Object* p_o) {
 }
 
 int World::markForDelete(Object* p_o) {
-  if (!owns(p_o)) return -1;
+  if (!owns(p_o)) {
+    logOnce(p_o == nullptr ? "WM.markForDelete() of a null pointer"
+                           : "WM.markForDelete() of an Object that is not in the world (any more)");
+    return -1;
+  }
   if (m_p_store->has(p_o->m_slot, WorldStore::kMarked)) return 0;
   m_p_store->set(p_o->m_slot, WorldStore::kMarked, true);
   m_deletions.push_back(p_o->key());
@@ -55,9 +60,9 @@ void World::deleteMarked() {
       delete p_o;
       continue;
     }
-    if (m_unowned.insert(p_o->getType()).second) {
-      log("Marked for deletion, but not made with new, so only removed: object of type " + p_o->getType());
-    }
+    const std::string name = nameOf(*p_o);
+    if (m_unowned.insert(name).second)
+      log("Marked for deletion, but not made with new, so only removed: object of type " + name);
     removeObject(p_o);
   }
   m_deletions.clear();
@@ -95,7 +100,8 @@ void World::shutDown() {
   m_views->reset();
   m_input->clear();
   m_random = Random(m_seed);
-  m_refused.clear();
+  m_logged.clear();
+  m_missing.clear();
   m_unowned.clear();
   m_help.clear();
   if (m_p_extras != nullptr) m_p_extras->reset();
@@ -134,10 +140,14 @@ bool World::getSweptCollisions() const {
 }
 
 int World::moveObject(Object* p_o, Vector where) {
-  if (!owns(p_o)) return -1;
+  if (!owns(p_o)) {
+    logOnce("WM.moveObject() of " +
+            std::string(p_o == nullptr ? "a null pointer" : "an Object that is not in the world (any more)"));
+    return -1;
+  }
   const auto target = toFixed(where);
   if (!target) {
-    refuse(p_o->getType(), "moveObject");
+    refuse(nameOf(*p_o), "moveObject");
     return -1;
   }
   const Scope scope(*this);

@@ -1,5 +1,8 @@
 // The part of World that searches: Objects by what is true of them, collisions and room without a move.
 
+#include <typeinfo>
+
+#include "engine/world/ClassName.h"
 #include "engine/world/CollisionRule.h"
 #include "engine/world/FreeRoom.h"
 #include "engine/world/HitList.h"
@@ -9,6 +12,13 @@
 #include "engine/world/WorldStore.h"
 
 namespace df {
+
+namespace {
+
+/// Types that objectsOfType() looks into when it finds none.
+constexpr std::size_t kMaxMissing = 100;
+
+}  // namespace
 
 template <class Wanted>
 ObjectList World::collect(Wanted wanted) const {
@@ -26,9 +36,23 @@ ObjectList World::getAllObjects(bool inactive) const {
 }
 
 ObjectList World::objectsOfType(const std::string& type) const {
-  return collect([&](auto s) {
+  const ObjectList found = collect([&](auto s) {
     return m_p_store->has(s, WorldStore::kActive) && m_p_store->object(s)->getType() == type;
   });
+  if (found.isEmpty()) explainMissing(type);
+  return found;
+}
+
+// Once for each type that was asked for in vain: the look at all Objects is not free.
+void World::explainMissing(const std::string& type) const {
+  if (m_missing.size() >= kMaxMissing || !m_missing.insert(type).second) return;
+  const auto isNamed = [&](auto s) {
+    const std::string name = classNameOf(typeid(*m_p_store->object(s)));
+    return name == type || name.ends_with("::" + type);
+  };
+  if (collect(isNamed).isEmpty()) return;
+  logOnce("WM.objectsOfType(\"" + type + "\") finds none: class " + type + " does not call setType(\"" +
+          type + "\")");
 }
 
 ObjectList World::solidObjects() const {

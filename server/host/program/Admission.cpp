@@ -24,9 +24,10 @@ void describe(const SealedChannel* channel, wire::Welcome& welcome) {
   welcome.set_epoch(channel->epoch());
 }
 
-/// The colours that players get, in turn; black would not be seen.
+/// The colours that players get, in turn. Blue is the darkest on a black background, so it is the last; black
+/// would not be seen.
 constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW,
-                                       df::RED,  df::BLUE,  df::WHITE};
+                                       df::RED,  df::WHITE, df::BLUE};
 
 df::Color colorOf(std::uint64_t nth) {
   return kPlayerColors[nth % std::size(kPlayerColors)];

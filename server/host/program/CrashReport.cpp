@@ -11,10 +11,10 @@
 #include <cstring>
 #include <ctime>
 #include <string_view>
-#include <typeinfo>
 
-#include "engine/events/Event.h"
+#include "engine/world/ActivityPage.h"
 #include "engine/world/World.h"
+#include "host/world/ActivityReader.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad::crash {
@@ -29,7 +29,8 @@ constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 char g_name[64];
 int g_files[2] = {STDERR_FILENO, -1};
 long g_utc_offset = 0;  ///< seconds east
-std::atomic<const df::World*> g_world = nullptr;
+df::World* g_p_world = nullptr;
+constinit df::ActivityPage g_page{};
 std::atomic<std::uint64_t> g_tick = 0;       ///< that is running
 std::atomic<std::uint64_t> g_last_tick = 0;  ///< that has begun
 std::atomic_flag g_reported;
@@ -97,24 +98,9 @@ class Line {
   }
 
  private:
-  char m_text[256];
+  char m_text[768];
   std::size_t m_size = 0;
 };
-
-/// The class's own name, of "N2df9EventStepE" as of "9EventStep"; all of it where it is something else.
-std::string_view lastName(std::string_view mangled) {
-  std::string_view rest = mangled.substr(mangled.starts_with('N') ? 1 : 0);
-  std::string_view last = mangled;
-  while (!rest.empty() && rest.front() >= '0' && rest.front() <= '9') {
-    std::size_t size = 0;
-    for (; !rest.empty() && rest.front() >= '0' && rest.front() <= '9'; rest.remove_prefix(1))
-      size = size * 10 + static_cast<std::size_t>(rest.front() - '0');
-    if (size == 0 || size > rest.size()) return mangled;
-    last = rest.substr(0, size);
-    rest.remove_prefix(size);
-  }
-  return last;
-}
 
 void addWhere(Line& line) {
   if (const std::uint64_t tick = g_tick; tick != 0) {
@@ -126,17 +112,28 @@ void addWhere(Line& line) {
   }
 }
 
-// The end of the line in a second step: if the event is damaged, its beginning is written nevertheless.
 void writeLine(int signal) {
   Line line;
   line.addTime(time(nullptr) + g_utc_offset).add(g_name).add(": crashed (").add(nameOf(signal)).add(")");
   addWhere(line);
-  line.write();
-  const df::World* p_world = g_world;
-  const df::Event* p_event = p_world != nullptr && g_tick != 0 ? p_world->handledEvent() : nullptr;
-  Line end;
-  if (p_event != nullptr) end.add(", while an Object handled ").add(lastName(typeid(*p_event).name()));
-  end.add("\n").write();
+  if (g_tick != 0) line.add(describeActivity(g_page, "handled").view());
+  line.add("\n").write();
+}
+
+void writeLog() {
+  for (std::size_t back = df::ActivityPage::kLines; back-- > 0;) {
+    const ActivityText text = logLine(g_page, back);
+    if (!text.empty()) Line().add(g_name).add(": the game's log: ").add(text.view()).add("\n").write();
+  }
+}
+
+void writeHint() {
+  Line()
+      .add(g_name)
+      .add(": to see where: gdb -ex run -ex bt --args ")
+      .add(g_name)
+      .add(" (docs/when-it-goes-wrong.md)\n")
+      .write();
 }
 
 void onCrash(int signal, siginfo_t* p_info, void* /*context*/) {
@@ -144,6 +141,8 @@ void onCrash(int signal, siginfo_t* p_info, void* /*context*/) {
     LineLog::waitUntilWritten(
         kForLog);  // atomics and sleeps: what the game logged last is what is wanted now
     writeLine(signal);
+    writeLog();
+    writeHint();
   }
   struct sigaction action {};
   action.sa_handler = SIG_DFL;
@@ -193,8 +192,22 @@ Report::~Report() {
   g_files[1] = -1;
 }
 
-void setWorld(const df::World* p_world) {
-  g_world = p_world;
+void setWorld(df::World* p_world) {
+  if (g_p_world != nullptr) g_p_world->setActivityPage(nullptr);
+  g_p_world = p_world;
+  if (p_world != nullptr) p_world->setActivityPage(&g_page);
+}
+
+std::string activity(std::string_view verb) {
+  return std::string(describeActivity(g_page, verb).view());
+}
+
+bool inTick() {
+  return g_tick != 0;
+}
+
+std::string where() {
+  return " in tick " + std::to_string(g_tick) + activity("handled");
 }
 
 void noteTick(std::uint64_t number) {

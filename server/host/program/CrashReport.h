@@ -1,8 +1,9 @@
-// The line that a crash of this process leaves: signal, tick, and what the game was handling.
+// What a crash of this process leaves: a line with signal, tick and handler, and the end of the game's log.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace df {
 class World;
@@ -10,10 +11,11 @@ class World;
 
 namespace naiad::crash {
 
-/// While it lives, a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) writes one line to stderr and, if that
-/// is another file, to `log`, and then has the effect that it has without this: core dumps and exit status
-/// are those of the signal. A signal that is handled already (by a sanitizer, by the game) is left alone. The
-/// thread that makes it may overflow its stack. One at a time.
+/// While it lives, a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) writes a line to stderr and, if that
+/// is another file, to `log`, the last lines of the game's log and where to read on, and then has the effect
+/// that it has without this: core dumps and exit status are those of the signal. A signal that is handled
+/// already (by a sanitizer, by the game) is left alone. The thread that makes it may overflow its stack. One
+/// at a time.
 class Report {
  public:
   /// `name`: of the program. `log`: a descriptor; below 0: none.
@@ -24,8 +26,17 @@ class Report {
   Report& operator=(const Report&) = delete;
 };
 
-/// Crashes happen in ticks of this world from now on; null: of none.
-void setWorld(const df::World* p_world);
+/// Crashes happen in ticks of this world from now on; null: of none. It is still alive when the next call
+/// replaces it.
+void setWorld(df::World* p_world);
+
+/// ", while Ship handles EventStep" (`verb`: "handles"), at this moment; empty if no handler runs. Any
+/// thread.
+std::string activity(std::string_view verb);
+
+/// Is a tick running? And " in tick 17, while Ship handled EventStep". On the thread that ticks.
+bool inTick();
+std::string where();
 
 /// This tick begins; 0: one has ended. On the thread that ticks.
 void noteTick(std::uint64_t number);

@@ -457,7 +457,8 @@ void Host::useIdentity(std::optional<ServerIdentity> identity) {
 // On the watchdog's thread. The game may hold any lock of the process, that of the log too, so nothing is
 // destroyed, and the log is not waited for without end.
 void Host::endProcess(const ForcedEnd& end, SideLog& log) {
-  log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick)
+  log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick) +
+                     crash::activity("handles")
                : std::string("ended at once by a second signal"));
   wire::ServerMessage message;
   message.mutable_goodbye()->set_sentence(kShuttingDown);

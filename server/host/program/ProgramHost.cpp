@@ -50,7 +50,10 @@ std::string programName() {
   return program_invocation_short_name;
 }
 
+bool g_failed = false;  ///< and has said why
+
 [[noreturn]] void fail(ExitCode code, const std::string& sentence) {
+  g_failed = true;
   LineLog::waitUntilWritten(kLogTime);
   std::cerr << programName() << ": " << sentence << std::endl;
   std::exit(code);
@@ -178,12 +181,24 @@ class TerminalPlayer {
   StartCommand::ofProcess().run(port);
 }
 
+/// What a process that ends by itself has left out, if anything: a beginner would look at a silent shell.
+void reportEnd() {
+  if (g_failed) return;
+  if (crash::inTick()) {
+    std::cerr << programName() << ": exit() was called" << crash::where()
+              << "; GM.setGameOver() ends a game in order" << std::endl;
+  } else if (!df::World::current().hasBegun()) {
+    std::cerr << programName() << ": the program ended without GM.run(), so nothing was played" << std::endl;
+  }
+}
+
 ProgramHost g_program;
 [[maybe_unused]] const bool g_installed = (df::running::setProgram(&g_program), true);
 
 }  // namespace
 
 void ProgramHost::startUp(df::World& world) {
+  m_started = true;
   silenceParseErrors();
   const df::Config& config = df::Config::getInstance();
   m_options = {};
@@ -200,6 +215,12 @@ void ProgramHost::startUp(df::World& world) {
   if (const auto socket = takeWorldSocket()) {
     m_world_socket = socket;
     df::keepLogFiles();
+    world.setActivityPage(openWorldPage());
+  } else {
+    static const crash::Report crashes(programName(), -1);
+    crash::setWorld(&world);
+    static const bool registered = std::atexit([] { reportEnd(); }) == 0;
+    static_cast<void>(registered);
   }
   if (!m_options.headless) surviveBrokenPipes();
   addFolders(world);
@@ -223,6 +244,7 @@ void ProgramHost::seed(df::World& world) const {
 }
 
 void ProgramHost::run(df::World& world) {
+  if (!m_started) fail(kGameFailed, "GM.run() was called before GM.startUp(), which reads the settings");
   if (m_stopped) return world.setGameOver();
   // A world in a process of its own has one run: its game that runs again finds that it is over.
   if (m_world_socket)
@@ -241,7 +263,9 @@ void ProgramHost::run(df::World& world) {
 
 void ProgramHost::runHeadless(df::World& world) {
   for (; !world.isGameOver() && (m_options.ticks == 0 || m_ticks < m_options.ticks); ++m_ticks) {
+    crash::noteTick(static_cast<std::uint64_t>(world.getStepCount()) + 1);
     world.tick();
+    crash::noteTick(0);
   }
 }
 

@@ -28,6 +28,7 @@ class ProgramHost : public df::running::Program {
   void runHeadless(df::World& world);
   void serve(df::World& world);
 
+  bool m_started = false;  ///< startUp() was called
   HostOptions m_options;
   std::set<std::string> m_given;      ///< names of options that the environment or df-config.txt gave
   int m_ticks = 0;                    ///< without players, in all runs

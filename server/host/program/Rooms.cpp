@@ -17,6 +17,9 @@ constexpr std::uint64_t kShortestRound = 30;  ///< ticks; a shorter one has hard
 constexpr int kMaxShortRounds = 5;            ///< in a row
 constexpr std::size_t kEndingWorlds = 8;      ///< of players who left, beside one for each player allowed
 
+constexpr const char* kHowToSeeMore =
+    "to see where: run the game by itself in a debugger, as docs/when-it-goes-wrong.md says";
+
 }  // namespace
 
 Rooms::Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
@@ -172,6 +175,7 @@ void Rooms::checkWorlds() {
   if (!m_new_world) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
+    if (const auto warning = room->port().takeWarning()) m_log(*warning);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
@@ -200,6 +204,8 @@ void Rooms::countEnd(WorldEnd::Why why) {
 // soon as it begins: it would do so for ever.
 void Rooms::endRound(Room& room, const WorldEnd& end) {
   m_log("the round is over: the game " + end.text + (end.when.empty() ? "" : " " + end.when));
+  for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
+  if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
   countEnd(end.why);
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "host/program/CrashReport.h"
 #include "host/program/HangWatch.h"
 
 namespace naiad {
@@ -55,11 +56,12 @@ void Watchdog::run() {
         break;
       case HangWatch::Step::kReport:
         m_log("the game has not finished tick " + std::to_string(number) + " for " +
-              std::to_string(HangWatch::kHang.count()) + " s: it hangs, and all players wait");
+              std::to_string(HangWatch::kHang.count()) + " s: it hangs, and all players wait" +
+              crash::activity("handles"));
         break;
       case HangWatch::Step::kEndHung:
       case HangWatch::Step::kEndAtOnce:
-        m_end({.hung = tick && Clock::now() - began >= HangWatch::kTickBeforeEnd,
+        m_end({.hung = tick && Clock::now() - began >= HangWatch::kHang,
                .tick = tick.value_or(0),
                .signal = m_signals.signal()});
     }

@@ -53,6 +53,10 @@ struct Installed {
 ExitCode play(const naiad::GameModule& game) {
   try {
     const int result = game.main();
+    if (!df::World::current().hasBegun() && result == 0) {
+      std::cerr << "dfserver: the game's main() returned without GM.run(), so nothing was played\n";
+      return kGameFailed;
+    }
     if (result == 0) return kOk;
     std::cerr << "dfserver: the game ended with code " << result << "\n";
   } catch (const std::exception& error) {
@@ -100,7 +104,8 @@ ExitCode failGame(const std::string& how) {
 ExitCode failPreview(const naiad::WorldEnd& end) {
   if (end.why == naiad::WorldEnd::kGameOver) return kOk;
   if (end.exit_code == kNoGame) return kNoGame;  // and it has said why
-  return failGame(end.text);
+  for (const std::string& line : end.last_lines) std::cerr << "dfserver: the game's log: " << line << "\n";
+  return failGame(end.text + (end.when.empty() ? " before GM.run()" : " " + end.when));
 }
 
 void useLogOptions(const naiad::HostOptions& options, naiad::LineLog& lines) {
@@ -177,6 +182,7 @@ int serve(Start& start) {
   naiad::HostOptions& options = start.options;
   if (const auto socket = naiad::takeWorldSocket()) {
     naiad::LineLog log("", naiad::LineLog::Writer::kCaller);
+    df::World::current().setActivityPage(naiad::openWorldPage());
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
     return play(naiad::GameModule(options.game), " in a world of its own", world, options, log,
                 "");  // the front marks
@@ -185,6 +191,7 @@ int serve(Start& start) {
   useLogOptions(options, log);
   if (naiad::wantsWorlds(options)) return serveWorlds(start, log);
   const naiad::crash::Report crashes("dfserver", log.descriptor());
+  naiad::crash::setWorld(&df::World::current());
   const naiad::GameModule game(options.game);
   naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
   watchReloads(start, host, log);

@@ -25,7 +25,7 @@ namespace naiad {
 
 namespace {
 
-constexpr int kFailure = STDERR_FILENO + 2;  ///< in the world's process, until its program is executed
+constexpr int kFailure = STDERR_FILENO + 3;  ///< in the world's process, until its program is executed
 constexpr int kFirstFree = kFailure + 1;
 constexpr int kFront = STDERR_FILENO + 1;  ///< in the launcher: its end of the front's socket
 
@@ -86,7 +86,7 @@ std::optional<WorldDescriptors> receiveDescriptors(int from) {
   _exit(127);
 }
 
-/// From 3 to 5 are what this is about, so that none of them is closed before it is copied.
+/// From 3 to 6 are what this is about, so that none of them is closed before it is copied.
 int moveUp(int descriptor) {
   return fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree);
 }
@@ -94,12 +94,14 @@ int moveUp(int descriptor) {
 void arrangeDescriptors(const WorldDescriptors& theirs, int failure) {
   const int world = moveUp(theirs.world);
   const int output = moveUp(theirs.output);
+  const int page = moveUp(theirs.page);
   dup2(moveUp(failure), kFailure);
   fcntl(kFailure, F_SETFD, FD_CLOEXEC);
   dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
   dup2(world, kWorldSocket);
+  dup2(page, kWorldPage);
   close_range(kFirstFree, ~0u, 0);
 }
 
@@ -173,7 +175,7 @@ void waitForEnd(pid_t world, int front, int children) {
   const pid_t world = fork();
   if (world == 0) runWorld(descriptors, failure[1], self, program, support);
   KeeperStart begun{world < 0 ? errno : 0, world};
-  for (const int one : {failure[1], descriptors.world, descriptors.output}) close(one);
+  for (const int one : {failure[1], descriptors.world, descriptors.output, descriptors.page}) close(one);
   ssize_t got = 0;
   int error = 0;
   while ((got = read(failure[0], &error, sizeof error)) < 0 && errno == EINTR) continue;
@@ -248,7 +250,7 @@ class Launcher {
 }  // namespace
 
 void WorldDescriptors::closeAll() const {
-  for (const int one : {world, keeper, output}) close(one);
+  for (const int one : {world, keeper, output, page}) close(one);
 }
 
 void runLauncher(int front, const WorldProgram& program) {

@@ -10,6 +10,7 @@ struct WorldDescriptors {
   int world = -1;
   int keeper = -1;
   int output = -1;
+  int page = -1;
 
   void closeAll() const;
 };

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/world/ActivityPage.h"
 #include "host/world/WorldKeeper.h"
 
 namespace naiad {
@@ -59,6 +61,15 @@ std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
   std::pair<Descriptor, Descriptor> pair{Descriptor(ends[0]), Descriptor(ends[1])};
   require(fcntl(ends[0], F_SETFL, O_NONBLOCK) == 0, what);
   return pair;
+}
+
+/// Memory of an ActivityPage's size for good: a world that cut it off would end its reader by SIGBUS.
+Descriptor sharedPage(const char* what) {
+  Descriptor page(memfd_create("df-activity", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  require(page.get() >= 0 && ftruncate(page.get(), sizeof(df::ActivityPage)) == 0 &&
+              fcntl(page.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0,
+          what);
+  return page;
 }
 
 bool sendDescriptors(int to, const WorldDescriptors& numbers) {
@@ -119,8 +130,10 @@ StartedWorld WorldLauncher::start() const {
   auto [our_world, their_world] = socketPair(SOCK_STREAM, kWhat);
   auto [our_keeper, their_keeper] = socketPair(SOCK_STREAM, kWhat);
   auto [our_output, their_output] = outputPipe(kWhat);
-  require(sendDescriptors(m_socket, {their_world.get(), their_keeper.get(), their_output.get()}), kWhat);
-  return {our_world.release(), our_keeper.release(), our_output.release()};
+  Descriptor page = sharedPage(kWhat);
+  require(sendDescriptors(m_socket, {their_world.get(), their_keeper.get(), their_output.get(), page.get()}),
+          kWhat);
+  return {our_world.release(), our_keeper.release(), our_output.release(), page.release()};
 }
 
 }  // namespace naiad

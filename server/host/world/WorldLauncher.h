@@ -34,6 +34,7 @@ struct StartedWorld {
   int socket = -1;  ///< our end of the world's; the caller's to close
   int keeper = -1;  ///< of the keeper's; the caller's to close, which ends the world
   int output = -1;  ///< what it prints, for an OutputRelay; the caller's to close
+  int page = -1;    ///< memory that it shares with us, an ActivityPage; the caller's to close
 };
 
 /// The world's program is executed, or cannot be.

@@ -28,8 +28,10 @@ struct WorldEnd {
   } why = kGameOver;
   std::string text = {};  ///< for the log and for players, like "crashed (SIGABRT)"
   int exit_code = 0;      ///< of kCrashed, unless it was a signal
-  std::string when =
-      {};  ///< for the log, of a failure: "in tick 17", "after tick 17"; empty before the first
+  /// For the log, of a failure: "in tick 17, while Ship handled EventStep", "after tick 17"; empty before the
+  /// first.
+  std::string when = {};
+  std::vector<std::string> last_lines = {};  ///< of the game's log, of a failure; escaped
 };
 
 class WorldPort {
@@ -76,6 +78,8 @@ class WorldPort {
   virtual void checkProcess(std::uint32_t /*tick*/) {}
   /// How it ended; nothing while it lives.
   virtual std::optional<WorldEnd> end() const { return std::nullopt; }
+  /// A line for the log, once: the tick does not end.
+  virtual std::optional<std::string> takeWarning() { return std::nullopt; }
   /// Let it come to its end; end() says when it has.
   virtual void close() {}
 

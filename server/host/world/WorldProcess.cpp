@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,12 +15,17 @@
 #include <system_error>
 #include <utility>
 
+#include "host/world/ActivityReader.h"
+
 namespace naiad {
 
 namespace {
 
 /// The time between two checks counts up to this: if the host itself was held up, the world was not late.
 constexpr std::chrono::milliseconds kMaxBetweenChecks{100};
+
+/// In a handler, and not by GM.setGameOver().
+constexpr const char* kExited = "called exit()";
 
 /// For a keeper to end a world with all that it has started.
 constexpr int kKillMillis = 5'000;
@@ -29,12 +35,21 @@ std::string nameOf(int signal) {
   return p_name != nullptr ? "SIG" + std::string(p_name) : std::to_string(signal);
 }
 
+/// Ours to read alone. Null if there is none.
+const df::ActivityPage* mapPage(int file) {
+  if (file < 0) return nullptr;
+  void* p_memory = mmap(nullptr, sizeof(df::ActivityPage), PROT_READ, MAP_SHARED, file, 0);
+  ::close(file);
+  return p_memory != MAP_FAILED ? static_cast<const df::ActivityPage*>(p_memory) : nullptr;
+}
+
 }  // namespace
 
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
       m_keeper(started.keeper),
       m_output(started.output, std::move(print)),
+      m_p_page(mapPage(started.page)),
       m_checked_at(Clock::now()) {
   readHead();
 }
@@ -45,6 +60,7 @@ WorldProcess::~WorldProcess() {
     readKeeper(kKillMillis);
   }
   ::close(m_keeper);
+  if (m_p_page != nullptr) munmap(const_cast<df::ActivityPage*>(m_p_page), sizeof *m_p_page);
 }
 
 // The keeper takes it as the end of the host.
@@ -102,6 +118,7 @@ void WorldProcess::tick(bool watched, bool truth) {
   if (!writeTurn(std::exchange(m_turn, {}), m_out)) return fail(WorldEnd::kBroken, "was asked too much");
   m_state = State::kTicking;
   m_waited = {};
+  m_warned = false;
   // A failure shows when the answer is read.
   asio::async_write(m_socket, asio::buffer(m_out), [](const asio::error_code&, std::size_t) {});
 }
@@ -213,6 +230,10 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   }
   // Its last frames are read first.
   if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
+  if (m_state == State::kTicking && m_waited > kSlow && !std::exchange(m_warned, true)) {
+    m_warning = "the game has not finished tick " + std::to_string(m_next_tick - 1) + " for " +
+                std::to_string(kSlow.count()) + " s: it hangs, and all players wait" + activity("handles");
+  }
   if (m_waited <= patience()) return;
   if (m_state == State::kEnding) return kill();
   fail(WorldEnd::kHung, m_state == State::kStarting ? "did not begin" : "did not answer any more");
@@ -224,7 +245,9 @@ void WorldProcess::finish(int status) {
   asio::error_code ignored;
   m_socket.close(ignored);
   m_end = m_failure ? *m_failure : endOf(status);
-  if (m_end->why != WorldEnd::kGameOver) m_end->when = when();
+  if (m_end->why == WorldEnd::kGameOver) return;
+  m_end->when = when();
+  m_end->last_lines = lastLines();
 }
 
 WorldEnd WorldProcess::endOf(int status) const {
@@ -233,13 +256,26 @@ WorldEnd WorldProcess::endOf(int status) const {
   if (WIFEXITED(status) && WEXITSTATUS(status) != 0)
     return {WorldEnd::kCrashed, "ended with code " + std::to_string(WEXITSTATUS(status)),
             WEXITSTATUS(status)};
-  return {WorldEnd::kGameOver, "is over"};
+  return {WorldEnd::kGameOver, m_in_tick && !m_expected && WIFEXITED(status) ? kExited : "is over"};
 }
 
 // By the host's numbers, as the log's other lines have them.
 std::string WorldProcess::when() const {
   if (!m_began) return {};
-  return (m_in_tick ? "in tick " : "after tick ") + std::to_string(m_next_tick - 1);
+  const std::string number = std::to_string(m_next_tick - 1);
+  return m_in_tick ? "in tick " + number + activity("handled") : "after tick " + number;
+}
+
+std::string WorldProcess::activity(std::string_view verb) const {
+  return m_p_page != nullptr ? std::string(describeActivity(*m_p_page, verb).view()) : std::string();
+}
+
+std::vector<std::string> WorldProcess::lastLines() const {
+  std::vector<std::string> lines;
+  for (std::size_t back = df::ActivityPage::kLines; m_p_page != nullptr && back-- > 0;) {
+    if (const ActivityText line = logLine(*m_p_page, back); !line.empty()) lines.emplace_back(line.view());
+  }
+  return lines;
 }
 
 }  // namespace naiad

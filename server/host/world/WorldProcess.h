@@ -9,8 +9,11 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "engine/world/ActivityPage.h"
 #include "host/world/OutputRelay.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
@@ -24,6 +27,8 @@ class WorldProcess : public WorldPort {
 
   /// For an answer; then the game hangs.
   static constexpr std::chrono::seconds kAnswerTime{5};
+  /// For an answer; then the log says what the game is doing.
+  static constexpr std::chrono::seconds kSlow{2};
   /// From the start of the process to GM.run().
   static constexpr std::chrono::seconds kStartTime{30};
   /// From the end of the game to that of its process: what main() does after GM.run().
@@ -55,6 +60,7 @@ class WorldProcess : public WorldPort {
   df::Canvas renderPlayer(std::uint32_t player) const override;
   void checkProcess(std::uint32_t tick) override;
   std::optional<WorldEnd> end() const override { return m_end; }
+  std::optional<std::string> takeWarning() override { return std::exchange(m_warning, std::nullopt); }
   void close() override;
 
   /// What the game has set up by GM.run(); nothing before.
@@ -77,6 +83,8 @@ class WorldProcess : public WorldPort {
   void finish(int status);
   WorldEnd endOf(int status) const;
   std::string when() const;
+  std::string activity(std::string_view verb) const;
+  std::vector<std::string> lastLines() const;
   void readKeeper(int patience_millis);
   template <class Message>
   std::optional<Message> takeFromKeeper(int patience_millis);
@@ -86,7 +94,8 @@ class WorldProcess : public WorldPort {
   asio::local::stream_protocol::socket m_socket;
   int m_keeper;  ///< the socket of its keeper
   OutputRelay m_output;
-  bool m_started = false;  ///< as the keeper says
+  const df::ActivityPage* m_p_page = nullptr;  ///< null: there is none
+  bool m_started = false;                      ///< as the keeper says
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
   std::optional<int> m_status;        ///< once it and all that it had started have ended
@@ -98,7 +107,9 @@ class WorldProcess : public WorldPort {
   std::uint32_t m_pictured = 0;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
-  bool m_in_tick = false;   ///< one was sent, and not answered
+  bool m_in_tick = false;  ///< one was sent, and not answered
+  bool m_warned = false;   ///< of this tick
+  std::optional<std::string> m_warning;
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
   WorldTurn m_turn;         ///< the next one
   std::string m_out;

@@ -1,6 +1,8 @@
 #include "host/world/WorldStart.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 
 #include <charconv>
 #include <cstdlib>
@@ -41,6 +43,15 @@ std::optional<int> takeWorldSocket() {
   unsetenv(kVariable);  // programs that the game starts are no worlds
   if (!good || fcntl(socket, F_SETFD, FD_CLOEXEC) != 0) return std::nullopt;
   return socket;
+}
+
+df::ActivityPage* openWorldPage() {
+  struct stat facts {};
+  if (fstat(kWorldPage, &facts) != 0 || facts.st_size != sizeof(df::ActivityPage)) return nullptr;
+  void* p_memory = mmap(nullptr, sizeof(df::ActivityPage), PROT_READ | PROT_WRITE, MAP_SHARED, kWorldPage, 0);
+  if (p_memory == MAP_FAILED) return nullptr;
+  close(kWorldPage);
+  return static_cast<df::ActivityPage*>(p_memory);
 }
 
 }  // namespace naiad

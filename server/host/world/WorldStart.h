@@ -7,16 +7,25 @@
 #include <optional>
 #include <string>
 
+#include "engine/world/ActivityPage.h"
+
 namespace naiad {
 
 /// The socket's descriptor in a world's process.
 inline constexpr int kWorldSocket = STDERR_FILENO + 1;
+
+/// That of the memory which it shares with its host: an ActivityPage.
+inline constexpr int kWorldPage = kWorldSocket + 1;
 
 /// What the environment of a world's process has for takeWorldSocket().
 std::string worldSocketEntry();
 
 /// In a world's process: its end of the socket. Nothing in others, and when it was asked for before.
 std::optional<int> takeWorldSocket();
+
+/// In a world's process, after takeWorldSocket() had one: the page for World::setActivityPage(), which stays
+/// for ever. Null if there is none, which costs its host a word in the log.
+df::ActivityPage* openWorldPage();
 
 /// The working directory of when this library was loaded: a game's main() may go elsewhere.
 const std::string& firstDirectory();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/world/ClassName.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyLayer.h"
@@ -39,7 +40,7 @@ BodyRow& Body::row() const {
 }
 
 int Body::refuseAs(const char* what) const {
-  if (World* p_world = getWorld()) p_world->refuse(getType(), what);
+  if (World* p_world = getWorld()) p_world->refuse(nameOf(*this), what);
   return -1;
 }
 

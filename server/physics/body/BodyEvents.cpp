@@ -26,6 +26,7 @@ bool hearsEnds(const WorldStore& store, ObjectKey key) {
 void sendContactEnd(World& world, const BodyContact& contact) {
   const WorldStore& store = world.store();
   const EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
+  world.nameClassOf(event);
   if (hearsEnds(store, contact.first)) {
     world.runHandler(contact.first, *event.getObject1(), event);
     if (!store.isStill(contact.first) || !store.isStill(contact.second)) return;

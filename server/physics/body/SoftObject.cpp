@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/world/ClassName.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/Body.h"
@@ -73,7 +74,7 @@ const naiad::physics::SoftBody& SoftBody::body() const {
 }
 
 int SoftBody::refuseAs(const char* what) const {
-  if (World* p_world = getWorld()) p_world->refuse(getType(), what);
+  if (World* p_world = getWorld()) p_world->refuse(nameOf(*this), what);
   return -1;
 }
 

@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Reserve.h"
 namespace naiad::physics {
+
+void SubstepWorld::expect(std::size_t bodies) {
+  reserveFor(m_bodies, bodies);
+  reserveFor(m_states, bodies + 1);
+  reserveFor(m_active, bodies);
+}
 
 int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
                              std::span<const ConvexShape> shapes) {
@@ -29,6 +36,7 @@ int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
 }
 
 void SubstepWorld::measure(SubstepBody& b) {
+  ++b.version;
   b.turned.resize(b.shapes.size());
   b.reach = 0;
   b.thickness = b.shapes.empty() ? 0 : kLargestShape;
@@ -59,8 +67,10 @@ void SubstepWorld::enter(int id) {
   if (!isMovable(b)) markChanged(id);
   if (b.shapes.empty()) return;
   const Bounds bounds = turnShapes(b);
-  b.proxy =
-      m_broad.add(static_cast<std::uint32_t>(id), gridBounds(b.body.place, bounds, 0), isMovable(b), b.order);
+  const bool moves = isMovable(b);
+  if (moves) b.margin = marginOf(b);
+  const GridBounds wide = moves ? wideBounds(b, bounds) : gridBounds(b.body.place, bounds, 0);
+  b.proxy = m_broad.add(static_cast<std::uint32_t>(id), wide, moves, b.order);
 }
 
 // Out of the broad phase; its contacts are forgotten.

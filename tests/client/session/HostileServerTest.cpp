@@ -25,7 +25,7 @@ TEST_F(HostileServerTest, ChatIsCutFilteredAndBounded) {
   entry->set_name("Bob");
   entry->set_color(df::GREEN);
   receive(players);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 600; ++i) {
     wire::ServerMessage message;
     message.mutable_chat()->set_player(9);
     message.mutable_chat()->set_text("\033]0;owned\007" + std::string(500, 'x'));
@@ -36,7 +36,7 @@ TEST_F(HostileServerTest, ChatIsCutFilteredAndBounded) {
   EXPECT_EQ(session->chat().back().color, df::GREEN);
   EXPECT_EQ(session->chat().back().text.size(), kMaxChatLength);
   EXPECT_EQ(session->chat().back().text.substr(0, 10), "?]0;owned?");
-  EXPECT_EQ(session->counters().chat_lines, 300u);
+  EXPECT_EQ(session->counters().chat_lines, 600u);
 }
 
 TEST_F(HostileServerTest, SendsOnlyDrawableChat) {

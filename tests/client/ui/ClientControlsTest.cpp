@@ -159,5 +159,26 @@ TEST(ClientControls, ChatIsBounded) {
   EXPECT_EQ(controls.chatText().size(), kMaxChatLength);
 }
 
+TEST(ClientControls, KeysScrollTheChatWhileItsLineIsOpen) {
+  ClientControls controls;
+  controls.noteShown({.max_chat_scroll = 20, .chat_page = 6});
+  EXPECT_EQ(controls.takeKey({UPARROW}), Result::kGame);
+  controls.takeKey(kPrefix);
+  controls.takeKey(typed(T, U't'));
+  EXPECT_EQ(controls.takeKey({UPARROW}), Result::kHandled);
+  EXPECT_EQ(controls.chatScroll(), 1);
+  controls.takeKey({PAGEUP});
+  EXPECT_EQ(controls.chatScroll(), 6);
+  for (int i = 0; i < 9; ++i) controls.takeKey({PAGEUP});
+  EXPECT_EQ(controls.chatScroll(), 20);
+  controls.takeKey({DOWNARROW});
+  EXPECT_EQ(controls.chatScroll(), 19);
+  for (int i = 0; i < 9; ++i) controls.takeKey({PAGEDOWN});
+  EXPECT_EQ(controls.chatScroll(), 0);
+  controls.takeKey({UPARROW});
+  controls.takeKey({ESCAPE});
+  EXPECT_EQ(controls.chatScroll(), 0) << "the newest again";
+}
+
 }  // namespace
 }  // namespace naiad

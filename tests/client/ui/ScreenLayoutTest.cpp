@@ -253,7 +253,7 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   EXPECT_FALSE(contains(layout.picture, "close the help"));
   EXPECT_TRUE(contains(layout.picture, "Down"));
   EXPECT_TRUE(contains(layout.picture, "Esc closes"));
-  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 8 - 22);
+  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 9 - 22);
   EXPECT_EQ(layout.shown.page, 22);
   m.scroll = layout.shown.max_scroll;
   layout = layOut(m, 76, 24);
@@ -301,6 +301,112 @@ TEST(AsciiFallback, MapsACharacterToASimilarOne) {
   EXPECT_EQ(asciiFor(U'▲'), '^');
   EXPECT_EQ(asciiFor(U'é'), 'e');
   EXPECT_EQ(asciiFor(U'Ж'), '?');
+}
+
+/// Is the text there, in this colour?
+bool containsIn(const Picture& picture, const std::string& text, df::Color color, Style style) {
+  for (int y = 0; y < picture.height(); ++y) {
+    const std::size_t at = picture.rowText(y).find(text);
+    if (at == std::string::npos) continue;
+    const PictureCell cell = picture.at(static_cast<int>(at), y);
+    return cell.color == color && cell.style == style;
+  }
+  return false;
+}
+
+TEST(ScreenLayout, TheStatusLineBeginsWithThePlayersNameInTheirColour) {
+  ScreenModel m = model();
+  m.self_name = "Ada";
+  m.self_color = df::CYAN;
+  const Picture picture = layOut(m, 100, 30).picture;
+  EXPECT_EQ(picture.rowText(29).rfind("  Ada   42 ms   tick 1200", 0), 0u) << picture.rowText(29);
+  EXPECT_EQ(picture.at(2, 29).color, df::CYAN);
+  EXPECT_EQ(picture.at(2, 29).style, Style::kReverse);
+  EXPECT_TRUE(containsIn(layOut(m, 92, 24).picture, "Ada", df::CYAN, Style::kBold)) << "beside the view";
+}
+
+TEST(ScreenLayout, APointerShowsThePlayersOwnObject) {
+  ScreenModel m = model();
+  m.self_name = "Ada";
+  m.self_color = df::CYAN;
+  m.self_cell = CellPosition{40, 12};
+  Picture picture = layOut(m, 80, 24).picture;
+  EXPECT_EQ(picture.at(40, 10).ch, U'▼');
+  EXPECT_EQ(picture.at(40, 12).ch, U' ') << "the object itself is not covered";
+  EXPECT_TRUE(containsIn(picture, " you: Ada ", df::CYAN, Style::kReverse));
+  m.self_cell = CellPosition{0, 0};
+  picture = layOut(m, 80, 24).picture;
+  EXPECT_EQ(picture.at(0, 2).ch, U'▲');
+  EXPECT_EQ(picture.rowText(3).rfind(" you: Ada ", 0), 0u);
+  for (const int x : {-1, 0, 79, 80}) {
+    for (const int y : {-1, 0, 1, 22, 23, 24}) {
+      m.self_cell = CellPosition{x, y};
+      layOut(m, 20, 10);
+      layOut(m, 200, 60);
+    }
+  }
+}
+
+TEST(ScreenLayout, AWideTerminalHasPlayersChatAndHelpBesideTheGame) {
+  ScreenModel m = model();
+  m.help = {"Arrows   fly", "Space    shoot"};
+  m.history = {{"Bob", df::GREEN, "hi there", {}}, {"", df::WHITE, "Ada joined", {}}};
+  m.chat = m.history;
+  const ScreenLayout layout = layOut(m, 140, 40);
+  EXPECT_EQ(layout.placement.width, 80);
+  EXPECT_EQ(layout.placement.height, 24);
+  EXPECT_TRUE(layout.placement.framed);
+  EXPECT_LT(layout.placement.left + 80, 140 - 40);
+  for (const char* p_part :
+       {"Players ─", "Chat ─", "Help ─", "Arrows   fly", "Ctrl-] h   all keys", "* Ada joined"})
+    EXPECT_TRUE(contains(layout.picture, p_part)) << p_part;
+  EXPECT_TRUE(containsIn(layout.picture, "Ada", df::CYAN, Style::kBold));
+  EXPECT_TRUE(contains(layout.picture, "Bob: hi there"));
+  EXPECT_EQ(layout.picture.rowText(38).find("Ada joined"), std::string::npos) << "not over the game as well";
+  m.status_shown = false;
+  EXPECT_FALSE(contains(layOut(m, 140, 40).picture, "Chat ─")) << "s takes it away, too";
+  m.status_shown = true;
+  EXPECT_FALSE(contains(layOut(m, 107, 40).picture, "Chat ─")) << "no room";
+}
+
+TEST(ScreenLayout, ChatScrollsBackOverTheGameAndBesideIt) {
+  ScreenModel m = model();
+  m.chat_open = true;
+  for (int i = 0; i < 100; ++i) m.chat.push_back({"Bob", df::GREEN, "line " + std::to_string(i) + ".", {}});
+  m.history = m.chat;
+  for (const int columns : {80, 140}) {
+    m.chat_scroll = 0;
+    ScreenLayout layout = layOut(m, columns, 40);
+    EXPECT_TRUE(contains(layout.picture, "line 99.")) << columns;
+    EXPECT_FALSE(contains(layout.picture, "line 50.")) << columns;
+    while (m.chat_scroll < layout.shown.max_chat_scroll) {
+      m.chat_scroll = layout.shown.max_chat_scroll;
+      layout = layOut(m, columns, 40);
+    }
+    EXPECT_TRUE(contains(layout.picture, "line 0.")) << columns;
+    EXPECT_FALSE(contains(layout.picture, "line 99.")) << columns;
+    EXPECT_TRUE(contains(layout.picture, "say: "));
+  }
+}
+
+TEST(ScreenLayout, APanelOfManyPlayersAndLongTextsFits) {
+  ScreenModel m = model();
+  m.help.assign(40, std::string(300, 'h'));
+  m.players.clear();
+  for (std::uint32_t i = 1; i <= 200; ++i)
+    m.players.push_back({i, "player" + std::to_string(i), df::GREEN, static_cast<int>(i), 1});
+  m.history.assign(200, {"Bob", df::GREEN, std::string(250, 'x'), {}});
+  for (const int rows : {20, 24, 25, 60, 150}) {
+    for (const bool open : {false, true}) {
+      m.chat_open = open;
+      const Picture picture = layOut(m, 130, rows).picture;
+      EXPECT_EQ(picture.height(), rows);
+      if (rows > 24) {
+        EXPECT_TRUE(contains(picture, "player200")) << rows;
+        EXPECT_TRUE(contains(picture, " more")) << rows;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -1,17 +1,24 @@
 // A game that goes wrong, one key for each way. What it is good for is in TroubleTest.cpp.
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "DisplayManager.h"
 #include "EventKeyboard.h"
+#include "EventStep.h"
 #include "GameManager.h"
+#include "LogManager.h"
 #include "Object.h"
+#include "ResourceManager.h"
+#include "WorldManager.h"
 
 using namespace df;
 
 namespace {
 
 volatile bool g_endless = true;
+volatile int g_zero = 0;
+int* volatile g_p_null = NULL;
 
 int deeper(int depth) {
   volatile char room[1000];
@@ -30,21 +37,67 @@ class Trouble : public Object {
     if (p_e->getType() != KEYBOARD_EVENT) return 0;
     const EventKeyboard* p_k = (const EventKeyboard*)p_e;
     if (p_k->getKeyboardAction() != KEY_PRESSED) return 1;
+    LM.writeLog("a key\033[2J");
     if (p_k->getKey() == Keyboard::R) exit(deeper(0));
     if (p_k->getKey() == Keyboard::A) abort();
+    if (p_k->getKey() == Keyboard::D) m_crashes = true;
+    if (p_k->getKey() == Keyboard::K) raise(SIGKILL);
+    if (p_k->getKey() == Keyboard::Z) m_rest = 7 / g_zero;  // 1 / x needs no division
+    if (p_k->getKey() == Keyboard::N) {
+      Event inner;
+      inner.setType("inner");
+      WM.onEvent(&inner);
+      m_rest = *g_p_null;
+    }
     if (p_k->getKey() == Keyboard::P) fprintf(stderr, "the game prints\n");
     for (volatile bool hangs = p_k->getKey() == Keyboard::H; hangs;) {
     }
     return 1;
   }
-  int draw() { return DM.drawString(getPosition(), "TROUBLE", CENTER_JUSTIFIED, YELLOW); }
+  int draw() {
+    if (m_crashes) m_rest = *g_p_null;
+    return DM.drawString(getPosition(), "TROUBLE", CENTER_JUSTIFIED, YELLOW);
+  }
+
+ private:
+  bool m_crashes = false;
+  int m_rest = 0;
 };
+
+class Inner : public Object {
+ public:
+  Inner() { registerInterest("inner"); }
+  int eventHandler(const Event*) { return 1; }
+};
+
+class Exits : public Object {
+ public:
+  Exits() { registerInterest(STEP_EVENT); }
+  int eventHandler(const Event*) { exit(0); }
+};
+
+/// A mistake that needs no player; 0 if the environment names none.
+int makeMistake() {
+  const char* p_which = getenv("TROUBLE");
+  if (p_which == NULL) return 0;
+  const std::string which = p_which;
+  if (which != "no-start") GM.startUp();
+  if (which == "exit") new Exits;
+  if (which == "exit" || which == "no-start") GM.run();
+  if (which == "crash-before-run") {
+    RM.loadSprite("no/such.txt", "ship");
+    return *g_p_null;
+  }
+  return 1;
+}
 
 }  // namespace
 
 int main() {
+  if (makeMistake() != 0) return 0;
   GM.startUp();
   new Trouble;
+  new Inner;
   GM.run();
   GM.shutDown();
   return 0;

@@ -123,11 +123,22 @@ TEST_F(AnimationTest, BoxBecomesTheSpritesUnlessSwitchedOff) {
   EXPECT_EQ(o.getBox(), Box(Vector(-2, -0.5), 4, 1));
 }
 
-TEST_F(AnimationTest, UnknownSpriteIsRefused) {
+TEST_F(AnimationTest, UnknownSpriteIsRefusedAndAQuestionMarkShows) {
   Object o;
+  o.setPosition(Vector(3, 10));
   EXPECT_EQ(o.setSprite("ghost"), -1);
-  EXPECT_EQ(logged("no sprite ghost"), 1);
-  EXPECT_EQ(o.getSprite(), nullptr);
+  EXPECT_EQ(logged("setSprite(\"ghost\") of "), 1);
+  ASSERT_NE(o.getSprite(), nullptr);
+  EXPECT_EQ(shown(10, 1), "?");
+  const Sprite s = sprite({"##"}, 0);
+  Sprite known = s;
+  o.setSprite(&known);
+  EXPECT_EQ(o.setSprite("ghost"), -1);
+  EXPECT_EQ(o.getSprite(), &known) << "it keeps what it has";
+  world.setCompat();
+  Object published;
+  EXPECT_EQ(published.setSprite("ghost"), -1);
+  EXPECT_EQ(published.getSprite(), nullptr);
 }
 
 TEST_F(AnimationTest, PreciseCollisionsCompareTheFrameThatShows) {

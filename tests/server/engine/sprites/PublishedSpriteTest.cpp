@@ -48,7 +48,7 @@ TEST_F(PublishedSprite, TheBookRefusesThem) {
   EXPECT_EQ(load(withHeader("slowdown -1\n")), -1);
   EXPECT_EQ(load(withHeader("slowdown\n")), -1);
   EXPECT_EQ(load(withHeader("transparency \" \"\n")), -1);
-  EXPECT_EQ(RM.getSprite("s"), nullptr);
+  EXPECT_EQ(RM.getSprite("s")->getLabel(), "missing");
 }
 
 TEST_F(PublishedSprite, SlowdownMinusOneIsLoadedWithAWarning) {

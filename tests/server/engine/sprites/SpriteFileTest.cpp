@@ -96,7 +96,7 @@ TEST_F(SpriteFile, ErrorsAreLoggedWithFileAndLine) {
   for (const auto& [name, trouble] : kBad) {
     EXPECT_EQ(RM.loadSprite(kFolder + name, "bad"), -1) << name;
     EXPECT_EQ(logged(kFolder + name + trouble), 1) << name << ": " << lines.back();
-    EXPECT_EQ(RM.getSprite("bad"), nullptr);
+    EXPECT_EQ(RM.getSprite("bad")->getLabel(), "missing");
   }
 }
 

@@ -24,8 +24,12 @@ TEST_F(SoundTest, ExistingFilesAreLoadedAndMissingOnesAreLogged) {
   EXPECT_EQ(RM.getMusic("theme")->getLabel(), "theme");
   EXPECT_EQ(RM.loadSound("sounds/ghost.wav", "ghost"), -1);
   EXPECT_EQ(RM.loadMusic("sounds/ghost.ogg", "ghost"), -1);
+  EXPECT_NE(RM.getSound("ghost"), nullptr) << "one that is silent";
+  EXPECT_NE(RM.getMusic("ghost"), nullptr);
+  world.setCompat();
   EXPECT_EQ(RM.getSound("ghost"), nullptr);
   EXPECT_EQ(RM.getMusic("ghost"), nullptr);
+  world.setCompat(false);
   EXPECT_EQ(logged("sounds/ghost.wav: cannot be read"), 1);
   EXPECT_EQ(logged("sounds/ghost.ogg: cannot be read"), 1);
   EXPECT_EQ(RM.unloadSound("fire"), 0);

@@ -19,15 +19,15 @@ class HangWatchTest : public testing::Test {
 };
 
 TEST_F(HangWatchTest, ReportsATickThatHangsOnce) {
-  EXPECT_EQ(check(4900ms), Step::kNothing);
-  EXPECT_EQ(check(5000ms), Step::kReport);
+  EXPECT_EQ(check(1900ms), Step::kNothing);
+  EXPECT_EQ(check(2000ms), Step::kReport);
   EXPECT_EQ(check(9000ms), Step::kNothing);
   EXPECT_EQ(watch.check(8, now - 6s, 0, now), Step::kReport) << "another tick";
   EXPECT_EQ(watch.check(std::nullopt, {}, 0, now), Step::kNothing);
 }
 
 TEST_F(HangWatchTest, ASignalDuringATickThatHangsEndsTheServer) {
-  EXPECT_EQ(check(5s), Step::kReport);
+  EXPECT_EQ(check(2s), Step::kReport);
   EXPECT_EQ(check(6s, 1), Step::kNothing) << "the tick may finish just now";
   now += 900ms;
   EXPECT_EQ(check(6900ms, 1), Step::kNothing);
@@ -38,7 +38,7 @@ TEST_F(HangWatchTest, ASignalDuringATickThatHangsEndsTheServer) {
 TEST_F(HangWatchTest, ASlowTickMayFinishAfterASignal) {
   EXPECT_EQ(check(10ms, 1), Step::kNothing);
   now += 2900ms;
-  EXPECT_EQ(check(2910ms, 1), Step::kNothing);
+  EXPECT_EQ(check(2910ms, 1), Step::kReport) << "it is said, and may finish all the same";
   EXPECT_EQ(watch.check(std::nullopt, {}, 1, now + 10s), Step::kNothing) << "the host ends by itself";
   EXPECT_EQ(check(3s, 1), Step::kEndHung);
 }

@@ -240,7 +240,7 @@ TEST(WorldLauncher, HasASessionOfItsOwnAndOnlyItsDescriptors) {
       "test -e /proc/$$/fd/$n && set -- $* $n; done; "
       "echo $(($$ == pgrp)) $(($$ == session)) $tty, $*, $(readlink /proc/$$/fd/0) >&3"));
   const StartedWorld world = launcher.start();
-  EXPECT_EQ(readLine(world.socket), "1 1 0, 0 1 2 3, /dev/null");
+  EXPECT_EQ(readLine(world.socket), "1 1 0, 0 1 2 3 4, /dev/null");
   EXPECT_GT(waitForStart(world), 1);
   EXPECT_EQ(waitForEnd(world), 0);
   closeBoth(world);

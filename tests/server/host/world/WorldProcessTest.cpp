@@ -48,7 +48,7 @@ class WorldProcessTest : public testing::Test {
       world.checkProcess(1);
       if (world.isReady()) world.tick(true, false);
     }
-    return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there", 0, {}});
+    return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there", 0, {}, {}});
   }
 
   /// For a script: it is ready; it takes a turn, of 4 + 4 bytes (watched, no truth, no end, no inputs).
@@ -79,6 +79,25 @@ TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
   EXPECT_EQ(play(isReady() + takesTurn() + answer + "exit 0").when, "");
   const std::string game_over = "printf '\\4\\0\\0\\0\\1\\0\\0\\0' >&3; ";
   EXPECT_EQ(play(isReady() + takesTurn() + game_over + crash).when, "after tick 1");
+}
+
+TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {
+  const std::string garbage = "head -c " + std::to_string(sizeof(df::ActivityPage)) + " /dev/urandom >&4; ";
+  const WorldEnd end = play(isReady() + takesTurn() + garbage + "kill -SEGV $$");
+  EXPECT_EQ(end.when.rfind("in tick 1, while an Object of unknown class handled an event", 0), 0u)
+      << end.when;
+  EXPECT_EQ(end.last_lines.size(), df::ActivityPage::kLines);
+  for (const std::string& line : end.last_lines) {
+    EXPECT_LE(line.size(), 512u);
+    for (const char c : line) EXPECT_TRUE(c >= 0x20 && c < 0x7f) << line;
+  }
+}
+
+TEST_F(WorldProcessTest, APageThatCannotBeCutOff) {
+  // Beyond its new end a reader would get a SIGBUS.
+  const WorldEnd end = play(isReady() + takesTurn() + "truncate -s 0 /proc/self/fd/4 2>&1; kill -SEGV $$");
+  EXPECT_EQ(end.when, "in tick 1");
+  EXPECT_FALSE(printed.empty()) << "the attempt fails";
 }
 
 TEST_F(WorldProcessTest, OneThatSendsAMalformedFrameIsKilled) {

@@ -1,0 +1,235 @@
+// The mistakes that beginners make: each ends in one line that names its cause, and
+// docs/when-it-goes-wrong.md has that line. Those that need a process of their own:
+// tests/loopback/TroubleTest.cpp.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "engine/events/EventStep.h"
+#include "engine/managers/Config.h"
+#include "engine/managers/DisplayManager.h"
+#include "engine/managers/ResourceManager.h"
+#include "engine/world/ActivityPage.h"
+#include "engine/world/ClassName.h"
+#include "tests/server/engine/Probe.h"
+
+namespace df::test {
+
+class Saucer : public Object {};
+
+class Deaf : public Object {
+ public:
+  Deaf() { registerInterest(STEP_EVENT); }
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Woverloaded-virtual"
+  virtual int eventHandler(Event* /*p_e*/) {
+    return 1;
+  }
+#pragma GCC diagnostic pop
+};
+
+class EventNuke : public Event {};
+
+namespace {
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+const std::string& page() {
+  static const std::string text = [] {
+    std::ifstream file(std::string(NAIAD_SOURCE_DIR) + "/docs/when-it-goes-wrong.md");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  }();
+  return text;
+}
+
+/// As a game's own classes are named, which are in none.
+std::string withoutNamespace(std::string line) {
+  const std::string prefix = "df::test::";
+  for (std::size_t at = 0; (at = line.find(prefix)) != std::string::npos;) line.erase(at, prefix.size());
+  return line;
+}
+
+class Mistakes : public WorldTest {
+ protected:
+  /// It was logged once, and nothing else; the page has it.
+  void expectLine(const std::string& line) {
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(withoutNamespace(lines[0]), line);
+    EXPECT_NE(page().find("`" + line + "`"), std::string::npos) << "not in the page: " << line;
+    lines.clear();
+  }
+  /// It begins with this; the page has that much.
+  void expectBeginning(const std::string& beginning) {
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0].rfind(beginning, 0), 0u) << lines[0];
+    EXPECT_NE(page().find("`" + beginning), std::string::npos) << "not in the page: " << beginning;
+    lines.clear();
+  }
+};
+
+TEST_F(Mistakes, AHandlerThatDoesNotOverride) {
+  new Deaf;
+  new Deaf;
+  world.tick();
+  world.tick();
+  expectLine(
+      "Deaf registers interest in events and has no eventHandler() that gets them: it must be "
+      "declared \"int eventHandler(const df::Event*) override\"");
+}
+
+TEST_F(Mistakes, InterestInAnEventThatTheEngineDoesNotSend) {
+  auto* p_saucer = new Saucer;
+  p_saucer->registerInterest("step");
+  p_saucer->registerInterest("steps");  // may be the game's own
+  expectLine("registerInterest(\"step\"): the engine sends no such event; it sends df::STEP_EVENT");
+}
+
+TEST_F(Mistakes, AnEventWithoutAType) {
+  const EventNuke nuke;
+  WM.onEvent(&nuke);
+  WM.onEvent(&nuke);
+  expectLine("WM.onEvent() of a EventNuke without a type: setType() was forgotten");
+}
+
+TEST_F(Mistakes, AnExceptionOutOfAHandler) {
+  auto* p_saucer = new Probe("Saucer");
+  p_saucer->on_event = [](Probe&, const Event&) { throw std::runtime_error("no sprite"); };
+  p_saucer->registerInterest(STEP_EVENT);
+  world.tick();
+  expectLine("An object of type Saucer failed and is taken out of the game: no sprite");
+}
+
+TEST_F(Mistakes, AGameInsideAGame) {
+  auto* p_saucer = new Probe("Saucer");
+  p_saucer->on_event = [](Probe&, const Event&) { GM.run(); };
+  p_saucer->registerInterest(STEP_EVENT);
+  world.tick();
+  world.tick();
+  expectLine("GM.run() inside a handler does nothing: the game is running");
+}
+
+TEST_F(Mistakes, ASpriteFileThatIsNotThere) {
+  EXPECT_EQ(RM.loadSprite("sprites/saucr.txt", "saucer"), -1);
+  expectBeginning("Sprite saucer: sprites/saucr.txt: cannot be read; looked in /");
+}
+
+TEST_F(Mistakes, ASpriteFileWithARowTooLong) {
+  const std::string file = std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/bad-long-row.txt";
+  EXPECT_EQ(RM.loadSprite(file, "saucer"), -1);
+  EXPECT_EQ(logged(":7: the row has 4 characters instead of 3"), 1);
+  EXPECT_NE(page().find(":7: the row has 4 characters instead of 3`"), std::string::npos);
+}
+
+TEST_F(Mistakes, ASpriteThatWasNotLoaded) {
+  auto* p_saucer = new Saucer;
+  EXPECT_EQ(p_saucer->setSprite("saucr"), -1);
+  EXPECT_EQ(p_saucer->setSprite("saucr"), -1);
+  expectLine("setSprite(\"saucr\") of Saucer: no sprite is loaded under this label; none is loaded");
+  RM.loadSprite(std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/simple.txt", "saucer");
+  const auto p_page = std::make_unique<ActivityPage>();
+  world.setActivityPage(p_page.get());
+  EXPECT_EQ(RM.getSprite("saucr"), nullptr) << "games ask so whether it is still to be loaded";
+  EXPECT_EQ(RM.getSprite("saucr"), nullptr);
+  world.setActivityPage(nullptr);
+  const std::string line = "RM.getSprite(\"saucr\"): nothing is loaded under this label; loaded are: saucer";
+  EXPECT_EQ(p_page->lines[0].text, line);
+  EXPECT_EQ(p_page->lines_written, 1u);
+  EXPECT_EQ(logged(line), 0) << "it need not be a fault";
+  EXPECT_NE(page().find("`" + line + "`"), std::string::npos);
+}
+
+TEST_F(Mistakes, ASpriteThatCouldNotBeLoadedIsAQuestionMark) {
+  auto* p_saucer = new Saucer;
+  EXPECT_EQ(RM.loadSprite("sprites/saucr.txt", "saucer"), -1);
+  ASSERT_NE(RM.getSprite("saucer"), nullptr);
+  EXPECT_EQ(p_saucer->setSprite(RM.getSprite("saucer")), 0);
+  EXPECT_EQ(RM.getSprite("saucer")->getFrame(0).getString(), "?");
+}
+
+TEST_F(Mistakes, ASoundFileThatIsNotThere) {
+  EXPECT_EQ(RM.loadSound("sounds/fier.wav", "fire"), -1);
+  expectBeginning("Sound: sounds/fier.wav: cannot be read; looked in /");
+}
+
+TEST_F(Mistakes, ASoundThatWasNotLoadedIsSilent) {
+  world.setWatched(true);
+  RM.getSound("fire")->play();
+  RM.getSound("fire")->play(true);
+  expectLine("RM.getSound(\"fire\"): nothing is loaded under this label; none is loaded");
+  RM.getMusic("theme")->play();
+  expectLine("RM.getMusic(\"theme\"): nothing is loaded under this label; none is loaded");
+  world.tick();
+  EXPECT_TRUE(world.view().sounds.empty());
+}
+
+TEST_F(Mistakes, AClassThatForgotItsType) {
+  new Saucer;
+  EXPECT_TRUE(world.objectsOfType("Saucer").isEmpty());
+  EXPECT_TRUE(world.objectsOfType("Saucer").isEmpty());
+  EXPECT_TRUE(world.objectsOfType("Bullet").isEmpty());  // there may be none just now
+  expectLine(
+      "WM.objectsOfType(\"Saucer\") finds none: class Saucer does not call "
+      "setType(\"Saucer\")");
+}
+
+TEST_F(Mistakes, SettersThatRefuseAreNamedOnceEach) {
+  auto* p_saucer = new Saucer;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(p_saucer->setAltitude(5), -1);
+    EXPECT_EQ(p_saucer->setPosition(Vector(kNotANumber, 1)), -1);
+  }
+  ASSERT_EQ(lines.size(), 2u);
+  const std::string second = lines.back();
+  lines.pop_back();
+  expectLine("Refused: setAltitude of Saucer: an altitude is 0 to 4 (further ones are only counted)");
+  lines = {second};
+  expectLine(
+      "Refused: setPosition of Saucer: a number is not finite (a division by 0?) or out of range "
+      "(further ones are only counted)");
+  EXPECT_EQ(world.getRefusals(), 6u);
+  EXPECT_EQ(p_saucer->setSolidness(static_cast<Solidness>(7)), -1);
+  expectLine(
+      "Refused: setSolidness of Saucer: a solidness is HARD, SOFT or SPECTRAL (further ones are only "
+      "counted)");
+  p_saucer->setVelocity(Vector(1 / (kNotANumber - kNotANumber), 0));
+  expectLine(
+      "Refused: setVelocity of Saucer: a number is not finite (a division by 0?) or out of range "
+      "(further ones are only counted)");
+  DM.drawCh(Vector(kNotANumber, 0), 'x', RED);
+  expectLine(
+      "Refused: drawCh of DisplayManager: a number is not finite (a division by 0?) or out of range (further "
+      "ones are only counted)");
+}
+
+TEST_F(Mistakes, ObjectsThatAreNotThere) {
+  WM.markForDelete(static_cast<Object*>(nullptr));
+  expectLine("WM.markForDelete() of a null pointer");
+  WM.moveObject(nullptr, Vector());
+  expectLine("WM.moveObject() of a null pointer");
+}
+
+TEST_F(Mistakes, AnObjectThatWasNotMadeWithNew) {
+  Saucer saucer;
+  WM.markForDelete(&saucer);
+  world.tick();
+  expectLine("Marked for deletion, but not made with new, so only removed: object of type Saucer");
+}
+
+TEST_F(Mistakes, MakeNoMoreThanSoManyLines) {
+  for (int i = 0; i < 1000; ++i) world.logOnce("line " + std::to_string(i));
+  EXPECT_EQ(lines.size(), 500u);
+}
+
+TEST(ClassName, IsAsItsAuthorWroteIt) {
+  struct Local {};
+  EXPECT_EQ(classNameOf(typeid(Saucer)), "df::test::Saucer");
+  EXPECT_NE(classNameOf(typeid(Local)).find("Local"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace df::test
