@@ -83,7 +83,8 @@ class WorldPort {
 
   // A round of a server that was killed, which is executed again until it is where it was.
 
-  /// How far that is, in percent; nothing: there is no such round, or it is where it was.
+  /// How far that is, in percent; nothing: there is no such round, or it is where it was, and takeSessions()
+  /// has been called.
   virtual std::optional<int> recovering() const { return std::nullopt; }
   /// Once, when recovering() has come to its end: the sessions that its players had.
   virtual std::optional<std::vector<KeptSession>> takeSessions() { return std::nullopt; }
