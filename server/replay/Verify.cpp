@@ -129,6 +129,10 @@ void printInput(const WorldInput& input, std::ostream& out) {
       out << " mouse=" << actionName(input.mouse_action) << " button=" << input.button << " x=" << input.x
           << " y=" << input.y;
       break;
+    case df::InputQueue::kScore:
+      out << " score of \"" << safeText(input.name, 100) << "\" in \"" << safeText(input.table, 100)
+          << "\" points=" << input.points;
+      break;
   }
 }
 

@@ -36,7 +36,7 @@ JournaledWorld::~JournaledWorld() {
 
 // The world has a list of its own, with the same bound: what does not fit in one is in neither.
 std::uint32_t JournaledWorld::addInput(Input input) {
-  const bool lasts = input.kind == df::InputQueue::kJoin || input.kind == df::InputQueue::kLeave;
+  const bool lasts = input.kind != df::InputQueue::kKey && input.kind != df::InputQueue::kMouse;
   if (!lasts && m_turn.inputs.size() >= WorldProcess::kMaxInputs) return input.player;
   Input kept = input;
   const std::uint32_t player = isTakingOver() ? input.player : m_world->addInput(std::move(input));
@@ -212,6 +212,7 @@ void JournaledWorld::sendTurn(const WorldTurn& turn) {
 
 // What was sent last may have no result in the file; that of the closing turn is stored as any other.
 void JournaledWorld::endRepeatedTick() {
+  if (!isTakingOver()) keepRepeatedScores();
   if (m_closing) {
     storeResult();
     return endRecovery({});
@@ -221,6 +222,13 @@ void JournaledWorld::endRepeatedTick() {
     return endRecovery("in tick " + std::to_string(m_book.recovery->turns()) + " " + difference);
   if (m_book.recovery->isResultMissing() && !isTakingOver()) storeResult();
   m_world->isGameOver() ? endRecovery({}) : repeatNextTurn();
+}
+
+void JournaledWorld::keepRepeatedScores() {
+  std::vector<df::AddedScore> scores = m_world->takeScores();
+  if (scores.empty()) return;
+  if (m_repeated_scores.size() >= kMaxRepeatedScores) m_repeated_scores.erase(m_repeated_scores.begin());
+  m_repeated_scores.push_back({m_world->nextTick() - 1, std::move(scores)});
 }
 
 // A world that takes over is then where its players are.

@@ -31,6 +31,8 @@ class JournaledWorld : public WorldPort {
 
   /// A second death within so many ticks of the first one is the same: the round is over.
   static constexpr std::uint32_t kSameDeath = 30;
+  /// Ticks with scores of a recovery that are handed over, the last ones: those before them are on disk.
+  static constexpr std::size_t kMaxRepeatedScores = 1024;
   /// Bytes of records that are kept for another world: days. A longer round ends with its world.
   static constexpr std::size_t kMaxHistory = std::size_t{64} << 20;
 
@@ -45,6 +47,7 @@ class JournaledWorld : public WorldPort {
   struct Book {
     std::shared_ptr<JournalWriter> writer;
     std::shared_ptr<Journal> journal;
+    std::string name = {};  ///< of the file
     /// More facts, once the world has begun; empty: there are none.
     std::function<DfrFacts()> late_facts;
     /// The journal has stopped, and why; the game goes on.
@@ -80,6 +83,9 @@ class JournaledWorld : public WorldPort {
   const df::WorldView& view() const override { return isTakingOver() ? m_view : m_world->view(); }
   void notePublished(const Publisher& publisher) override { m_world->notePublished(publisher); }
   std::vector<std::uint32_t> takeLeavers() override { return m_world->takeLeavers(); }
+  std::vector<df::AddedScore> takeScores() override { return m_world->takeScores(); }
+  std::vector<TickScores> takeRepeatedScores() override { return std::exchange(m_repeated_scores, {}); }
+  std::string recording() const override { return m_book.name; }
   bool isGameOver() const override { return m_world->isGameOver(); }
   df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }
   void checkProcess(std::uint32_t tick) override;
@@ -104,6 +110,7 @@ class JournaledWorld : public WorldPort {
   void sendTurn(const WorldTurn& turn);
   void closeRecovery();
   void endRepeatedTick();
+  void keepRepeatedScores();
   void endRecovery(const std::string& problem);
   void listenToWorld();
   bool isTakingOver() const { return m_death.has_value(); }
@@ -130,6 +137,7 @@ class JournaledWorld : public WorldPort {
   bool m_closing = false;    ///< the world has been sent the turn behind those of the file
   std::optional<std::vector<KeptSession>> m_sessions;
   std::optional<WorldEnd> m_unrecovered;
+  std::vector<TickScores> m_repeated_scores;
 
   // Of a world that takes over.
   bool m_in_tick = false;

@@ -100,6 +100,7 @@ void OpenRound::noteInput(const Input& input) {
       }
       break;
     case df::InputQueue::kMouse:
+    case df::InputQueue::kScore:
       break;
   }
 }

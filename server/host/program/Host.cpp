@@ -131,6 +131,7 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_status(openStatus(game)),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
+      m_scores(m_options.state, game),
       m_rooms(
           m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
       m_client_log(m_log),
@@ -147,7 +148,7 @@ Host::Host(HostOptions options, std::string game, Log log)
                    }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
-      m_admin({m_options, m_sessions, m_admission, m_counters, m_network, adminControls()}),
+      m_admin({m_options, m_sessions, m_admission, m_counters, m_network, m_scores, adminControls()}),
       m_console({m_admin, m_admin_worker, m_bans, m_log,
                  [this](std::function<void()> job) { asio::post(m_io, std::move(job)); }}),
       m_chat_commands(chatCommands(), m_io.get_executor()),
@@ -157,6 +158,7 @@ Host::Host(HostOptions options, std::string game, Log log)
                       [this](Room& room, const std::vector<KeptSession>& sessions) {
                         m_admission.restoreSessions(room, sessions);
                       });
+  m_rooms.setScores(m_scores);
   openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
@@ -186,8 +188,9 @@ LogLine Host::watchedLog(LogLine log) {
 }
 
 AdminControls Host::adminControls() {
-  return {[this](Ending::Plan plan) { end(std::move(plan)); }, [this] { return cancelEnd(); },
-          [this](Reloading done) { reload(std::move(done)); },
+  return {[this](Ending::Plan plan) { end(std::move(plan)); },
+          [this](std::function<void()> job) { asio::post(m_io, std::move(job)); },
+          [this] { return cancelEnd(); }, [this](Reloading done) { reload(std::move(done)); },
           [this](const HostOptions& options) {
             takeOver(options, m_options);
             makePlaces();
@@ -355,6 +358,7 @@ std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
 Host::~Host() {
   m_control.reset();
   m_admin_worker.finish();
+  m_scores.finish();
 }
 
 void Host::setWorlds(NewWorld new_world) {
@@ -712,6 +716,7 @@ void Host::drain() {
   m_network.stop();
   m_control.reset();
   m_admin_worker.finish();
+  m_rooms.finishScores();
   m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);

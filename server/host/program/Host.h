@@ -39,6 +39,7 @@
 #include "host/program/StatusFile.h"
 #include "host/program/TickClock.h"
 #include "host/program/Watchdog.h"
+#include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
 #include "shared/net/base/PrefixAllowance.h"
 #include "shared/net/base/TokenBucket.h"
@@ -184,6 +185,7 @@ class Host : public df::Runner {
   std::unique_ptr<StatusFile> m_status;  ///< null: none is asked for
   SessionTable m_sessions;
   StageClock m_stages;
+  ScoreKeeper m_scores;
   Rooms m_rooms;
   ClientLog m_client_log;
   Admission m_admission;

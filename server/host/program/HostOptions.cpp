@@ -199,7 +199,8 @@ std::vector<Row> tableOf(HostOptions& o) {
         "~/.local/state/naiad; none for games that are programs themselves",
         "NAIAD_CONTROL"}},
       {{"--state", &o.state,
-        "Folder of what lasts beyond a restart: the bans. Default: naiad in the user's directory for state "
+        "Folder of what lasts beyond a restart: bans and scores. Default: naiad in the user's directory for "
+        "state "
         "($XDG_STATE_HOME, ~/.local/state); none for games that are programs themselves",
         "NAIAD_STATE"}},
       {{"--admin-password", &o.admin_password,

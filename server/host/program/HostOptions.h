@@ -66,7 +66,7 @@ struct HostOptions {
   bool log_chat = false;            ///< log what players say, too
   std::string control;              ///< path of the socket for commands (ControlSocket.h); empty: none
   bool control_by_port = false;     ///< it is controlPath(), by the port listened on
-  std::string state;                ///< folder of the file of bans; empty: none
+  std::string state;                ///< folder of the files of bans and scores; empty: none
   std::string
       admin_password;      ///< for /admin in the chat: itself, or its Argon2id hash; empty: no admins there
   bool vote_kick = false;  ///< players may vote others out

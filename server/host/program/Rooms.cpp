@@ -55,6 +55,51 @@ Room& Rooms::openRoom(std::unique_ptr<WorldPort> port) {
 void Rooms::watchWorld(Room& room) {
   room.port().setOnTick([this, &room] { endTick(room); });
   room.port().checkProcess(tickNumber());
+  passScores(room);
+}
+
+// Inputs like any other: before all others of its first tick. A round that goes on has had them.
+void Rooms::passScores(Room& room) const {
+  if (m_p_scores == nullptr) return;
+  const std::string recording = room.port().recording();
+  room.setRound(recording.empty() ? ScoreKeeper::beginRound() : recording);
+  if (room.port().recovering()) return;
+  for (const auto& [table, rows] : m_p_scores->tables()) {
+    for (const df::HighScore& row : rows)
+      room.port().addInput({.kind = df::InputQueue::kScore,
+                            .player = 0,
+                            .name = row.name,
+                            .table = table,
+                            .points = row.points});
+  }
+}
+
+void Rooms::keepScores(Room& room) {
+  const std::vector<df::AddedScore> added = room.port().takeScores();
+  if (m_p_scores == nullptr) return;
+  m_p_scores->add(room.round(), room.tick(), added, room.port().recording());
+}
+
+void Rooms::keepRepeatedScores(Room& room) {
+  for (const TickScores& tick : room.port().takeRepeatedScores()) {
+    if (m_p_scores != nullptr) m_p_scores->add(room.round(), tick.tick, tick.scores, room.port().recording());
+  }
+}
+
+void Rooms::noteScores() {
+  if (m_p_scores == nullptr) return;
+  const ScoreCounters counters = m_p_scores->counters();
+  m_counters.scores = counters.added;
+  m_counters.scores_refused = counters.refused;
+  m_counters.scores_written = counters.written;
+  m_counters.scores_dropped = counters.dropped;
+  if (const std::string news = m_p_scores->takeNews(); !news.empty()) m_log(news);
+}
+
+void Rooms::finishScores() {
+  if (m_p_scores == nullptr) return;
+  m_p_scores->finish();
+  noteScores();
 }
 
 // ---- players ----------------------------------------------------------------------------------------------
@@ -136,6 +181,7 @@ const std::vector<ListedPlayer>& Rooms::players() {
 // ---- ticks ------------------------------------------------------------------------------------------------
 
 void Rooms::beginTicks() {
+  noteScores();
   m_in_begin = true;
   for (const auto& room : m_rooms) {
     if (room->port().recovering()) continue;
@@ -151,6 +197,7 @@ bool Rooms::isTicking() const {
 void Rooms::endTick(Room& room) {
   dismissLeavers(room);
   publish(room);
+  keepScores(room);
   if (!m_in_begin) m_on_late_tick();
 }
 
@@ -185,6 +232,7 @@ void Rooms::checkWorlds() {
     room->port().checkProcess(tickNumber());
     if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
       m_on_sessions(*room, *sessions);
+    keepRepeatedScores(*room);
     if (const auto warning = room->port().takeWarning()) m_log(*warning);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);

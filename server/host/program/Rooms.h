@@ -16,6 +16,7 @@
 #include "host/program/PlayerNews.h"
 #include "host/program/Room.h"
 #include "host/program/SessionTable.h"
+#include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
 #include "shared/program/LineLog.h"
 #include "shared/replica/TruthFile.h"
@@ -48,6 +49,11 @@ class Rooms {
   }
   /// When the game is over for a player who is alone, it is over for all.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
+
+  /// Tables of scores for all worlds; outlives the Rooms. Before open().
+  void setScores(ScoreKeeper& scores) { m_p_scores = &scores; }
+  /// Wait until the last ones are on disk. No world ticks after this.
+  void finishScores();
 
   /// Audit pictures of players, one at a time.
   void startAudit(std::uint32_t ticks_per_second) { m_audit.start(ticks_per_second); }
@@ -109,6 +115,10 @@ class Rooms {
   std::uint32_t tickNumber() const { return static_cast<std::uint32_t>(m_counters.ticks); }
   bool hasLastPlayer() const { return m_ends_with_last && m_sessions.connected() <= 1; }
   Room& openRoom(std::unique_ptr<WorldPort> port);
+  void passScores(Room& room) const;
+  void keepScores(Room& room);
+  void keepRepeatedScores(Room& room);
+  void noteScores();
   void watchWorld(Room& room);
   void endTick(Room& room);
   void publish(Room& room);
@@ -130,6 +140,7 @@ class Rooms {
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
   AuditTurns m_audit;
+  ScoreKeeper* m_p_scores = nullptr;  ///< null: nothing is kept
   bool m_ends_with_last = false;
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round

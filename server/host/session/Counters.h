@@ -81,6 +81,11 @@ struct Counters {
   std::uint64_t rounds_hung = 0;
   std::uint64_t rounds_broken = 0;
   std::uint64_t rounds_unrecovered = 0;
+  // Scores that games added (HighScores.h):
+  std::uint64_t scores = 0;            ///< taken over
+  std::uint64_t scores_refused = 0;    ///< no good, or of more tables than a game may have
+  std::uint64_t scores_written = 0;    ///< on disk
+  std::uint64_t scores_dropped = 0;    ///< in memory alone: too many waited for the disk
   std::uint64_t audited_pictures = 0;  ///< of players, held against the world's (PictureAudit.h)
   std::uint64_t audited_cells = 0;     ///< of these
   std::uint64_t wrong_cells = 0;       ///< of these

@@ -54,6 +54,11 @@ std::vector<std::uint32_t> WorldInProcess::takeLeavers() {
   return m_world.takeLeavers();
 }
 
+std::vector<df::AddedScore> WorldInProcess::takeScores() {
+  df::WorldExtras* p_extras = m_world.findExtras();
+  return p_extras != nullptr ? p_extras->scores.takeAdded() : std::vector<df::AddedScore>();
+}
+
 bool WorldInProcess::isGameOver() const {
   return m_world.isGameOver();
 }

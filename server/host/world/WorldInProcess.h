@@ -31,6 +31,7 @@ class WorldInProcess : public WorldPort {
   const df::WorldView& view() const override;
   void notePublished(const Publisher& publisher) override;
   std::vector<std::uint32_t> takeLeavers() override;
+  std::vector<df::AddedScore> takeScores() override;
   bool isGameOver() const override;
   df::Canvas renderPlayer(std::uint32_t player) const override;
 

@@ -48,9 +48,16 @@ void visitSeen(F& f, T& seen) {
   f.number(seen.drawn);
 }
 
+template <class F, class Text, class Number>
+void visitScore(F& f, Text& table, Text& name, Number& points) {
+  f.text(table, df::HighScores::kMaxTableName);
+  f.text(name, kMaxNameBytes);
+  f.number(points, -df::HighScores::kMaxPoints, df::HighScores::kMaxPoints);
+}
+
 template <class F, class T>
 void visitInput(F& f, T& input) {
-  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kMouse);
+  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kScore);
   f.number(input.player);
   switch (input.kind) {
     case df::InputQueue::kJoin:
@@ -67,6 +74,8 @@ void visitInput(F& f, T& input) {
       f.number(input.x, 0, kMaxViewWidth - 1);
       f.number(input.y, 0, kMaxViewHeight - 1);
       return visitSeen(f, input.seen);
+    case df::InputQueue::kScore:
+      return visitScore(f, input.table, input.name, input.points);
   }
 }
 
@@ -128,6 +137,8 @@ template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
   f.list(answer.leavers, kMaxViewPlayers, [](F& in, auto& leaver) { in.number(leaver); });
+  f.list(answer.scores, df::HighScores::kMaxAddedInTick,
+         [](F& in, auto& added) { visitScore(in, added.table, added.score.name, added.score.points); });
   f.list(answer.pictures, kMaxViewPlayers, [](F& in, auto& picture) {
     in.number(picture.player);
     visitCanvas(in, picture.canvas);

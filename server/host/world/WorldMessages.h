@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/world/InputQueue.h"
+#include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
 #include "host/world/Repeatable.h"
 #include "host/world/ViewCodec.h"
@@ -45,7 +46,7 @@ struct WorldTurn {
   std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
 };
 
-/// The keys and clicks that wait for a world (WorldProcess::kMaxInputs), joins and leaves.
+/// The keys and clicks that wait for a world (WorldProcess::kMaxInputs), joins, leaves and scores.
 inline constexpr std::size_t kMaxTurnInputs = std::size_t{1} << 16;
 
 /// What one player sees.
@@ -61,6 +62,7 @@ struct WorldAnswer {
   bool has_view = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
   std::vector<WorldPicture> pictures;       ///< by player
+  std::vector<df::AddedScore> scores = {};  ///< at most HighScores::kMaxAddedInTick
 };
 
 // Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is

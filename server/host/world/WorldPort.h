@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/world/InputQueue.h"
+#include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
 #include "host/world/KeptSession.h"
 #include "shared/values/Canvas.h"
@@ -34,6 +35,12 @@ struct WorldEnd {
   /// first.
   std::string when = {};
   std::vector<std::string> last_lines = {};  ///< of the game's log, of a failure; escaped
+};
+
+/// What the game added in one tick.
+struct TickScores {
+  std::uint32_t tick = 0;  ///< the host's number
+  std::vector<df::AddedScore> scores = {};
 };
 
 class WorldPort {
@@ -77,6 +84,13 @@ class WorldPort {
   virtual void notePublished(const Publisher& publisher) = 0;
   /// The players who wanted to leave since the last call.
   virtual std::vector<std::uint32_t> takeLeavers() = 0;
+  /// The scores that the game added in the last tick, in that order.
+  virtual std::vector<df::AddedScore> takeScores() = 0;
+  /// Those of ticks that were executed again, once they all were: the server that was killed may not have
+  /// kept the last ones.
+  virtual std::vector<TickScores> takeRepeatedScores() { return {}; }
+  /// The name of the file in which the round is written down; empty: it is not.
+  virtual std::string recording() const { return {}; }
   virtual bool isGameOver() const = 0;
   /// What this player sees, as the engine drew it in the last tick.
   virtual df::Canvas renderPlayer(std::uint32_t player) const = 0;

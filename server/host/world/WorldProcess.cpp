@@ -104,7 +104,7 @@ void WorldProcess::readKeeper(int patience_millis) {
 // Players who join a world that has ended join the next one (Room::changeWorld).
 std::uint32_t WorldProcess::addInput(df::InputQueue::Input input) {
   const std::uint32_t player = input.player;
-  const bool lasts = input.kind == df::InputQueue::kJoin || input.kind == df::InputQueue::kLeave;
+  const bool lasts = input.kind != df::InputQueue::kKey && input.kind != df::InputQueue::kMouse;
   if (m_state >= State::kEnding || (!lasts && m_turn.inputs.size() >= kMaxInputs)) return player;
   input.seen.base -= m_later;
   input.seen.drawn -= m_later;
@@ -177,6 +177,10 @@ void WorldProcess::onFrame() {
     m_expected = true;
   }
   if (!starts) reportTick();
+}
+
+std::vector<df::AddedScore> WorldProcess::takeScores() {
+  return std::exchange(m_answer.scores, {});
 }
 
 std::vector<std::uint32_t> WorldProcess::takeLeavers() {

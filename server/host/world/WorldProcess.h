@@ -65,6 +65,7 @@ class WorldProcess : public WorldPort {
   /// Lag compensation is done in the world's own process.
   void notePublished(const Publisher& /*publisher*/) override {}
   std::vector<std::uint32_t> takeLeavers() override;
+  std::vector<df::AddedScore> takeScores() override;
   bool isGameOver() const override { return m_answer.game_over; }
   df::Canvas renderPlayer(std::uint32_t player) const override;
   void checkProcess(std::uint32_t tick) override;

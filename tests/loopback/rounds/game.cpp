@@ -8,6 +8,7 @@
 #include "EventOut.h"
 #include "EventStep.h"
 #include "GameManager.h"
+#include "HighScores.h"
 #include "Music.h"
 #include "Object.h"
 #include "WorldManager.h"
@@ -41,12 +42,15 @@ class Walker : public Object {
     if (p_k->getKey() == Keyboard::C) abort();
     if (p_k->getKey() == Keyboard::H) pause();
     if (p_k->getKey() == Keyboard::RIGHTARROW) steps++;
+    if (p_k->getKey() == Keyboard::S) HighScores("steps").add("walker", steps);
     return 1;
   }
   int draw() {
+    const std::vector<HighScore> best = HighScores("steps").best(1);
     return DM.drawString(getPosition(),
                          "mains=" + std::to_string(mains) + " steps=" + std::to_string(steps) +
-                             " process=" + std::to_string(getpid()) + ";",
+                             " process=" + std::to_string(getpid()) +
+                             " best=" + std::to_string(best.empty() ? -1 : best[0].points) + ";",
                          CENTER_JUSTIFIED, YELLOW);
   }
 };

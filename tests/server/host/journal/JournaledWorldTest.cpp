@@ -47,6 +47,7 @@ class FakeWorld : public WorldPort {
   const df::WorldView& view() const override { return m_view; }
   void notePublished(const Publisher& /*publisher*/) override {}
   std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
   bool isGameOver() const override { return over; }
   df::Canvas renderPlayer(std::uint32_t player) const override {
     df::Canvas canvas(20, 10);

@@ -41,6 +41,8 @@ KeptSession sessionOf(std::uint32_t player) {
           .redeemed = {}};
 }
 
+constexpr std::size_t kScoreTurns = 20;  ///< in every so many Ann makes a score
+
 /// Answers each turn at once, as it did when the round was recorded.
 class EchoWorld : public WorldPort {
  public:
@@ -66,6 +68,10 @@ class EchoWorld : public WorldPort {
   const df::WorldView& view() const override { return m_view; }
   void notePublished(const Publisher& /*publisher*/) override {}
   std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override {
+    if (turns.size() % kScoreTurns != 0) return {};
+    return {{"best", {"Ann", static_cast<std::int64_t>(turns.size())}}};
+  }
   bool isGameOver() const override { return false; }
   df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {20, 10}; }
   std::optional<WorldEnd> end() const override { return ended; }
@@ -241,6 +247,22 @@ TEST_F(RecoveryTest, AWorldHasAllTurnsAgainBeforeItIsReady) {
   EXPECT_TRUE((*sessions)[1].muted);
   EXPECT_EQ(world->takeSessions(), std::nullopt);
   EXPECT_EQ(world->recovering(), std::nullopt);
+}
+
+TEST_F(RecoveryTest, ScoresOfRepeatedTicksAreHandedOverOnce) {
+  play();
+  goOn();
+  p_echo->ready = true;
+  world->checkProcess(1);
+  p_echo->answer();
+  const auto scores = world->takeRepeatedScores();
+  ASSERT_EQ(scores.size(), 2u);
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    EXPECT_EQ(scores[i].tick, 10 + kScoreTurns * (i + 1)) << "the host's numbers";
+    ASSERT_EQ(scores[i].scores.size(), 1u);
+    EXPECT_EQ(scores[i].scores[0].score.points, static_cast<std::int64_t>(kScoreTurns * (i + 1)));
+  }
+  EXPECT_TRUE(world->takeRepeatedScores().empty());
 }
 
 TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
