@@ -10,15 +10,12 @@
 namespace naiad {
 namespace {
 
-std::vector<LanSocket> openClientSockets() {
-  std::vector<LanSocket> sockets;
-  for (const auto family : {LanSocket::Family::kIPv4, LanSocket::Family::kIPv6}) {
-    try {
-      sockets.push_back(LanSocket::forClient(family));
-    } catch (const std::system_error&) {  // a machine without IPv6 has the other one
-    }
+std::vector<LanSocket> socketsOrNone() {
+  try {
+    return openLanSockets(&LanSocket::forClient);
+  } catch (const std::system_error&) {
+    return {};
   }
-  return sockets;
 }
 
 LanNonce newNonce() {
@@ -54,7 +51,7 @@ bool isFromLink(const LanPacket& packet, const std::vector<LanNetwork>& networks
   return by_loopback && is_own;
 }
 
-LanBrowser::LanBrowser() : m_sockets(openClientSockets()), m_nonce(newNonce()) {}
+LanBrowser::LanBrowser() : m_sockets(socketsOrNone()), m_nonce(newNonce()) {}
 
 std::vector<int> LanBrowser::descriptors() const {
   std::vector<int> descriptors;

@@ -5,10 +5,6 @@
 // The others: the everyday workload of HARD boxes, in which one Object far from all others uses the layer or
 // does not; bytes_extra and allocations_per_tick are of a world in which all use it. layer=sprite, wall: one
 // such Object, or sixteen scattered (who=sixteen), larger than a character.
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -16,6 +12,7 @@
 
 #include "ResultLine.h"
 #include "Suite.h"
+#include "tests/support/RunProgram.h"
 
 namespace bench {
 
@@ -36,13 +33,8 @@ std::filesystem::path bareProgram() {
 
 // Everything that it prints, stderr too.
 std::string outputOf(const std::string& command) {
-  std::FILE* p_pipe = popen((command + " 2>&1").c_str(), "r");
-  if (p_pipe == nullptr) throw std::runtime_error("cannot run " + command);
-  std::string output;
-  std::array<char, 4096> buffer;
-  while (std::fgets(buffer.data(), buffer.size(), p_pipe) != nullptr) output += buffer.data();
-  const int status = pclose(p_pipe);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(command + ": " + output);
+  const auto [code, output] = naiad::test::runProgram(command + " 2>&1");
+  if (code != 0) throw std::runtime_error(command + ": " + output);
   return output;
 }
 

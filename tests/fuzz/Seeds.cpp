@@ -11,6 +11,7 @@
 #include "ScriptedLink.h"
 #include "host/journal/DfrWriter.h"
 #include "host/journal/TurnRecord.h"
+#include "host/world/BuildId.h"
 #include "host/world/WorldMessages.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
@@ -437,7 +438,7 @@ void tooMany(Folder& folder) {
   std::string frame;
   writeReady({}, frame);
   frame.back() = static_cast<char>(lines.size());  // the number of lines is the last
-  folder.add('\0' + frame.substr(kWorldFrameHead) + lines);
+  folder.add('\0' + frame.substr(kWorldFrameHead + 1 + ownBuildId().size()) + lines);
 
   df::WorldView view;
   std::string fields = fieldsOf(view);

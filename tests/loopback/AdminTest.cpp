@@ -8,14 +8,12 @@
 #include <fstream>
 #include <utility>
 
-#include "BusyWorld.h"
 #include "GameProgram.h"
-#include "Home.h"
-#include "RunProgram.h"
-#include "TestServer.h"
+#include "RunCtl.h"
+#include "VisitedServer.h"
 #include "host/auth/PasswordHash.h"
-#include "shared/net/stream/VisitorHeader.h"
 #include "tests/server/host/admin/Talk.h"
+#include "tests/support/RunProgram.h"
 
 namespace naiad::test {
 namespace {
@@ -34,29 +32,12 @@ bool hasRead(TestClient& client, const std::string& text) {
   return false;
 }
 
-class AdminTest : public testing::Test {
+class AdminTest : public VisitedServer {
  protected:
   AdminTest() {
-    options = home.server();
     options.control = home.identity("control.sock");
-    options.visitors = home.identity("visitors");
     options.state = home.identity("state");
     options.admin_password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
-  }
-  static std::function<void(df::World&)> world() {
-    return [](df::World& world) { populateBusyWorld(world, 5); };
-  }
-  ClientSetup from(const std::string& address, const std::string& name) const {
-    ClientSetup setup = home.player(name);
-    setup.options.visit = Visit{options.visitors, *visitorFromText(address)};
-    return setup;
-  }
-  bool joins(TestClient& client) {
-    return serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }) &&
-           client.joined();
-  }
-  bool ends(TestClient& client) {
-    return serveUntil(context, {&client}, [&] { return client.connection().isOver(); });
   }
   bool reads(TestClient& client, const std::string& text) {
     return serveUntil(context, {&client}, [&] { return client.joined() && hasRead(client, text); });
@@ -79,10 +60,6 @@ class AdminTest : public testing::Test {
     return false;
   }
   std::string ask(const std::string& line) const { return Talk(options.control).ask(line); }
-
-  Home home;
-  asio::io_context context;
-  HostOptions options;
 };
 
 TEST_F(AdminTest, AKickEndsAPlayerWithinTwoTicksAndTheirTokenWithThem) {

@@ -7,17 +7,26 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "GameProgram.h"
 #include "Home.h"
 #include "TestClient.h"
+#include "host/world/BuildId.h"
 #include "shared/replica/TruthFile.h"
+#include "tests/server/host/admin/Talk.h"
 
 namespace naiad::test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
 
 /// What the game draws of its globals.
 struct Shown {
@@ -81,6 +90,26 @@ class Rounds : public testing::Test {
       heard += sound.action == SoundLine::Action::kPlay ? '+' : '-';
     }
     return heard;
+  }
+  /// What those who watch the server read of its game, which writes a line at this key.
+  std::string watchedLine(TestClient& client, df::Keyboard::Key key) {
+    Talk talk(game->control());
+    EXPECT_EQ(talk.ask(R"({"command":"watch"})"), R"({"ok":true,"text":"The log follows."})");
+    EXPECT_NE(talk.ask(R"({"command":"ping"})").find("\"ok\":true"), std::string::npos);  // it watches by now
+    press(client, key);
+    std::string line;
+    const bool comes = serve([&] {
+      while (talk.isReadable()) {
+        line = talk.readLine().value_or("\"game\" has hung up");
+        if (line.find("\"game\"") != std::string::npos) return true;
+      }
+      return false;
+    });
+    return comes ? line : "nothing";
+  }
+  std::string gamesOwnLog() const {
+    std::ifstream file(game->directory() / "game.log");
+    return {std::istreambuf_iterator<char>(file), {}};
   }
   /// Are there pictures of all ticks, from the first to the last?
   static testing::AssertionResult hasNoGap(const TestClient& client) {
@@ -273,6 +302,101 @@ TEST_F(Rounds, PrivateWorldsHaveRounds) {
   EXPECT_EQ(ann->session().counters().resets, 1u);
   EXPECT_EQ(shown(*bob).process, bobs);
   EXPECT_EQ(bob->session().counters().resets, 0u);
+}
+
+// ---- what a game writes -----------------------------------------------------------------------------------
+
+TEST_F(Rounds, WhoWatchesTheServerReadsWhatAWorldPrints) {
+  start({{"NAIAD_ON_GAME_OVER", "restart"}});
+  auto ann = join("ann");
+  EXPECT_EQ(watchedLine(*ann, df::Keyboard::P), R"({"event":"game","text":"game: printed \\x1b[31mred"})");
+}
+
+TEST_F(Rounds, WhoWatchesTheServerReadsWhatItsGameLogs) {
+  start({});
+  auto ann = join("ann");
+  EXPECT_EQ(watchedLine(*ann, df::Keyboard::L), R"({"event":"game","text":"game: logged \\x1b[31mred"})");
+  game->signal(SIGTERM);
+  game->wait();
+  EXPECT_NE(gamesOwnLog().find("logged"), std::string::npos) << "its own file has it as ever";
+}
+
+// ---- an upgrade -------------------------------------------------------------------------------------------
+
+/// The game's library is a copy of this build's, until it is replaced by one with another build's id, as a
+/// package manager replaces it.
+class Upgrade : public Rounds {
+ protected:
+  void start(std::map<std::string, std::string> environment) {
+    fs::create_directory(m_libraries);
+    std::ifstream file(fs::path(NAIAD_BINARY_DIR).parent_path() / "lib" / kLibrary, std::ios::binary);
+    m_code.assign(std::istreambuf_iterator<char>(file), {});
+    write(m_code);
+    environment["LD_LIBRARY_PATH"] = m_libraries;
+    Rounds::start(std::move(environment));
+  }
+  void upgrade() {
+    std::string id;
+    for (std::size_t i = 0; i < ownBuildId().size(); i += 2)
+      id.push_back(static_cast<char>(std::stoi(ownBuildId().substr(i, 2), nullptr, 16)));
+    const std::size_t at = m_code.find(id);
+    ASSERT_NE(at, std::string::npos);
+    m_code[at] = static_cast<char>(~m_code[at]);
+    write(m_code);
+  }
+  bool comesBack(TestClient& client) {
+    return serve([&] { return client.connection().state() == Connection::State::kSearching; }) &&
+           serve([&] { return client.joined() && shown(client).steps >= 0; });
+  }
+  bool logs(const std::string& part) {
+    return serve([&] { return game->log().find(part) != std::string::npos; });
+  }
+
+ private:
+  static constexpr const char* kLibrary = "libdragonfly.so.0";
+
+  void write(const std::string& code) const {
+    std::ofstream(m_libraries / "new", std::ios::binary) << code;
+    fs::rename(m_libraries / "new", m_libraries / kLibrary);
+  }
+
+  const fs::path m_libraries = home.identity("libraries");
+  std::string m_code;
+};
+
+TEST_F(Upgrade, IsNoticedByTheNextRoundAndTheServerBeginsAgain) {
+  start({{"NAIAD_ON_GAME_OVER", "restart"}});
+  auto ann = join("ann");
+  const int process = shown(*ann).process;
+  upgrade();
+  press(*ann, df::Keyboard::RIGHTARROW);
+  ASSERT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "the round goes on";
+  press(*ann, df::Keyboard::X);
+  ASSERT_TRUE(comesBack(*ann)) << game->log();
+  EXPECT_NE(shown(*ann).process, process);
+  EXPECT_TRUE(logs("program was upgraded while it runs: a new world is of another build (")) << game->log();
+  EXPECT_EQ(game->log().find("sent what no world sends"), std::string::npos) << game->log();
+  // All is of one build by now.
+  press(*ann, df::Keyboard::X);
+  EXPECT_TRUE(serve([&] { return heard(*ann, "The round is over; the next one begins."); })) << game->log();
+}
+
+TEST_F(Upgrade, PrivateWorldsGoOnUntilTheirPlayersHaveLeft) {
+  start({{"NAIAD_PLAYERS", "private"}});
+  auto ann = join("ann");
+  upgrade();
+  TestClient bob(context, game->port(), home.player("bob"));
+  clients.push_back(&bob);
+  EXPECT_TRUE(serve([&] { return bob.connection().isOver(); })) << game->log();
+  EXPECT_EQ(bob.connection().sentence(),
+            "The server was upgraded. It begins again when those who play have left.");
+  EXPECT_TRUE(logs("; it begins again when all have left")) << game->log();
+  press(*ann, df::Keyboard::RIGHTARROW);
+  EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << game->log();
+  ann->connection().leave();
+  EXPECT_TRUE(logs("stopped: ")) << game->log();
+  auto carl = join("carl");
+  EXPECT_EQ(shown(*carl).steps, 0) << "in a world of the new build";
 }
 
 }  // namespace

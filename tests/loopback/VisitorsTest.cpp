@@ -4,41 +4,17 @@
 #include <asio/local/stream_protocol.hpp>
 #include <asio/write.hpp>
 
-#include "BusyWorld.h"
-#include "Home.h"
-#include "TestServer.h"
+#include "VisitedServer.h"
 #include "host/auth/PasswordHash.h"
-#include "shared/net/stream/VisitorHeader.h"
 
 namespace naiad::test {
 namespace {
 
 using Local = asio::local::stream_protocol;
 
-class VisitorsTest : public testing::Test {
+class VisitorsTest : public VisitedServer {
  protected:
-  VisitorsTest() {
-    options = home.server();
-    options.visitors = home.identity("visitors");
-    options.max_per_address = 2;
-  }
-  static std::function<void(df::World&)> world() {
-    return [](df::World& world) { populateBusyWorld(world, 5); };
-  }
-  ClientSetup from(const std::string& address, const std::string& name) const {
-    ClientSetup setup = home.player(name);
-    setup.options.visit = Visit{options.visitors, *visitorFromText(address)};
-    return setup;
-  }
-  bool joins(TestClient& client) {
-    return serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }) &&
-           client.joined();
-  }
-  std::string refusal(TestClient& client) { return joins(client) ? "" : client.connection().sentence(); }
-
-  Home home;
-  asio::io_context context;
-  HostOptions options;
+  VisitorsTest() { options.max_per_address = 2; }
 };
 
 TEST_F(VisitorsTest, PlayersCountWhereTheyAre) {

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "PtyTerminal.h"
+#include "tests/support/RunProgram.h"
 
 namespace naiad::test {
 namespace {
@@ -37,15 +38,8 @@ std::string freePort() {
 }
 
 std::string firstLine(const std::string& command) {
-  std::string text;
-  if (FILE* p_pipe = popen(command.c_str(), "r")) {
-    for (int c = std::fgetc(p_pipe); c != EOF && c != '\n'; c = std::fgetc(p_pipe))
-      text.push_back(static_cast<char>(c));
-    while (std::fgetc(p_pipe) != EOF) {
-    }
-    pclose(p_pipe);
-  }
-  return text;
+  const std::string text = runProgram(command).second;
+  return text.substr(0, text.find('\n'));
 }
 
 /// Words that end with a zero each, as /proc has them.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "shared/program/LogText.h"
+
 namespace naiad {
 
 void WatchFeed::begin(std::function<void()> wake) {
@@ -21,13 +23,44 @@ void WatchFeed::end() {
 void WatchFeed::publish(std::string kind, std::string text) {
   if (!m_watched) return;
   const std::lock_guard lock(m_mutex);
+  add({std::move(kind), std::move(text)});
+}
+
+void WatchFeed::publishGame(const std::string& line, std::chrono::steady_clock::time_point now) {
+  if (!m_watched) return;
+  const std::lock_guard lock(m_mutex);
+  if (!m_game_lines.takeToken(kGameRate, now)) {
+    ++m_left_out;
+    return;
+  }
+  if (const std::uint64_t count = std::exchange(m_left_out, 0); count > 0)
+    add({"game", "game: " + std::to_string(count) + " lines were too many and are left out"});
+  add({"game", "game: " + oneLine(std::string_view(line).substr(0, kMaxGameLine))});
+}
+
+// Under the mutex.
+void WatchFeed::add(WatchEvent event) {
   if (!m_wake) return;
   if (m_waiting.events.size() >= kMaxWaiting) {
     ++m_waiting.dropped;
     return;
   }
-  m_waiting.events.push_back({std::move(kind), std::move(text)});
+  m_waiting.events.push_back(std::move(event));
   if (m_waiting.events.size() == 1) m_wake();
+}
+
+LogLine WatchFeed::watched(LogLine log) {
+  return [this, log = std::move(log)](const LogEvent& event) {
+    log(event);
+    publish("log", event.text);
+  };
+}
+
+LogLine WatchFeed::watchedGame(LogLine log) {
+  return [this, log = std::move(log)](const LogEvent& event) {
+    log(event);
+    publishGame(event.text, std::chrono::steady_clock::now());
+  };
 }
 
 WatchFeed::Taken WatchFeed::take() {

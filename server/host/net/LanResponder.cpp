@@ -7,35 +7,16 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <optional>
 #include <system_error>
 #include <utility>
 
 namespace naiad {
 
-namespace {
-
-std::vector<LanSocket> openSockets() {
-  std::vector<LanSocket> sockets;
-  std::optional<std::system_error> failure;
-  for (const auto family : {LanSocket::Family::kIPv4, LanSocket::Family::kIPv6}) {
-    try {
-      sockets.push_back(LanSocket::forServer(family));
-    } catch (const std::system_error& error) {
-      failure = error;  // a machine without IPv6 is found all the same
-    }
-  }
-  if (sockets.empty()) throw *failure;
-  return sockets;
-}
-
-}  // namespace
-
 LanResponder::LanResponder(LanAnswer facts, std::string address, LanMode mode)
     : m_address(std::move(address)),
       m_mode(mode),
       m_judge(std::move(facts)),
-      m_sockets(openSockets()),
+      m_sockets(openLanSockets(&LanSocket::forServer)),
       m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (m_wake < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
 }

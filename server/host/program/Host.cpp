@@ -11,18 +11,15 @@
 #include "engine/managers/GameManager.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
-#include "host/admin/ControlFile.h"
 #include "host/metrics/MetricsAddress.h"
 #include "host/metrics/MetricsServer.h"
 #include "host/program/CrashReport.h"
 #include "host/program/NetworkReport.h"
+#include "host/program/Places.h"
 #include "host/program/StopSignals.h"
 #include "host/session/LookAlikes.h"
 #include "host/world/Descendants.h"
 #include "naiad.pb.h"
-#include "shared/admin/ControlPath.h"
-#include "shared/net/lan/LanMessage.h"
-#include "shared/net/stream/ByteStream.h"
 #include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"
 #include "shared/program/OpenFiles.h"
@@ -40,34 +37,6 @@ constexpr std::chrono::seconds kFirstPlayerTime{60};  ///< --exit-when-empty bef
 constexpr int kLongestFrameMillis = 1000;             ///< as --frame-time
 constexpr int kExitHung = 1;                          ///< as for a game that fails
 constexpr const char* kShuttingDown = "The server is shutting down.";  // as Ending says it
-
-/// Half-open connections: of a class behind one address, and of as many from there as the host lets in; of a
-/// few such crowds; of all players, if they come back at once. Each takes up to 192 KiB.
-constexpr std::size_t kMinHalfOpenPerPrefix = 64;
-constexpr std::size_t kMinHalfOpen = 256;
-constexpr std::size_t kMaxHalfOpen = 2048;
-
-/// Beside connections: libraries, logs.
-constexpr std::size_t kOtherFiles = 256;
-
-std::size_t halfOpen(const HostOptions& options) {
-  return std::clamp(2 * static_cast<std::size_t>(options.max_per_address), kMinHalfOpen, kMaxHalfOpen);
-}
-
-/// The same from prefixes that have players.
-std::size_t halfOpenKnown(const HostOptions& options) {
-  return std::clamp(static_cast<std::size_t>(options.max_players), halfOpen(options), kMaxHalfOpen);
-}
-
-/// Players, their next connections when they come back, and some clients that have not said hello.
-std::size_t maxConnections(const HostOptions& options) {
-  return static_cast<std::size_t>(options.max_players) * 2 + 16;
-}
-
-/// A private world has its socket and that of its keeper.
-std::size_t worldFiles(const HostOptions& options) {
-  return options.players == "private" ? 2 * Rooms::mostWorlds(options) : 0;
-}
 
 TcpOptions channelOptions() {
   TcpOptions options;
@@ -88,21 +57,6 @@ LogEvent warningOf(const std::string& text) {
   return {LogEvent::Level::kWarning, "warning: " + text};
 }
 
-/// For the log alone: the client has been hung up on.
-std::string sentenceOf(StreamRefusal why) {
-  switch (why) {
-    case StreamRefusal::kBanned:
-      return "This address is banned.";
-    case StreamRefusal::kTooOften:
-      return "Too many connections from this network.";
-    case StreamRefusal::kPrefixFull:
-      return "Too many unfinished connections from this network.";
-    case StreamRefusal::kFull:
-      return "Too many unfinished connections.";
-  }
-  return "";
-}
-
 // As if the signal had not been handled: its sender sees that it was.
 void endBySignal(int signal) {
   ::signal(signal, SIG_DFL);
@@ -117,18 +71,18 @@ void endBySignal(int signal) {
 
 Host::Host(HostOptions options, std::string game, Log log)
     : m_options(std::move(options)),
-      m_log(watchedLog(std::move(log))),
+      m_log(m_feed.watched(std::move(log))),
       m_bans(m_admin_worker, m_options.state),
       m_identity(identityOf(m_options)),
       m_handshakes(PrefixRates::handshakes(m_options.max_per_address)),
+      m_stream_refusals(m_io, m_client_log),
       m_network(
           m_io, m_options.address, static_cast<std::uint16_t>(m_options.port),
           [this](std::unique_ptr<ReliableChannel> channel) {
             m_sessions.add(std::move(channel), sessionEvents(), Clock::now());
           },
           channelOptions(), listening(), NetworkThread::Limits(), visitors(), m_options.sockets),
-      m_lan(openLan(game)),
-      m_status(openStatus(game)),
+      m_listing(m_options, listedAs(game), m_log),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_scores(m_options.state, game),
@@ -148,10 +102,13 @@ Host::Host(HostOptions options, std::string game, Log log)
                    }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
-      m_admin({m_options, m_sessions, m_admission, m_counters, m_network, m_scores, adminControls()}),
-      m_console({m_admin, m_admin_worker, m_bans, m_log,
-                 [this](std::function<void()> job) { asio::post(m_io, std::move(job)); }}),
-      m_chat_commands(chatCommands(), m_io.get_executor()),
+      m_commands({{m_options, m_sessions, m_admission, m_counters, m_network, m_scores, adminControls()},
+                  m_bans,
+                  m_admin_worker,
+                  m_feed,
+                  m_client_log,
+                  m_log},
+                 m_io),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
   m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
@@ -162,7 +119,7 @@ Host::Host(HostOptions options, std::string game, Log log)
   openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
-  listenForCommands();
+  m_commands.listen();
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
   makePlaces();
 }
@@ -170,21 +127,11 @@ Host::Host(HostOptions options, std::string game, Log log)
 // For as many players as may join by now.
 void Host::makePlaces() {
   m_sessions.setMost(maxConnections(m_options));
-  const std::size_t wanted =
-      maxConnections(m_options) + static_cast<std::size_t>(m_options.max_players) +  // with second streams
-      halfOpen(m_options) + halfOpenKnown(m_options) + worldFiles(m_options) + kOtherFiles;
+  const std::size_t wanted = wantedFiles(m_options);
   if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
     m_log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
           std::to_string(m_options.max_players) + " players and those who come back");
   }
-}
-
-// Whoever watches the server sees its log.
-LogLine Host::watchedLog(LogLine log) {
-  return [this, log = std::move(log)](const LogEvent& event) {
-    log(event);
-    m_feed.publish("log", event.text);
-  };
 }
 
 AdminControls Host::adminControls() {
@@ -195,55 +142,6 @@ AdminControls Host::adminControls() {
             takeOver(options, m_options);
             makePlaces();
           }};
-}
-
-// On the network thread. A flood of them must not fill the host's queue: what is left out here is counted by
-// the listener all the same.
-void Host::noteStreamRefusal(const asio::ip::tcp::endpoint& peer, StreamRefusal why) {
-  if (!m_stream_refusals.takeToken(ClientLog::kRefusalsInAll, Clock::now())) return;
-  asio::post(m_io, [this, address = peerName(peer), sentence = sentenceOf(why)] {
-    m_client_log.logRefusal(address, sentence, m_network.now());
-  });
-}
-
-ChatCommands::Setup Host::chatCommands() {
-  return {m_options,
-          m_sessions,
-          m_admin,
-          m_console,
-          m_bans,
-          [this](const std::string& address, const std::string& text) {
-            m_client_log.logNews(address, text, m_network.now());
-          },
-          [this](const std::string& address, const std::string& text) {
-            m_client_log.logRefusal(address, text, m_network.now());
-          }};
-}
-
-// By default it is a convenience, and a server without a home does without.
-void Host::listenForCommands() {
-  const bool by_default = m_options.control.empty() && m_options.control_by_port;
-  ControlListening listening;
-  listening.path = m_options.control;
-  if (by_default) {
-    listening.path = naiad::controlPath(m_network.port()).value_or(std::filesystem::path());
-    removeStaleControls(listening.path.parent_path());
-  }
-  if (listening.path.empty()) return;
-  // A world must not give orders, nor hide in a namespace from where its process has no number here.
-  listening.is_refused = [](pid_t process) { return process <= 0 || isDescendant(process); };
-  const auto execute = [this](AdminRequest request, AdminCaller caller, AdminConsole::Done done) {
-    asio::post(m_io, [this, request = std::move(request), caller = std::move(caller),
-                      done = std::move(done)] { m_console.execute(request, caller, done); });
-  };
-  try {
-    const std::string path = listening.path.string();
-    m_control = std::make_unique<ControlSocket>(std::move(listening), execute, m_feed, m_log);
-    m_control_path = path;
-  } catch (const ListenError& error) {
-    if (!by_default) throw;
-    m_log(warningOf(std::string(error.what()) + " dfctl cannot reach this server (--control)."));
-  }
 }
 
 // A port that is taken is an error as the players' port is.
@@ -266,18 +164,16 @@ void Host::beginMetrics() {
   if (m_options.audit == "on") m_rooms.startAudit(static_cast<std::uint32_t>(std::chrono::seconds(1) / tick));
 }
 
-// Half-open connections from prefixes with players have places of their own, so that a crowd of others does
-// not keep players from coming back.
 TlsListening Host::listening() {
   TlsListening listening;
   if (!m_identity) return listening;
   listening.context = m_identity->tls();
-  listening.max_half_open = halfOpen(m_options);
-  listening.max_half_open_known = halfOpenKnown(m_options);
-  listening.max_half_open_per_prefix = std::clamp(static_cast<std::size_t>(m_options.max_per_address),
-                                                  kMinHalfOpenPerPrefix, listening.max_half_open / 2);
+  const HalfOpenPlaces half_open = halfOpenPlaces(m_options);
+  listening.max_half_open = half_open.in_all;
+  listening.max_half_open_known = half_open.known;
+  listening.max_half_open_per_prefix = half_open.of_a_prefix;
   listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
-  listening.on_refused = [this](const auto& peer, StreamRefusal why) { noteStreamRefusal(peer, why); };
+  listening.on_refused = [this](const auto& peer, StreamRefusal why) { m_stream_refusals.note(peer, why); };
   listening.is_banned = [this](const asio::ip::address& address) { return m_bans.isBanned(address); };
   listening.take_handshake = [this](const AddressPrefix& prefix) {
     return m_handshakes.take(prefix, Clock::now());
@@ -296,40 +192,9 @@ VisitorsListening Host::visitors() const {
   return visitors;
 }
 
-// Loopback alone is found only if that is asked for: it is nobody's network.
-std::unique_ptr<LanResponder> Host::openLan(const std::string& game) {
-  const bool automatic = m_options.lan == "auto";
-  const bool loopback = asio::ip::make_address(m_options.address).is_loopback();
-  if (!m_identity || m_options.lan == "off" || (automatic && loopback)) return nullptr;
-  LanAnswer facts;
-  facts.protocol = kProtocolVersion;
-  facts.port = m_network.port();
-  facts.asks_password = !m_options.password.empty();
-  facts.max_players = static_cast<std::uint16_t>(m_options.max_players);
-  facts.key = ShortKey::of(m_identity->fingerprint());
-  facts.name = m_options.name;
-  facts.game = game;
-  try {
-    return std::make_unique<LanResponder>(facts, m_options.address,
-                                          automatic ? LanMode::kAuto : LanMode::kOn);
-  } catch (const std::system_error& error) {
-    const std::string wrong = std::string("cannot be found in the local network: ") + error.what();
-    if (!automatic) throw ListenError("--lan on: the server " + wrong + ".", error.code());
-    m_log("warning: the server " + wrong);
-    return nullptr;
-  }
-}
-
-std::unique_ptr<StatusFile> Host::openStatus(const std::string& game) const {
-  if (m_options.status_file.empty()) return nullptr;
-  StatusFacts facts;
-  facts.name = m_options.name;
-  facts.game = game;
-  facts.max_players = static_cast<std::size_t>(m_options.max_players);
-  facts.asks_password = !m_options.password.empty();
+Listing::Server Host::listedAs(const std::string& game) const {
   const auto link = m_options.link_host.empty() ? std::nullopt : joinLink(true);
-  if (link) facts.link = link->text();
-  return std::make_unique<StatusFile>(m_options.status_file, facts);
+  return {game, m_network.port(), fingerprint(), link ? link->text() : std::string()};
 }
 
 std::optional<Fingerprint> Host::fingerprint() const {
@@ -354,10 +219,9 @@ std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
   return JoinLink{*where, "", ShortKey::of(m_identity->fingerprint())};
 }
 
-// Answers go through what is destroyed here; the last of what was promised is written before.
+// Answers go through what is destroyed here.
 Host::~Host() {
-  m_control.reset();
-  m_admin_worker.finish();
+  m_commands.close();
   m_scores.finish();
 }
 
@@ -379,7 +243,7 @@ void Host::run(df::World& world) {
   m_network.start();
   m_service.notifyReady();
   beginMetrics();
-  if (m_lan) m_lan->start();
+  m_listing.start();
   while (!isOver()) {
     serveUntil(schedule.deadline());
     heedSignals(signals);
@@ -421,12 +285,28 @@ void Host::end(Ending::Plan plan) {
 
 bool Host::cancelEnd() {
   m_rooms.setLastRound(false);
+  m_rooms.forgetUpgrade();
   if (m_metrics) m_metrics->cancelDrain();
   return m_ending.cancel();
 }
 
 void Host::heedEnd(Clock::time_point now) {
   if (const auto news = m_ending.takeNews(now)) sayToAll(*news);
+}
+
+// The worlds that there are go on; the next ones take a server that is of their build.
+void Host::heedUpgrade() {
+  const auto news = m_rooms.takeUpgrade();
+  if (!news) return;
+  const bool waits = m_rooms.isPrivate();
+  m_log(warningOf(*news + (waits ? "; it begins again when all have left" : "; it begins again")));
+  Ending::Plan plan = m_ending.plan().value_or(Ending::Plan{.begins_again = true});
+  if (waits) {
+    plan.when_empty = true;
+  } else {
+    plan.at = m_tick_began;
+  }
+  end(std::move(plan));
 }
 
 void Host::sayToAll(const std::string& text) {
@@ -544,6 +424,7 @@ void Host::tick() {
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
   m_admission.judgeWaiting();
+  heedUpgrade();
   tickWorlds();
   m_stages.enter(Stage::kNews);
   sendPlayers();
@@ -570,7 +451,7 @@ void Host::checkSessions() {
     if (session.takeProof()) m_admission.confirmToken(session);
     m_inactivity.check(session, std::chrono::seconds(m_options.inactive_kick), m_counters, sendServerLine);
   });
-  m_chat_commands.update(now);
+  m_commands.update(now);
 }
 
 // A tick that hangs sends no keep-alive, so the service manager ends and restarts the server.
@@ -582,18 +463,10 @@ void Host::notifyService() {
                          (playing == 1 ? " player" : " players"));
 }
 
-// For those who look for a server.
-void Host::notePlaying(std::size_t playing) {
-  if (m_lan) m_lan->setPlayers(playing);
-  if (!m_status) return;
-  m_status->setPlayers(playing);
-  if (const std::string news = m_status->takeNews(); !news.empty()) m_log(news);
-}
-
 // The list of players has those of all rooms.
 void Host::sendPlayers() {
   const std::size_t playing = m_sessions.playing();
-  notePlaying(playing);
+  m_listing.setPlayers(playing);
   if (playing == 0) return;
   m_player_news.tick(
       static_cast<std::uint32_t>(m_counters.ticks), m_rooms.players(),
@@ -640,7 +513,7 @@ void Host::takeChat(Session& session, const std::string& text) {
   if (!m_chat.take(prefix, m_network.now())) {
     ++m_counters.chat_dropped;
   } else if (ChatCommands::isCommand(text)) {
-    m_chat_commands.serve(session, text);
+    m_commands.serveChat(session, text);
   } else if (session.standing().isMuted()) {
     ++m_counters.chat_muted;
     sendServerLine(session, "You are muted: nobody reads your lines.");
@@ -697,8 +570,7 @@ void Host::drain() {
   m_service.notifyStopping();
   if (m_metrics) m_metrics->beginDrain(false);
   m_network.closeListener();
-  if (m_lan) m_lan->stop();
-  m_status.reset();
+  m_listing.stop();
   std::string sentence = m_rooms.lastSentence();
   if (sentence.empty() || m_ending.beginsAgain()) sentence = m_ending.sentence();
   if (sentence.empty()) sentence = "The game is over.";
@@ -714,14 +586,13 @@ void Host::drain() {
     m_rooms.closeWorlds();
   }
   m_network.stop();
-  m_control.reset();
-  m_admin_worker.finish();
+  m_commands.close();
   m_rooms.finishScores();
   m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);
   logRefusals(m_network, m_log);
-  if (m_lan) logLan(m_lan->counters(), m_log);
+  m_listing.logCounters();
 }
 
 void Host::stop(const std::string& sentence) {

@@ -13,36 +13,32 @@
 #include <string>
 
 #include "engine/world/Runner.h"
-#include "host/admin/AdminConsole.h"
 #include "host/admin/AdminWorker.h"
 #include "host/admin/BanList.h"
-#include "host/admin/ControlSocket.h"
 #include "host/admin/WatchFeed.h"
 #include "host/auth/ServerIdentity.h"
 #include "host/metrics/StageClock.h"
-#include "host/net/LanResponder.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/program/Admission.h"
-#include "host/program/ChatCommands.h"
 #include "host/program/Ending.h"
-#include "host/program/HostAdmin.h"
+#include "host/program/HostCommands.h"
 #include "host/program/HostMetrics.h"
 #include "host/program/HostOptions.h"
 #include "host/program/InactivityCheck.h"
+#include "host/program/Listing.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Reload.h"
 #include "host/program/Rooms.h"
 #include "host/program/ServiceNotify.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
-#include "host/program/StatusFile.h"
+#include "host/program/StreamRefusalLog.h"
 #include "host/program/TickClock.h"
 #include "host/program/Watchdog.h"
 #include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
 #include "shared/net/base/PrefixAllowance.h"
-#include "shared/net/base/TokenBucket.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/program/ClientLog.h"
 #include "shared/program/LineLog.h"
@@ -74,7 +70,7 @@ class Host : public df::Runner {
   std::optional<JoinLink> joinLink(bool elsewhere) const;
   const Counters& counters() const { return m_counters; }
   /// Of the socket for commands; empty: there is none.
-  const std::string& controlPath() const { return m_control_path; }
+  const std::string& controlPath() const { return m_commands.path(); }
   /// What became of every datagram so far; nothing without encryption. Thread-safe.
   DatagramGateCounters datagramCounters() const { return m_network.gateCounters(); }
   /// How long ticks took, begin to last datagram sent. Thread-safe.
@@ -121,6 +117,8 @@ class Host : public df::Runner {
   /// and those that need a restart, leave what there was. On the host's thread.
   using Reloading = std::function<void(bool is_done, const std::string& sentence)>;
   void reload(Reloading done);
+  /// For lines of its game, which those who watch the server read, too (WatchFeed.h). Outlives what it gives.
+  LogLine watchedGame(LogLine log) { return m_feed.watchedGame(std::move(log)); }
   /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests inspect a
   /// running world with it).
   void post(std::function<void(df::World&)> job);
@@ -134,13 +132,8 @@ class Host : public df::Runner {
   VisitorsListening visitors() const;
   void openMetrics();
   void beginMetrics();
-  std::unique_ptr<LanResponder> openLan(const std::string& game);
-  std::unique_ptr<StatusFile> openStatus(const std::string& game) const;
-  void notePlaying(std::size_t playing);
+  Listing::Server listedAs(const std::string& game) const;
   Session::Events sessionEvents();
-  LogLine watchedLog(LogLine log);
-  ChatCommands::Setup chatCommands();
-  void listenForCommands();
   void takeChat(Session& session, const std::string& text);
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
@@ -153,11 +146,11 @@ class Host : public df::Runner {
   void tickWorlds();
   void heedSignals(StopSignals& signals);
   void heedEnd(Clock::time_point now);
+  void heedUpgrade();
   void sayToAll(const std::string& text);
   void adoptReloaded(Reloaded reloaded, const Reloading& done);
   AdminControls adminControls();
   void makePlaces();
-  void noteStreamRefusal(const asio::ip::tcp::endpoint& peer, StreamRefusal why);
   void useIdentity(std::optional<ServerIdentity> identity);
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
@@ -178,11 +171,10 @@ class Host : public df::Runner {
   BanList m_bans;  ///< the network thread asks it, too
   std::optional<ServerIdentity> m_identity;
   PlayerPrefixes m_prefixes;
-  PrefixAllowance m_handshakes;   ///< of the network thread
-  TokenBucket m_stream_refusals;  ///< of the network thread: those that are logged
+  PrefixAllowance m_handshakes;  ///< of the network thread
+  StreamRefusalLog m_stream_refusals;
   NetworkThread m_network;
-  std::unique_ptr<LanResponder> m_lan;   ///< null: not to be found in the local network
-  std::unique_ptr<StatusFile> m_status;  ///< null: none is asked for
+  Listing m_listing;
   SessionTable m_sessions;
   StageClock m_stages;
   ScoreKeeper m_scores;
@@ -192,12 +184,8 @@ class Host : public df::Runner {
   PrefixAllowance m_chat;
   Watchdog* m_p_watchdog = nullptr;  ///< while it runs
   PlayerNews m_player_news;
-  HostAdmin m_admin;
-  AdminConsole m_console;
-  ChatCommands m_chat_commands;
+  HostCommands m_commands;
   InactivityCheck m_inactivity;
-  std::string m_control_path;                ///< empty: there is none
-  std::unique_ptr<ControlSocket> m_control;  ///< null: there is none
   ServiceNotify m_service;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;

@@ -172,6 +172,23 @@ class TerminalPlayer {
   bool m_local_left = false;
 };
 
+/// What the game logs goes to its own file, as ever; those who watch the server read it, too.
+class WatchedLog {
+ public:
+  WatchedLog(df::World& world, Host& host) : m_world(world) {
+    const LogLine log = host.watchedGame([&world](const std::string& line) {
+      df::writeToLogFile(df::Config::getInstance().getLogFile(), line, world.getLogFlush());
+    });
+    world.setLogSink([log](const std::string& line) { log(line); });
+  }
+  ~WatchedLog() { m_world.setLogSink({}); }
+  WatchedLog(const WatchedLog&) = delete;
+  WatchedLog& operator=(const WatchedLog&) = delete;
+
+ private:
+  df::World& m_world;
+};
+
 /// The process runs its program again; the game's statics end with it.
 [[noreturn]] void beginAgain(std::unique_ptr<Host>& host) {
   const std::uint16_t port = host->port();
@@ -293,11 +310,16 @@ void ProgramHost::serve(df::World& world) {
   if (launcher != nullptr) {
     HostOptions journaled = m_options;
     journaled.port = host->port();  // a round goes on where its players look for it
-    host->setWorlds(startWorlds(launcher, printLine, Journals::open(journaled, programName(), "", log)));
+    host->setWorlds(startWorlds(launcher, host->watchedGame(printLine),
+                                Journals::open(journaled, programName(), "", log)));
   }
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
-  host->run(world);
+  {
+    std::optional<WatchedLog> watched;
+    if (lines) watched.emplace(world, *host);  // or the host's own lines would come twice
+    host->run(world);
+  }
   world.setHelp(help);
   if (host->beginsAgain()) beginAgain(host);
   if (!host->failure().empty()) fail(kGameFailed, "the game " + host->failure());

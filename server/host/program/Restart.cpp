@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -32,12 +33,20 @@ std::vector<const char*> pointersTo(const std::vector<std::string>& texts) {
   return pointers;
 }
 
+/// Where this process's program lies; an upgrade may have put another one there, and is to.
+std::string programPath() {
+  constexpr std::string_view kReplaced = " (deleted)";  // the kernel's word for it
+  std::error_code error;
+  std::string path = std::filesystem::read_symlink("/proc/self/exe", error).string();
+  if (path.ends_with(kReplaced) && !std::filesystem::exists(path, error))
+    path.resize(path.size() - kReplaced.size());
+  return path;
+}
+
 }  // namespace
 
-StartCommand::StartCommand(std::vector<std::string> arguments) : m_arguments(std::move(arguments)) {
-  std::error_code error;
-  m_program = std::filesystem::read_symlink("/proc/self/exe", error).string();
-}
+StartCommand::StartCommand(std::vector<std::string> arguments)
+    : m_program(programPath()), m_arguments(std::move(arguments)) {}
 
 StartCommand::StartCommand(int argc, const char* const* argv)
     : StartCommand(std::vector<std::string>(argv, argv + argc)) {}

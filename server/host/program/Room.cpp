@@ -74,8 +74,8 @@ void Room::say(const std::string& text) const {
   forEachPlaying([&message](Session& session) { session.sendKept(message); });
 }
 
-void Room::dismiss(const std::string& sentence) const {
-  forEachPlaying([&sentence](Session& session) { session.goodbye(sentence); });
+void Room::dismiss(const std::string& sentence, std::chrono::seconds again) const {
+  forEachPlaying([&](Session& session) { session.goodbye(sentence, again); });
 }
 
 // ---- ticks ------------------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 // lists those that play in it until remove().
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -72,8 +73,8 @@ class Room {
   /// The player's client may have missed sounds: send again what is playing.
   void repeatSounds(std::uint32_t player) { m_sound_news.repeat(player); }
   const SoundNews& sounds() const { return m_sound_news; }
-  /// End the sessions of all that play.
-  void dismiss(const std::string& sentence) const;
+  /// End the sessions of all that play. `again`: for so long their clients look for the server; 0: they end.
+  void dismiss(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0)) const;
 
   // Ticks.
 

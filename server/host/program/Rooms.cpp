@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include "host/program/Ending.h"
+#include "host/world/BuildId.h"
 #include "host/world/WorldInProcess.h"
 #include "naiad.pb.h"
 #include "shared/net/base/SafeFile.h"
@@ -109,7 +111,7 @@ std::size_t Rooms::mostWorlds(const HostOptions& options) {
 }
 
 Room* Rooms::roomForNewPlayer(std::string& problem) {
-  if (m_closing) return nullptr;
+  if (m_closing || m_upgraded) return nullptr;
   if (!isPrivate()) return m_rooms.front().get();
   if (m_rooms.size() >= mostWorlds(m_options)) {
     problem = "the worlds of those who left have not ended yet";
@@ -258,12 +260,26 @@ void Rooms::countEnd(WorldEnd::Why why) {
     case WorldEnd::kNotRecovered:
       ++m_counters.rounds_unrecovered;
       break;
+    case WorldEnd::kForeign:  // it has not begun
+      break;
   }
+}
+
+// Its players come back to the server once that has begun again, or are told that it has to.
+void Rooms::noteUpgrade(const Room& room, const WorldEnd& end) {
+  if (!std::exchange(m_upgraded, true)) {
+    m_upgrade_news = "this server's program was upgraded while it runs: a new world " + end.text +
+                     ", the server of " + ownBuildId().substr(0, kShownBuildId);
+  }
+  if (isPrivate())
+    room.dismiss("The server was upgraded. It begins again when those who play have left.",
+                 Ending::kLookAgain);
 }
 
 // No further round for a player alone in the game's own terminal. Nor for a game that ends again and again as
 // soon as it begins: it would do so for ever.
 void Rooms::endRound(Room& room, const WorldEnd& end) {
+  if (end.why == WorldEnd::kForeign) return noteUpgrade(room, end);
   m_log("the round is over: the game " + end.text + (end.when.empty() ? "" : " " + end.when));
   for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
   if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);

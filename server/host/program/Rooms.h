@@ -106,6 +106,11 @@ class Rooms {
   const std::string& lastSentence() const { return m_last_sentence; }
   /// How the last world failed, like "crashed (SIGABRT)"; empty if it did not.
   const std::string& failure() const { return m_failure; }
+  /// A new world is of another build than this server, whose program was upgraded: no further world can
+  /// begin. Those that there are go on. In words for the log; nothing if it is not so, or was said before.
+  std::optional<std::string> takeUpgrade() { return std::exchange(m_upgrade_news, std::nullopt); }
+  /// Try again to begin worlds.
+  void forgetUpgrade() { m_upgraded = false; }
   /// End all worlds. One in a process of its own takes time: call again until isEmpty().
   void closeWorlds();
   bool isEmpty() const { return m_rooms.empty(); }
@@ -124,6 +129,7 @@ class Rooms {
   void publish(Room& room);
   void dismissLeavers(Room& room);
   void endRound(Room& room, const WorldEnd& end);
+  void noteUpgrade(const Room& room, const WorldEnd& end);
   void countEnd(WorldEnd::Why why);
   bool beginRound(Room& room);
 
@@ -146,6 +152,8 @@ class Rooms {
   bool m_over = false;  ///< there is no next round
   bool m_closing = false;
   bool m_last_round = false;
+  bool m_upgraded = false;  ///< new worlds are of another build
+  std::optional<std::string> m_upgrade_news;
   std::string m_last_sentence;
   std::string m_failure;
 };

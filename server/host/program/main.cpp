@@ -67,15 +67,21 @@ ExitCode play(const naiad::GameModule& game) {
   return kGameFailed;
 }
 
-/// What is the same for a host and for a world that it has started in another process; `where` it is. `mark`:
-/// before lines of the game's own, which may have a player's name and read as a line of the server's.
+/// For lines of a game: they may have a player's name, and read as a line of the server's own, and so are
+/// marked.
+naiad::LogLine markedLog(naiad::LineLog& log) {
+  return [&log](const std::string& line) { log({"game", "game: " + line, {}}); };
+}
+
+/// What is the same for a host and for a world that it has started in another process; `where` it is.
+/// `game_log`: for the game's own lines.
 ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
-              naiad::HostOptions& options, naiad::LineLog& log, const std::string& mark) {
+              naiad::HostOptions& options, naiad::LineLog& log, const naiad::LogLine& game_log) {
   const auto given = naiad::takeWorldSeed();
   if (given) options.seed = static_cast<std::int64_t>(*given);
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
-  const Installed installed(runner, [&log, &mark](const std::string& line) { log(mark + line); });
+  const Installed installed(runner, game_log);
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
@@ -158,8 +164,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   const auto module = naiad::GameModule::find(options.game);
   const auto launcher = naiad::launchModule(options, module.string(), start.config, log);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
-  // Marked, since a game may print what reads as a line of the server's own.
-  const naiad::LogLine print = [&lines](const std::string& line) { lines({"game", "game: " + line, {}}); };
+  const naiad::LogLine print = markedLog(lines);
   // Why a game cannot be loaded is for whoever has started the server, too.
   const naiad::Preview preview = naiad::previewWorld(*launcher, [&](const std::string& line) {
     print(line);
@@ -171,7 +176,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
   journaled.port = host.port();  // a round goes on where its players look for it
   const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
-  host.setWorlds(naiad::startWorlds(launcher, print, journals));
+  host.setWorlds(naiad::startWorlds(launcher, host.watchedGame(print), journals));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
@@ -190,7 +195,7 @@ int serve(Start& start) {
     df::World::current().setActivityPage(naiad::openWorldPage());
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
     return play(naiad::GameModule(options.game), " in a world of its own", world, options, log,
-                "");  // the front marks
+                [&log](const naiad::LogEvent& event) { log(event); });  // the front marks
   }
   naiad::LineLog log(options.log_file);
   useLogOptions(options, log);
@@ -201,7 +206,8 @@ int serve(Start& start) {
   naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
   watchReloads(start, host, log);
   announce(options, host);
-  const ExitCode code = play(game, " on " + host.address(), host, options, log, "game: ");
+  const ExitCode code =
+      play(game, " on " + host.address(), host, options, log, host.watchedGame(markedLog(log)));
   noteEnd(host, start);
   return host.failure().empty() ? code : failGame(host.failure());
 }

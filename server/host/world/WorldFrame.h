@@ -8,9 +8,9 @@
 //   void visit(Fields& f, T& facts) { f.flag(facts.shown); f.number(facts.id, 1, 9); … }
 //
 // so a new field is one line. A text and a list have a longest length, which bounds what a frame makes its
-// reader keep and do. Both ends are built from one source, so there are no versions. But a world runs a
-// game's code: a reader checks every number, and a writer clamps each to its range, so that no game is
-// refused for a coordinate.
+// reader keep and do. Both ends are of one build, so there are no versions: the first frame says of which
+// (BuildId.h), and a world of another is ended. But a world runs a game's code: a reader checks every number,
+// and a writer clamps each to its range, so that no game is refused for a coordinate.
 #pragma once
 
 #include <algorithm>

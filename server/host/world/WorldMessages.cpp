@@ -1,7 +1,9 @@
 #include "host/world/WorldMessages.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "host/world/BuildId.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 
@@ -28,6 +30,10 @@ template <class F, class T>
 void visitFile(F& f, T& file) {
   f.text(file.name, kMaxReadFileName);
   visitHash(f, file.hash);
+}
+
+bool isHex(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
 }
 
 template <class F, class T>
@@ -170,12 +176,24 @@ void visitPicture(FieldReader& in, df::Canvas& canvas) {
 
 void writeReady(const WorldReady& ready, std::string& frame) {
   FieldWriter out(frame);
+  out.text(ownBuildId(), kMaxBuildId);
   visitReady(out, ready);
   out.finish();
 }
 
+std::optional<std::string> readBuild(std::string_view fields) {
+  FieldReader in(fields);
+  std::string build;
+  in.text(build, kMaxBuildId);
+  in.require(std::all_of(build.begin(), build.end(), isHex));
+  return in.ok() ? std::optional(std::move(build)) : std::nullopt;
+}
+
 std::optional<WorldReady> readReady(std::string_view fields) {
   FieldReader in(fields);
+  std::string build;
+  in.text(build, kMaxBuildId);
+  in.require(build == ownBuildId());
   WorldReady ready;
   visitReady(in, ready);
   return in.isWhole() ? std::optional(std::move(ready)) : std::nullopt;

@@ -74,7 +74,11 @@ void visitTurnInput(FieldReader& in, df::InputQueue::Input& input);
 void visitPicture(FieldWriter& out, const df::Canvas& canvas);
 void visitPicture(FieldReader& in, df::Canvas& canvas);
 
+/// It begins with the build that has written it.
 void writeReady(const WorldReady& ready, std::string& frame);
+/// Of which build (BuildId.h) the world is that has sent this. That alone may be read of another build: what
+/// follows in its frames may be anything.
+std::optional<std::string> readBuild(std::string_view fields);
 std::optional<WorldReady> readReady(std::string_view fields);
 
 bool writeTurn(const WorldTurn& turn, std::string& frame);

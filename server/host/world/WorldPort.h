@@ -28,6 +28,7 @@ struct WorldEnd {
     kHung,          ///< it did not answer in time
     kBroken,        ///< it sent a malformed frame
     kNotRecovered,  ///< a round of a server that was killed could not be executed again
+    kForeign,       ///< it is of another build than the host, which was upgraded meanwhile
   } why = kGameOver;
   std::string text = {};  ///< for the log and for players, like "crashed (SIGABRT)"
   int exit_code = 0;      ///< of kCrashed, unless it was a signal

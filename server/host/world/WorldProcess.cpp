@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "host/world/ActivityReader.h"
+#include "host/world/BuildId.h"
 #include "shared/values/FastHash.h"
 
 namespace naiad {
@@ -159,8 +160,8 @@ void WorldProcess::onFrame() {
   const bool starts = m_state == State::kStarting;
   if (m_state == State::kReady) return fail(WorldEnd::kBroken, "spoke out of turn");
   if (starts) {
-    m_ready = readReady(m_in);
-    if (!m_ready) return fail(WorldEnd::kBroken, "sent what no world sends");
+    takeReady();
+    if (!m_ready) return;
   } else {
     auto answer = readAnswer(m_in, *m_views, m_view);
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
@@ -181,6 +182,15 @@ void WorldProcess::onFrame() {
 
 std::vector<df::AddedScore> WorldProcess::takeScores() {
   return std::exchange(m_answer.scores, {});
+}
+
+// An upgrade has replaced files from which this process's worlds are started, but not what this process is.
+void WorldProcess::takeReady() {
+  const auto build = readBuild(m_in);
+  if (build && *build != ownBuildId())
+    return fail(WorldEnd::kForeign, "is of another build (" + build->substr(0, kShownBuildId) + ")");
+  m_ready = readReady(m_in);
+  if (!m_ready) fail(WorldEnd::kBroken, "sent what no world sends");
 }
 
 std::vector<std::uint32_t> WorldProcess::takeLeavers() {
@@ -257,7 +267,7 @@ void WorldProcess::finish(int status) {
   asio::error_code ignored;
   m_socket.close(ignored);
   m_end = m_failure ? *m_failure : endOf(status);
-  if (m_end->why == WorldEnd::kGameOver) return;
+  if (m_end->why == WorldEnd::kGameOver || m_end->why == WorldEnd::kForeign) return;
   m_end->when = when();
   m_end->last_lines = lastLines();
 }

@@ -88,6 +88,7 @@ class WorldProcess : public WorldPort {
   void readHead();
   void readFields();
   void onFrame();
+  void takeReady();
   void hangUp();
   void fail(WorldEnd::Why why, const std::string& text);
   void finish(int status);

@@ -221,4 +221,18 @@ bool LanSocket::send(const LanNetwork& from, const asio::ip::udp::endpoint& to, 
   return ::sendmsg(m_descriptor, &message, flags | MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
 }
 
+std::vector<LanSocket> openLanSockets(LanSocket (*p_open)(LanSocket::Family family)) {
+  std::vector<LanSocket> sockets;
+  std::optional<std::system_error> failure;
+  for (const auto family : {LanSocket::Family::kIPv4, LanSocket::Family::kIPv6}) {
+    try {
+      sockets.push_back(p_open(family));
+    } catch (const std::system_error& error) {
+      failure = error;
+    }
+  }
+  if (sockets.empty()) throw *failure;
+  return sockets;
+}
+
 }  // namespace naiad

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "shared/net/lan/LanMessage.h"
 #include "shared/net/lan/LanNetworks.h"
@@ -57,5 +58,9 @@ class LanSocket {
   int m_descriptor = -1;
   std::array<char, kLanQuerySize + 1> m_bytes{};
 };
+
+/// Those that there are of the two families, each by LanSocket::forServer or forClient: a machine may lack
+/// IPv6. Throws what the last one threw if there is none.
+std::vector<LanSocket> openLanSockets(LanSocket (*p_open)(LanSocket::Family family));
 
 }  // namespace naiad

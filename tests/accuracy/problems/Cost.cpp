@@ -1,12 +1,12 @@
 // What a body costs by what it uses: the columns of the cost page.
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include "ElapsedTime.h"
 #include "Path.h"
+#include "tests/support/RunProgram.h"
 
 namespace lab {
 
@@ -24,15 +24,10 @@ double instructionsOf(const std::string& name, const std::string& method, int ti
   const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '" +
                               std::filesystem::read_symlink("/proc/self/exe").string() + "' --work cost " +
                               name + " " + method + " " + std::to_string(ticks) + " 2>&1";
-  std::FILE* p_pipe = popen(command.c_str(), "r");
-  if (p_pipe == nullptr) throw Failure("no process");
-  std::string output;
-  std::array<char, 4096> buffer;
-  while (std::fgets(buffer.data(), buffer.size(), p_pipe) != nullptr) output += buffer.data();
-  const int status = pclose(p_pipe);
+  const auto [code, output] = naiad::test::runProgram(command);
   const std::string label = "Collected : ";
   const std::size_t at = output.find(label);
-  if (status != 0 || at == std::string::npos) throw Failure("valgrind does not count");
+  if (code != 0 || at == std::string::npos) throw Failure("valgrind does not count");
   return std::stod(output.substr(at + label.size()));
 }
 

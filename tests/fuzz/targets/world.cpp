@@ -9,6 +9,7 @@
 #include "engine/world/WorldExtras.h"
 #include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
+#include "host/world/BuildId.h"
 #include "host/world/WorldMessages.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
@@ -32,8 +33,16 @@ void tryTurn(std::string_view bytes) {
   REQUIRE(again == frame);
 }
 
+/// The id of this build, with which no input could begin by chance.
+std::string ownBegin() {
+  std::string frame;
+  FieldWriter(frame).text(ownBuildId(), kMaxBuildId);
+  return frame.substr(kWorldFrameHead);
+}
+
 void tryReady(std::string_view bytes) {
-  const auto ready = readReady(bytes);
+  readBuild(bytes);
+  const auto ready = readReady(ownBegin().append(bytes));
   if (!ready) return;
   REQUIRE(ready->window_width >= kMinViewWidth && ready->window_width <= kMaxViewWidth);
   REQUIRE(ready->help.size() <= kMaxHelpLines);

@@ -1,5 +1,6 @@
 // A game that knows of no players and keeps what it knows in globals, as programs do that were written for
 // one player. What it is good for is in RoundsTest.cpp.
+#include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include "EventStep.h"
 #include "GameManager.h"
 #include "HighScores.h"
+#include "LogManager.h"
 #include "Music.h"
 #include "Object.h"
 #include "WorldManager.h"
@@ -41,6 +43,11 @@ class Walker : public Object {
     if (p_k->getKey() == Keyboard::X) over = true;
     if (p_k->getKey() == Keyboard::C) abort();
     if (p_k->getKey() == Keyboard::H) pause();
+    if (p_k->getKey() == Keyboard::P) {
+      printf("printed \x1b[31mred\n");
+      fflush(stdout);
+    }
+    if (p_k->getKey() == Keyboard::L) LM.writeLog("logged \x1b[31mred");
     if (p_k->getKey() == Keyboard::RIGHTARROW) steps++;
     if (p_k->getKey() == Keyboard::S) HighScores("steps").add("walker", steps);
     return 1;

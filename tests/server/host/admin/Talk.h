@@ -53,6 +53,11 @@ class Talk {
       m_in.append(piece, static_cast<std::size_t>(size));
     }
   }
+  /// Is there more to read? Does not wait.
+  bool isReadable() const {
+    pollfd ready{m_socket, POLLIN, 0};
+    return !m_in.empty() || ::poll(&ready, 1, 0) > 0;
+  }
   /// A line, and the last line of its answer.
   std::string ask(const std::string& line) {
     send(line + "\n");

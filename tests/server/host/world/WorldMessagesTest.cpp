@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/snapshot/Publisher.h"
+#include "host/world/BuildId.h"
 #include "host/world/WorldMessages.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
@@ -214,6 +215,22 @@ TEST(WorldMessages, WhatAGameHasSetUpCrossesWholeAndInItsRange) {
   sent.help.assign(kMaxHelpLines + 1, "x");
   writeReady(sent, frame);
   EXPECT_EQ(readReady(fieldsOf(frame)).value_or(WorldReady()).help.size(), kMaxHelpLines);
+}
+
+TEST(WorldMessages, OfAnotherBuildNothingButItsIdIsRead) {
+  std::string frame;
+  writeReady({}, frame);
+  std::string fields(fieldsOf(frame));
+  ASSERT_EQ(readBuild(fields), ownBuildId());
+  ASSERT_GE(ownBuildId().size(), 16u);
+  char& digit = fields[1];
+  digit = digit == '0' ? '1' : '0';
+  ASSERT_TRUE(readBuild(fields));
+  EXPECT_NE(readBuild(fields), ownBuildId());
+  EXPECT_FALSE(readReady(fields)) << "though the rest may read as ours";
+  EXPECT_TRUE(readBuild(fields.substr(0, 1 + ownBuildId().size()) + "\xff\xff"));
+  digit = '\x1b';
+  EXPECT_FALSE(readBuild(fields)) << "what is no id must not come to the log";
 }
 
 TEST(WorldMessages, AnswersCrossWhole) {

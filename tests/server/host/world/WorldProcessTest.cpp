@@ -15,10 +15,8 @@
 namespace naiad {
 namespace {
 
-/// For printf: a frame that says that the game is ready.
-std::string readyFrame() {
-  std::string frame;
-  writeReady({}, frame);
+/// For printf.
+std::string escape(const std::string& frame) {
   std::string escaped;
   for (const char byte : frame) {
     char octal[5];
@@ -27,6 +25,15 @@ std::string readyFrame() {
   }
   return escaped;
 }
+
+/// A frame that says that the game is ready.
+std::string readyFrame() {
+  std::string frame;
+  writeReady({}, frame);
+  return frame;
+}
+
+constexpr std::size_t kFirstDigit = kWorldFrameHead + 1;  ///< of the build's id in that frame
 
 class WorldProcessTest : public testing::Test {
  protected:
@@ -52,7 +59,7 @@ class WorldProcessTest : public testing::Test {
   }
 
   /// For a script: it is ready; it takes a turn, of 4 + 4 bytes (watched, no truth, no end, no inputs).
-  static std::string isReady() { return "printf '" + readyFrame() + "' >&3; "; }
+  static std::string isReady() { return "printf '" + escape(readyFrame()) + "' >&3; "; }
   static std::string takesTurn() { return "dd bs=8 count=1 <&3 2>/dev/null >/dev/null; "; }
 
   int ticks = 0;
@@ -111,6 +118,19 @@ TEST_F(WorldProcessTest, OneThatSendsAMalformedFrameIsKilled) {
                  "'\\2\\0\\0\\0\\7\\7' >&3; exec sleep 100")
                 .why,
             WorldEnd::kBroken);
+  EXPECT_EQ(ticks, 0);
+}
+
+TEST_F(WorldProcessTest, OfAnotherBuildNothingIsReadAndItIsEnded) {
+  std::string frame = readyFrame();
+  frame[kFirstDigit] = frame[kFirstDigit] == 'a' ? 'b' : 'a';
+  const std::string id = frame.substr(kFirstDigit, 8);
+  for (const bool knows_our_fields : {true, false}) {
+    if (!knows_our_fields) frame.back() = '\xff';
+    const WorldEnd end = play("printf '" + escape(frame) + "' >&3; exec sleep 100");
+    EXPECT_EQ(end.why, WorldEnd::kForeign);
+    EXPECT_EQ(end.text, "is of another build (" + id + ")");
+  }
   EXPECT_EQ(ticks, 0);
 }
 

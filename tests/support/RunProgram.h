@@ -22,9 +22,4 @@ inline std::pair<int, std::string> runProgram(const std::string& line) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
 }
 
-/// Of dfctl, with what it says on standard error.
-inline std::pair<int, std::string> runCtl(const std::string& arguments) {
-  return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfctl " + arguments + " 2>&1 </dev/null");
-}
-
 }  // namespace naiad::test
