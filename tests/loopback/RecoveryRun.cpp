@@ -89,6 +89,9 @@ class RecoveryClient {
   }
   void leave() { m_connection.leave(); }
   bool isJoined() { return m_connection.state() == Connection::State::kJoined; }
+  /// In another session than before forgetSession(), or the first one.
+  bool isBack() { return isJoined() && session() != m_p_before; }
+  void forgetSession() { m_p_before = session(); }
   bool isOver() const { return m_connection.isOver(); }
   const std::string& sentence() const { return m_connection.sentence(); }
   const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
@@ -116,6 +119,7 @@ class RecoveryClient {
   bool m_is_complete = false;
   std::optional<df::Canvas> m_picture;
   std::uint32_t m_picture_tick = 0;
+  const ClientSession* m_p_before = nullptr;
   std::optional<df::Canvas> m_frozen;
   std::uint32_t m_frozen_tick = 0;
 };
@@ -159,7 +163,7 @@ void RecoveryRun::startServer() {
 
 bool RecoveryRun::serveUntilJoined() {
   const auto end = Clock::now() + kPatience;
-  const auto is_ready = [](const auto& client) { return client->isJoined() || client->isOver(); };
+  const auto is_ready = [](const auto& client) { return client->isBack() || client->isOver(); };
   while (Clock::now() < end) {
     for (const auto& client : m_clients) client->update(Clock::now());
     if (std::all_of(m_clients.begin(), m_clients.end(), is_ready)) return true;
@@ -196,27 +200,35 @@ KillResult RecoveryRun::kill() {
   return comeBack();
 }
 
+KillResult RecoveryRun::killTwice(std::chrono::milliseconds between) {
+  killServer();
+  startServer();
+  play(between);
+  m_server->signal(SIGKILL);
+  m_server->wait();
+  m_log += m_server->log();
+  for (const auto& client : m_clients) client->forgetSession();  // some may have been back there
+  return comeBack();
+}
+
 void RecoveryRun::killServer() {
   m_killed_at = Clock::now();
   m_server->signal(SIGKILL);
   m_server->wait();
   m_log += m_server->log();
   play(std::chrono::milliseconds(20));  // what was sent arrives
-  for (const auto& client : m_clients) client->freezePicture();
+  m_before.clear();
+  m_seen = 0;
+  for (const auto& client : m_clients) {
+    m_before.push_back(client->welcome());
+    m_seen = std::max(m_seen, client->newestTick());
+    client->freezePicture();
+    client->forgetSession();
+  }
 }
 
 KillResult RecoveryRun::comeBack() {
-  struct Before {
-    WelcomeMessage welcome;
-    const ClientSession* p_session;
-  };
   KillResult result;
-  std::vector<Before> before;
-  std::uint32_t seen = 0;
-  for (const auto& client : m_clients) {
-    before.push_back({client->welcome(), client->session()});
-    seen = std::max(seen, client->newestTick());
-  }
   startServer();
   const bool back = serveUntilJoined();
   result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_killed_at);
@@ -225,20 +237,20 @@ KillResult RecoveryRun::comeBack() {
   for (std::size_t i = 0; i < m_clients.size(); ++i) {
     RecoveryClient& client = *m_clients[i];
     ++result.players;
-    const bool same = client.isJoined() && client.session() != before[i].p_session &&
-                      client.welcome().player == before[i].welcome.player &&
-                      client.welcome().name == before[i].welcome.name &&
-                      log.find("\"" + before[i].welcome.name + kIsBack) != std::string::npos;
+    const bool same = client.isBack() && client.welcome().player == m_before[i].player &&
+                      client.welcome().name == m_before[i].name &&
+                      log.find("\"" + m_before[i].name + kIsBack) != std::string::npos;
     result.returned += same ? 1 : 0;
     if (!same && result.problem.empty())
-      result.problem = before[i].welcome.name + " is not back: " + client.sentence() + "\n" + m_server->log();
+      result.problem =
+          m_before[i].name + " is not back: " + client.sentence() + "\n" + m_log + m_server->log();
   }
   const std::uint32_t turns = recoveredTurns();
-  const std::uint32_t last = seen + 1 - m_first_tick;  // by the world's own numbers
+  const std::uint32_t last = m_seen + 1 - m_first_tick;  // by the world's own numbers
   if (last > turns) {
     result.ticks_lost = last - turns;
-    result.problem = "a client saw tick " + std::to_string(seen) + ", the world's " + std::to_string(last) +
-                     "; there are " + std::to_string(turns) + " turns:\n" + m_log + m_server->log();
+    result.problem = "a client saw tick " + std::to_string(m_seen) + ", the world's " + std::to_string(last) +
+                     "; there are " + std::to_string(turns) + " turns:\n" + m_log + log;
   }
   if (result.problem.empty()) compare(result);
   return result;

@@ -43,7 +43,10 @@ class RecoveryRun {
   void play(std::chrono::milliseconds time);
   /// Kill the server, start it again, and wait until all are back.
   KillResult kill();
-  /// The two halves of that.
+  /// The same, but the next server is killed as well, so much later: while it executes the round again, or at
+  /// some step of a client's return.
+  KillResult killTwice(std::chrono::milliseconds between);
+  /// The two halves of kill().
   void killServer();
   KillResult comeBack();
   /// Kill the world's process alone, and wait until its players see more of it. How long they waited;
@@ -75,6 +78,8 @@ class RecoveryRun {
   std::uint16_t m_port = 0;
   std::uint32_t m_first_tick = 0;  ///< what the server calls the world's first one
   std::vector<std::unique_ptr<RecoveryClient>> m_clients;
+  std::vector<WelcomeMessage> m_before;  ///< of the clients, before the kill
+  std::uint32_t m_seen = 0;              ///< the newest tick that one of them had
   std::string m_log;
   std::chrono::steady_clock::time_point m_killed_at;
 };

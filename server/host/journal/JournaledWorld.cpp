@@ -175,8 +175,10 @@ void JournaledWorld::finish(const std::string& why) {
 
 // ---- a round of a server that was killed ------------------------------------------------------------------
 
-// While another world takes over, players may join and press keys as ever.
+// Until the sessions are there again: a client that comes before them would be a new player. While another
+// world takes over, players may join and press keys as ever.
 std::optional<int> JournaledWorld::recovering() const {
+  if (m_sessions) return 100;
   return m_book.recovery && !isTakingOver() ? std::optional(m_book.recovery->percent()) : std::nullopt;
 }
 

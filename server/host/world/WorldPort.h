@@ -98,7 +98,7 @@ class WorldPort {
 
   // A round of a server that was killed, which is executed again until it is where it was.
 
-  /// How far that is, in percent; nothing: there is no such round, or it is where it was.
+  /// How far that is, in percent; nothing: there is no such round, or its sessions have been taken.
   virtual std::optional<int> recovering() const { return std::nullopt; }
   /// Once, when recovering() has come to its end: the sessions that its players had.
   virtual std::optional<std::vector<KeptSession>> takeSessions() { return std::nullopt; }

@@ -50,6 +50,7 @@ class StubWorld : public naiad::WorldPort {
   const df::WorldView& view() const override { return m_view; }
   void notePublished(const naiad::Publisher& /*publisher*/) override {}
   std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
   bool isGameOver() const override { return false; }
   df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {80, 24}; }
 

@@ -234,7 +234,7 @@ TEST_F(RecoveryTest, AWorldHasAllTurnsAgainBeforeItIsReady) {
   p_echo->answer();
   EXPECT_EQ(recovered, 53u);
   EXPECT_EQ(said, "");
-  EXPECT_EQ(world->recovering(), std::nullopt);
+  EXPECT_EQ(world->recovering(), 100) << "its sessions are not there yet";
   EXPECT_TRUE(world->isReady());
   EXPECT_EQ(reported, 0) << "its players have seen these ticks";
   ASSERT_EQ(p_echo->turns.size(), 54u);
@@ -246,6 +246,7 @@ TEST_F(RecoveryTest, AWorldHasAllTurnsAgainBeforeItIsReady) {
   ASSERT_EQ(sessions->size(), 2u);
   EXPECT_TRUE((*sessions)[1].muted);
   EXPECT_EQ(world->takeSessions(), std::nullopt);
+  EXPECT_EQ(world->recovering(), std::nullopt);
 }
 
 TEST_F(RecoveryTest, ScoresOfRepeatedTicksAreHandedOverOnce) {
