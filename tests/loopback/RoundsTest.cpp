@@ -18,7 +18,7 @@
 #include "GameProgram.h"
 #include "Home.h"
 #include "TestClient.h"
-#include "host/world/BuildId.h"
+#include "shared/program/BuildId.h"
 #include "shared/replica/TruthFile.h"
 #include "tests/server/host/admin/Talk.h"
 

@@ -12,6 +12,7 @@
 
 #include "engine/testing/GameThread.h"
 #include "engine/testing/TestedModule.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
 
@@ -150,6 +151,11 @@ int GameTest::getTicks() const {
 
 bool GameTest::isOver() const {
   return !m_p_game->isRunning();
+}
+
+void GameTest::keepScore(const std::string& table, const std::string& name, std::int64_t points) {
+  m_p_game->world().inputs().push(
+      {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
 }
 
 void GameTest::press(Keyboard::Key key, std::uint32_t player) {

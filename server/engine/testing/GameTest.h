@@ -74,6 +74,12 @@ class GameTest {
   /// Has the game's last GM.run() returned?
   bool isOver() const;
 
+  // Scores (HighScores.h). A test adds and reads others through df::HighScores.
+
+  /// A row of a table, as if a server had kept it: before the first tick, for games that show the best ones
+  /// from the start.
+  void keepScore(const std::string& table, const std::string& name, std::int64_t points);
+
   // Keys and mouse. They are handled in the next tick, in the order of the calls.
 
   /// Down and up again; one tick passes.

@@ -19,6 +19,10 @@ std::uint32_t InputQueue::push(Input input) {
     m_world.m_next_player = input.player + 1;
   }
   const std::uint32_t player = input.player;
+  if (input.kind == kScore) {
+    m_world.extras().scores.keep(input.table, input.name, input.points);
+    return player;
+  }
   if (isPossible(input)) m_inputs.push_back(std::move(input));
   return player;
 }

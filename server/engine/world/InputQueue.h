@@ -17,7 +17,9 @@ class World;
 
 class InputQueue {
  public:
-  enum Kind { kJoin, kLeave, kKey, kMouse };
+  /// kScore is the host's own: a row that was kept of an earlier round (HighScores.h). It is there at once,
+  /// and sends no event.
+  enum Kind { kJoin, kLeave, kKey, kMouse, kScore };
   /// One input; of the fields below `player`, those of its kind.
   struct Input {
     Kind kind;
@@ -31,6 +33,8 @@ class InputQueue {
     EventMouseAction mouse_action = UNDEFINED_MOUSE_ACTION;
     int x = 0;  ///< cell of the player's view
     int y = 0;
+    std::string table = {};  ///< of kScore, with `name` and `points`
+    std::int64_t points = 0;
   };
 
   explicit InputQueue(World& world) : m_world(world) {}

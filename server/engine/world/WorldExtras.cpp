@@ -42,10 +42,12 @@ void WorldExtras::beginTick() {
   sounds.clear();
   sounds_lost = 0;
   shake.step(random);
+  scores.beginTick();
 }
 
 void WorldExtras::endTick() {
   if (!paused) animations.advance();
+  scores.endTick();
 }
 
 void WorldExtras::reset() {

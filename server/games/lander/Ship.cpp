@@ -7,6 +7,7 @@
 #include "DisplayManager.h"
 #include "EventOut.h"
 #include "Ground.h"
+#include "HighScores.h"
 #include "PhysicsManager.h"
 #include "Seconds.h"
 
@@ -109,7 +110,11 @@ void Ship::land(int worth) {
   const int points = worth + static_cast<int>(10 * m_fuel);
   df::Player& player = *getPlayer();
   player.setScore(player.getScore() + points);
-  m_message = "Landed: " + std::to_string(points) + " points";
+  m_message = "Landed: " + std::to_string(points) + " points.";
+  df::HighScores landings("landings");
+  landings.add(player.getName(), points);
+  for (const df::HighScore& best : landings.best(1))
+    m_message += " The best landing: " + best.name + ", " + std::to_string(best.points);
   m_wait = kWaitTicks;
 }
 

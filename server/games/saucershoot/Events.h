@@ -48,16 +48,19 @@ class EventShotDown : public df::Event {
   int m_points;
 };
 
-/// A ship was lost. Its pilot `name` has made `points` in this round.
+/// A ship was lost, which may be the pilot's last. Its pilot `name` has made `points` in this round.
 class EventShipLost : public df::Event {
  public:
-  EventShipLost(std::string name, int points) : m_name(std::move(name)), m_points(points) {
+  EventShipLost(std::string name, int points, bool is_last)
+      : m_name(std::move(name)), m_points(points), m_is_last(is_last) {
     setType(SHIP_LOST_EVENT);
   }
   const std::string& getName() const { return m_name; }
   int getPoints() const { return m_points; }
+  bool isLast() const { return m_is_last; }
 
  private:
   std::string m_name;
   int m_points;
+  bool m_is_last;
 };

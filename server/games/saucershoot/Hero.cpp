@@ -210,7 +210,7 @@ void Hero::lose() {
   setVisible(false);
   explodeShip(getPosition());
   showMessage(*p_player);
-  const EventShipLost ship_lost(m_name, p_player->getScore());
+  const EventShipLost ship_lost(m_name, p_player->getScore(), isSpent());
   WM.onEvent(&ship_lost);
 }
 

@@ -1,6 +1,7 @@
 #include "Scoreboard.h"
 
 #include <algorithm>
+#include <set>
 
 #include "EventStep.h"
 #include "EventView.h"
@@ -52,7 +53,8 @@ void Scoreboard::step(int tick) {
   if (m_show_best > 0) --m_show_best;
 
   const std::string team = teamFactor() < 2 ? "" : "team x" + std::to_string(teamFactor());
-  const std::string best = m_show_best > 0 ? bestPilots() : "";
+  const bool is_title = !WM.objectsOfType("GameStart").isEmpty();
+  const std::string best = m_show_best > 0 || is_title ? bestPilots() : "";
   for (df::Player* p_player : WM.getPlayers()) {
     p_player->setText(TEAM_TEXT, df::Vector(fieldWidth() - 10, 0), team, df::YELLOW);
     p_player->setText(BEST_TEXT, df::Vector(1, fieldHeight() - 1), best, df::YELLOW);
@@ -75,23 +77,17 @@ int Scoreboard::teamFactor() const {
 
 void Scoreboard::enter(const EventShipLost& ship_lost) {
   if (ship_lost.getPoints() == 0) return;
-  const Flight flight = {ship_lost.getName(), ship_lost.getPoints()};
-  const auto by_name = [&](const Flight& other) { return other.name == flight.name; };
-  const auto old = std::find_if(m_best.begin(), m_best.end(), by_name);
-  if (old == m_best.end()) {
-    m_best.push_back(flight);
-  } else {
-    old->points = std::max(old->points, flight.points);
-  }
-  const auto better = [](const Flight& a, const Flight& b) { return a.points > b.points; };
-  std::stable_sort(m_best.begin(), m_best.end(), better);
-  if (m_best.size() > kBestCount) m_best.resize(kBestCount);
+  if (ship_lost.isLast()) m_pilots.add(ship_lost.getName(), ship_lost.getPoints());
   m_show_best = kShowTicks;
 }
 
+// Each once, however often they were good.
 std::string Scoreboard::bestPilots() const {
+  std::set<std::string> named;
   std::string text;
-  for (const Flight& flight : m_best) {
+  for (const df::HighScore& flight : m_pilots.best(df::HighScores::kMaxRows)) {
+    if (named.size() == kBestCount) break;
+    if (!named.insert(flight.name).second) continue;
     text += text.empty() ? "Best pilots: " : ", ";
     text += flight.name + " " + std::to_string(flight.points);
   }

@@ -1,4 +1,4 @@
-// Counts the points, and knows who flew best.
+// Counts the points, and knows who flew best: a server keeps that.
 //
 // A saucer is worth its points times the number of pilots (up to four) who hit something in the last three
 // seconds, so it pays to keep friends in the game.
@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
+#include "HighScores.h"
 #include "Object.h"
 
 class EventShipLost;
@@ -20,18 +20,13 @@ class Scoreboard : public df::Object {
   int eventHandler(const df::Event* p_e) override;
 
  private:
-  struct Flight {
-    std::string name;
-    int points;
-  };
-
   void step(int tick);
   void credit(const EventShotDown& shot_down);
   void enter(const EventShipLost& ship_lost);
   int teamFactor() const;
   std::string bestPilots() const;
 
+  df::HighScores m_pilots{"pilots"};        // of earlier rounds, too
   std::map<std::uint32_t, int> m_last_hit;  // player -> tick
-  std::vector<Flight> m_best;               // one per name, best first
   int m_show_best = 0;                      // ticks to go
 };

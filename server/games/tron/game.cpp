@@ -1,6 +1,6 @@
 // Tron: each cycle leaves a wall behind it. Turn in time; who rides longest wins the round. Where only one
 // player is, a robot rides against them. Shows: rounds that players join when they come, many Objects at
-// rest, one class for players and robots.
+// rest, one class for players and robots, best scores that outlive the game.
 #include <array>
 
 #include "DisplayManager.h"
@@ -8,6 +8,7 @@
 #include "EventPlayer.h"
 #include "EventStep.h"
 #include "GameManager.h"
+#include "HighScores.h"
 #include "WorldManager.h"
 using namespace df;
 
@@ -35,8 +36,9 @@ struct Cycle : Object {
   const std::uint32_t player;  // 0: a robot
   const std::string name;
   const Color color;
-  int way;   // index in kWays
-  int wish;  // where to turn with the next move
+  int way;        // index in kWays
+  int wish;       // where to turn with the next move
+  int cells = 0;  // ridden in this round
   bool wrecked = false;
 
   Cycle(const Player* p, Vector at, int its_way)
@@ -103,6 +105,7 @@ struct Cycle : Object {
       wrecked = true;
     } else {
       new Wall(before, color, '#');
+      ++cells;
     }
   }
   int draw() override {
@@ -116,6 +119,7 @@ struct Track : Object {
   int wait = 0;                // ticks until the round begins, or the next one is prepared
   bool riding = false;
   std::string message;
+  HighScores rides{"rides"};  // cells that winners rode, as far as servers remember
 
   Track() {
     setSolidness(SPECTRAL);
@@ -141,10 +145,13 @@ struct Track : Object {
     } else if (!WM.getPlayers().empty()) {
       prepare();
     }
+    const auto best = rides.best(1);
+    const std::string longest = best.empty() ? "" : std::to_string(best[0].points) + " " + best[0].name;
     for (Player* p : WM.getPlayers()) {
-      const bool rides = p->getObject() != nullptr;
+      const bool rides_now = p->getObject() != nullptr;
+      p->setText(2, Vector(54, 0), rides_now && !best.empty() ? "best " + longest : "", CYAN);
       p->setText(0, Vector(1, 0), "rounds won " + std::to_string(p->getScore()), p->getColor());
-      p->setText(1, Vector(30, 0), rides ? message : message + "   (you ride in the next round)");
+      p->setText(1, Vector(30, 0), rides_now ? message : message + "   (you ride in the next round)");
     }
   }
   void race() {
@@ -159,8 +166,12 @@ struct Track : Object {
     message = std::to_string(left) + " ride";
     if (left > 1) return;
     message = left == 0 ? "nobody wins" : p_last->name + " wins";
-    if (left == 1)
-      if (Player* p_winner = WM.getPlayer(p_last->player)) p_winner->setScore(p_winner->getScore() + 1);
+    if (left == 1) {
+      if (Player* p_winner = WM.getPlayer(p_last->player)) {
+        p_winner->setScore(p_winner->getScore() + 1);
+        rides.add(p_last->name, p_last->cells);
+      }
+    }
     riding = false;
     wait = kResultTicks;
   }

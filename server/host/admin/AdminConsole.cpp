@@ -1,6 +1,8 @@
 #include "host/admin/AdminConsole.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -17,6 +19,8 @@ namespace {
 using Level = AdminCommand::Level;
 
 /// A range that is wider takes in whole providers, and is a slip of the finger.
+constexpr std::size_t kScoresOfATable = 10;
+constexpr std::size_t kMaxScoresOfATable = 10'000;
 constexpr int kMinBitsIPv4 = 8;
 constexpr int kMinBitsIPv6 = 16;
 
@@ -127,6 +131,7 @@ void AdminConsole::execute(const AdminRequest& request, const AdminCaller& calle
   if (command.name == "unban") return unban(request, done);
   if (command.name == "password") return changePassword(request, std::move(done));
   if (command.name == "reload") return reload(std::move(done));
+  if (command.name == "scores") return scores(request, std::move(done));
   done(answerNow(request, caller));
 }
 
@@ -282,6 +287,19 @@ AdminAnswer AdminConsole::set(const AdminRequest& request) {
     if (name == request.of("option")) return {true, "", {}, {{name, value}}, false, {}};
   }
   return AdminAnswer::refused("\"" + request.of("option") + "\" is no option that can be changed; see set.");
+}
+
+void AdminConsole::scores(const AdminRequest& request, Done done) {
+  std::size_t count = kScoresOfATable;
+  if (request.has("count")) {
+    const std::string& text = request.of("count");
+    const char* p_end = text.data() + text.size();
+    const auto [p_read, error] = std::from_chars(text.data(), p_end, count);
+    if (error != std::errc() || p_read != p_end || count < 1 || count > kMaxScoresOfATable)
+      return done(AdminAnswer::refused("\"" + text + "\" is no number from 1 to " +
+                                       std::to_string(kMaxScoresOfATable) + "."));
+  }
+  m_setup.target.scores(request.of("table"), count, std::move(done));
 }
 
 // A hash takes as long as a guess.

@@ -45,6 +45,7 @@ class AdminConsole {
   AdminAnswer answerNow(const AdminRequest& request, const AdminCaller& caller);
   void changePassword(const AdminRequest& request, Done done);
   void reload(Done done);
+  void scores(const AdminRequest& request, Done done);
   void answerSaved(const std::string& text, const std::string& problem, const Done& done);
   AdminAnswer listPlayers(const AdminCaller& caller) const;
   AdminAnswer tell(const AdminRequest& request, const AdminCaller& caller);

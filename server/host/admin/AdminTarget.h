@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -60,6 +61,9 @@ class AdminTarget {
   virtual void reload(std::function<void(AdminAnswer)> done) = 0;
   /// Nothing: none is needed any more.
   virtual AdminAnswer changePassword(std::optional<PasswordHash> hash) = 0;
+  /// Rows of the file of scores, best first; of all tables if `table` is empty. `done` is called once, on the
+  /// host's thread: now, or when the file has been read.
+  virtual void scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> done) = 0;
   /// `option` without dashes.
   virtual AdminAnswer set(const std::string& option, const std::string& value) = 0;
   /// Those that set() knows, with their values.

@@ -85,6 +85,7 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_listing(m_options, listedAs(game), m_log),
       m_sessions(maxConnections(m_options), m_counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
+      m_scores(m_options.state, game),
       m_rooms(
           m_options, m_sessions, m_counters, m_log, [this] { flush(); }, m_stages),
       m_client_log(m_log),
@@ -93,10 +94,15 @@ Host::Host(HostOptions options, std::string game, Log log)
                      m_client_log.logNews(address, std::move(event), m_network.now());
                    },
                    [this](const auto& stream, AeadId aead) { return m_network.openDatagrams(stream, aead); },
-                   [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); }},
+                   [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); },
+                   [this](const wire::Welcome& welcome) -> Session& {
+                     Session& session = m_sessions.addDetached(Clock::now());
+                     session.restore(welcome, sessionEvents());
+                     return session;
+                   }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
-      m_commands({{m_options, m_sessions, m_admission, m_counters, m_network, adminControls()},
+      m_commands({{m_options, m_sessions, m_admission, m_counters, m_network, m_scores, adminControls()},
                   m_bans,
                   m_admin_worker,
                   m_feed,
@@ -105,6 +111,11 @@ Host::Host(HostOptions options, std::string game, Log log)
                  m_io),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
+  m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
+                      [this](Room& room, const std::vector<KeptSession>& sessions) {
+                        m_admission.restoreSessions(room, sessions);
+                      });
+  m_rooms.setScores(m_scores);
   openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
@@ -124,8 +135,9 @@ void Host::makePlaces() {
 }
 
 AdminControls Host::adminControls() {
-  return {[this](Ending::Plan plan) { end(std::move(plan)); }, [this] { return cancelEnd(); },
-          [this](Reloading done) { reload(std::move(done)); },
+  return {[this](Ending::Plan plan) { end(std::move(plan)); },
+          [this](std::function<void()> job) { asio::post(m_io, std::move(job)); },
+          [this] { return cancelEnd(); }, [this](Reloading done) { reload(std::move(done)); },
           [this](const HostOptions& options) {
             takeOver(options, m_options);
             makePlaces();
@@ -210,6 +222,7 @@ std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
 // Answers go through what is destroyed here.
 Host::~Host() {
   m_commands.close();
+  m_scores.finish();
 }
 
 void Host::setWorlds(NewWorld new_world) {
@@ -411,6 +424,7 @@ void Host::tick() {
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
   heedUpgrade();
+  m_admission.judgeWaiting();
   tickWorlds();
   m_stages.enter(Stage::kNews);
   sendPlayers();
@@ -573,6 +587,7 @@ void Host::drain() {
   }
   m_network.stop();
   m_commands.close();
+  m_rooms.finishScores();
   m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);

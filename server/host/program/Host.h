@@ -36,6 +36,7 @@
 #include "host/program/StreamRefusalLog.h"
 #include "host/program/TickClock.h"
 #include "host/program/Watchdog.h"
+#include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
 #include "shared/net/base/PrefixAllowance.h"
 #include "shared/net/stream/JoinLink.h"
@@ -176,6 +177,7 @@ class Host : public df::Runner {
   Listing m_listing;
   SessionTable m_sessions;
   StageClock m_stages;
+  ScoreKeeper m_scores;
   Rooms m_rooms;
   ClientLog m_client_log;
   Admission m_admission;

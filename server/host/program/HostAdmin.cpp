@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "naiad.pb.h"
+#include "shared/admin/TimeSpan.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/values/Version.h"
@@ -37,6 +38,27 @@ AdminPlayer factsOf(const Session& session, Session::Clock::time_point now) {
   player.muted = session.standing().isMuted();
   player.admin = session.standing().isAdmin();
   return player;
+}
+
+AdminAnswer listOf(const std::vector<ScoreRow>& scores) {
+  AdminAnswer answer = AdminAnswer::done(scores.empty() ? "No scores are kept." : "");
+  answer.is_list = true;
+  std::int64_t place = 0;
+  for (const ScoreRow& row : scores) {
+    place = !answer.rows.empty() && row.table == std::get<std::string>(answer.rows.back()[0].second)
+                ? place + 1
+                : 1;
+    const std::chrono::system_clock::time_point at{std::chrono::seconds(row.at)};
+    answer.rows.push_back({{"table", row.table},
+                           {"place", place},
+                           {"name", row.name},
+                           {"points", row.points},
+                           {"at", timeText(at)},
+                           {"recording", row.recording},
+                           {"round", row.round},
+                           {"tick", std::int64_t{row.tick}}});
+  }
+  return answer;
 }
 
 double millis(std::chrono::microseconds time) {
@@ -100,7 +122,10 @@ void HostAdmin::tell(std::uint64_t session, const std::string& text) {
 }
 
 void HostAdmin::setMuted(std::uint64_t session, bool muted) {
-  if (Session* p_session = findPlaying(session)) p_session->standing().setMuted(muted);
+  Session* p_session = findPlaying(session);
+  if (p_session == nullptr) return;
+  p_session->standing().setMuted(muted);
+  m_setup.admission.noteSession(*p_session);
 }
 
 // ---- the server -------------------------------------------------------------------------------------------
@@ -164,6 +189,17 @@ AdminAnswer HostAdmin::changePassword(std::optional<PasswordHash> hash) {
   m_setup.admission.changePassword(std::move(hash));
   return AdminAnswer::done(needed ? "New players need the new password."
                                   : "New players need no password any more.");
+}
+
+void HostAdmin::scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> done) {
+  ScoreKeeper& scores = m_setup.scores;
+  if (!scores.hasFile())
+    return done(AdminAnswer::refused("This server keeps no scores on disk (--state, or see its log)."));
+  const bool reads = scores.read(table, count, [this, done](const auto& rows, const std::string& problem) {
+    const AdminAnswer answer = problem.empty() ? listOf(rows) : AdminAnswer::refused(problem);
+    m_setup.controls.post([answer, done] { done(answer); });
+  });
+  if (!reads) done(AdminAnswer::refused("Too much waits to be done. Try again in a moment."));
 }
 
 AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) {

@@ -13,6 +13,7 @@
 #include "host/program/Ending.h"
 #include "host/program/HostOptions.h"
 #include "host/program/SessionTable.h"
+#include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
 
 namespace naiad {
@@ -20,7 +21,8 @@ namespace naiad {
 /// What ends a server or reads its options again: its host.
 struct AdminControls {
   std::function<void(Ending::Plan plan)> end;
-  std::function<bool()> cancel_end;  ///< false: nothing was planned
+  std::function<void(std::function<void()> job)> post;  ///< run it on the host's thread; from any
+  std::function<bool()> cancel_end;                     ///< false: nothing was planned
   std::function<void(std::function<void(bool is_done, const std::string& sentence)> done)> reload;
   std::function<void(const HostOptions& options)> take_over;  ///< those that may change while it runs
 };
@@ -35,6 +37,7 @@ class HostAdmin : public AdminTarget {
     Admission& admission;
     const Counters& counters;
     const NetworkThread& network;
+    ScoreKeeper& scores;
     AdminControls controls;
   };
   explicit HostAdmin(Setup setup);
@@ -51,6 +54,7 @@ class HostAdmin : public AdminTarget {
   AdminAnswer cancel() override;
   void reload(std::function<void(AdminAnswer)> done) override;
   AdminAnswer changePassword(std::optional<PasswordHash> hash) override;
+  void scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> done) override;
   AdminAnswer set(const std::string& option, const std::string& value) override;
   AdminRow settings() const override;
 

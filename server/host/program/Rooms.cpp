@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "host/program/Ending.h"
-#include "host/world/BuildId.h"
 #include "host/world/WorldInProcess.h"
 #include "naiad.pb.h"
 #include "shared/net/base/SafeFile.h"
+#include "shared/program/BuildId.h"
 
 namespace naiad {
 
@@ -57,6 +57,51 @@ Room& Rooms::openRoom(std::unique_ptr<WorldPort> port) {
 void Rooms::watchWorld(Room& room) {
   room.port().setOnTick([this, &room] { endTick(room); });
   room.port().checkProcess(tickNumber());
+  passScores(room);
+}
+
+// Inputs like any other: before all others of its first tick. A round that goes on has had them.
+void Rooms::passScores(Room& room) const {
+  if (m_p_scores == nullptr) return;
+  const std::string recording = room.port().recording();
+  room.setRound(recording.empty() ? ScoreKeeper::beginRound() : recording);
+  if (room.port().recovering()) return;
+  for (const auto& [table, rows] : m_p_scores->tables()) {
+    for (const df::HighScore& row : rows)
+      room.port().addInput({.kind = df::InputQueue::kScore,
+                            .player = 0,
+                            .name = row.name,
+                            .table = table,
+                            .points = row.points});
+  }
+}
+
+void Rooms::keepScores(Room& room) {
+  const std::vector<df::AddedScore> added = room.port().takeScores();
+  if (m_p_scores == nullptr) return;
+  m_p_scores->add(room.round(), room.tick(), added, room.port().recording());
+}
+
+void Rooms::keepRepeatedScores(Room& room) {
+  for (const TickScores& tick : room.port().takeRepeatedScores()) {
+    if (m_p_scores != nullptr) m_p_scores->add(room.round(), tick.tick, tick.scores, room.port().recording());
+  }
+}
+
+void Rooms::noteScores() {
+  if (m_p_scores == nullptr) return;
+  const ScoreCounters counters = m_p_scores->counters();
+  m_counters.scores = counters.added;
+  m_counters.scores_refused = counters.refused;
+  m_counters.scores_written = counters.written;
+  m_counters.scores_dropped = counters.dropped;
+  if (const std::string news = m_p_scores->takeNews(); !news.empty()) m_log(news);
+}
+
+void Rooms::finishScores() {
+  if (m_p_scores == nullptr) return;
+  m_p_scores->finish();
+  noteScores();
 }
 
 // ---- players ----------------------------------------------------------------------------------------------
@@ -109,6 +154,13 @@ void Rooms::removeSession(const Session& session) {
   if (Room* p_room = roomOf(session)) p_room->remove(session);
 }
 
+std::optional<int> Rooms::recovering() const {
+  for (const auto& room : m_rooms) {
+    if (const auto percent = room->port().recovering()) return percent;
+  }
+  return std::nullopt;
+}
+
 std::size_t Rooms::objects() const {
   std::size_t count = 0;
   for (const auto& room : m_rooms) count += room->objects();
@@ -131,8 +183,10 @@ const std::vector<ListedPlayer>& Rooms::players() {
 // ---- ticks ------------------------------------------------------------------------------------------------
 
 void Rooms::beginTicks() {
+  noteScores();
   m_in_begin = true;
   for (const auto& room : m_rooms) {
+    if (room->port().recovering()) continue;
     if (!room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) ++m_counters.late_worlds;
   }
   m_in_begin = false;
@@ -145,6 +199,7 @@ bool Rooms::isTicking() const {
 void Rooms::endTick(Room& room) {
   dismissLeavers(room);
   publish(room);
+  keepScores(room);
   if (!m_in_begin) m_on_late_tick();
 }
 
@@ -177,6 +232,9 @@ void Rooms::checkWorlds() {
   if (!m_new_world) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
+    if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
+      m_on_sessions(*room, *sessions);
+    keepRepeatedScores(*room);
     if (const auto warning = room->port().takeWarning()) m_log(*warning);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
@@ -198,6 +256,9 @@ void Rooms::countEnd(WorldEnd::Why why) {
       break;
     case WorldEnd::kBroken:
       ++m_counters.rounds_broken;
+      break;
+    case WorldEnd::kNotRecovered:
+      ++m_counters.rounds_unrecovered;
       break;
     case WorldEnd::kForeign:  // it has not begun
       break;
@@ -223,6 +284,9 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
   for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
   if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
   countEnd(end.why);
+  // What this server was started for is the next round.
+  if (end.why == WorldEnd::kNotRecovered && beginRound(room))
+    return room.say("The round could not go on; the next one begins.");
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);
   const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);
@@ -250,6 +314,7 @@ bool Rooms::beginRound(Room& room) {
   }
   m_counters.sounds += room.sounds().sent() - sent;
   watchWorld(room);
+  if (m_on_round) m_on_round(room);
   return true;
 }
 

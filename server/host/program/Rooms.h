@@ -16,6 +16,7 @@
 #include "host/program/PlayerNews.h"
 #include "host/program/Room.h"
 #include "host/program/SessionTable.h"
+#include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
 #include "shared/program/LineLog.h"
 #include "shared/replica/TruthFile.h"
@@ -39,8 +40,20 @@ class Rooms {
 
   /// Play in such worlds, not in the one that open() is given. Before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
+  /// A room's world is one that players were in: `on_round` a new one, after another; `on_sessions` that of a
+  /// server that was killed, with the sessions that its players had. Before open().
+  void watchRounds(std::function<void(Room&)> on_round,
+                   std::function<void(Room&, const std::vector<KeptSession>&)> on_sessions) {
+    m_on_round = std::move(on_round);
+    m_on_sessions = std::move(on_sessions);
+  }
   /// When the game is over for a player who is alone, it is over for all.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
+
+  /// Tables of scores for all worlds; outlives the Rooms. Before open().
+  void setScores(ScoreKeeper& scores) { m_p_scores = &scores; }
+  /// Wait until the last ones are on disk. No world ticks after this.
+  void finishScores();
 
   /// Audit pictures of players, one at a time.
   void startAudit(std::uint32_t ticks_per_second) { m_audit.start(ticks_per_second); }
@@ -65,6 +78,8 @@ class Rooms {
   /// The session is about to be destroyed.
   void removeSession(const Session& session);
   std::size_t count() const { return m_rooms.size(); }
+  /// Percent of a round that is being executed again (WorldPort::recovering); nothing: none is.
+  std::optional<int> recovering() const;
   /// Objects that are published, in all rooms.
   std::size_t objects() const;
   /// The players of all rooms whose worlds have them, by id. A world has the say in their scores alone: it
@@ -105,6 +120,10 @@ class Rooms {
   std::uint32_t tickNumber() const { return static_cast<std::uint32_t>(m_counters.ticks); }
   bool hasLastPlayer() const { return m_ends_with_last && m_sessions.connected() <= 1; }
   Room& openRoom(std::unique_ptr<WorldPort> port);
+  void passScores(Room& room) const;
+  void keepScores(Room& room);
+  void keepRepeatedScores(Room& room);
+  void noteScores();
   void watchWorld(Room& room);
   void endTick(Room& room);
   void publish(Room& room);
@@ -121,10 +140,13 @@ class Rooms {
   std::function<void()> m_on_late_tick;
   StageClock& m_stages;
   NewWorld m_new_world;  ///< empty: the world of this process
+  std::function<void(Room&)> m_on_round;
+  std::function<void(Room&, const std::vector<KeptSession>&)> m_on_sessions;
   std::vector<std::unique_ptr<Room>> m_rooms;
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
   AuditTurns m_audit;
+  ScoreKeeper* m_p_scores = nullptr;  ///< null: nothing is kept
   bool m_ends_with_last = false;
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round

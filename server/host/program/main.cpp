@@ -77,6 +77,8 @@ naiad::LogLine markedLog(naiad::LineLog& log) {
 /// `game_log`: for the game's own lines.
 ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
               naiad::HostOptions& options, naiad::LineLog& log, const naiad::LogLine& game_log) {
+  const auto given = naiad::takeWorldSeed();
+  if (given) options.seed = static_cast<std::int64_t>(*given);
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   const Installed installed(runner, game_log);
@@ -171,7 +173,10 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
-  host.setWorlds(naiad::startWorlds(launcher, host.watchedGame(print)));
+  naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
+  journaled.port = host.port();  // a round goes on where its players look for it
+  const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
+  host.setWorlds(naiad::startWorlds(launcher, host.watchedGame(print), journals));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +

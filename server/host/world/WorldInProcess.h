@@ -24,16 +24,21 @@ class WorldInProcess : public WorldPort {
   void setHeard(std::uint32_t player) override;
   void endGame() override;
   bool isReady() const override { return true; }
+  void setChecked(bool state) override { m_checked = state; }
+  std::optional<std::uint64_t> stateHash() const override { return m_state_hash; }
   void tick(bool watched, bool truth) override;
   std::uint32_t nextTick() const override;
   const df::WorldView& view() const override;
   void notePublished(const Publisher& publisher) override;
   std::vector<std::uint32_t> takeLeavers() override;
+  std::vector<df::AddedScore> takeScores() override;
   bool isGameOver() const override;
   df::Canvas renderPlayer(std::uint32_t player) const override;
 
  private:
   df::World& m_world;
+  bool m_checked = false;
+  std::optional<std::uint64_t> m_state_hash;
   std::optional<LagCompensator> m_lag_compensator;  ///< while the game wants it
 };
 

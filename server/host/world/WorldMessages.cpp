@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/world/BuildId.h"
 #include "shared/net/base/Limits.h"
+#include "shared/program/BuildId.h"
 #include "shared/replica/Limits.h"
 
 namespace naiad {
@@ -17,13 +17,34 @@ bool isHex(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
 }
 
+void visitHash(FieldWriter& out, std::uint64_t hash) {
+  out.number(static_cast<std::uint32_t>(hash));
+  out.number(static_cast<std::uint32_t>(hash >> 32));
+}
+
+void visitHash(FieldReader& in, std::uint64_t& hash) {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  in.number(low);
+  in.number(high);
+  hash = std::uint64_t{high} << 32 | low;
+}
+
+template <class F, class T>
+void visitFile(F& f, T& file) {
+  f.text(file.name, kMaxReadFileName);
+  visitHash(f, file.hash);
+}
+
 template <class F, class T>
 void visitReady(F& f, T& ready) {
   f.number(ready.window_width, kMinViewWidth, kMaxViewWidth);
   f.number(ready.window_height, kMinViewHeight, kMaxViewHeight);
   f.number(ready.frame_millis, 1, kMaxFrameMillis);
   f.flag(ready.compat);
+  f.flag(ready.fixed_addresses);
   f.list(ready.help, kMaxHelpLines, [](F& in, auto& line) { in.text(line, kMaxHelpLength); });
+  f.list(ready.files, kMaxReadFiles, [](F& in, auto& file) { visitFile(in, file); });
 }
 
 template <class F, class T>
@@ -33,9 +54,16 @@ void visitSeen(F& f, T& seen) {
   f.number(seen.drawn);
 }
 
+template <class F, class Text, class Number>
+void visitScore(F& f, Text& table, Text& name, Number& points) {
+  f.text(table, df::HighScores::kMaxTableName);
+  f.text(name, kMaxNameBytes);
+  f.number(points, -df::HighScores::kMaxPoints, df::HighScores::kMaxPoints);
+}
+
 template <class F, class T>
 void visitInput(F& f, T& input) {
-  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kMouse);
+  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kScore);
   f.number(input.player);
   switch (input.kind) {
     case df::InputQueue::kJoin:
@@ -52,14 +80,31 @@ void visitInput(F& f, T& input) {
       f.number(input.x, 0, kMaxViewWidth - 1);
       f.number(input.y, 0, kMaxViewHeight - 1);
       return visitSeen(f, input.seen);
+    case df::InputQueue::kScore:
+      return visitScore(f, input.table, input.name, input.points);
   }
+}
+
+/// Flags in one number, the first lowest.
+template <class... Flags>
+void visitFlags(FieldWriter& out, const Flags&... flags) {
+  std::uint32_t bits = 0;
+  int at = 0;
+  ((bits |= static_cast<std::uint32_t>(flags) << at++), ...);
+  out.number(bits, 0, (1 << sizeof...(flags)) - 1);
+}
+
+template <class... Flags>
+void visitFlags(FieldReader& in, Flags&... flags) {
+  std::uint32_t bits = 0;
+  int at = 0;
+  in.number(bits, 0, (1 << sizeof...(flags)) - 1);
+  ((flags = (bits >> at++ & 1) != 0), ...);
 }
 
 template <class F, class T>
 void visitTurn(F& f, T& turn) {
-  f.flag(turn.watched);
-  f.flag(turn.wants_truth);
-  f.flag(turn.ends_game);
+  visitFlags(f, turn.watched, turn.wants_truth, turn.ends_game, turn.checked);
   f.number(turn.heard_player);
   f.number(turn.pictured);
   f.list(turn.inputs, kMaxTurnInputs, [](F& in, auto& input) { visitInput(in, input); });
@@ -98,14 +143,36 @@ template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
   f.list(answer.leavers, kMaxViewPlayers, [](F& in, auto& leaver) { in.number(leaver); });
+  f.list(answer.scores, df::HighScores::kMaxAddedInTick,
+         [](F& in, auto& added) { visitScore(in, added.table, added.score.name, added.score.points); });
   f.list(answer.pictures, kMaxViewPlayers, [](F& in, auto& picture) {
     in.number(picture.player);
     visitCanvas(in, picture.canvas);
   });
-  f.flag(answer.has_view);
+  bool has_hash = answer.state_hash.has_value();
+  visitFlags(f, answer.has_view, has_hash);
+  std::uint64_t hash = answer.state_hash.value_or(0);
+  if (has_hash) visitHash(f, hash);
+  if constexpr (F::kReads) answer.state_hash = has_hash ? std::optional(hash) : std::nullopt;
 }
 
 }  // namespace
+
+void visitTurnInput(FieldWriter& out, const Input& input) {
+  visitInput(out, input);
+}
+
+void visitTurnInput(FieldReader& in, Input& input) {
+  visitInput(in, input);
+}
+
+void visitPicture(FieldWriter& out, const df::Canvas& canvas) {
+  visitCanvas(out, canvas);
+}
+
+void visitPicture(FieldReader& in, df::Canvas& canvas) {
+  visitCanvas(in, canvas);
+}
 
 void writeReady(const WorldReady& ready, std::string& frame) {
   FieldWriter out(frame);
@@ -160,6 +227,13 @@ std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views
   visitAnswer(in, answer);
   if (in.ok() && answer.has_view) views.read(in, view);
   return in.isWhole() ? std::optional(std::move(answer)) : std::nullopt;
+}
+
+std::optional<WorldAnswer> readAnswerHead(std::string_view fields) {
+  FieldReader in(fields);
+  WorldAnswer answer;
+  visitAnswer(in, answer);
+  return in.ok() ? std::optional(std::move(answer)) : std::nullopt;
 }
 
 }  // namespace naiad

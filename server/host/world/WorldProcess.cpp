@@ -16,7 +16,8 @@
 #include <utility>
 
 #include "host/world/ActivityReader.h"
-#include "host/world/BuildId.h"
+#include "shared/program/BuildId.h"
+#include "shared/values/FastHash.h"
 
 namespace naiad {
 
@@ -45,6 +46,12 @@ const df::ActivityPage* mapPage(int file) {
 }
 
 }  // namespace
+
+std::uint64_t hashAnswer(std::string_view fields) {
+  FastHash hash;
+  hash.bytes(fields);
+  return hash.value();
+}
 
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
@@ -98,7 +105,7 @@ void WorldProcess::readKeeper(int patience_millis) {
 // Players who join a world that has ended join the next one (Room::changeWorld).
 std::uint32_t WorldProcess::addInput(df::InputQueue::Input input) {
   const std::uint32_t player = input.player;
-  const bool lasts = input.kind == df::InputQueue::kJoin || input.kind == df::InputQueue::kLeave;
+  const bool lasts = input.kind != df::InputQueue::kKey && input.kind != df::InputQueue::kMouse;
   if (m_state >= State::kEnding || (!lasts && m_turn.inputs.size() >= kMaxInputs)) return player;
   input.seen.base -= m_later;
   input.seen.drawn -= m_later;
@@ -160,6 +167,7 @@ void WorldProcess::onFrame() {
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
     answer->leavers.insert(answer->leavers.begin(), m_answer.leavers.begin(), m_answer.leavers.end());
     m_answer = *std::move(answer);
+    m_answer_hash = std::exchange(m_hashes, false) ? hashAnswer(m_in) : 0;
     m_in_tick = false;
   }
   m_state = State::kReady;
@@ -179,6 +187,10 @@ void WorldProcess::takeReady() {
     return fail(WorldEnd::kForeign, "is of another build (" + build->substr(0, kShownBuildId) + ")");
   m_ready = readReady(m_in);
   if (!m_ready) fail(WorldEnd::kBroken, "sent what no world sends");
+}
+
+std::vector<df::AddedScore> WorldProcess::takeScores() {
+  return std::exchange(m_answer.scores, {});
 }
 
 std::vector<std::uint32_t> WorldProcess::takeLeavers() {

@@ -23,7 +23,9 @@ struct SubstepBody {
   RigidBody body;
   std::vector<ConvexShape> shapes;
   std::vector<TurnedShape> turned;
-  std::uint32_t version = 0;  ///< of its shapes
+  Bounds bounds = {};                             ///< of `turned`
+  Rotation turned_at;                             ///< what `turned` was made for …
+  std::uint32_t turned_version = 0, version = 0;  ///< … and of which shapes
   std::uint64_t order = 0;
   std::int32_t proxy = -1;                      ///< in the broad phase
   std::int32_t state = 0;                       ///< within a step; 0: nothing moves it

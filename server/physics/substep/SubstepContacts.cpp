@@ -132,13 +132,15 @@ bool SubstepWorld::keepsManifold(Memory& memory, const SubstepBody& a, const Sub
 }
 
 // Do the two shapes touch, or nearly? Their contact is made if there is none yet, or freed.
-bool SubstepWorld::findManifold(std::int32_t& memory, const SubstepBody& a, const SubstepBody& b,
-                                std::int32_t shape_a, std::int32_t shape_b, Vec2 offset) {
+bool SubstepWorld::findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
+                                std::int32_t shape_b, Vec2 offset) {
   if (memory >= 0 && keepsManifold(m_memory[at(memory)], a, b, offset)) return true;
   const double margin = a.margin + b.margin;
   const ReferenceFace kept = memory >= 0 ? m_memory[at(memory)].manifold.reference : ReferenceFace{};
   Manifold manifold;
-  if (!collide(a.turned[at(shape_a)], b.turned[at(shape_b)], offset, margin, kept, manifold)) {
+  turnShapes(a);
+  turnShapes(b);
+  if (!collide(a.turned[at(shape_a)], b.turned[at(shape_b)], offset, margin, kept, manifold, true)) {
     if (memory >= 0) freeMemory(memory);
     return false;
   }
@@ -156,7 +158,7 @@ bool SubstepWorld::findManifold(std::int32_t& memory, const SubstepBody& a, cons
 
 void SubstepWorld::updatePair(std::int32_t index) {
   Pair& pair = m_pairs[at(index)];
-  const SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
+  SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
   const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
   if (pair.is_seen || !is_met || (!isMovable(a) && !isMovable(b))) return;
   pair.is_seen = true;

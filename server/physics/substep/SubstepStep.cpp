@@ -19,6 +19,9 @@ constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched
 constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
 constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
 
+constexpr double kAhead = 1;  // … and further in the direction in which it goes, at most
+constexpr double kTicksAhead = 2;
+
 // How far turning moves a corner in this step.
 double rollOf(const SubstepBody& b) {
   return b.state == 0 ? 0 : std::min(std::fabs(b.turn), 2.0) * b.reach;
@@ -82,7 +85,7 @@ void SubstepWorld::begin(int id) {
   b.spin_kick = static_cast<float>(m_h * spin_gain);
   if (b.proxy < 0) return;
   b.margin = marginOf(b);
-  const Bounds bounds = turnShapes(b);
+  const Bounds bounds = boundsNow(b);
   m_broad.move(b.proxy, gridBounds(body.place, bounds, b.margin), wideBounds(b, bounds));
 }
 
@@ -95,7 +98,12 @@ double SubstepWorld::marginOf(const SubstepBody& b) {
 
 // Room for the moves of the next steps.
 GridBounds SubstepWorld::wideBounds(const SubstepBody& b, const Bounds& bounds) {
-  return gridBounds(b.body.place, bounds, b.margin + kBoundsSlack * b.thickness);
+  const double most = kAhead * b.thickness;
+  const Vec2 ahead = {std::clamp(kTicksAhead * b.body.velocity.x, -most, most),
+                      std::clamp(kTicksAhead * b.body.velocity.y, -most, most)};
+  const Bounds swept = {bounds.lower + Vec2{std::min(ahead.x, 0.0), std::min(ahead.y, 0.0)},
+                        bounds.upper + Vec2{std::max(ahead.x, 0.0), std::max(ahead.y, 0.0)}};
+  return gridBounds(b.body.place, swept, b.margin + kBoundsSlack * b.thickness);
 }
 
 // The rotation by the half angle's tangent: of length one for any angle.

@@ -116,7 +116,8 @@ class SubstepWorld final : public RigidStepper {
 
   // SubstepWorld.cpp
   void measure(SubstepBody& body);
-  Bounds turnShapes(SubstepBody& body);
+  static void turnShapes(SubstepBody& body);
+  static Bounds boundsNow(SubstepBody& body);
   void enter(int id);
   void leave(int id);
   void freeze(int id);
@@ -147,7 +148,7 @@ class SubstepWorld final : public RigidStepper {
   bool wakeTouched(std::size_t first_contact);
   void updatePair(std::int32_t pair);
   static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset);
-  bool findManifold(std::int32_t& memory, const SubstepBody& a, const SubstepBody& b, std::int32_t shape_a,
+  bool findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
                     std::int32_t shape_b, Vec2 offset);
   void sequence(bool is_sorted);
   void chooseColours();

@@ -9,6 +9,7 @@
 #include "EventOut.h"
 #include "EventStep.h"
 #include "GameManager.h"
+#include "HighScores.h"
 #include "LogManager.h"
 #include "Music.h"
 #include "Object.h"
@@ -48,12 +49,15 @@ class Walker : public Object {
     }
     if (p_k->getKey() == Keyboard::L) LM.writeLog("logged \x1b[31mred");
     if (p_k->getKey() == Keyboard::RIGHTARROW) steps++;
+    if (p_k->getKey() == Keyboard::S) HighScores("steps").add("walker", steps);
     return 1;
   }
   int draw() {
+    const std::vector<HighScore> best = HighScores("steps").best(1);
     return DM.drawString(getPosition(),
                          "mains=" + std::to_string(mains) + " steps=" + std::to_string(steps) +
-                             " process=" + std::to_string(getpid()) + ";",
+                             " process=" + std::to_string(getpid()) +
+                             " best=" + std::to_string(best.empty() ? -1 : best[0].points) + ";",
                          CENTER_JUSTIFIED, YELLOW);
   }
 };

@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Game{"chase", 0x340062b8544b9848}, Game{"hello", 0xe45e0ba05e3fc998},
                       Game{"lander", 0xe2c224ec6152eb3f}, Game{"maze", 0xbafc29fa70221cdd},
                       Game{"platformer", 0x821a44b3bea0d158}, Game{"sandbox", 0x72456b4c87a36338},
-                      Game{"saucershoot", 0xce478919d627560a}, Game{"tron", 0x1a55c04c2e1a2c7a}),
+                      Game{"saucershoot", 0x6e8fab27e05d1b2f}, Game{"tron", 0x55e0d957d53b5a66}),
     [](const auto& game) { return std::string(game.param.name); });
 
 }  // namespace

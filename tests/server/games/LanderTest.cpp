@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "HighScores.h"
 #include "HostedGame.h"
+#include "engine/world/InputQueue.h"
 
 /// The game's main(), compiled into this test under another name.
 int lander_main();
@@ -52,6 +54,25 @@ TEST(Lander, AGentlePilotLandsAndEarnsPoints) {
       world.tick();
     }
     EXPECT_GE(world.getPlayer(ann)->getScore(), 50);
+  });
+}
+
+TEST(Lander, TheBestLandingIsAServersToRemember) {
+  hostGame(lander_main, 3, [](df::World& world) {
+    world.inputs().push(
+        {.kind = df::InputQueue::kScore, .player = 0, .name = "bob", .table = "landings", .points = 5000});
+    const std::uint32_t ann = world.join("ann", df::RED);
+    world.tick();
+    for (int t = 0; t < 1800 && world.getPlayer(ann)->getScore() == 0; ++t) {
+      pilot(world, ann,
+            nearestPad(world.renderPlayer(ann), world.getPlayer(ann)->getObject()->getPosition().x())
+                .value_or(df::Vector()));
+      world.tick();
+    }
+    EXPECT_TRUE(shows(world, ann, "The best landing: bob, 5000")) << world.renderPlayer(ann).text();
+    const auto best = df::HighScores("landings").best(2);
+    ASSERT_EQ(best.size(), 2u);
+    EXPECT_EQ(best[1], (df::HighScore{"ann", world.getPlayer(ann)->getScore()}));
   });
 }
 

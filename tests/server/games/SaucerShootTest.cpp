@@ -3,10 +3,12 @@
 #include <utility>
 #include <vector>
 
+#include "HighScores.h"
 #include "HostedGame.h"
 #include "Player.h"
 #include "ViewObject.h"
 #include "detail/WorldView.h"
+#include "engine/world/InputQueue.h"
 #include "shared/replica/SteeredCopy.h"
 
 /// The game's main(), compiled into this test under another name.
@@ -342,6 +344,29 @@ TEST(SaucerShoot, PointsAreTheTeamsAndTheScoresThePilots) {
     ASSERT_EQ(points.getCount(), 1);
     const int team = static_cast<const df::ViewObject*>(points[0])->getValue();
     EXPECT_EQ(team, score(world, player) + 10);  // and a point for each second
+  });
+}
+
+TEST(SaucerShoot, TheBestPilotsAreShownFromTheTitleOnAndAPilotComesInWithTheLastShip) {
+  host(5, [](df::World& world) {
+    for (const auto& [name, points] : {std::pair{"bob", 2000}, {"bob", 1000}, {"eve", 500}})
+      world.inputs().push(
+          {.kind = df::InputQueue::kScore, .player = 0, .name = name, .table = "pilots", .points = points});
+    const std::uint32_t player = world.join("ann", df::RED);
+    tick(world, 2);
+    EXPECT_TRUE(shows(world, player, "Best pilots: bob 2000, eve 500")) << "each once";
+    tap(world, player, df::Keyboard::P);
+    tick(world, 2);
+    EXPECT_FALSE(shows(world, player, "Best pilots"));
+    world.getPlayer(player)->setScore(700);
+    for (int ships = 2; ships >= 0; --ships) {
+      tickInPeace(world, kShieldTicks);
+      crash(world, player);
+      EXPECT_EQ(df::HighScores("pilots").best().size(), ships == 0 ? 4u : 3u);
+      if (ships > 0) tickInPeace(world, kRelaunchTicks);
+    }
+    world.tick();
+    EXPECT_TRUE(shows(world, player, "Best pilots: bob 2000, ann 7")) << world.renderPlayer(player).text();
   });
 }
 

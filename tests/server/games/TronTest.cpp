@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "HighScores.h"
 #include "HostedGame.h"
 #include "Player.h"
 
@@ -59,6 +60,12 @@ TEST(Tron, ACarefulRiderWinsARoundAgainstTheRobot) {
     }
     EXPECT_EQ(world.getPlayer(ann)->getScore(), 1);
     EXPECT_NE(world.renderPlayer(ann).text().find("ann wins"), std::string::npos);
+    const auto rides = HighScores("rides").best();
+    ASSERT_EQ(rides.size(), 1u);
+    EXPECT_EQ(rides[0].name, "ann");
+    EXPECT_GT(rides[0].points, 10);
+    tick(world, 2);
+    EXPECT_TRUE(shows(world, ann, "best " + std::to_string(rides[0].points) + " ann"));
   });
 }
 

@@ -47,6 +47,15 @@ class AdminConsoleTest : public testing::Test {
                         [this](std::function<void()> job) { asio::post(io, std::move(job)); }}};
 };
 
+TEST_F(AdminConsoleTest, ScoresAreAskedForByTableAndCount) {
+  EXPECT_TRUE(give({"scores"}).ok);
+  EXPECT_EQ(target.done.back(), "scores  10");
+  EXPECT_TRUE(give({"scores", "pilots", "10000"}).ok);
+  EXPECT_EQ(target.done.back(), "scores pilots 10000");
+  for (const std::string count : {"0", "10001", "-1", "x", "1x"})
+    EXPECT_FALSE(give({"scores", "pilots", count}).ok) << count;
+}
+
 TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
   target.add("Ann");
   target.add("Bob", "192.0.2.2:1");
@@ -57,6 +66,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
                                                   {"mute", "Ann"},
                                                   {"unmute", "Ann"},
                                                   {"bans"},
+                                                  {"scores"},
                                                   {"ban", "198.51.100.1"},
                                                   {"allow", "198.51.100.2"},
                                                   {"unban", "198.51.100.1"},

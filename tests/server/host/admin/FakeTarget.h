@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,6 +62,9 @@ class FakeTarget : public AdminTarget {
   AdminAnswer changePassword(std::optional<PasswordHash> hash) override {
     password = std::move(hash);
     return note("password");
+  }
+  void scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> read) override {
+    read(note("scores " + table + " " + std::to_string(count)));
   }
   AdminAnswer set(const std::string& option, const std::string& value) override {
     return note("set " + option + "=" + value);

@@ -42,6 +42,7 @@ class FakeWorld : public WorldPort {
   const df::WorldView& view() const override { return m_view; }
   void notePublished(const Publisher&) override {}
   std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
   bool isGameOver() const override { return false; }
   df::Canvas renderPlayer(std::uint32_t) const override { return {}; }
   std::optional<WorldEnd> end() const override {

@@ -40,6 +40,7 @@ class ScriptedPort : public WorldPort {
   const df::WorldView& view() const override { return m_view; }
   void notePublished(const Publisher& /*publisher*/) override {}
   std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
   bool isGameOver() const override { return false; }
   df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
 

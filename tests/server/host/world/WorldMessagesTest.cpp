@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "host/snapshot/Publisher.h"
-#include "host/world/BuildId.h"
 #include "host/world/WorldMessages.h"
 #include "shared/net/base/Limits.h"
+#include "shared/program/BuildId.h"
 #include "shared/replica/Limits.h"
 #include "shared/values/SplitMix64.h"
 
@@ -239,12 +239,17 @@ TEST(WorldMessages, AnswersCrossWhole) {
   WorldAnswer sent{true, {3, 70'000}, false, {}};
   sent.pictures.push_back({5, df::Canvas(3, 2)});
   sent.pictures[0].canvas.put(1, 1, {U'ü', df::RED});
+  sent.scores = {{"arcade", {"ann", -7}}, {"other", {"bob", df::HighScores::kMaxPoints}}};
   df::WorldView view;
   const auto answer = readAnswer(fieldsOf(frameOf({}, writer, sent)), reader, view);
   ASSERT_TRUE(answer);
   EXPECT_TRUE(answer->game_over);
   EXPECT_FALSE(answer->has_view);
   EXPECT_EQ(answer->leavers, sent.leavers);
+  ASSERT_EQ(answer->scores.size(), 2u);
+  EXPECT_EQ(answer->scores[0].table, "arcade");
+  EXPECT_EQ(answer->scores[0].score, sent.scores[0].score);
+  EXPECT_EQ(answer->scores[1].score, sent.scores[1].score);
   ASSERT_EQ(answer->pictures.size(), 1u);
   EXPECT_EQ(answer->pictures[0].player, 5u);
   EXPECT_EQ(countDifferences(answer->pictures[0].canvas, sent.pictures[0].canvas), 0);
@@ -265,6 +270,8 @@ WorldTurn fullTurn() {
                          .x = 79,
                          .y = 23});
   turn.inputs.push_back({.kind = Queue::kLeave, .player = 4});
+  turn.inputs.push_back(
+      {.kind = Queue::kScore, .player = 0, .name = "eve", .table = "arcade", .points = -900'000'000'000});
   return turn;
 }
 
@@ -282,8 +289,9 @@ TEST(WorldMessages, TurnsCrossWhole) {
     const auto& b = turn->inputs[i];
     EXPECT_TRUE(a.kind == b.kind && a.player == b.player && a.name == b.name && a.color == b.color &&
                 a.key == b.key && a.key_action == b.key_action && a.button == b.button &&
-                a.mouse_action == b.mouse_action && a.x == b.x && a.y == b.y &&
-                a.seen.known == b.seen.known && a.seen.base == b.seen.base && a.seen.drawn == b.seen.drawn)
+                a.mouse_action == b.mouse_action && a.x == b.x && a.y == b.y && a.table == b.table &&
+                a.points == b.points && a.seen.known == b.seen.known && a.seen.base == b.seen.base &&
+                a.seen.drawn == b.seen.drawn)
         << i;
   }
 }
@@ -346,6 +354,25 @@ TEST(WorldMessages, RandomBytesAreRefusedOrLegal) {
       EXPECT_TRUE(writeTurn(*turn, frame));
     }
   }
+}
+
+TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
+  const auto isRead = [](std::size_t count) {
+    ViewWriter writer;
+    ViewReader reader;
+    df::WorldView view;
+    const df::AddedScore score{"t", {"n", 0}};
+    WorldAnswer sent;
+    sent.scores.assign(df::HighScores::kMaxAddedInTick, score);
+    std::string fields(fieldsOf(frameOf({}, writer, sent)));
+    const std::size_t each = (fields.size() - fieldsOf(frameOf({}, writer, WorldAnswer())).size()) / 16;
+    const std::size_t first = fields.find("t") - 1;
+    fields[first - 1] = static_cast<char>(count);  // that many follow
+    if (count == 17) fields.insert(first, fields.substr(first, each));
+    return readAnswer(fields, reader, view).has_value();
+  };
+  EXPECT_TRUE(isRead(16));
+  EXPECT_FALSE(isRead(17));
 }
 
 TEST(WorldMessages, WhatIsOutOfRangeIsCutByTheWriter) {

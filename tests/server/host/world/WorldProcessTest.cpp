@@ -79,12 +79,12 @@ TEST_F(WorldProcessTest, OneThatFailsHasCrashed) {
 }
 
 TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
-  const std::string answer = "printf '\\4\\0\\0\\0\\0\\0\\0\\0' >&3; ";
+  const std::string answer = "printf '\\5\\0\\0\\0\\0\\0\\0\\0\\0' >&3; ";
   const std::string crash = "kill -SEGV $$";
   EXPECT_EQ(play(crash).when, "");
   EXPECT_EQ(play(isReady() + takesTurn() + answer + takesTurn() + crash).when, "in tick 2");
   EXPECT_EQ(play(isReady() + takesTurn() + answer + "exit 0").when, "");
-  const std::string game_over = "printf '\\4\\0\\0\\0\\1\\0\\0\\0' >&3; ";
+  const std::string game_over = "printf '\\5\\0\\0\\0\\1\\0\\0\\0\\0' >&3; ";
   EXPECT_EQ(play(isReady() + takesTurn() + game_over + crash).when, "after tick 1");
 }
 
@@ -163,7 +163,7 @@ TEST_F(WorldProcessTest, OneThatFloodsEndsAsEver) {
 
 TEST_F(WorldProcessTest, AnAnswerIsATick) {
   // Not over, no leavers, no pictures, no view.
-  const std::string answer = takesTurn() + "printf '\\4\\0\\0\\0\\0\\0\\0\\0' >&3; ";
+  const std::string answer = takesTurn() + "printf '\\5\\0\\0\\0\\0\\0\\0\\0\\0' >&3; ";
   EXPECT_EQ(play(isReady() + answer + answer + "exit 0").why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
 }

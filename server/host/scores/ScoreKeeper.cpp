@@ -1,0 +1,139 @@
+#include "host/scores/ScoreKeeper.h"
+
+#include <chrono>
+#include <cstdio>
+#include <random>
+#include <utility>
+
+namespace naiad {
+
+namespace {
+
+constexpr const char* kScoreFile = "scores.sqlite3";
+
+std::int64_t wallClock() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::seconds>(now).count();
+}
+
+}  // namespace
+
+ScoreKeeper::ScoreKeeper(const std::filesystem::path& folder, std::string game, Clock clock)
+    : m_clock(std::move(clock)) {
+  if (folder.empty()) return;
+  m_store = std::make_unique<ScoreStore>(folder / kScoreFile, std::move(game));
+  try {
+    for (const ScoreRow& row : m_store->best("", df::HighScores::kMaxRows))
+      if (m_tables.keep(row.table, row.name, row.points)) m_known.emplace(row.round, row.tick, row.number);
+  } catch (const StateFileError& error) {
+    m_store.reset();
+    note(std::string(error.what()) + " Scores hold until the server ends.");
+  }
+}
+
+ScoreKeeper::ScoreKeeper(const std::filesystem::path& folder, std::string game)
+    : ScoreKeeper(folder, std::move(game), wallClock) {}
+
+ScoreKeeper::~ScoreKeeper() {
+  finish();
+}
+
+std::string ScoreKeeper::beginRound() {
+  std::random_device random;
+  std::string name;
+  for (int i = 0; i < 4; ++i) {
+    char part[9];
+    std::snprintf(part, sizeof part, "%08x", static_cast<unsigned>(random()));
+    name += part;
+  }
+  return name;
+}
+
+void ScoreKeeper::add(const std::string& round, std::uint32_t tick, const std::vector<df::AddedScore>& scores,
+                      const std::string& recording) {
+  if (scores.empty()) return;
+  std::vector<ScoreRow> rows;
+  for (const df::AddedScore& added : scores) {
+    const int number = static_cast<int>(&added - scores.data());
+    if (m_known.contains({round, tick, number})) continue;
+    if (!m_tables.keep(added.table, added.score.name, added.score.points)) {
+      ++m_refused;
+      continue;
+    }
+    ++m_added;
+    rows.push_back({added.table, df::scoreName(added.score.name), added.score.points, m_clock(), round, tick,
+                    number, recording});
+  }
+  if (m_store == nullptr || rows.empty()) return;
+  const std::lock_guard lock(m_mutex);
+  for (ScoreRow& row : rows) {
+    if (m_waiting.size() < kMaxWaiting) {
+      m_waiting.push_back(std::move(row));
+    } else {
+      ++m_dropped;
+    }
+  }
+  if (!m_writing) m_writing = m_worker.give([this] { write(); });
+}
+
+// On the worker's thread. What came while it wrote is written next; what could not be written waits for the
+// next row.
+void ScoreKeeper::write() {
+  std::unique_lock lock(m_mutex);
+  while (!m_waiting.empty()) {
+    const std::vector<ScoreRow> rows = std::exchange(m_waiting, {});
+    lock.unlock();
+    std::string problem;
+    try {
+      m_store->save(rows);
+      m_written += rows.size();
+    } catch (const StateFileError& error) {
+      problem = error.what();
+    }
+    note(problem);
+    lock.lock();
+    if (problem.empty()) continue;
+    m_waiting.insert(m_waiting.begin(), rows.begin(), rows.end());
+    break;
+  }
+  m_writing = false;
+}
+
+bool ScoreKeeper::read(const std::string& table, std::size_t count, Read done) {
+  if (m_store == nullptr) return false;
+  return m_worker.give([this, table, count, done = std::move(done)] {
+    write();
+    try {
+      done(m_store->best(table, count), "");
+    } catch (const StateFileError& error) {
+      done({}, error.what());
+    }
+  });
+}
+
+// The same news is no news.
+void ScoreKeeper::note(std::string problem) {
+  const std::lock_guard lock(m_mutex);
+  if (problem == m_problem) return;
+  m_news = problem.empty() ? "scores are written again" : "warning: " + problem;
+  m_problem = std::move(problem);
+  m_has_news = true;
+}
+
+std::string ScoreKeeper::takeNews() {
+  if (!m_has_news) return "";
+  const std::lock_guard lock(m_mutex);
+  m_has_news = false;
+  return std::exchange(m_news, "");
+}
+
+ScoreCounters ScoreKeeper::counters() const {
+  return {m_added, m_refused, m_written, m_dropped};
+}
+
+void ScoreKeeper::finish() {
+  if (m_store != nullptr) m_worker.give([this] { write(); });
+  m_worker.finish();
+}
+
+}  // namespace naiad

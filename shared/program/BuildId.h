@@ -1,0 +1,22 @@
+// Which build of a library this process has loaded: two with the same id have the same bytes.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace naiad {
+
+/// The linker's build id of the first loaded file whose name begins with `name`, like "libdragonfly.so", as
+/// hexadecimal digits; of the program itself if `name` is empty. Empty: there is no such file, or it has no
+/// id. Thread-safe.
+std::string buildIdOf(std::string_view name);
+
+/// Digits of an id that is sent, at most; and of one in a line for people.
+inline constexpr std::size_t kMaxBuildId = 64;
+inline constexpr std::size_t kShownBuildId = 8;
+
+/// That of libdragonfly.so, with which this code came; at most kMaxBuildId. Thread-safe.
+const std::string& ownBuildId();
+
+}  // namespace naiad

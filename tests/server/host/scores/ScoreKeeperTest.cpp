@@ -1,0 +1,248 @@
+// Scores in memory and on disk: none is lost once it is written, and none comes twice.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sqlite3.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "host/scores/ScoreKeeper.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+class ScoreKeeperTest : public testing::Test {
+ protected:
+  ScoreKeeperTest() {
+    char name[] = "/tmp/naiad-scores-XXXXXX";
+    if (::mkdtemp(name) != nullptr) folder = name;
+  }
+  ~ScoreKeeperTest() override {
+    std::error_code error;
+    fs::remove_all(folder, error);
+  }
+  static df::AddedScore of(const std::string& name, std::int64_t points,
+                           const std::string& table = "arcade") {
+    return {table, {name, points}};
+  }
+  std::vector<ScoreRow> stored(const std::string& table = "", std::size_t count = 100'000) const {
+    return ScoreStore(folder / "scores.sqlite3", "game").best(table, count);
+  }
+  std::string content() const {
+    std::ifstream file(folder / "scores.sqlite3", std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  fs::path folder;
+};
+
+TEST_F(ScoreKeeperTest, TheNextServerKnowsThem) {
+  {
+    ScoreKeeper keeper(folder, "game", [] { return 1'800'000'000; });
+    keeper.add("round", 7, {of("ann", 5), of("bob", 9), of("eve", -3, "other")});
+    EXPECT_EQ(keeper.tables().at("arcade").front(), (df::HighScore{"bob", 9})) << "at once";
+  }
+  const ScoreKeeper keeper(folder, "game");
+  EXPECT_EQ(keeper.tables().at("arcade"), (std::vector<df::HighScore>{{"bob", 9}, {"ann", 5}}));
+  EXPECT_EQ(keeper.tables().at("other"), (std::vector<df::HighScore>{{"eve", -3}}));
+  const auto rows = stored();
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].name, "bob");
+  EXPECT_EQ(rows[0].round, "round");
+  EXPECT_EQ(rows[0].tick, 7u);
+  EXPECT_EQ(rows[0].number, 1);
+  EXPECT_EQ(rows[0].at, 1'800'000'000);
+  EXPECT_EQ(rows[0].recording, "");
+  struct stat status {};
+  ASSERT_EQ(::stat((folder / "scores.sqlite3").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777u, 0600u);
+}
+
+TEST_F(ScoreKeeperTest, EachGameHasItsOwn) {
+  { ScoreKeeper(folder, "game").add("r", 1, {of("ann", 5)}); }
+  { ScoreKeeper(folder, "other").add("s", 1, {of("bob", 9)}); }
+  EXPECT_EQ(ScoreKeeper(folder, "game").tables().at("arcade"), (std::vector<df::HighScore>{{"ann", 5}}));
+}
+
+TEST_F(ScoreKeeperTest, TheSameRowIsKeptOnceHoweverOftenItComes) {
+  for (int times = 0; times < 3; ++times) {
+    ScoreKeeper keeper(folder, "game");
+    keeper.add("round", 7, {of("ann", 5), of("ann", 5)}, "round.dfr");
+    EXPECT_EQ(keeper.tables().at("arcade").size(), 2u)
+        << "as for one that goes on with a killed server's round";
+  }
+  ASSERT_EQ(stored().size(), 2u) << "two in one tick are two";
+  EXPECT_EQ(stored()[0].recording, "round.dfr");
+}
+
+TEST_F(ScoreKeeperTest, ATableOnDiskHasTenThousandRowsAndTheLeastGo) {
+  std::vector<ScoreRow> rows;
+  for (int i = 0; i < 10'050; ++i)
+    rows.push_back({"arcade", "ann", (i * 7919) % 10'050, 0, "round", static_cast<std::uint32_t>(i), 0});
+  ScoreStore store(folder / "scores.sqlite3", "game");
+  store.save(rows);
+  store.save({{"other", "bob", -1, 0, "round", 0, 1}});
+  const auto kept = stored("arcade");
+  ASSERT_EQ(kept.size(), 10'000u);
+  EXPECT_EQ(kept.front().points, 10'049);
+  EXPECT_EQ(kept.back().points, 50);
+  EXPECT_EQ(stored("other").size(), 1u);
+  EXPECT_EQ(stored("", 3).size(), 4u) << "three of a table";
+}
+
+TEST_F(ScoreKeeperTest, AWorldThatSendsNonsenseFillsNothing) {
+  ScoreKeeper keeper(folder, "game");
+  for (std::uint32_t t = 0; t < 100; ++t) keeper.add("round", t, {of("ann", 1, "t" + std::to_string(t))});
+  keeper.add("round", 100,
+             {of("", 1, "t1"), of("ann", 1, "no table"), of("ann", df::HighScores::kMaxPoints + 1, "t1")});
+  keeper.add("round", 101, {of("a\nb\x1b[2J and a very long name", 2, "t1")});
+  keeper.finish();
+  EXPECT_EQ(keeper.tables().size(), 16u);
+  EXPECT_EQ(keeper.counters().refused, 84u + 3u);
+  EXPECT_EQ(keeper.counters().added, 17u);
+  EXPECT_EQ(keeper.counters().written, 17u);
+  EXPECT_EQ(stored("t1").front().name, "a?b?[2J and a ve");
+}
+
+TEST_F(ScoreKeeperTest, AFileThatCannotBeUsedStaysAsItIsAndIsSaidOnce) {
+  for (const std::string& bytes : {std::string("no database"), std::string()}) {
+    std::ofstream(folder / "scores.sqlite3", std::ios::binary) << bytes;
+    ScoreKeeper keeper(folder, "game");
+    const std::string news = keeper.takeNews();
+    EXPECT_NE(news.find("warning: The file of scores"), std::string::npos) << news;
+    EXPECT_EQ(keeper.takeNews(), "");
+    EXPECT_FALSE(keeper.hasFile());
+    EXPECT_FALSE(keeper.read("", 10, [](const auto&, const auto&) { FAIL(); }));
+    keeper.add("round", 1, {of("ann", 5)});
+    EXPECT_EQ(keeper.tables().at("arcade").size(), 1u) << "until the server ends";
+    keeper.finish();
+    EXPECT_EQ(content(), bytes);
+  }
+}
+
+TEST_F(ScoreKeeperTest, WithoutAFolderTheyEndWithTheServer) {
+  ScoreKeeper keeper({}, "game");
+  keeper.add("round", 1, {of("ann", 5)});
+  EXPECT_EQ(keeper.tables().at("arcade").size(), 1u);
+  EXPECT_EQ(keeper.takeNews(), "");
+}
+
+/// Another program that holds the file's lock.
+class Blocker {
+ public:
+  explicit Blocker(const fs::path& file) {
+    sqlite3_open(file.c_str(), &m_p_database);
+    sqlite3_exec(m_p_database, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr);
+  }
+  ~Blocker() { release(); }
+  void release() { sqlite3_close(std::exchange(m_p_database, nullptr)); }
+
+ private:
+  sqlite3* m_p_database = nullptr;
+};
+
+TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
+  ScoreKeeper keeper(folder, "game");
+  keeper.add("round", 0, {of("ann", 0)});
+  std::mutex mutex;
+  std::condition_variable read;
+  int reads = 0;
+  std::string problem;
+  const auto sync = [&] {
+    std::unique_lock lock(mutex);
+    const int before = reads;
+    ASSERT_TRUE(keeper.read("", 1, [&](const auto&, const std::string& what) {
+      const std::lock_guard guard(mutex);
+      problem = what;
+      ++reads;
+      read.notify_one();
+    }));
+    ASSERT_TRUE(read.wait_for(lock, 60s, [&] { return reads > before; }));
+  };
+  sync();
+  EXPECT_EQ(keeper.counters().written, 1u);
+  {
+    Blocker blocker(folder / "scores.sqlite3");
+    for (std::uint32_t t = 1; t <= 5000; ++t) keeper.add("round", t, {of("ann", t)});
+    sync();  // the writing was tried
+    EXPECT_EQ(keeper.counters().written, 1u);
+    EXPECT_NE(keeper.takeNews().find("cannot be written"), std::string::npos);
+    EXPECT_EQ(problem, "") << "readers do not wait for writers";
+  }
+  const std::uint64_t dropped = keeper.counters().dropped;
+  EXPECT_LE(dropped, 5000u - ScoreKeeper::kMaxWaiting) << "some may have been with the writer";
+  sync();
+  EXPECT_EQ(keeper.takeNews(), "scores are written again");
+  EXPECT_EQ(keeper.counters().written, 5001u - dropped);
+  keeper.finish();
+  EXPECT_EQ(stored().size(), 5001u - dropped);
+}
+
+/// Adds three rows a tick without end, and says on the pipe how many are on disk.
+[[noreturn]] void addWithoutEnd(const fs::path& folder, const std::string& round, int pipe) {
+  ScoreKeeper keeper(folder, "game");
+  for (std::uint32_t tick = 0;; ++tick) {
+    keeper.add(round, tick,
+               {{"arcade", {"ann", tick}}, {"arcade", {"ann", tick}}, {"arcade", {"bob", tick}}});
+    std::uint64_t written = 0;
+    while ((written = keeper.counters().written) < 3 * std::uint64_t{tick}) std::this_thread::yield();
+    if (::write(pipe, &written, sizeof written) != sizeof written) _exit(1);
+  }
+}
+
+/// Kills such a writer at its `words`th word. How many rows were on disk then, as far as it could say so.
+std::uint64_t killAfter(int words, const fs::path& folder, const std::string& round) {
+  int ends[2] = {-1, -1};
+  if (::pipe(ends) != 0) return 0;
+  const pid_t child = ::fork();
+  if (child == 0) addWithoutEnd(folder, round, ends[1]);
+  ::close(ends[1]);
+  std::uint64_t written = 0;
+  for (int i = 0; i<words&& ::read(ends[0], &written, sizeof written)> 0; ++i) {
+  }
+  ::kill(child, SIGKILL);
+  while (::read(ends[0], &written, sizeof written) > 0) {
+  }
+  ::waitpid(child, nullptr, 0);
+  ::close(ends[0]);
+  return written;
+}
+
+TEST_F(ScoreKeeperTest, AHundredKillsLoseNoneThatWasWrittenAndNoneComesTwice) {
+  std::map<std::string, std::uint64_t> written;
+  for (int kill = 0; kill < 100; ++kill) {
+    const std::string round = "round " + std::to_string(kill);
+    written[round] = killAfter(1 + kill % 5, folder, round);
+  }
+  std::map<std::string, std::set<std::pair<std::uint32_t, int>>> found;
+  for (const ScoreRow& row : stored())
+    EXPECT_TRUE(found[row.round].insert({row.tick, row.number}).second) << "none twice";
+  ASSERT_LT(stored().size(), ScoreStore::kMaxRows) << "or the least have gone";
+  for (const auto& [round, count] : written) EXPECT_GE(found[round].size(), count) << round;
+  EXPECT_GT(written["round 4"], 0u);
+}
+
+TEST_F(ScoreKeeperTest, RoundsHaveNamesOfTheirOwn) {
+  EXPECT_NE(ScoreKeeper::beginRound(), ScoreKeeper::beginRound());
+  EXPECT_EQ(ScoreKeeper::beginRound().size(), 32u);
+}
+
+}  // namespace
+}  // namespace naiad
