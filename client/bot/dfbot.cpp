@@ -1,5 +1,6 @@
 // dfbot: players without a screen, for tests, demonstrations and load.
 #include <algorithm>
+#include <asio/executor_work_guard.hpp>
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdio>
@@ -26,7 +27,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kServing{20};  // of frames in one turn
+/// One turn: so long frames are served as they come, then each bot is looked after once. Doing that after
+/// each frame would cost the square of the number of bots.
+constexpr std::chrono::milliseconds kTurn{5};
 /// A server sends a snapshot every kKeepAliveTicks at least, later if the line is bad. Longer silence at the
 /// end, or of a connection that broke, means that the server crashed or hangs.
 constexpr std::chrono::seconds kPatience{5};
@@ -237,14 +240,13 @@ int run(const BotOptions& options) {
   bots.reserve(static_cast<std::size_t>(options.clients));
   for (int i = 0; i < options.clients; ++i) bots.push_back(std::make_unique<Bot>(context, options, i));
 
+  // The sockets of a gateway belong to another thread: without it a turn with nothing to do would not wait.
+  auto work = asio::make_work_guard(context);
   std::optional<Clock::time_point> all_joined;
   std::optional<Clock::time_point> played_at;
   while (true) {
     context.restart();
-    context.run_one_for(std::chrono::milliseconds(5));
-    // For a limited time: a server that floods must not keep the bots here for ever.
-    for (const auto enough = Clock::now() + kServing; Clock::now() < enough && context.poll_one() > 0;) {
-    }
+    context.run_for(kTurn);
     const Clock::time_point now = Clock::now();
     bool joined = true;
     for (const auto& bot : bots) {
@@ -281,6 +283,7 @@ int run(const BotOptions& options) {
   }
   const Clock::time_point end = Clock::now();
   for (const auto& bot : bots) bot->leave();
+  work.reset();
   context.restart();
   context.run_for(std::chrono::milliseconds(1000));  // ends early, when the channels have closed
   return report(options, bots, end);

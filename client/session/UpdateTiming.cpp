@@ -18,7 +18,7 @@ void UpdateTiming::noteUpdateSent() {
 
 bool UpdateTiming::noteSnapshotApplied(bool gap, Time now) {
   ++m_unacknowledged;
-  if (!hasDatagrams(now) || m_unacknowledged >= kAckEvery || gap) return true;
+  if (m_unacknowledged >= kAckEvery || gap) return true;
   m_acknowledge_at = now + kAckDelay;
   return false;
 }

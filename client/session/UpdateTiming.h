@@ -20,7 +20,7 @@ class UpdateTiming {
   /// For so long after a snapshot on the stream it is undecided whether the server receives datagrams.
   static constexpr std::chrono::milliseconds kUndecided{500};
   static constexpr std::chrono::milliseconds kRepeatInput{10};  ///< a new input is sent again after this
-  static constexpr int kAckEvery = 3;                           ///< snapshots that come as datagrams
+  static constexpr int kAckEvery = 3;                           ///< snapshots
   static constexpr std::chrono::milliseconds kAckDelay{50};     ///< of the last one, at most
   static constexpr std::chrono::milliseconds kPingEvery{1000};  ///< by datagram
 

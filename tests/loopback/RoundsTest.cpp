@@ -18,7 +18,7 @@
 #include "GameProgram.h"
 #include "Home.h"
 #include "TestClient.h"
-#include "shared/program/BuildId.h"
+#include "host/world/BuildId.h"
 #include "shared/replica/TruthFile.h"
 #include "tests/server/host/admin/Talk.h"
 
@@ -319,24 +319,6 @@ TEST_F(Rounds, WhoWatchesTheServerReadsWhatItsGameLogs) {
   game->signal(SIGTERM);
   game->wait();
   EXPECT_NE(gamesOwnLog().find("logged"), std::string::npos) << "its own file has it as ever";
-}
-
-TEST_F(Rounds, ARestartAtTheRoundsEndWaitsForItAndPlayersComeBack) {
-  start({{"NAIAD_ON_GAME_OVER", "restart"}});
-  auto ann = join("ann");
-  const int process = shown(*ann).process;
-  EXPECT_EQ(Talk(game->control()).ask(R"({"command":"restart","arguments":{"when":"at-round-end"}})"),
-            R"({"ok":true,"text":"The server restarts when the round is over."})");
-  ASSERT_TRUE(serve([&] {
-    return heard(*ann, "The server restarts when this round is over. Your client comes back by itself.");
-  }));
-  press(*ann, df::Keyboard::RIGHTARROW);
-  ASSERT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "the round goes on";
-  EXPECT_EQ(shown(*ann).process, process);
-  press(*ann, df::Keyboard::X);
-  ASSERT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kSearching; }));
-  EXPECT_TRUE(serve([&] { return ann->joined() && shown(*ann).steps == 0; })) << game->log();
-  EXPECT_NE(shown(*ann).process, process);
 }
 
 // ---- an upgrade -------------------------------------------------------------------------------------------

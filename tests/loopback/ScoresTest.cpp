@@ -12,7 +12,7 @@
 
 #include "GameProgram.h"
 #include "Home.h"
-#include "RunProgram.h"
+#include "RunCtl.h"
 #include "TestClient.h"
 
 namespace naiad::test {

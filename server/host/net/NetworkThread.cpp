@@ -25,8 +25,12 @@ namespace {
 constexpr int kTurn = 64;
 /// What a notice of a frame takes beside the frame, so that many small ones fill a bound, too.
 constexpr std::size_t kNoticeBytes = 32;
-/// How often unsent bytes are counted while there are any, and new addresses challenged.
+/// How often unsent bytes are counted while there are any. That takes a system call for each stream, so with
+/// many streams the pause is kCounting times as long as the counting took, up to kLongBusy.
 constexpr std::chrono::milliseconds kBusy{2};
+constexpr std::chrono::milliseconds kLongBusy{6};
+constexpr int kCounting = 20;
+/// How often new addresses are challenged.
 constexpr std::chrono::milliseconds kUnproven{50};
 /// The tick thread serves notices between two ticks for this long at a time.
 constexpr std::chrono::microseconds kHelping{200};
@@ -239,13 +243,18 @@ void NetworkThread::endTurn() {
   if (std::exchange(m_urgent, false)) wakeHome();
 }
 
-// Counts the unsent bytes of the streams that had some at the last count, or have been sent more since.
+// Counts the unsent bytes of the streams that had some at the last count, or have been sent more since. Not
+// in every turn: after a tick all streams are busy for many turns.
 void NetworkThread::noteUnsent() {
+  const Clock::time_point begin = Clock::now();
+  if (m_busy.empty() || begin < m_count_at) return;
   std::erase_if(m_busy, [](StreamEnd* end) {
     end->unsent = end->channel ? end->channel->unsentBytes() : 0;
     end->busy = end->unsent > 0;
     return !end->busy;
   });
+  const Clock::time_point end = Clock::now();
+  m_count_at = end + std::clamp<Clock::duration>(kCounting * (end - begin), kBusy, kLongBusy);
 }
 
 bool NetworkThread::hasUnsent() const {

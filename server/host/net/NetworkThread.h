@@ -240,6 +240,7 @@ class NetworkThread {
   std::unordered_map<const StreamEnd*, std::unique_ptr<StreamEnd>> m_streams;
   std::unordered_map<const DatagramsEnd*, std::unique_ptr<DatagramsEnd>> m_datagrams;
   std::vector<StreamEnd*> m_busy;  ///< those with bytes unsent, at the last count
+  Clock::time_point m_count_at{};  ///< when they may be counted again
   Batch<Order> m_taken;
   Batch<Notice> m_notices;
   std::uint64_t m_newest_stream = 0;

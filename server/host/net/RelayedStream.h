@@ -12,7 +12,7 @@ namespace naiad {
 
 /// Thread: the one that ticks. Callbacks come from NetworkThread::serve(), frames leave with its flush().
 /// unsentBytes() counts the bytes on the way to the network thread and those that it had unsent at its last
-/// count, which it makes after every batch and every few milliseconds while there are any.
+/// count, which it makes every few milliseconds while there are any.
 /// exportSecret() gives nothing: keys are made over there (NetworkThread::openDatagrams).
 class RelayedStream : public ReliableChannel {
  public:

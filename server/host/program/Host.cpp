@@ -423,8 +423,8 @@ void Host::tick() {
   ++m_counters.ticks;
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
-  heedUpgrade();
   m_admission.judgeWaiting();
+  heedUpgrade();
   tickWorlds();
   m_stages.enter(Stage::kNews);
   sendPlayers();

@@ -22,8 +22,8 @@
 #include "host/journal/Salvage.h"
 #include "host/program/TickClock.h"
 #include "host/program/WorldSandbox.h"
+#include "host/world/BuildId.h"
 #include "host/world/Repeatable.h"
-#include "shared/program/BuildId.h"
 #include "shared/values/Version.h"
 
 namespace naiad {

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "host/program/Ending.h"
+#include "host/world/BuildId.h"
 #include "host/world/WorldInProcess.h"
 #include "naiad.pb.h"
 #include "shared/net/base/SafeFile.h"
-#include "shared/program/BuildId.h"
 
 namespace naiad {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/world/BuildId.h"
 #include "shared/net/base/Limits.h"
-#include "shared/program/BuildId.h"
 #include "shared/replica/Limits.h"
 
 namespace naiad {
@@ -12,10 +12,6 @@ namespace naiad {
 namespace {
 
 using Input = df::InputQueue::Input;
-
-bool isHex(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-}
 
 void visitHash(FieldWriter& out, std::uint64_t hash) {
   out.number(static_cast<std::uint32_t>(hash));
@@ -34,6 +30,10 @@ template <class F, class T>
 void visitFile(F& f, T& file) {
   f.text(file.name, kMaxReadFileName);
   visitHash(f, file.hash);
+}
+
+bool isHex(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
 }
 
 template <class F, class T>

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "host/world/ActivityReader.h"
-#include "shared/program/BuildId.h"
+#include "host/world/BuildId.h"
 #include "shared/values/FastHash.h"
 
 namespace naiad {
@@ -180,6 +180,10 @@ void WorldProcess::onFrame() {
   if (!starts) reportTick();
 }
 
+std::vector<df::AddedScore> WorldProcess::takeScores() {
+  return std::exchange(m_answer.scores, {});
+}
+
 // An upgrade has replaced files from which this process's worlds are started, but not what this process is.
 void WorldProcess::takeReady() {
   const auto build = readBuild(m_in);
@@ -187,10 +191,6 @@ void WorldProcess::takeReady() {
     return fail(WorldEnd::kForeign, "is of another build (" + build->substr(0, kShownBuildId) + ")");
   m_ready = readReady(m_in);
   if (!m_ready) fail(WorldEnd::kBroken, "sent what no world sends");
-}
-
-std::vector<df::AddedScore> WorldProcess::takeScores() {
-  return std::exchange(m_answer.scores, {});
 }
 
 std::vector<std::uint32_t> WorldProcess::takeLeavers() {

@@ -12,6 +12,7 @@ namespace naiad::physics {
 /// Plain data, beside the body's row.
 struct BodyForm {
   std::vector<ConvexShape> shapes;  ///< about the centre of mass, which is the place; none: the Object's box
+  double reach = 0;                 ///< of all shapes, from the place
   double unit_inertia = 0;          ///< moment of inertia per mass, of `shapes`
   Rotation rotation;                ///< of the shapes against the axes of the world
   double spin = 0;                  ///< rad per tick

@@ -192,9 +192,7 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
     if (!state.is_simple || state.is_joined || was_general) m_is_mixed = true;
     if (state.is_simple && body.shape == ImpactShape::kCircle) state.radius = body.half.x;
   }
-  double reach = 0;
-  for (const naiad::physics::ConvexShape& shape : form.shapes)
-    reach = std::max(reach, shape.reach + shape.radius);
+  double reach = form.reach;
   if (form.shapes.empty())
     reach = length(0.5 * m_table->metric.fromCells(Vector::fromFixed(box.size))) + length(offset);
   if (form.shapes.empty() && !state.is_simple) {

@@ -56,6 +56,8 @@ int Body::setShapes(std::vector<Part> shapes) {
   recentre(shapes, mass);
   BodyForm& its = form();
   its.shapes = std::move(shapes);
+  its.reach = 0;
+  for (const Part& shape : its.shapes) its.reach = std::max(its.reach, shape.reach + shape.radius);
   ++its.version;
   its.unit_inertia = mass.inertia / mass.mass;
   m_table->joints.markChanged();
@@ -71,6 +73,7 @@ int Body::addShape(const Part& shape) {
 
 int Body::setBoxShape() {
   form().shapes.clear();
+  form().reach = 0;
   ++form().version;
   m_table->joints.markChanged();
   return 0;

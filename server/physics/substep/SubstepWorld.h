@@ -152,6 +152,7 @@ class SubstepWorld final : public RigidStepper {
                     std::int32_t shape_b, Vec2 offset);
   void sequence(bool is_sorted);
   void chooseColours();
+  void fetch(const Contact& contact) const;
   void fillRows();
   void storeContacts();
   std::int32_t makeMemory();

@@ -108,13 +108,17 @@ void StreamConnection::send(std::string_view frame) {
 
 std::size_t StreamConnection::unsentBytes() {
   if (phase_ == Phase::kClosed || write_failed_) return 0;
-  int in_kernel = 0;
+  return queuedBytes() + bytesInKernel();
+}
+
+// Sockets of the file system know SIOCOUTQ alone: the memory of what the other program has not read yet,
+// which is more than its bytes.
+std::size_t StreamConnection::bytesInKernel() {
   const int socket = stream_->socket().native_handle();
-  // Sockets of the file system know SIOCOUTQ alone: the memory of what the other program has not read yet,
-  // which is more than its bytes.
-  const bool known = ioctl(socket, SIOCOUTQNSD, &in_kernel) == 0 || ioctl(socket, SIOCOUTQ, &in_kernel) == 0;
-  if (!known || in_kernel < 0) in_kernel = 0;
-  return queuedBytes() + static_cast<std::size_t>(in_kernel);
+  int bytes = 0;
+  if (!counts_unread_ && ioctl(socket, SIOCOUTQNSD, &bytes) != 0) counts_unread_ = true;
+  if (counts_unread_ && ioctl(socket, SIOCOUTQ, &bytes) != 0) return 0;
+  return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
 }
 
 std::string StreamConnection::exportSecret(std::string_view label, std::string_view context,

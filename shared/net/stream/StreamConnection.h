@@ -49,6 +49,7 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
   void finish(CloseReason reason, bool cut);
   void report();
   std::size_t queuedBytes() const { return queue_.size() - written_; }
+  std::size_t bytesInKernel();
 
   std::unique_ptr<ByteStream> stream_;
   asio::steady_timer deadline_;
@@ -64,6 +65,7 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
   bool reading_ = false;
   bool awaiting_room_ = false;
   bool write_failed_ = false;
+  bool counts_unread_ = false;  // the kernel does not know what is unsent, only what is unread
 };
 
 }  // namespace naiad

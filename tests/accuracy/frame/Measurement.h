@@ -14,6 +14,7 @@ struct CpuTime {
   double median = 0;
   double least = 0;
   double most = 0;
+  double worst = 0;  ///< the dearest tick of a run, the first one too: of two runs the smaller
 };
 
 struct Measurement {

@@ -68,8 +68,10 @@ Records::Records(const std::string& directory) {
   if (directory.empty()) return;
   std::filesystem::create_directories(directory);
   m_points = open(directory + "/points.csv");
-  std::fputs("problem,metric,method,version,substeps,error,cpu_us,cpu_us_min,cpu_us_max,target,ok,failure\n",
-             m_points);
+  std::fputs(
+      "problem,metric,method,version,substeps,error,cpu_us,cpu_us_min,cpu_us_max,worst_us,target,ok,"
+      "failure\n",
+      m_points);
   m_problems = open(directory + "/problems.json");
   std::fprintf(m_problems, "{\"build\": %s,\n\"methods\": [",
                quoted("GCC " __VERSION__ " " NAIAD_LAB_FLAGS).c_str());
@@ -129,12 +131,14 @@ void Records::add(const Problem& problem, const Case& its_case, const Method& me
     line.add("method", method.name).add("version", method.version).add("substeps", substeps);
     line.add("error", error).add("cpu_us", measurement.cpu.median);
     line.add("cpu_us_min", measurement.cpu.least).add("cpu_us_max", measurement.cpu.most);
+    line.add("worst_us", measurement.cpu.worst);
     if (judged) line.add("target", metric.target).add("ok", met ? 1 : 0);
     if (judged && !met) m_all_met = false;
     if (m_points == nullptr) continue;
-    std::fprintf(m_points, "%s,%s,%s,%s,%d,%.6g,%.6g,%.6g,%.6g,", problem.id.c_str(),
+    std::fprintf(m_points, "%s,%s,%s,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,", problem.id.c_str(),
                  metricName(its_case, metric).c_str(), method.name.c_str(), method.version.c_str(), substeps,
-                 error, measurement.cpu.median, measurement.cpu.least, measurement.cpu.most);
+                 error, measurement.cpu.median, measurement.cpu.least, measurement.cpu.most,
+                 measurement.cpu.worst);
     if (judged)
       std::fprintf(m_points, "%.6g,%d", metric.target, met ? 1 : 0);
     else

@@ -68,6 +68,7 @@ TEST_F(ClientReturn, NumbersContinueFromTheWelcome) {
     EXPECT_TRUE(session->hasPicture(now));
     EXPECT_EQ(session->replica().newest().number, at + 1);
     EXPECT_EQ(session->counters().resets, 0u) << "it is the first world that this process sees";
+    acknowledge();
     EXPECT_EQ(lastUpdate().acks.newest, at + 1);
     EXPECT_EQ(lastUpdate().acks.mask, 0u) << "what came to another process did not come to this one";
     ASSERT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));

@@ -68,6 +68,8 @@ class ClientSessionFixture : public testing::Test {
     return message;
   }
   void snapshot(std::uint32_t number, std::uint32_t tick) { receive(snapshotMessage(number, tick)); }
+  /// Nothing more comes: what came is acknowledged.
+  void acknowledge() { session->update(now + UpdateTiming::kAckDelay); }
 
   void expectRejected() {
     EXPECT_EQ(session->state(), ClientSession::State::kEnded);

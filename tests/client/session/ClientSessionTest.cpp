@@ -101,8 +101,6 @@ TEST_F(ClientSessionTest, GoodbyeKeepsItsSentence) {
 TEST_F(ClientSessionTest, AppliesAndAcknowledgesSnapshots) {
   join();
   snapshot(1, 100);
-  EXPECT_EQ(lastUpdate().acks.newest, 1u);
-  EXPECT_EQ(lastUpdate().acks.mask, 0u);
   snapshot(2, 101);
   snapshot(4, 103);
   EXPECT_EQ(lastUpdate().acks.newest, 4u);
@@ -111,6 +109,39 @@ TEST_F(ClientSessionTest, AppliesAndAcknowledgesSnapshots) {
   EXPECT_EQ(session->replica().render(103).at(10, 4), (df::Cell{U'@', df::RED}));
   EXPECT_EQ(session->counters().snapshots, 3u);
   EXPECT_TRUE(session->hasPicture(now));
+}
+
+TEST_F(ClientSessionTest, EveryThirdSnapshotIsAcknowledgedAndTheLastOnesALittleLater) {
+  join();
+  const std::size_t before = log.sent.size();
+  snapshot(1, 100);
+  snapshot(2, 101);
+  EXPECT_EQ(log.sent.size(), before);
+  snapshot(3, 102);
+  ASSERT_EQ(log.sent.size(), before + 1);
+  EXPECT_EQ(lastUpdate().acks.newest, 3u);
+  EXPECT_EQ(lastUpdate().acks.mask, 0b11u);
+
+  snapshot(4, 103);
+  session->update(now + UpdateTiming::kAckDelay - std::chrono::milliseconds(1));
+  EXPECT_EQ(log.sent.size(), before + 1);
+  EXPECT_EQ(session->nextWake(), now + UpdateTiming::kAckDelay);
+  session->update(now + UpdateTiming::kAckDelay);
+  ASSERT_EQ(log.sent.size(), before + 2);
+  EXPECT_EQ(lastUpdate().acks.newest, 4u);
+}
+
+TEST_F(ClientSessionTest, AnInputCarriesTheAcknowledgements) {
+  join();
+  snapshot(1, 100);
+  snapshot(2, 101);
+  ASSERT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
+  EXPECT_EQ(lastUpdate().acks.newest, 2u);
+  const std::size_t before = log.sent.size();
+  session->update(now + UpdateTiming::kAckDelay);
+  snapshot(3, 102);
+  snapshot(4, 103);
+  EXPECT_EQ(log.sent.size(), before) << "two since then";
 }
 
 TEST_F(ClientSessionTest, ObserverSeesTheReplicaBeforeTheSnapshot) {
@@ -175,6 +206,7 @@ TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
   EXPECT_EQ(session->counters().snapshots, 2u);
   EXPECT_EQ(log.sent.size(), sent);
   receive(bare(4, 1, false));
+  acknowledge();
   EXPECT_EQ(lastUpdate().acks.newest, 4u);
   EXPECT_EQ(lastUpdate().acks.mask, 0b101u);
 }
@@ -298,6 +330,7 @@ TEST_F(ClientSessionTest, AWorldSentAgainContinuesTheNumbers) {
   EXPECT_EQ(session->replica().aliveCount(), 0u);
   EXPECT_EQ(session->replica().newest().number, 40'002u);
   EXPECT_EQ(session->replica().newest().input, 40'001u);
+  acknowledge();
   EXPECT_EQ(lastUpdate().acks.newest, 40'002u);
 }
 

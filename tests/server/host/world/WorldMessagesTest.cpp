@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "host/snapshot/Publisher.h"
+#include "host/world/BuildId.h"
 #include "host/world/WorldMessages.h"
 #include "shared/net/base/Limits.h"
-#include "shared/program/BuildId.h"
 #include "shared/replica/Limits.h"
 #include "shared/values/SplitMix64.h"
 

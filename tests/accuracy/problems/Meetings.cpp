@@ -1,0 +1,170 @@
+// 19, 20: bodies that meet in a point or touch from the start, and that stand a little to the side.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "Path.h"
+#include "shared/values/SplitMix64.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kHalf = 0.5;    // of a box's sides
+constexpr double kApproach = 3;  // m/s: a tenth of a cell a tick
+
+// Of all bodies at once.
+struct Whole {
+  Vec momentum;
+  double energy = 0;
+  double sum = 0;  // of momenta's sizes: what rounding is relative to
+};
+
+Whole motionOf(const Scene& scene, const Simulation& simulation) {
+  Whole all;
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const double mass = scene.bodies[static_cast<std::size_t>(i)].mass;
+    const Vec velocity = simulation.body(i).velocity;
+    all.momentum = all.momentum + mass * velocity;
+    all.energy += 0.5 * mass * dot(velocity, velocity);
+    all.sum += mass * std::sqrt(dot(velocity, velocity));
+  }
+  return all;
+}
+
+// What impacts may not change, and what they may not give.
+Case meeting(const std::string& name, Scene scene) {
+  Case met;
+  met.name = name;
+  met.scene = std::move(scene);
+  met.most_substeps = 16;
+  met.metrics = {{"momentum", "largest change of the momentum, relative", 1e-9, 1e-16, ""},
+                 {"energy_gain", "largest gain of energy, relative", 1e-9, 1e-16, ""}};
+  met.judge = [scene = met.scene](const Trial& trial) {
+    const Whole start = motionOf(scene, *trial.build(scene));
+    double momentum = 0, gain = 0;
+    trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
+      const Whole now = motionOf(scene, simulation);
+      const Vec lost = now.momentum - start.momentum;
+      momentum = std::max(momentum, std::sqrt(dot(lost, lost)) / start.sum);
+      gain = std::max(gain, now.energy / start.energy - 1);
+    });
+    return std::vector<double>{momentum, gain};
+  };
+  return met;
+}
+
+// Evenly on a circle, towards its middle.
+Scene inwards(int count, double radius, double first_angle) {
+  Scene scene;
+  scene.ticks = 60;
+  for (int i = 0; i < count; ++i) {
+    const double angle = first_angle + 2 * std::numbers::pi * i / count;
+    const Vec out = {std::cos(angle), std::sin(angle)};
+    scene.bodies.push_back(box(radius * out, {kHalf, kHalf}));
+    scene.bodies.back().velocity = -kApproach * out;
+  }
+  return scene;
+}
+
+// Circles that touch, in a row, each heavier than the one before.
+Scene heavierAndHeavier() {
+  constexpr int kCount = 100;
+  constexpr double kHeaviest = 4;  // a power of ten
+  Scene scene;
+  scene.ticks = 120;
+  for (int i = 0; i < kCount; ++i) {
+    scene.bodies.push_back(
+        ball({static_cast<double>(i), 0}, {}, kHalf, std::pow(10, kHeaviest * i / (kCount - 1))));
+    scene.bodies.back().restitution = 1;
+  }
+  scene.bodies.front().velocity = {kApproach, 0};
+  return scene;
+}
+
+// Boxes side by side and on each other, each with a velocity of its own.
+Scene block(int side, std::uint64_t seed) {
+  constexpr double kFastest = 0.6;  // m/s
+  naiad::SplitMix64 random(seed);
+  Scene scene;
+  scene.ticks = 60;
+  for (int i = 0; i < side * side; ++i) {
+    scene.bodies.push_back(
+        box({static_cast<double>(i % side), static_cast<double>(i / side)}, {kHalf, kHalf}));
+    const double x = 2 * random.unit() - 1, y = 2 * random.unit() - 1;
+    scene.bodies.back().velocity = kFastest * Vec{x, y};
+  }
+  return scene;
+}
+
+Problem makeMeetings() {
+  constexpr double kDiagonal = 0.25 * std::numbers::pi;
+  Problem problem;
+  problem.title = "Many that meet at once";
+  problem.text =
+      "Four boxes that meet in a point, 150 from a circle of 30 m, blocks of 2 × 2 and 3 × 3 boxes that "
+      "touch and "
+      "have velocities of their own, and 100 circles in a row that touch, of 1 to 10⁴ kg, the first at 3 m/s "
+      "and "
+      "e = 1. No gravity, and boxes do not turn.";
+  problem.reference = "momentum stays, and no impact gives energy";
+  problem.cases = {meeting("point4", inwards(4, 3 * std::numbers::sqrt2, kDiagonal)),
+                   meeting("point150", inwards(150, 30, 0)), meeting("block2", block(2, 1)),
+                   meeting("block3", block(3, 2)), meeting("cradle100", heavierAndHeavier())};
+  problem.cases[1].scene.ticks = 300;
+  problem.cases[1].long_run = true;
+  return problem;
+}
+
+Case offset(int boxes, const char* peers) {
+  constexpr double kShift = 0.025;  // m
+  constexpr double kFriction = 0.6;
+  Case standing;
+  standing.name = std::to_string(boxes);
+  standing.scene.gravity = {0, -10};
+  standing.scene.ticks = 300;
+  standing.most_substeps = 16;
+  Body ground = wall({0, -5}, {100, 5});
+  ground.friction = kFriction;
+  standing.scene.bodies = {ground};
+  for (int i = 0; i < boxes; ++i) {
+    Body made = box({i % 2 == 0 ? kShift : -kShift, kHalf + i}, {kHalf, kHalf});
+    made.friction = kFriction;
+    made.rotates = true;
+    standing.scene.bodies.push_back(made);
+  }
+  standing.metrics = {{"sag_m", "largest error of a height over 10 s, m", 0.05, 1e-15, peers}};
+  standing.judge = [scene = standing.scene](const Trial& trial) {
+    double sag = 0;
+    trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
+      for (int i = 1; i < static_cast<int>(scene.bodies.size()); ++i) {
+        const double from = scene.bodies[static_cast<std::size_t>(i)].position.y;
+        sag = std::max(sag, std::abs(simulation.body(i).position.y - from));
+      }
+      if (sag > 0.5) throw Failure("collapsed");
+    });
+    return std::vector<double>{sag};
+  };
+  return standing;
+}
+
+Problem makeOffset() {
+  Problem problem;
+  problem.title = "A stack to both sides";
+  problem.text =
+      "20, 40 and 60 crates of 1 m on each other, in turn 0.025 m to the left and to the right, friction "
+      "0.6, 10 s.";
+  problem.reference = "nothing moves";
+  problem.cases = {offset(20, "Box2D ×4 .076, Chipmunk ×4 .036"),
+                   offset(40, "both collapse ×4; Box2D ×8 .092, Chipmunk ×8 .032"),
+                   offset(60, "both collapse ×4; Box2D ×8 .15")};
+  return problem;
+}
+
+const RegisteredProblem meetings("19", "meetings", makeMeetings);
+const RegisteredProblem offsets("20", "offset-stack", makeOffset);
+
+}  // namespace
+
+}  // namespace lab

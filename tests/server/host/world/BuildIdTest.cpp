@@ -1,0 +1,32 @@
+// The ids of builds, beside what the linker's own tools say of the same files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "host/world/BuildId.h"
+#include "tests/support/RunProgram.h"
+
+namespace naiad {
+namespace {
+
+TEST(BuildId, OfTheLibraryIsWhatItsFileSays) {
+  const std::string& id = ownBuildId();
+  ASSERT_GE(id.size(), 2 * kShownBuildId);
+  ASSERT_LE(id.size(), kMaxBuildId);
+  EXPECT_TRUE(std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isxdigit(c) != 0; })) << id;
+  const auto [code, notes] =
+      test::runProgram("readelf -n '" NAIAD_BINARY_DIR "/../lib/libdragonfly.so' 2>/dev/null");
+  if (code != 0) GTEST_SKIP() << "there is no readelf";
+  EXPECT_NE(notes.find("Build ID: " + id), std::string::npos) << notes;
+}
+
+TEST(BuildId, IsFoundByTheFilesName) {
+  EXPECT_EQ(buildIdOf("libdragonfly.so"), ownBuildId());
+  EXPECT_NE(buildIdOf("libc.so"), ownBuildId());
+  EXPECT_EQ(buildIdOf("libnothing.so"), "");
+}
+
+}  // namespace
+}  // namespace naiad
