@@ -321,6 +321,24 @@ TEST_F(Rounds, WhoWatchesTheServerReadsWhatItsGameLogs) {
   EXPECT_NE(gamesOwnLog().find("logged"), std::string::npos) << "its own file has it as ever";
 }
 
+TEST_F(Rounds, ARestartAtTheRoundsEndWaitsForItAndPlayersComeBack) {
+  start({{"NAIAD_ON_GAME_OVER", "restart"}});
+  auto ann = join("ann");
+  const int process = shown(*ann).process;
+  EXPECT_EQ(Talk(game->control()).ask(R"({"command":"restart","arguments":{"when":"at-round-end"}})"),
+            R"({"ok":true,"text":"The server restarts when the round is over."})");
+  ASSERT_TRUE(serve([&] {
+    return heard(*ann, "The server restarts when this round is over. Your client comes back by itself.");
+  }));
+  press(*ann, df::Keyboard::RIGHTARROW);
+  ASSERT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "the round goes on";
+  EXPECT_EQ(shown(*ann).process, process);
+  press(*ann, df::Keyboard::X);
+  ASSERT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kSearching; }));
+  EXPECT_TRUE(serve([&] { return ann->joined() && shown(*ann).steps == 0; })) << game->log();
+  EXPECT_NE(shown(*ann).process, process);
+}
+
 // ---- an upgrade -------------------------------------------------------------------------------------------
 
 /// The game's library is a copy of this build's, until it is replaced by one with another build's id, as a
