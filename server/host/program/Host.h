@@ -27,13 +27,13 @@
 #include "host/program/ChatCommands.h"
 #include "host/program/Ending.h"
 #include "host/program/HostAdmin.h"
+#include "host/program/HostFleet.h"
 #include "host/program/HostMetrics.h"
 #include "host/program/HostOptions.h"
 #include "host/program/InactivityCheck.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Reload.h"
 #include "host/program/Rooms.h"
-#include "host/program/ServiceNotify.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
 #include "host/program/StatusFile.h"
@@ -151,6 +151,7 @@ class Host : public df::Runner {
   bool isDue(TickClock& schedule);
   void tick();
   void tickWorlds();
+  void endWhenEmpty(double seconds);
   void heedSignals(StopSignals& signals);
   void heedEnd(Clock::time_point now);
   void sayToAll(const std::string& text);
@@ -162,7 +163,7 @@ class Host : public df::Runner {
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
   void sendPlayers();
-  void notifyService();
+  HostFleet::Setup fleetSetup();
   void flush();
   void sweep();
   void drain();
@@ -198,7 +199,7 @@ class Host : public df::Runner {
   InactivityCheck m_inactivity;
   std::string m_control_path;                ///< empty: there is none
   std::unique_ptr<ControlSocket> m_control;  ///< null: there is none
-  ServiceNotify m_service;
+  HostFleet m_fleet;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
   Ending m_ending;

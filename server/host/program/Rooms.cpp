@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "host/program/NewsEvent.h"
 #include "host/world/WorldInProcess.h"
 #include "naiad.pb.h"
 #include "shared/net/base/SafeFile.h"
@@ -85,7 +86,7 @@ void Rooms::noteScores() {
   m_counters.scores_refused = counters.refused;
   m_counters.scores_written = counters.written;
   m_counters.scores_dropped = counters.dropped;
-  if (const std::string news = m_p_scores->takeNews(); !news.empty()) m_log(news);
+  if (const std::string news = m_p_scores->takeNews(); !news.empty()) m_log(newsEvent(news));
 }
 
 void Rooms::finishScores() {

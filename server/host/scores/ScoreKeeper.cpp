@@ -63,6 +63,9 @@ void ScoreKeeper::add(const std::string& round, std::uint32_t tick,
     rows.push_back(
         {added.table, df::scoreName(added.score.name), added.score.points, m_clock(), round, tick, number});
   }
+  if (m_observer) {
+    for (const ScoreRow& row : rows) m_observer(row);
+  }
   if (m_store == nullptr || rows.empty()) return;
   const std::lock_guard lock(m_mutex);
   for (ScoreRow& row : rows) {

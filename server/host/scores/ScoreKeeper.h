@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/world/ScoreTables.h"
@@ -49,6 +50,8 @@ class ScoreKeeper {
   const std::map<std::string, std::vector<df::HighScore>>& tables() const { return m_tables.all(); }
   /// A name for a round that begins, which no other round has.
   static std::string beginRound();
+  /// Gets each row that is taken over, before it is written. On the host's thread.
+  void setObserver(std::function<void(const ScoreRow& row)> observer) { m_observer = std::move(observer); }
   /// A world has added these in a tick of its round. It may be a stranger's program: all is checked.
   void add(const std::string& round, std::uint32_t tick, const std::vector<df::AddedScore>& scores);
 
@@ -71,6 +74,7 @@ class ScoreKeeper {
   void note(std::string problem);
 
   Clock m_clock;
+  std::function<void(const ScoreRow&)> m_observer;
   df::ScoreTables m_tables;
   std::unique_ptr<ScoreStore> m_store;  ///< the worker's, after the constructor
   std::uint64_t m_added = 0;
