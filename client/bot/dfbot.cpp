@@ -52,6 +52,7 @@ struct BotOptions {
   std::optional<std::uint64_t> random_seed;
   std::string truth_file;
   bool quiet = false;
+  bool rejoin = false;
 };
 
 /// One client: its connection, what it plays, what it saw.
@@ -60,9 +61,10 @@ class Bot {
   Bot(asio::io_context& context, const BotOptions& options, int index)
       : m_options(options),
         m_index(index),
-        m_connection(context, options.address, sessionOptions(options, index), false, options.trust),
+        m_connection(context, options.address, sessionOptions(options, index), options.rejoin, options.trust),
         m_recorder(naiad::TruthRecorder::kMaxCells / static_cast<std::size_t>(options.clients)) {
     m_connection.onSession([this](naiad::ClientSession& session) {
+      ++m_sessions;
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
         if (!m_options.truth_file.empty()) m_recorder.beforeSnapshot(session.replica(), tick);
         if (!m_first_tick) m_first_tick = tick;
@@ -98,6 +100,8 @@ class Bot {
   }
   naiad::Connection& connection() { return m_connection; }
   const naiad::TruthRecorder& recorder() const { return m_recorder; }
+  /// How often it has joined again, in place of a session that was lost or as another player.
+  int rejoined() const { return m_sessions > 0 ? m_sessions - 1 : 0; }
   Clock::time_point joinedAt() const { return m_joined_at; }
 
   /// Has a snapshot come since then?
@@ -150,6 +154,7 @@ class Bot {
   naiad::Connection m_connection;
   naiad::TruthRecorder m_recorder;
   std::optional<std::uint32_t> m_first_tick;
+  int m_sessions = 0;
   Clock::time_point m_joined_at{};
   Clock::time_point m_heard_at{};
   Clock::time_point m_next_tick{};
@@ -256,7 +261,8 @@ int run(const BotOptions& options) {
         default:
           joined = joined && connection.state() == State::kJoined;
       }
-      if (bot->isCutOff(now)) return complain(naiad::kExitEnded, "The connection to the server was lost.");
+      if (!options.rejoin && bot->isCutOff(now))
+        return complain(naiad::kExitEnded, "The connection to the server was lost.");
     }
     if (joined && !all_joined) all_joined = now;
     if (!all_joined) continue;
@@ -269,7 +275,7 @@ int run(const BotOptions& options) {
     const auto isAlive = [&](const auto& bot) { return bot->isHeardSince(*played_at); };
     if (std::all_of(bots.begin(), bots.end(), isAlive)) break;
     const auto isSilent = [now](const auto& bot) { return bot->isSilent(now); };
-    if (std::any_of(bots.begin(), bots.end(), isSilent)) {
+    if (!options.rejoin && std::any_of(bots.begin(), bots.end(), isSilent)) {
       return complain(naiad::kExitEnded, "The server was there, but sends nothing any more.");
     }
   }
@@ -310,6 +316,8 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& serve
                      .target = &bot.truth_file,
                      .help = "Compare every tick seen with this file, as dfserver --truth FILE writes it",
                      .type = "FILE"});
+  options.push_back(
+      {"--rejoin", &bot.rejoin, "Look for a server that was lost, as dfclient does, instead of ending"});
   options.push_back({"--quiet", &bot.quiet, "Do not print the last screen"});
   return options;
 }

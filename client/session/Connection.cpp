@@ -192,6 +192,7 @@ void Connection::checkPending() {
 void Connection::waitForServer(const std::string& sentence) {
   const Time now = Clock::now();
   if (m_state == State::kJoining && !std::exchange(m_busy, true)) m_lost_at = now;
+  if (m_state == State::kSearching) m_lost_at = now;  // it is there, and needs time
   m_put_off = true;
   m_sentence = sentence;
   ++m_revision;

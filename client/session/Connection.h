@@ -6,7 +6,8 @@
 //   any --Refused--> kRefused
 //   any --Goodbye--> kEnded
 //   kJoined --Goodbye of a server that restarts--> kSearching
-//   kSearching --60 s without success, or as long as a server that restarts has asked for--> kLost
+//   kSearching --60 s without success, or as long as a server that restarts has asked for--> kLost; a server
+//     that says that it is busy is there, so the time begins again
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
 // banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another

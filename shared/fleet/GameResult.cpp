@@ -59,7 +59,7 @@ std::optional<GameResult> GameResult::parse(std::string_view payload) {
   result.round = fields.word("round", kRoundDigits);
   result.tick =
       static_cast<std::uint32_t>(fields.number("tick", 0, std::numeric_limits<std::uint32_t>::max()));
-  result.number = static_cast<int>(fields.number("number", 0, 15));
+  result.number = static_cast<int>(fields.number("number", 0, 255));
   result.recording = fields.word("recording", kMaxRecording);
   const bool good = fields.ok() && isServerId(result.server) && isTable(result.table) &&
                     !result.name.empty() && isRound(result.round);

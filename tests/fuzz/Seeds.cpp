@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "ScriptedLink.h"
+#include "host/journal/DfrWriter.h"
+#include "host/journal/TurnRecord.h"
 #include "host/world/WorldMessages.h"
 #include "naiad.pb.h"
 #include "shared/fleet/GameResult.h"
@@ -141,6 +143,48 @@ void webRequests(Folder folder) {
     add(std::string(line) + " HTTP/1.1\r\n" + host + "\r\n");
   add("GET / HTTP/1.0\r\n" + host + "\r\n");
   add("GET / HTTP/1.1\r\nHost: other.example\r\n\r\n");
+}
+
+/// Each file as it is; the same records without a checksum in the way; chunks of one.
+void rounds(Folder folder) {
+  std::string records;
+  TurnRecordWriter writer;
+  WorldTurn turn;
+  turn.watched = true;
+  df::InputQueue::Input join{df::InputQueue::kJoin, 1};
+  join.name = "Ann";
+  join.color = df::RED;
+  df::InputQueue::Input key{df::InputQueue::kKey, 1};
+  key.key = df::Keyboard::A;
+  key.key_action = df::KEY_PRESSED;
+  turn.inputs = {join, key};
+  writer.write(turn, records);
+  TickResult result;
+  result.has_check = true;
+  result.check = 7;
+  writer.write(result, records);
+  turn.checked = true;
+  turn.inputs = {{df::InputQueue::kLeave, 1}};
+  writer.write(turn, records);
+  result.state_hash = 1234567890123u;
+  writer.write(result, records);
+  RecordedPicture picture{1, df::Canvas(20, 10)};
+  picture.canvas.put(1, 1, {U'@', df::RED});
+  writer.write(picture, records);
+  DfrTurnPacker packer;
+  const std::string file = spellDfrHeader({}) + spellDfrMeta({{"game", "hello"}}) + packer.pack(records) +
+                           packer.pack(records) + spellDfrDone("is over");
+  folder.add(std::string(1, '\0') + file);
+  folder.add(std::string("\2\0", 2) + records);
+  const std::string packed = DfrTurnPacker().pack(records).substr(kDfrChunkHead + kDfrTurnHead);
+  folder.add(std::string("\2\1", 2) + packed);
+  const auto chunk = [](char type, const std::string& payload) {
+    return type + u16(payload.size()) + payload;
+  };
+  const std::string meta = spellDfrMeta({{"game", "hello"}, {"players", "first"}}).substr(kDfrChunkHead);
+  folder.add("\1" + chunk(0, meta) +
+             chunk(1, std::string(5, '\0') + u16(records.size()) + std::string(2, '\0') + records) +
+             chunk(3, "later") + chunk(2, "is over"));
 }
 
 void keys(Folder folder) {
@@ -557,6 +601,7 @@ int main(int argc, char** argv) {
   datagrams(Folder(base / "datagram"));
   wireMessages(Folder(base / "small_proto"));
   worlds(Folder(base / "world"));
+  rounds(Folder(base / "round"));
   lanMessages(Folder(base / "lan"));
   return 0;
 }

@@ -1,4 +1,4 @@
-// Prints the README's moving picture: Saucer Shoot with eight pilots, as an SVG with a group for each
+// Prints the moving picture of docs/games.md: Saucer Shoot with eight pilots, as an SVG with a group for each
 // picture. usage: moving-picture GAME.so >docs/page/eight-pilots.svg
 #include <cstdint>
 #include <cstdio>

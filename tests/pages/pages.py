@@ -117,3 +117,13 @@ def _change(folder, file, where, change):
     change(lines)
     with open(path, "w", encoding="utf-8") as text:
         text.write("\n".join(lines))
+
+
+def unmet(outcome, picture):
+    """What an outcome (`N REGEX; N REGEX`: each N times at least) asks for and the picture has not."""
+    missing = []
+    for one in outcome.split("; "):
+        number, pattern = one.split(" ", 1)
+        if len(re.findall(pattern, picture)) < int(number):
+            missing.append(f"{number} of {pattern}")
+    return missing

@@ -13,12 +13,12 @@ class SceneGraph {
  public:
   /// All active Objects, in creation order, as those below.
   ObjectList activeObjects() const;
-  ObjectList inactiveObjects() const;
+  ObjectList inactiveObjects() const;  ///< All inactive Objects.
   /// The active HARD and SOFT ones.
   ObjectList solidObjects() const;
   /// The active visible ones of this altitude.
   ObjectList visibleObjects(int altitude) const;
-  ObjectList objectsOfType(const std::string& type) const;
+  ObjectList objectsOfType(const std::string& type) const;  ///< As WM.objectsOfType().
 };
 
 }  // namespace df

@@ -37,7 +37,7 @@ class Sprite {
 
   /// Return 0, or -1 if there are max_frames already.
   int addFrame(Frame new_frame);
-  int getFrameCount() const { return static_cast<int>(m_frames.size()); }
+  int getFrameCount() const { return static_cast<int>(m_frames.size()); }  ///< Frames it has.
   /// The empty frame for a number that is not in 0 … getFrameCount()-1.
   Frame getFrame(int frame_number) const;
 

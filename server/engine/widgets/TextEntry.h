@@ -47,12 +47,12 @@ class TextEntry : public ViewObject {
   /// Where the next character goes, 0 … length of the text.
   void setCursor(int new_cursor);
   int getCursor() const { return m_cursor; }
-  void setCursorChar(char new_cursor_char) { m_cursor_char = new_cursor_char; }
+  void setCursorChar(char new_cursor_char) { m_cursor_char = new_cursor_char; }  ///< First '_'.
   char getCursorChar() const { return m_cursor_char; }
   /// Ticks for which the cursor shows, and then does not; 0: it always shows.
   void setBlinkRate(int new_blink_rate) { m_blink_rate = new_blink_rate; }
   int getBlinkRate() const { return m_blink_rate; }
-  void setNumbersOnly(bool new_numbers_only = true) { m_numbers_only = new_numbers_only; }
+  void setNumbersOnly(bool new_numbers_only = true) { m_numbers_only = new_numbers_only; }  ///< Digits only.
   bool numbersOnly() const { return m_numbers_only; }
 
   /// The player whose keys it takes; 0: all. When that player has left, it takes all players' keys, lest the

@@ -64,9 +64,9 @@ class ViewObject : public Object {
   /// Whether to show the value behind the text.
   virtual void setDrawValue(bool new_draw_value = true) { m_draw_value = new_draw_value; }
   bool getDrawValue() const { return m_draw_value; }
-  virtual void setBorder(bool new_border);
+  virtual void setBorder(bool new_border);  ///< Whether it is framed.
   bool getBorder() const { return m_border; }
-  virtual void setColor(Color new_color) { m_color = new_color; }
+  virtual void setColor(Color new_color) { m_color = new_color; }  ///< Of all of it.
   Color getColor() const { return m_color; }
   /// The text before the value, and the tag of events that are for it.
   virtual void setViewString(std::string new_view_string) { m_view_string = std::move(new_view_string); }

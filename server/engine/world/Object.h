@@ -276,7 +276,7 @@ class Object {
   void pathTo(const Object* p_o_target);
   /// Turn towards a position.
   void moveTo(Vector new_position);
-  void setPath(Path new_path);
+  void setPath(Path new_path);  ///< Walk along this one from now on.
   Path getPath() const;
   /// Walk along the path, from its next node on, or stop doing so.
   virtual void setFollowPath(bool new_follow_path = true);

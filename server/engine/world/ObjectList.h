@@ -41,7 +41,7 @@ class ObjectList {
 
   /// Entries, those of dead Objects included.
   int getCount() const { return m_count; }
-  bool isEmpty() const { return m_count == 0; }
+  bool isEmpty() const { return m_count == 0; }  ///< No entries.
   /// Never: the list grows. (The book's list has a fixed size.)
   bool isFull() const { return false; }
 

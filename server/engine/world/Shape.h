@@ -25,9 +25,9 @@ class Shape {
   /// Radius in pixels; a character is about 13 by 32 of them.
   void setSize(float new_size) { m_size = new_size; }
   float getSize() const { return m_size; }
-  void setType(ShapeType new_type) { m_type = new_type; }
+  void setType(ShapeType new_type) { m_type = new_type; }  ///< Circle, square or triangle.
   ShapeType getType() const { return m_type; }
-  void setColor(Color new_color);
+  void setColor(Color new_color);  ///< One of the eight.
   /// Shown in the nearest of the eight colours; getColor() says CUSTOM.
   void setColor(unsigned char r, unsigned char g, unsigned char b);
   Color getColor() const { return m_color; }

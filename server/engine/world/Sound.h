@@ -25,8 +25,8 @@ class Sound {
 
   /// From its beginning, or from where it paused; again and again, if `loop`.
   void play(bool loop = false);
-  void stop();
-  void pause();
+  void stop();   ///< The next play() is from its beginning.
+  void pause();  ///< The next play() goes on here.
 
   /// From now on it plays nothing: it stands in for one that is missing.
   void silence() { m_silent = true; }

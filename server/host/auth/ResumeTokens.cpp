@@ -83,6 +83,26 @@ bool ResumeTokens::isElsewhere(const std::string& token) const {
   return m_elsewhere.contains(hashOf(token));
 }
 
+ResumeTokens::Hashed ResumeTokens::hashed(std::uint64_t session) const {
+  const auto found = m_hashes.find(session);
+  return found != m_hashes.end() ? Hashed{found->second.newest, found->second.redeemed} : Hashed();
+}
+
+void ResumeTokens::restore(std::uint64_t session, const Hashed& hashed) {
+  Hashes& hashes = m_hashes[session];
+  hashes.newest = hashed.newest;
+  hashes.redeemed = hashed.redeemed;
+  for (const std::string* p_hash : {&hashes.newest, &hashes.redeemed}) {
+    if (!p_hash->empty()) m_sessions[*p_hash] = session;
+  }
+}
+
+void ResumeTokens::move(std::uint64_t from, std::uint64_t to) {
+  const Hashed moved = hashed(from);
+  forget(from);
+  restore(to, moved);
+}
+
 void ResumeTokens::forget(std::uint64_t session) {
   const auto found = m_hashes.find(session);
   if (found == m_hashes.end()) return;

@@ -32,6 +32,17 @@ class ResumeTokens {
   void noteRestart(std::uint64_t session);
   /// Does the session of this token, void by now, go on in another process?
   bool isElsewhere(const std::string& token) const;
+  /// SHA-256 of the tokens of a session that are good: of the newest, and of the one redeemed last. Empty:
+  /// there is no such.
+  struct Hashed {
+    std::string newest;
+    std::string redeemed;
+  };
+  Hashed hashed(std::uint64_t session) const;
+  /// A session of a server that was killed has these.
+  void restore(std::uint64_t session, const Hashed& hashed);
+  /// A session goes on as another one, with its tokens.
+  void move(std::uint64_t from, std::uint64_t to);
   /// The session is over.
   void forget(std::uint64_t session);
 

@@ -1,5 +1,6 @@
 #include "host/program/Admission.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -43,6 +44,15 @@ std::string versionSentence(std::uint32_t version) {
          (version < kProtocolVersion ? "client." : "server.");
 }
 
+KeptSession keptOf(const wire::Welcome& welcome, const ResumeTokens::Hashed& tokens, bool muted) {
+  return {.player = welcome.player(),
+          .muted = muted,
+          .name = welcome.name(),
+          .color = static_cast<df::Color>(welcome.color()),
+          .newest = tokens.newest,
+          .redeemed = tokens.redeemed};
+}
+
 /// `"NAME" HAPPENED`, a line of the log with the name among its facts.
 LogEvent newsOf(const char* what, const std::string& name, const std::string& happened,
                 LogEvent::Fields facts = {}) {
@@ -72,6 +82,10 @@ void Admission::changePassword(std::optional<PasswordHash> hash) {
 
 void Admission::judgeHello(Session& session, const wire::Hello& hello) {
   if (!checkHello(session, hello) || isBanned(session, cleanName(hello.player_name()))) return;
+  if (m_setup.rooms.recovering()) {
+    m_waiting.push_back({session.id(), std::make_shared<wire::Hello>(hello), session.now()});
+    return;
+  }
   if (hello.second_stream()) return addSecondStream(session, hello);
   if (!hello.resume_token().empty() && resumeSession(session, hello)) return;
   if (m_needs_password) return checkPassword(session, hello);
@@ -139,6 +153,8 @@ PasswordCheck::Counters Admission::passwordCounters() const {
 }
 
 void Admission::forgetSession(const Session& session) {
+  if (Room* p_room = m_setup.rooms.roomOf(session); p_room != nullptr && session.player() != 0)
+    p_room->port().noteSession({.player = session.player(), .over = true});
   m_tokens.forget(session.id());
   m_setup.prefixes.forget(session.id());
 }
@@ -165,11 +181,16 @@ bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
     return true;
   }
   m_tokens.redeem(hello.resume_token());
+  if (p_before->isRestored()) {
+    takeOverSession(*p_before, session, hello);
+    return true;
+  }
   wire::Welcome welcome = p_before->welcomed();
   welcome.set_resumed(true);
   if (const Room* p_room = m_setup.rooms.roomOf(*p_before)) welcome.set_tick(p_room->tick());
   welcome.set_resume_token(m_tokens.issue(p_before->id()));
   welcome.set_aead(0);
+  noteSession(*p_before);
   m_setup.prefixes.note(p_before->id(), prefixOf(session));
   hello.fresh() ? restartSession(*p_before, session, hello, welcome)
                 : continueSession(*p_before, session, hello, welcome);
@@ -216,6 +237,91 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
   p_first->accompany(session);
 }
 
+// ---- sessions of a server that was killed
+// ------------------------------------------------------------------
+
+// Clients that look for a lost server ask again in a moment, and show the sentence.
+void Admission::judgeWaiting() {
+  const auto percent = m_setup.rooms.recovering();
+  for (const WaitingHello& one : std::exchange(m_waiting, {})) {
+    Session* p_session = m_setup.sessions.find(one.session);
+    if (p_session == nullptr || p_session->state() != Session::State::kGreeting) continue;
+    if (!percent) {
+      judgeHello(*p_session, *one.hello);
+    } else if (p_session->now() - one.since < kRecoveryWait) {
+      m_waiting.push_back(one);
+    } else {
+      refuseBusy(*p_session,
+                 "The server was down and restores your game: " + std::to_string(*percent) + " %.");
+    }
+  }
+}
+
+void Admission::restoreSessions(Room& room, const std::vector<KeptSession>& sessions) {
+  if (!m_setup.restore_session) return;
+  for (const KeptSession& kept : sessions) {
+    Session& session = m_setup.restore_session(welcomeOf(kept.player, kept.name, kept.color));
+    session.setGrace(graceTime());
+    session.standing().setMuted(kept.muted);
+    m_tokens.restore(session.id(), {kept.newest, kept.redeemed});
+    m_setup.rooms.add(room, session);
+    m_next_player = std::max(m_next_player, kept.player + 1);
+    ++m_counters.restored;
+  }
+}
+
+// The client's new stream is a session of its own, which knows as little as the client: the world is sent
+// from the beginning. Its welcome may be lost, so the token before stays good until the client proves that it
+// has read it.
+void Admission::takeOverSession(Session& before, Session& session, const wire::Hello& hello) {
+  Room* p_room = m_setup.rooms.roomOf(before);
+  wire::Welcome welcome = before.welcomed();
+  if (p_room != nullptr) welcome.set_tick(p_room->tick());
+  welcome.clear_resumed();
+  welcome.clear_continuation();
+  std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
+  welcome.clear_connection_id();
+  welcome.clear_aead();
+  welcome.clear_epoch();
+  describe(datagrams.get(), welcome);
+  m_tokens.move(before.id(), session.id());
+  welcome.set_resume_token(m_tokens.issue(session.id()));
+  m_setup.prefixes.forget(before.id());
+  m_setup.prefixes.note(session.id(), prefixOf(session));
+  if (p_room != nullptr)
+    p_room->port().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), before.standing().isMuted()));
+  session.setGrace(graceTime());
+  session.welcome(welcome, std::move(datagrams));
+  session.takeOver(before);
+  if (p_room != nullptr) {
+    p_room->remove(before);
+    m_setup.rooms.add(*p_room, session);
+  }
+  m_setup.on_new_client();
+  ++m_counters.returned;
+  m_setup.log_client(session.address(),
+                     newsOf("resumed", session.name(), "is back, in the round that goes on"));
+}
+
+void Admission::confirmToken(Session& session) {
+  session.confirm();
+  m_tokens.confirm(session.id());
+  noteSession(session);
+}
+
+void Admission::noteSession(const Session& session) const {
+  Room* p_room = m_setup.rooms.roomOf(session);
+  if (p_room != nullptr) p_room->port().noteSession(keptSession(session));
+}
+
+void Admission::noteSessions(const Room& room) const {
+  room.forEachPlaying([this](const Session& session) { noteSession(session); });
+}
+
+KeptSession Admission::keptSession(const Session& session) const {
+  return keptOf(session.welcomed(), m_tokens.hashed(session.id()), session.standing().isMuted());
+}
+
 // ---- new players ------------------------------------------------------------------------------------------
 
 void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
@@ -231,15 +337,10 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   wire::Welcome welcome = welcomeTo(*p_room, name);
   std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
   describe(datagrams.get(), welcome);
-  const auto grace = std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double>(m_setup.options.grace));
-  session.setGrace(grace);
-  welcome.set_grace_millis(static_cast<std::uint32_t>(grace.count()));
-  if (m_setup.options.grace > 0) {
-    welcome.set_resume_token(m_tokens.issue(session.id()));
-    welcome.set_second_stream(true);
-  }
+  session.setGrace(graceTime());
+  if (m_setup.options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
   m_setup.prefixes.note(session.id(), prefixOf(session));
+  p_room->port().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), false));
   session.welcome(welcome, std::move(datagrams));
   m_setup.rooms.add(*p_room, session);
   m_setup.on_new_client();
@@ -311,6 +412,17 @@ wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
   const df::Color color = colorOf(m_counters.joined++);
   const std::uint32_t player = room.join(m_next_player, name, color);
   m_next_player = player + 1;
+  wire::Welcome welcome = welcomeOf(player, name, color);
+  welcome.set_tick(room.tick());
+  return welcome;
+}
+
+std::chrono::milliseconds Admission::graceTime() const {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+      std::chrono::duration<double>(m_setup.options.grace));
+}
+
+wire::Welcome Admission::welcomeOf(std::uint32_t player, const std::string& name, df::Color color) const {
   const TickLength tick = TickLength::fromMicros(m_setup.options.frame_micros);
   wire::Welcome welcome;
   welcome.set_player(player);
@@ -320,7 +432,8 @@ wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
   welcome.set_view_width(static_cast<std::uint32_t>(m_p_world->getWindowWidth()));
   welcome.set_view_height(static_cast<std::uint32_t>(m_p_world->getWindowHeight()));
   welcome.set_color(static_cast<std::uint32_t>(color));
-  welcome.set_tick(room.tick());
+  welcome.set_grace_millis(static_cast<std::uint32_t>(graceTime().count()));
+  welcome.set_second_stream(m_setup.options.grace > 0);
   welcome.set_server(safeText(m_setup.options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
   for (const std::string& line : m_p_world->getHelp()) {
     if (welcome.help_size() < static_cast<int>(kMaxHelpLines)) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <asio/any_io_executor.hpp>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/world/World.h"
 #include "host/admin/BanList.h"
@@ -44,6 +46,8 @@ class Admission {
     std::function<void()> on_new_client;
     /// May new players join?
     std::function<bool()> is_open = [] { return true; };
+    /// A session without a stream, waiting for its client. Null: there are none.
+    std::function<Session&(const wire::Welcome& welcome)> restore_session = {};
   };
 
   /// `executor` runs what is left of a judgement once a password has been checked.
@@ -52,10 +56,22 @@ class Admission {
   /// The world whose window and help go into welcomes. Before the first hello.
   void setWorld(const df::World& world) { m_p_world = &world; }
 
-  /// Refuse or welcome the session that heard this hello: now, or once its password has been checked.
+  /// While a round is executed again, a hello waits for so long before the client hears how far that is.
+  static constexpr std::chrono::milliseconds kRecoveryWait{1000};
+
+  /// Refuse or welcome the session that heard this hello: now, or once its password has been checked, or the
+  /// round of a server that was killed has been executed again.
   void judgeHello(Session& session, const wire::Hello& hello);
+  /// Once a tick: judge the hellos that wait for a round.
+  void judgeWaiting();
   /// The client has the token that it was sent last (Session::takeProof).
-  void confirmToken(const Session& session) { m_tokens.confirm(session.id()); }
+  void confirmToken(Session& session);
+  /// The players of a server that was killed are in this room, and may come back.
+  void restoreSessions(Room& room, const std::vector<KeptSession>& sessions);
+  /// The room's world is a new one: its journal is to have the sessions of those who play.
+  void noteSessions(const Room& room) const;
+  /// The session has changed: its world's journal is to have it, before the client knows.
+  void noteSession(const Session& session) const;
   /// The session is over: its token is void.
   void forgetSession(const Session& session);
   /// Whoever joins from now on needs this password; nothing: none.
@@ -75,6 +91,15 @@ class Admission {
   void restartSession(Session& before, Session& session, const wire::Hello& hello, wire::Welcome& welcome);
   void continueSession(Session& before, Session& session, const wire::Hello& hello, wire::Welcome& welcome);
   void addSecondStream(Session& session, const wire::Hello& hello);
+  void takeOverSession(Session& before, Session& session, const wire::Hello& hello);
+  struct WaitingHello {
+    std::uint64_t session = 0;
+    std::shared_ptr<const wire::Hello> hello;
+    std::chrono::steady_clock::time_point since;
+  };
+  std::chrono::milliseconds graceTime() const;
+  KeptSession keptSession(const Session& session) const;
+  wire::Welcome welcomeOf(std::uint32_t player, const std::string& name, df::Color color) const;
   void admitPlayer(Session& session, const wire::Hello& hello);
   bool checkLimits(Session& session);
   Room* roomFor(Session& session);
@@ -93,6 +118,7 @@ class Admission {
   std::unique_ptr<PasswordCheck> m_password;  ///< null: none was needed yet
   bool m_needs_password = false;
   std::uint32_t m_next_player = 1;
+  std::vector<WaitingHello> m_waiting;  ///< for a round; one of a session at most
 };
 
 }  // namespace naiad

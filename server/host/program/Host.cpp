@@ -140,7 +140,12 @@ Host::Host(HostOptions options, std::string game, Log log)
                      m_client_log.logNews(address, std::move(event), m_network.now());
                    },
                    [this](const auto& stream, AeadId aead) { return m_network.openDatagrams(stream, aead); },
-                   [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); }},
+                   [this] { m_player_news.repeat(); }, [this] { return m_ending.isOpen(); },
+                   [this](const wire::Welcome& welcome) -> Session& {
+                     Session& session = m_sessions.addDetached(Clock::now());
+                     session.restore(welcome, sessionEvents());
+                     return session;
+                   }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
       m_admin({m_options, m_sessions, m_admission, m_counters, m_network, m_scores, adminControls()}),
@@ -152,6 +157,10 @@ Host::Host(HostOptions options, std::string game, Log log)
   surviveBrokenPipes();
   m_rooms.setScores(m_scores);
   m_scores.setObserver([this](const ScoreRow& row) { m_fleet.noteScore(row); });
+  m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
+                      [this](Room& room, const std::vector<KeptSession>& sessions) {
+                        m_admission.restoreSessions(room, sessions);
+                      });
   openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
@@ -540,6 +549,7 @@ void Host::tick() {
   ++m_counters.ticks;
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
+  m_admission.judgeWaiting();
   tickWorlds();
   m_stages.enter(Stage::kNews);
   sendPlayers();

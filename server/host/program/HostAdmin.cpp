@@ -122,7 +122,10 @@ void HostAdmin::tell(std::uint64_t session, const std::string& text) {
 }
 
 void HostAdmin::setMuted(std::uint64_t session, bool muted) {
-  if (Session* p_session = findPlaying(session)) p_session->standing().setMuted(muted);
+  Session* p_session = findPlaying(session);
+  if (p_session == nullptr) return;
+  p_session->standing().setMuted(muted);
+  m_setup.admission.noteSession(*p_session);
 }
 
 // ---- the server -------------------------------------------------------------------------------------------

@@ -90,6 +90,23 @@ std::vector<Row> tableOf(HostOptions& o) {
         "Names of variables, with commas between, that games in processes of their own find in their "
         "environment, beside the usual ones",
         "NAIAD_WORLD_ENVIRONMENT"}},
+      {{"--journal", &o.journal,
+        "Write each round down in a file of this directory, as it is played, in little space: dfreplay plays "
+        "it "
+        "and executes it again. The game then runs in a process of its own, with clocks and random devices "
+        "that "
+        "can be repeated",
+        "NAIAD_JOURNAL"}},
+      {{"--no-journal", &o.no_journal, "Write no round down, whatever environment or file say",
+        "NAIAD_NO_JOURNAL"}},
+      {{"--recover",
+        &o.recover,
+        "When this server was killed in a round that --journal has: on = the round is executed again, and "
+        "its "
+        "players go on with it; off = another one begins",
+        "NAIAD_RECOVER",
+        {},
+        {"on", "off"}}},
       {{"--insecure", &o.insecure, "Without encryption or datagrams, on loopback only (for tests)",
         "NAIAD_INSECURE"}},
       {{"--certificate", &o.certificate,
@@ -238,17 +255,17 @@ constexpr std::string_view kLive[] = {
     "--vote-kick",   "--inactive-kick"};
 
 /// Variables that other programs of the project read, or this one beside its table.
-const char* const kOtherVariables[] = {"NAIAD_ASCII",  "NAIAD_CLIENT",     "NAIAD_FINGERPRINT",
-                                       "NAIAD_GAMES",  "NAIAD_IDLE_LIMIT", "NAIAD_KNOWN_SERVERS",
-                                       "NAIAD_NAME",   "NAIAD_NO_MOUSE",   "NAIAD_NO_RESUME",
-                                       "NAIAD_SERVER", "NAIAD_SOUND",      "NAIAD_WORLD_SOCKET"};
+const char* const kOtherVariables[] = {
+    "NAIAD_ASCII",         "NAIAD_CLIENT",     "NAIAD_FINGERPRINT", "NAIAD_GAMES",     "NAIAD_IDLE_LIMIT",
+    "NAIAD_KNOWN_SERVERS", "NAIAD_NAME",       "NAIAD_NO_MOUSE",    "NAIAD_NO_RESUME", "NAIAD_SERVER",
+    "NAIAD_SOUND",         "NAIAD_WORLD_SEED", "NAIAD_WORLD_SOCKET"};
 
 /// Files, for completions: these options name them.
 const char* typeOf(const std::string& name) {
   for (const char* p_file : {"--certificate", "--key", "--join-file", "--truth", "--port-file", "--log",
                              "--bus-credentials", "--bus-ca"})
     if (name == p_file) return "FILE";
-  if (name == "--identity") return "DIR";
+  if (name == "--identity" || name == "--journal") return "DIR";
   return name == "--visitors" ? "SOCKET" : "";
 }
 

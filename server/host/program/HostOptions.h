@@ -34,6 +34,9 @@ struct HostOptions {
       "leave";                 ///< by one player among several: "leave" (for them alone), "exit" or "restart"
   std::string sandbox = "on";  ///< of worlds in processes of their own: "on" or "off"
   int world_memory = 4096;     ///< MiB of addresses for each of them; 0: no limit
+  std::string journal;         ///< directory where each round is written down; empty: none is
+  bool no_journal = false;     ///< not even so
+  std::string recover = "on";  ///< go on with the round of a server that was killed: "on" or "off"
   std::string world_environment;  ///< names of variables that they get, too, with commas between
   bool insecure = false;          ///< plain TCP, loopback only, no datagrams: for tests
   std::string certificate;        ///< PEM file; with `key`. Empty: a key of its own, made on the first start
@@ -81,6 +84,11 @@ struct HostOptions {
   bool local_client = true;  ///< in a terminal: attach a client there
   bool is_public = false;    ///< listen on every address unless `address` is given; else on loopback
 };
+
+/// Is each round to be written down?
+inline bool wantsJournal(const HostOptions& options) {
+  return !options.journal.empty() && !options.no_journal;
+}
 
 /// What the command line asked for.
 enum class CommandLine { kRun, kListGames, kDone, kUsageError };

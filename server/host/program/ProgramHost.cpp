@@ -233,7 +233,7 @@ void ProgramHost::startUp(df::World& world) {
 // from run to run, unless an option gives a seed; without players they are the same.
 void ProgramHost::seed(df::World& world) const {
   const int random_seed = df::Config::getInstance().getRandomSeed();
-  std::uint64_t seed = static_cast<std::uint64_t>(m_options.seed);
+  std::uint64_t seed = takeWorldSeed().value_or(static_cast<std::uint64_t>(m_options.seed));
   if (seed == 0 && random_seed > 0) seed = static_cast<std::uint64_t>(random_seed);
   const bool wanted = seed != 0;
   if (!wanted && m_options.headless && random_seed < 0) return;
@@ -290,7 +290,11 @@ void ProgramHost::serve(df::World& world) {
   const std::vector<std::string> help = world.getHelp();
   addToHelp(world, how);
 
-  if (launcher != nullptr) host->setWorlds(startWorlds(launcher, printLine));
+  if (launcher != nullptr) {
+    HostOptions journaled = m_options;
+    journaled.port = host->port();  // a round goes on where its players look for it
+    host->setWorlds(startWorlds(launcher, printLine, Journals::open(journaled, programName(), "", log)));
+  }
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
   host->run(world);

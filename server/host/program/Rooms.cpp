@@ -62,7 +62,10 @@ void Rooms::watchWorld(Room& room) {
 // Inputs like any other: before all others of its first tick.
 void Rooms::passScores(Room& room) const {
   if (m_p_scores == nullptr) return;
-  room.setRound(ScoreKeeper::beginRound());
+  RoundName round = room.port().roundName();
+  if (round.id.empty()) round.id = ScoreKeeper::beginRound();
+  room.setRound(std::move(round));
+  if (room.port().recovering()) return;  // they are in its journal
   for (const auto& [table, rows] : m_p_scores->tables()) {
     for (const df::HighScore& row : rows)
       room.port().addInput({.kind = df::InputQueue::kScore,
@@ -76,7 +79,7 @@ void Rooms::passScores(Room& room) const {
 void Rooms::keepScores(Room& room) {
   const std::vector<df::AddedScore> added = room.port().takeScores();
   if (m_p_scores == nullptr) return;
-  m_p_scores->add(room.round(), room.tick(), added);
+  m_p_scores->add(room.round().id, added, room.round().file);
 }
 
 void Rooms::noteScores() {
@@ -145,6 +148,13 @@ void Rooms::removeSession(const Session& session) {
   if (Room* p_room = roomOf(session)) p_room->remove(session);
 }
 
+std::optional<int> Rooms::recovering() const {
+  for (const auto& room : m_rooms) {
+    if (const auto percent = room->port().recovering()) return percent;
+  }
+  return std::nullopt;
+}
+
 std::size_t Rooms::objects() const {
   std::size_t count = 0;
   for (const auto& room : m_rooms) count += room->objects();
@@ -170,6 +180,7 @@ void Rooms::beginTicks() {
   noteScores();
   m_in_begin = true;
   for (const auto& room : m_rooms) {
+    if (room->port().recovering()) continue;
     if (!room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) ++m_counters.late_worlds;
   }
   m_in_begin = false;
@@ -215,6 +226,8 @@ void Rooms::checkWorlds() {
   if (!m_new_world) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
+    if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
+      m_on_sessions(*room, *sessions);
     if (const auto warning = room->port().takeWarning()) m_log(*warning);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
@@ -237,6 +250,9 @@ void Rooms::countEnd(WorldEnd::Why why) {
     case WorldEnd::kBroken:
       ++m_counters.rounds_broken;
       break;
+    case WorldEnd::kNotRecovered:
+      ++m_counters.rounds_unrecovered;
+      break;
   }
 }
 
@@ -247,6 +263,9 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
   for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
   if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
   countEnd(end.why);
+  // What this server was started for is the next round.
+  if (end.why == WorldEnd::kNotRecovered && beginRound(room))
+    return room.say("The round could not go on; the next one begins.");
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);
   const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);
@@ -274,6 +293,7 @@ bool Rooms::beginRound(Room& room) {
   }
   m_counters.sounds += room.sounds().sent() - sent;
   watchWorld(room);
+  if (m_on_round) m_on_round(room);
   return true;
 }
 

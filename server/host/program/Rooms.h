@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/metrics/StageClock.h"
@@ -39,6 +40,13 @@ class Rooms {
 
   /// Play in such worlds, not in the one that open() is given. Before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
+  /// A room's world is one that players were in: `on_round` a new one, after another; `on_sessions` that of a
+  /// server that was killed, with the sessions that its players had. Before open().
+  void watchRounds(std::function<void(Room&)> on_round,
+                   std::function<void(Room&, const std::vector<KeptSession>&)> on_sessions) {
+    m_on_round = std::move(on_round);
+    m_on_sessions = std::move(on_sessions);
+  }
   /// When the game is over for a player who is alone, it is over for all.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
 
@@ -70,6 +78,8 @@ class Rooms {
   /// The session is about to be destroyed.
   void removeSession(const Session& session);
   std::size_t count() const { return m_rooms.size(); }
+  /// Percent of a round that is being executed again (WorldPort::recovering); nothing: none is.
+  std::optional<int> recovering() const;
   /// Objects that are published, in all rooms.
   std::size_t objects() const;
   /// The players of all rooms whose worlds have them, by id. A world has the say in their scores alone: it
@@ -123,6 +133,8 @@ class Rooms {
   std::function<void()> m_on_late_tick;
   StageClock& m_stages;
   NewWorld m_new_world;  ///< empty: the world of this process
+  std::function<void(Room&)> m_on_round;
+  std::function<void(Room&, const std::vector<KeptSession>&)> m_on_sessions;
   std::vector<std::unique_ptr<Room>> m_rooms;
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;

@@ -79,6 +79,12 @@ void SessionTable::sweep() {
   });
 }
 
+Session& SessionTable::addDetached(Clock::time_point now) {
+  m_places.push_back({std::make_unique<Session>(nullptr, m_counters, now), AddressPrefix()});
+  m_places.back().session->setId(m_next_id++);
+  return *m_places.back().session;
+}
+
 Session* SessionTable::find(std::uint64_t id) const {
   const auto found =
       std::lower_bound(m_places.begin(), m_places.end(), id,

@@ -26,6 +26,8 @@ class SessionTable {
   /// answer to its hello makes room: the oldest of the most crowded address or /64, in the most crowded /24
   /// or /48, this connection included. If there is none, the connection is closed.
   void add(std::unique_ptr<ReliableChannel> channel, Session::Events events, Clock::time_point now);
+  /// A session without a stream, to be restored.
+  Session& addDetached(Clock::time_point now);
   /// At most so many from now on; those that are there stay.
   void setMost(std::size_t max_sessions) { m_max_sessions = max_sessions; }
   /// Destroy the sessions that have ended.

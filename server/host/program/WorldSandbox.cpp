@@ -9,10 +9,12 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "host/auth/ServerIdentity.h"
+#include "host/world/Repeatable.h"
 #include "host/world/WorldStart.h"
 #include "shared/net/base/UserDirectory.h"
 
@@ -36,6 +38,9 @@ const char* const kVariables[] = {
     "ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS",
     // Ours, for a game that is a program itself.
     "DF_COMPAT", "DRAGONFLY_CONFIG", "NAIAD_ON_GAME_OVER", "NAIAD_PLAYERS", "NAIAD_SEED"};
+
+/// Of these, what differs from one user and terminal to the next.
+const char* const kPersonal[] = {"PATH", "HOME", "USER", "LOGNAME", "LANG", "LANGUAGE", "TERM", "TMPDIR"};
 
 /// Absolute, without links; where it does not exist, as far as it does.
 fs::path resolve(const fs::path& path) {
@@ -85,6 +90,13 @@ std::vector<fs::path> loadedFiles() {
   return files;
 }
 
+std::vector<std::string> preloaded() {
+  std::vector<std::string> files;
+  std::istringstream all(repeatPreload());
+  for (std::string file; std::getline(all, file, ':');) files.push_back(file);
+  return files;
+}
+
 class Builder {
  public:
   Builder(const HostOptions& options, const GamePlace& place) : m_options(options), m_place(place) {
@@ -97,6 +109,7 @@ class Builder {
     m_made.sandbox.on = m_options.sandbox == "on";
     m_made.sandbox.memory = static_cast<std::uint64_t>(m_options.world_memory) << 20;
     for (const fs::path& file : m_loaded) addReadable(file);
+    for (const std::string& file : preloaded()) addReadable(resolve(file));
     for (const std::string& file : m_place.files) addReadable(resolve(file));
     for (const std::string& folder : m_place.folders) addFolder(resolve(folder));
     addWorkingDirectory(resolve("."));
@@ -225,6 +238,22 @@ std::vector<std::string> makeWorldEnvironment(const HostOptions& options) {
     const bool wanted = known || name.starts_with("LC_") || isListed(name, options.world_environment);
     if (wanted && name != "NAIAD_PASSWORD" && name != "NAIAD_ADMIN_PASSWORD") entries.emplace_back(entry);
   }
+  return entries;
+}
+
+bool isGameVariable(const std::string& entry) {
+  return entry.starts_with("DF_COMPAT=") || entry.starts_with("TZ=");
+}
+
+std::vector<std::string> makeFixedEnvironment(const HostOptions& options) {
+  std::vector<std::string> entries = makeWorldEnvironment(options);
+  std::erase_if(entries, [&options](const std::string& entry) {
+    const std::string_view name = std::string_view(entry).substr(0, entry.find('='));
+    const bool personal = std::any_of(std::begin(kPersonal), std::end(kPersonal),
+                                      [name](const char* p_one) { return name == p_one; });
+    return (personal || name.starts_with("LC_")) && !isListed(name, options.world_environment);
+  });
+  entries.insert(entries.end(), {"PATH=/usr/local/bin:/usr/bin:/bin", "LANG=C.UTF-8"});
   return entries;
 }
 

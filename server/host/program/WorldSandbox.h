@@ -34,6 +34,14 @@ WorldSandbox makeWorldSandbox(const HostOptions& options, const GamePlace& place
 /// names. Never the password.
 std::vector<std::string> makeWorldEnvironment(const HostOptions& options);
 
+/// The same for worlds whose rounds are written down: what depends on who has started the server is left out
+/// or fixed, beyond those variables.
+std::vector<std::string> makeFixedEnvironment(const HostOptions& options);
+
+/// "NAME=value": a variable by which the engine itself is another one for the game, and which a round's file
+/// keeps.
+bool isGameVariable(const std::string& entry);
+
 /// Overwrite the values of --password and --admin-password, which every process of this machine can read in a
 /// command line.
 void hidePassword(int argc, char** argv);

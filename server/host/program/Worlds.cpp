@@ -7,6 +7,7 @@
 
 #include "host/program/GameModule.h"
 #include "host/program/WorldSandbox.h"
+#include "host/world/Repeatable.h"
 #include "host/world/WorldProcess.h"
 #include "host/world/WorldStart.h"
 
@@ -33,7 +34,8 @@ std::vector<std::string> ownArguments() {
 std::vector<std::string> moduleArguments(const HostOptions& options, const std::string& module) {
   std::vector<std::string> words{"dfserver", "--game=" + module, "--players=" + options.players,
                                  "--on-game-over=" + options.on_game_over};
-  if (options.seed != 0) words.push_back("--seed=" + std::to_string(options.seed));
+  // Where rounds are written down each world is given its seed, and has the same arguments again.
+  if (options.seed != 0 && !wantsJournal(options)) words.push_back("--seed=" + std::to_string(options.seed));
   return words;
 }
 
@@ -45,8 +47,10 @@ std::string gameSettings() {
 std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const GamePlace& place,
                                             std::vector<std::string> arguments, const LogLine& log) {
   const WorldSandbox made = makeWorldSandbox(options, place);
-  auto launcher = std::make_shared<const WorldLauncher>(WorldProgram{
-      kThisProgram, std::move(arguments), makeWorldEnvironment(options), firstDirectory(), made.sandbox});
+  auto launcher = std::make_shared<const WorldLauncher>(
+      WorldProgram{kThisProgram, std::move(arguments),
+                   wantsJournal(options) ? makeFixedEnvironment(options) : makeWorldEnvironment(options),
+                   firstDirectory(), made.sandbox, repeatPreload()});
   if (!made.sandbox.on) {
     log("games in processes of their own have no sandbox: they can do what this user can");
     return launcher;
@@ -58,10 +62,43 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
   return launcher;
 }
 
+struct RepeatingWorld {
+  std::unique_ptr<WorldProcess> world;
+  std::function<void()> on_repeated;  ///< what it prints from then on is news
+};
+
+RepeatingWorld startRepeating(const WorldLauncher& launcher, const WorldOrder& order, const LogLine& print,
+                              asio::io_context& home) {
+  const auto repeats = std::make_shared<bool>(true);
+  const auto print_news = [print, repeats](const std::string& line) {
+    if (!*repeats) print(line);
+  };
+  return {std::make_unique<WorldProcess>(home, launcher.start(order), print_news),
+          [repeats] { *repeats = false; }};
+}
+
+Journals::NewWorld repeatLater(const std::shared_ptr<const WorldLauncher>& launcher, WorldOrder order,
+                               const LogLine& print, asio::io_context& home) {
+  order.again = true;  // or a game that sleeps would take as long as the round
+  return [launcher, order, print, &home] {
+    RepeatingWorld another = startRepeating(*launcher, order, print, home);
+    return JournaledWorld::AnotherWorld{std::move(another.world), std::move(another.on_repeated)};
+  };
+}
+
+/// Null: there is no round to go on with.
+std::unique_ptr<WorldPort> goOnWithRound(const std::shared_ptr<const WorldLauncher>& launcher,
+                                         const LogLine& print, Journals& journals, asio::io_context& home) {
+  const auto order = journals.orderOfOpenRound();
+  if (!order) return nullptr;
+  auto [world, on_repeated] = startRepeating(*launcher, *order, print, home);
+  return journals.goOn(std::move(world), std::move(on_repeated), repeatLater(launcher, *order, print, home));
+}
+
 }  // namespace
 
 bool wantsWorlds(const HostOptions& options) {
-  return options.on_game_over == "restart" || options.players == "private";
+  return options.on_game_over == "restart" || options.players == "private" || wantsJournal(options);
 }
 
 bool leavesAlone(const HostOptions& options) {
@@ -94,10 +131,51 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
   return launch(options, place, ownArguments(), log);
 }
 
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print) {
-  return [launcher = std::move(launcher), print = std::move(print)](asio::io_context& home) {
-    return std::make_unique<WorldProcess>(home, launcher->start(), print);
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print,
+                           std::shared_ptr<Journals> journals) {
+  using NewPort = std::unique_ptr<WorldPort>;
+  return [launcher = std::move(launcher), print = std::move(print),
+          journals = std::move(journals)](asio::io_context& home) -> NewPort {
+    if (journals == nullptr) return std::make_unique<WorldProcess>(home, launcher->start(), print);
+    if (auto world = goOnWithRound(launcher, print, *journals, home)) return world;
+    const WorldOrder order = journals->makeOrder();
+    auto world = std::make_unique<WorldProcess>(home, launcher->start(order), print);
+    WorldOrder again = order;
+    again.again = true;
+    again.reads_only = true;
+    RepeatCheck::NewWorld start_again;
+    if (launcher->support().landlock > 0) {
+      start_again = [launcher, again, &home] {
+        return std::make_unique<WorldProcess>(home, launcher->start(again), OutputRelay::Line());
+      };
+    }
+    return journals->keep(std::move(world), order, std::move(start_again),
+                          repeatLater(launcher, order, print, home));
   };
+}
+
+// 33 ms is how the published engine writes 1/30 s.
+HostOptions withFrameTime(HostOptions options, const WorldReady& ready) {
+  constexpr int kUsualMillis = 33;
+  if (options.frame_micros == 0 && ready.frame_millis != kUsualMillis)
+    options.frame_micros = ready.frame_millis * 1000;
+  return options;
+}
+
+std::shared_ptr<const WorldLauncher> launchAgain(const HostOptions& options, const std::string& module,
+                                                 const std::string& program, const std::string& folder,
+                                                 const std::vector<std::string>& variables) {
+  GamePlace place;
+  place.files = {program, module};
+  place.folders = GameModule::resourceFolders(module);
+  WorldSandbox made = makeWorldSandbox(options, place);
+  made.sandbox.writable = {folder};
+  std::vector<std::string> environment = makeFixedEnvironment(options);
+  std::erase_if(environment, isGameVariable);
+  environment.insert(environment.end(), variables.begin(), variables.end());
+  return std::make_shared<const WorldLauncher>(WorldProgram{program, moduleArguments(options, module),
+                                                            std::move(environment), folder, made.sandbox,
+                                                            repeatPreload()});
 }
 
 Preview previewWorld(const WorldLauncher& launcher, const LogLine& print) {

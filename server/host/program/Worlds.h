@@ -6,6 +6,7 @@
 
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
+#include "host/program/Journals.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
 #include "host/world/WorldPort.h"
@@ -28,7 +29,18 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
 
 /// For Host::setWorlds(). `print`: gets the lines that worlds print. They may have any bytes, and read as a
 /// line of the server's own.
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print);
+/// `journals`: write their rounds down; null: do not.
+Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print,
+                           std::shared_ptr<Journals> journals = nullptr);
+
+/// The options with the length of a tick that the game asks for, unless they have one.
+HostOptions withFrameTime(HostOptions options, const WorldReady& ready);
+
+/// What executes worlds of this module again, with `program` (dfserver's path) in place of this one. They
+/// read and write in `folder` alone, beside the game's own folders. Throws std::system_error.
+std::shared_ptr<const WorldLauncher> launchAgain(const HostOptions& options, const std::string& module,
+                                                 const std::string& program, const std::string& folder,
+                                                 const std::vector<std::string>& variables);
 
 /// Runs the game until GM.run(), in a world that is ended then. What it has set up; or how it ended before.
 struct Preview {

@@ -71,6 +71,8 @@ ExitCode play(const naiad::GameModule& game) {
 /// before lines of the game's own, which may have a player's name and read as a line of the server's.
 ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
               naiad::HostOptions& options, naiad::LineLog& log, const std::string& mark) {
+  const auto given = naiad::takeWorldSeed();
+  if (given) options.seed = static_cast<std::int64_t>(*given);
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
   for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
   const Installed installed(runner, [&log, &mark](const std::string& line) { log(mark + line); });
@@ -166,7 +168,10 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(options, name, log);
-  host.setWorlds(naiad::startWorlds(launcher, print));
+  naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
+  journaled.port = host.port();  // a round goes on where its players look for it
+  const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
+  host.setWorlds(naiad::startWorlds(launcher, print, journals));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +

@@ -23,8 +23,10 @@ ScoreKeeper::ScoreKeeper(const std::filesystem::path& folder, std::string game, 
   if (folder.empty()) return;
   m_store = std::make_unique<ScoreStore>(folder / kScoreFile, std::move(game));
   try {
-    for (const ScoreRow& row : m_store->best("", df::HighScores::kMaxRows))
+    for (const ScoreRow& row : m_store->best("", df::HighScores::kMaxRows)) {
       m_tables.keep(row.table, row.name, row.points);
+      m_loaded.insert({row.round, row.tick, row.number});
+    }
   } catch (const StateFileError& error) {
     m_store.reset();
     note(std::string(error.what()) + " Scores hold until the server ends.");
@@ -49,12 +51,12 @@ std::string ScoreKeeper::beginRound() {
   return name;
 }
 
-void ScoreKeeper::add(const std::string& round, std::uint32_t tick,
-                      const std::vector<df::AddedScore>& scores) {
+void ScoreKeeper::add(const std::string& round, const std::vector<df::AddedScore>& scores,
+                      const std::string& recording) {
   if (scores.empty()) return;
   std::vector<ScoreRow> rows;
   for (const df::AddedScore& added : scores) {
-    const int number = static_cast<int>(&added - scores.data());
+    if (m_loaded.contains({round, added.tick, added.number})) continue;
     if (!m_tables.keep(added.table, added.score.name, added.score.points)) {
       ++m_refused;
       continue;

@@ -10,7 +10,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,8 +54,10 @@ class ScoreKeeper {
   static std::string beginRound();
   /// Gets each row that is taken over, before it is written. On the host's thread.
   void setObserver(std::function<void(const ScoreRow& row)> observer) { m_observer = std::move(observer); }
-  /// A world has added these in a tick of its round. It may be a stranger's program: all is checked.
-  void add(const std::string& round, std::uint32_t tick, const std::vector<df::AddedScore>& scores);
+  /// A world has added these in its round. It may be a stranger's program: all is checked. Of a round that
+  /// is executed again they may come again, and count once. `recording`: the name of its file.
+  void add(const std::string& round, const std::vector<df::AddedScore>& scores,
+           const std::string& recording = "");
 
   /// Rows of the file, with those that waited for it until now, or why it cannot be read. On the worker's
   /// thread.
@@ -77,6 +81,8 @@ class ScoreKeeper {
   std::function<void(const ScoreRow&)> m_observer;
   df::ScoreTables m_tables;
   std::unique_ptr<ScoreStore> m_store;  ///< the worker's, after the constructor
+  std::set<std::tuple<std::string, std::uint32_t, int>>
+      m_loaded;  ///< what names rows of the file in m_tables
   std::uint64_t m_added = 0;
   std::uint64_t m_refused = 0;
   std::uint64_t m_dropped = 0;

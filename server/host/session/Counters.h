@@ -27,6 +27,8 @@ struct Counters {
   std::uint64_t detached = 0;            ///< streams that broke while their session goes on
   std::uint64_t resumed = 0;             ///< sessions that went on with another stream
   std::uint64_t restarted = 0;           ///< of these: with another process of the client
+  std::uint64_t restored = 0;            ///< sessions of a server that was killed
+  std::uint64_t returned = 0;            ///< clients that came back to these
   std::uint64_t second_streams = 0;      ///< beside the first, where datagrams do not pass
   std::uint64_t resumes_deferred = 0;    ///< came back more often than allowed: refused for now
   std::uint64_t seconds_deferred = 0;    ///< second streams more often than allowed: refused for now
@@ -78,6 +80,7 @@ struct Counters {
   std::uint64_t rounds_crashed = 0;
   std::uint64_t rounds_hung = 0;
   std::uint64_t rounds_broken = 0;
+  std::uint64_t rounds_unrecovered = 0;
   // Scores that games added (HighScores.h):
   std::uint64_t scores = 0;          ///< taken over
   std::uint64_t scores_refused = 0;  ///< no good, or of more tables than a game may have

@@ -69,6 +69,25 @@ void Session::sendWelcome(const wire::Welcome& welcome) {
   m_activity.awaitProof();
 }
 
+void Session::restore(const wire::Welcome& welcome, Events events) {
+  m_events = std::move(events);
+  *m_welcome = welcome;
+  m_player = welcome.player();
+  m_welcome->clear_resume_token();
+  m_state = State::kPlaying;
+  m_greeted = m_restored = true;
+  m_activity.noteReturn(now());
+  m_standing.begin(now());
+}
+
+void Session::takeOver(Session& restored) {
+  m_restored = true;
+  m_standing.setMuted(restored.m_standing.isMuted());
+  m_resumes = restored.m_resumes;
+  restored.m_reported_gone = true;
+  restored.stream() != nullptr ? restored.end() : static_cast<void>(restored.m_state = State::kGone);
+}
+
 // ---- streams that come and go -----------------------------------------------------------------------------
 
 // One that is refused for now was heard of all the same: its grace time starts again.

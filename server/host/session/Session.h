@@ -84,6 +84,16 @@ class Session {
   void refuse(wire::Refused_Reason reason, const std::string& sentence);
   /// Answer the hello: the client plays from now on. With `datagrams` if there are to be any.
   void welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams = nullptr);
+  /// Instead of start(): it has no stream, and its client knows nothing of it but a token. So are sessions of
+  /// a server that was killed. It waits for the client, who goes on with another session (retire()).
+  void restore(const wire::Welcome& welcome, Events events);
+  /// The client cannot go on with it as it is, since it has not proved that it knows it (takeProof()), and it
+  /// was restored, or took over from one that was.
+  bool isRestored() const { return m_restored; }
+  /// Its client goes on with this session, which was welcomed, in the place of one that was restored.
+  void takeOver(Session& restored);
+  /// The client has proved that it knows it.
+  void confirm() { m_restored = false; }
   /// The client is back: may it go on now (kResumeRate)? If not, nothing changes, and its session waits on.
   bool admitResume();
   /// The client is back: take over the stream on which `other` heard its hello, answer the hello, and send
@@ -214,6 +224,7 @@ class Session {
   bool m_reported_gone = false;
   Leave m_leave = &Counters::left_dismissed;
   bool m_greeted = false;  ///< the hello has come
+  bool m_restored = false;
   std::uint32_t m_rtt_millis = 0;
   Counters& m_counters;
   Events m_events;

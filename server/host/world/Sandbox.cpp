@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <linux/capability.h>
+#include <linux/securebits.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -67,6 +68,9 @@ void dropCapabilities() {
   prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
   __user_cap_header_struct head{_LINUX_CAPABILITY_VERSION_3, 0};
   const __user_cap_data_struct none[2] = {};
+  // Or root's next program would be given some again, and the kernel take that for a reason to randomise
+  // addresses.
+  prctl(PR_SET_SECUREBITS, SECBIT_NOROOT | SECBIT_NOROOT_LOCKED, 0, 0, 0);
   syscall(SYS_capset, &head, none);
 }
 
@@ -134,7 +138,7 @@ const std::vector<std::string>& systemFolders() {
 }
 
 SandboxSupport findSandboxSupport() {
-  return {findInTrial(tryLandlock), findInTrial(tryFilter)};
+  return {findInTrial(tryLandlock), findInTrial(tryFilter), 0};
 }
 
 std::string sandboxGaps(const SandboxSupport& support) {

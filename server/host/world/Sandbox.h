@@ -20,8 +20,9 @@ struct Sandbox {
 
 /// What this kernel has, and lets us use.
 struct SandboxSupport {
-  std::int32_t landlock = 0;  ///< version; 0: none
-  std::int32_t filter = 0;    ///< 1: seccomp
+  std::int32_t landlock = 0;   ///< version; 0: none
+  std::int32_t filter = 0;     ///< 1: seccomp
+  std::int32_t addresses = 0;  ///< 1: they can be fixed (FixedStart.h)
 };
 
 /// Try it out, in processes that end then. For a process without threads.

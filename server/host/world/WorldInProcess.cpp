@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 
@@ -26,6 +27,8 @@ void WorldInProcess::endGame() {
 void WorldInProcess::tick(bool watched, bool /*truth*/) {
   m_world.setWatched(watched);
   m_world.tick();
+  m_state_hash.reset();
+  if (std::exchange(m_checked, false)) m_state_hash = df::hashState(m_world);
   reportTick();
 }
 

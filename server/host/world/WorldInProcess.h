@@ -24,6 +24,8 @@ class WorldInProcess : public WorldPort {
   void setHeard(std::uint32_t player) override;
   void endGame() override;
   bool isReady() const override { return true; }
+  void setChecked(bool state) override { m_checked = state; }
+  std::optional<std::uint64_t> stateHash() const override { return m_state_hash; }
   void tick(bool watched, bool truth) override;
   std::uint32_t nextTick() const override;
   const df::WorldView& view() const override;
@@ -35,6 +37,8 @@ class WorldInProcess : public WorldPort {
 
  private:
   df::World& m_world;
+  bool m_checked = false;
+  std::optional<std::uint64_t> m_state_hash;
   std::optional<LagCompensator> m_lag_compensator;  ///< while the game wants it
 };
 

@@ -18,6 +18,8 @@
 #include <string>
 
 #include "host/world/Descendants.h"
+#include "host/world/FixedStart.h"
+#include "host/world/Repeatable.h"
 #include "host/world/WordPointers.h"
 #include "host/world/WorldStart.h"
 
@@ -61,9 +63,8 @@ void standInFront() {
 }
 
 /// Nothing if the front has gone.
-std::optional<WorldDescriptors> receiveDescriptors(int from) {
-  char byte = 0;
-  iovec data{&byte, 1};
+std::optional<WorldDescriptors> receiveOrder(int from, WorldOrder& order) {
+  iovec data{&order, sizeof order};
   WorldDescriptors numbers;
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof numbers)> room{};
   msghdr message{};
@@ -74,7 +75,8 @@ std::optional<WorldDescriptors> receiveDescriptors(int from) {
   ssize_t got = 0;
   while ((got = recvmsg(from, &message, MSG_CMSG_CLOEXEC)) < 0 && errno == EINTR) continue;
   const cmsghdr* p_head = CMSG_FIRSTHDR(&message);
-  if (got != 1 || p_head == nullptr || p_head->cmsg_len != CMSG_LEN(sizeof numbers)) return std::nullopt;
+  if (got != sizeof order || p_head == nullptr || p_head->cmsg_len != CMSG_LEN(sizeof numbers))
+    return std::nullopt;
   std::memcpy(&numbers, CMSG_DATA(p_head), sizeof numbers);
   return numbers;
 }
@@ -112,8 +114,28 @@ void restoreSignals() {
   sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-[[noreturn]] void runWorld(const WorldDescriptors& descriptors, int failure, pid_t keeper,
-                           const WorldProgram& program, const SandboxSupport& support) {
+std::vector<std::string> environmentOf(const WorldProgram& program, const WorldOrder& order) {
+  std::vector<std::string> entries = program.environment;
+  entries.push_back(worldSocketEntry());
+  if (order.seed != 0) entries.push_back(worldSeedEntry(order.seed));
+  if (!order.repeatable) return entries;
+  entries.push_back(repeatEntry(order));
+  if (!program.preload.empty()) entries.push_back("LD_PRELOAD=" + program.preload);
+  padEnvironment(program.program, program.arguments, entries);
+  return entries;
+}
+
+Sandbox sandboxOf(const WorldProgram& program, const WorldOrder& order) {
+  Sandbox sandbox = program.sandbox;
+  if (!order.reads_only) return sandbox;
+  sandbox.readable.insert(sandbox.readable.end(), sandbox.writable.begin(), sandbox.writable.end());
+  sandbox.writable.clear();
+  sandbox.appendable.clear();
+  return sandbox;
+}
+
+[[noreturn]] void runWorld(const WorldDescriptors& descriptors, const WorldOrder& order, int failure,
+                           pid_t keeper, const WorldProgram& program, const SandboxSupport& support) {
   arrangeDescriptors(descriptors, failure);
   setsid();
   restoreSignals();
@@ -121,12 +143,12 @@ void restoreSignals() {
   if (getppid() != keeper) fail(kFailure, ECHILD);
   if (chdir(program.directory.c_str()) != 0) fail(kFailure, errno);
   std::vector<std::string> words = program.arguments;
-  std::vector<std::string> entries = program.environment;
-  entries.push_back(worldSocketEntry());
+  std::vector<std::string> entries = environmentOf(program, order);
+  if (order.repeatable && support.addresses != 0) fixAddresses();
   const std::vector<char*> arguments = pointersTo(words);
   const std::vector<char*> environment = pointersTo(entries);
   if (program.sandbox.on) {
-    if (const int error = enterSandbox(program.sandbox, support); error != 0) fail(kFailure, error);
+    if (const int error = enterSandbox(sandboxOf(program, order), support); error != 0) fail(kFailure, error);
   }
   execve(program.program.c_str(), arguments.data(), environment.data());
   fail(kFailure, errno);
@@ -161,8 +183,8 @@ void waitForEnd(pid_t world, int front, int children) {
   }
 }
 
-[[noreturn]] void runKeeper(const WorldDescriptors& descriptors, const WorldProgram& program,
-                            const SandboxSupport& support) {
+[[noreturn]] void runKeeper(const WorldDescriptors& descriptors, const WorldOrder& order,
+                            const WorldProgram& program, const SandboxSupport& support) {
   prctl(PR_SET_NAME, "df-keeper");
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const int children = watchChildren();
@@ -173,7 +195,7 @@ void waitForEnd(pid_t world, int front, int children) {
   }
   const pid_t self = getpid();
   const pid_t world = fork();
-  if (world == 0) runWorld(descriptors, failure[1], self, program, support);
+  if (world == 0) runWorld(descriptors, order, failure[1], self, program, support);
   KeeperStart begun{world < 0 ? errno : 0, world};
   for (const int one : {failure[1], descriptors.world, descriptors.output, descriptors.page}) close(one);
   ssize_t got = 0;
@@ -203,19 +225,20 @@ class Launcher {
       if (poll(either, 2, -1) < 0) continue;
       if (either[1].revents != 0) waitForChildren();
       if (either[0].revents == 0) continue;
-      const auto descriptors = receiveDescriptors(kFront);
+      WorldOrder order;
+      const auto descriptors = receiveOrder(kFront, order);
       if (!descriptors) return;
-      startKeeper(*descriptors);
+      startKeeper(*descriptors, order);
     }
   }
 
  private:
-  void startKeeper(const WorldDescriptors& descriptors) {
+  void startKeeper(const WorldDescriptors& descriptors, const WorldOrder& order) {
     const pid_t keeper = fork();
     if (keeper == 0) {
       close(kFront);
       close(m_children);
-      runKeeper(descriptors, m_program, m_support);
+      runKeeper(descriptors, order, m_program, m_support);
     }
     if (keeper < 0) sendTo(descriptors.keeper, KeeperStart{errno, -1});
     if (keeper > 0) m_keepers.insert(keeper);
@@ -263,7 +286,8 @@ void runLauncher(int front, const WorldProgram& program) {
   standInFront();
   hideProcess();
   ignoreSignals();
-  const SandboxSupport support = program.sandbox.on ? findSandboxSupport() : SandboxSupport{};
+  SandboxSupport support = program.sandbox.on ? findSandboxSupport() : SandboxSupport{};
+  support.addresses = canFixAddresses() ? 1 : 0;
   sendTo(kFront, support);
   Launcher(program, support).run();
   _exit(0);

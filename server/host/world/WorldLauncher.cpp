@@ -72,9 +72,8 @@ Descriptor sharedPage(const char* what) {
   return page;
 }
 
-bool sendDescriptors(int to, const WorldDescriptors& numbers) {
-  char byte = 0;
-  iovec data{&byte, 1};
+bool sendOrder(int to, WorldOrder order, const WorldDescriptors& numbers) {
+  iovec data{&order, sizeof order};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof numbers)> room{};
   msghdr message{};
   message.msg_iov = &data;
@@ -88,7 +87,7 @@ bool sendDescriptors(int to, const WorldDescriptors& numbers) {
   std::memcpy(CMSG_DATA(p_head), &numbers, sizeof numbers);
   ssize_t sent = 0;
   while ((sent = sendmsg(to, &message, MSG_NOSIGNAL)) < 0 && errno == EINTR) continue;
-  return sent == 1;
+  return sent == sizeof order;
 }
 
 /// False: too late, or the other end was closed.
@@ -125,13 +124,13 @@ WorldLauncher::~WorldLauncher() {
   while (waitpid(m_process, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-StartedWorld WorldLauncher::start() const {
+StartedWorld WorldLauncher::start(const WorldOrder& order) const {
   constexpr const char* kWhat = "a new world";
   auto [our_world, their_world] = socketPair(SOCK_STREAM, kWhat);
   auto [our_keeper, their_keeper] = socketPair(SOCK_STREAM, kWhat);
   auto [our_output, their_output] = outputPipe(kWhat);
   Descriptor page = sharedPage(kWhat);
-  require(sendDescriptors(m_socket, {their_world.get(), their_keeper.get(), their_output.get(), page.get()}),
+  require(sendOrder(m_socket, order, {their_world.get(), their_keeper.get(), their_output.get(), page.get()}),
           kWhat);
   return {our_world.release(), our_keeper.release(), our_output.release(), page.release()};
 }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "host/world/Sandbox.h"
+#include "host/world/WorldOrder.h"
 
 namespace naiad {
 
@@ -28,6 +29,7 @@ struct WorldProgram {
   std::vector<std::string> environment;  ///< "NAME=value"; WorldStart.h adds the socket's number
   std::string directory;
   Sandbox sandbox;
+  std::string preload = {};  ///< for LD_PRELOAD of worlds that are to be repeatable (Repeatable.h)
 };
 
 struct StartedWorld {
@@ -60,7 +62,7 @@ class WorldLauncher {
   /// Start a world with an empty standard input, and a pipe for its standard output and error; with a session
   /// of its own: a Ctrl-C in the terminal is for the front. Does not wait: the keeper says what comes of it.
   /// Throws std::system_error if there is no launcher any more.
-  StartedWorld start() const;
+  StartedWorld start(const WorldOrder& order = {}) const;
   /// As found out by the launcher; all of it if there is no sandbox.
   const SandboxSupport& support() const { return m_support; }
 

@@ -11,13 +11,34 @@ namespace {
 
 using Input = df::InputQueue::Input;
 
+void visitHash(FieldWriter& out, std::uint64_t hash) {
+  out.number(static_cast<std::uint32_t>(hash));
+  out.number(static_cast<std::uint32_t>(hash >> 32));
+}
+
+void visitHash(FieldReader& in, std::uint64_t& hash) {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  in.number(low);
+  in.number(high);
+  hash = std::uint64_t{high} << 32 | low;
+}
+
+template <class F, class T>
+void visitFile(F& f, T& file) {
+  f.text(file.name, kMaxReadFileName);
+  visitHash(f, file.hash);
+}
+
 template <class F, class T>
 void visitReady(F& f, T& ready) {
   f.number(ready.window_width, kMinViewWidth, kMaxViewWidth);
   f.number(ready.window_height, kMinViewHeight, kMaxViewHeight);
   f.number(ready.frame_millis, 1, kMaxFrameMillis);
   f.flag(ready.compat);
+  f.flag(ready.fixed_addresses);
   f.list(ready.help, kMaxHelpLines, [](F& in, auto& line) { in.text(line, kMaxHelpLength); });
+  f.list(ready.files, kMaxReadFiles, [](F& in, auto& file) { visitFile(in, file); });
 }
 
 template <class F, class T>
@@ -58,11 +79,26 @@ void visitInput(F& f, T& input) {
   }
 }
 
+/// Flags in one number, the first lowest.
+template <class... Flags>
+void visitFlags(FieldWriter& out, const Flags&... flags) {
+  std::uint32_t bits = 0;
+  int at = 0;
+  ((bits |= static_cast<std::uint32_t>(flags) << at++), ...);
+  out.number(bits, 0, (1 << sizeof...(flags)) - 1);
+}
+
+template <class... Flags>
+void visitFlags(FieldReader& in, Flags&... flags) {
+  std::uint32_t bits = 0;
+  int at = 0;
+  in.number(bits, 0, (1 << sizeof...(flags)) - 1);
+  ((flags = (bits >> at++ & 1) != 0), ...);
+}
+
 template <class F, class T>
 void visitTurn(F& f, T& turn) {
-  f.flag(turn.watched);
-  f.flag(turn.wants_truth);
-  f.flag(turn.ends_game);
+  visitFlags(f, turn.watched, turn.wants_truth, turn.ends_game, turn.checked);
   f.number(turn.heard_player);
   f.number(turn.pictured);
   f.list(turn.inputs, kMaxTurnInputs, [](F& in, auto& input) { visitInput(in, input); });
@@ -101,16 +137,39 @@ template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
   f.list(answer.leavers, kMaxViewPlayers, [](F& in, auto& leaver) { in.number(leaver); });
-  f.list(answer.scores, df::HighScores::kMaxAddedInTick,
-         [](F& in, auto& added) { visitScore(in, added.table, added.score.name, added.score.points); });
+  f.list(answer.scores, df::HighScores::kMaxAddedInTick, [](F& in, auto& added) {
+    visitScore(in, added.table, added.score.name, added.score.points);
+    in.number(added.tick);
+    in.number(added.number, 0, df::ScoreTables::kMaxNumber);
+  });
   f.list(answer.pictures, kMaxViewPlayers, [](F& in, auto& picture) {
     in.number(picture.player);
     visitCanvas(in, picture.canvas);
   });
-  f.flag(answer.has_view);
+  bool has_hash = answer.state_hash.has_value();
+  visitFlags(f, answer.has_view, has_hash);
+  std::uint64_t hash = answer.state_hash.value_or(0);
+  if (has_hash) visitHash(f, hash);
+  if constexpr (F::kReads) answer.state_hash = has_hash ? std::optional(hash) : std::nullopt;
 }
 
 }  // namespace
+
+void visitTurnInput(FieldWriter& out, const Input& input) {
+  visitInput(out, input);
+}
+
+void visitTurnInput(FieldReader& in, Input& input) {
+  visitInput(in, input);
+}
+
+void visitPicture(FieldWriter& out, const df::Canvas& canvas) {
+  visitCanvas(out, canvas);
+}
+
+void visitPicture(FieldReader& in, df::Canvas& canvas) {
+  visitCanvas(in, canvas);
+}
 
 void writeReady(const WorldReady& ready, std::string& frame) {
   FieldWriter out(frame);
@@ -153,6 +212,13 @@ std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views
   visitAnswer(in, answer);
   if (in.ok() && answer.has_view) views.read(in, view);
   return in.isWhole() ? std::optional(std::move(answer)) : std::nullopt;
+}
+
+std::optional<WorldAnswer> readAnswerHead(std::string_view fields) {
+  FieldReader in(fields);
+  WorldAnswer answer;
+  visitAnswer(in, answer);
+  return in.ok() ? std::optional(std::move(answer)) : std::nullopt;
 }
 
 }  // namespace naiad

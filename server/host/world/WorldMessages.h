@@ -17,6 +17,7 @@
 #include "engine/world/InputQueue.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
+#include "host/world/Repeatable.h"
 #include "host/world/ViewCodec.h"
 #include "shared/values/Canvas.h"
 
@@ -29,6 +30,8 @@ struct WorldReady {
   int frame_millis = 33;  ///< as df-config.txt writes it, up to kMaxFrameMillis
   bool compat = false;
   std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
+  std::vector<ReadFile> files;    ///< that the game has read so far, if it is to be repeatable
+  bool fixed_addresses = false;   ///< of this process (FixedStart.h)
 };
 inline constexpr int kMaxFrameMillis = 1000;
 
@@ -38,6 +41,7 @@ struct WorldTurn {
   bool watched = false;                       ///< the answer is to have a view
   bool wants_truth = false;                   ///< and pictures
   bool ends_game = false;
+  bool checked = false;            ///< the answer is to have a hash of the state
   std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
   std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
 };
@@ -56,12 +60,19 @@ struct WorldAnswer {
   bool game_over = false;
   std::vector<std::uint32_t> leavers;
   bool has_view = false;
+  std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
   std::vector<WorldPicture> pictures;       ///< by player
   std::vector<df::AddedScore> scores = {};  ///< at most HighScores::kMaxAddedInTick
 };
 
 // Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is
 // missing, out of range or left over.
+
+// Parts of a turn, for those who keep it in another form.
+void visitTurnInput(FieldWriter& out, const df::InputQueue::Input& input);
+void visitTurnInput(FieldReader& in, df::InputQueue::Input& input);
+void visitPicture(FieldWriter& out, const df::Canvas& canvas);
+void visitPicture(FieldReader& in, df::Canvas& canvas);
 
 void writeReady(const WorldReady& ready, std::string& frame);
 std::optional<WorldReady> readReady(std::string_view fields);
@@ -74,5 +85,7 @@ bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWri
                  std::string& frame);
 /// `view` is filled if the answer has one.
 std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views, df::WorldView& view);
+/// The same without the view, of which nothing is checked.
+std::optional<WorldAnswer> readAnswerHead(std::string_view fields);
 
 }  // namespace naiad

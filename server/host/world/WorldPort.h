@@ -13,6 +13,7 @@
 #include "engine/world/InputQueue.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
+#include "host/world/KeptSession.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {
@@ -22,10 +23,11 @@ class Publisher;
 /// How a world ended.
 struct WorldEnd {
   enum Why : std::uint8_t {
-    kGameOver,  ///< the game said so, or its process ended in order
-    kCrashed,   ///< a signal or an error code
-    kHung,      ///< it did not answer in time
-    kBroken,    ///< it sent a malformed frame
+    kGameOver,      ///< the game said so, or its process ended in order
+    kCrashed,       ///< a signal or an error code
+    kHung,          ///< it did not answer in time
+    kBroken,        ///< it sent a malformed frame
+    kNotRecovered,  ///< a round of a server that was killed could not be executed again
   } why = kGameOver;
   std::string text = {};  ///< for the log and for players, like "crashed (SIGABRT)"
   int exit_code = 0;      ///< of kCrashed, unless it was a signal
@@ -33,6 +35,12 @@ struct WorldEnd {
   /// first.
   std::string when = {};
   std::vector<std::string> last_lines = {};  ///< of the game's log, of a failure; escaped
+};
+
+/// A round that is written down.
+struct RoundName {
+  std::string id;    ///< 32 hexadecimal digits that no other round has; empty: it is not written down
+  std::string file;  ///< the name of its recording
 };
 
 class WorldPort {
@@ -58,6 +66,13 @@ class WorldPort {
   virtual bool isReady() const = 0;
   /// Where `truth` is asked for, only this player's picture is; 0: all of them are.
   virtual void setPictured(std::uint32_t /*player*/) {}
+  /// Hash what the next tick answers; after it answerHash() and, if `state`, stateHash() say the result. For
+  /// journals.
+  virtual void setChecked(bool /*state*/) {}
+  /// A hash of all that the last tick answered; 0: there is none.
+  virtual std::uint64_t answerHash() const { return 0; }
+  /// df::hashState() after the last tick, if setChecked() asked for it before.
+  virtual std::optional<std::uint64_t> stateHash() const { return std::nullopt; }
   /// Begin one. `watched`: view() is wanted; the first time with every Object as changed. `truth`:
   /// renderPlayer() is, too.
   virtual void tick(bool watched, bool truth) = 0;
@@ -74,6 +89,17 @@ class WorldPort {
   virtual bool isGameOver() const = 0;
   /// What this player sees, as the engine drew it in the last tick.
   virtual df::Canvas renderPlayer(std::uint32_t player) const = 0;
+
+  virtual RoundName roundName() const { return {}; }
+
+  // A round of a server that was killed, which is executed again until it is where it was.
+
+  /// How far that is, in percent; nothing: there is no such round, or it is where it was.
+  virtual std::optional<int> recovering() const { return std::nullopt; }
+  /// Once, when recovering() has come to its end: the sessions that its players had.
+  virtual std::optional<std::vector<KeptSession>> takeSessions() { return std::nullopt; }
+  /// A player's session is so from now on: for journals, before its client can know.
+  virtual void noteSession(const KeptSession& /*session*/) {}
 
   // Its end.
 

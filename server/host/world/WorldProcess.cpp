@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "host/world/ActivityReader.h"
+#include "shared/values/FastHash.h"
 
 namespace naiad {
 
@@ -44,6 +45,12 @@ const df::ActivityPage* mapPage(int file) {
 }
 
 }  // namespace
+
+std::uint64_t hashAnswer(std::string_view fields) {
+  FastHash hash;
+  hash.bytes(fields);
+  return hash.value();
+}
 
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
@@ -159,6 +166,7 @@ void WorldProcess::onFrame() {
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
     answer->leavers.insert(answer->leavers.begin(), m_answer.leavers.begin(), m_answer.leavers.end());
     m_answer = *std::move(answer);
+    m_answer_hash = std::exchange(m_hashes, false) ? hashAnswer(m_in) : 0;
     m_in_tick = false;
   }
   m_state = State::kReady;

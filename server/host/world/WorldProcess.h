@@ -21,6 +21,9 @@
 
 namespace naiad {
 
+/// WorldPort::answerHash() of an answer's fields.
+std::uint64_t hashAnswer(std::string_view fields);
+
 class WorldProcess : public WorldPort {
  public:
   using Clock = std::chrono::steady_clock;
@@ -49,6 +52,12 @@ class WorldProcess : public WorldPort {
   void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return m_state == State::kReady; }
   void setPictured(std::uint32_t player) override { m_pictured = player; }
+  void setChecked(bool state) override {
+    m_hashes = true;
+    m_turn.checked = state;
+  }
+  std::uint64_t answerHash() const override { return m_answer_hash; }
+  std::optional<std::uint64_t> stateHash() const override { return m_answer.state_hash; }
   void tick(bool watched, bool truth) override;
   /// Before the first tick: that of the host's. From there on it counts its own.
   std::uint32_t nextTick() const override { return m_next_tick; }
@@ -112,7 +121,9 @@ class WorldProcess : public WorldPort {
   bool m_warned = false;   ///< of this tick
   std::optional<std::string> m_warning;
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
-  WorldTurn m_turn;         ///< the next one
+  bool m_hashes = false;    ///< the next answer is hashed
+  std::uint64_t m_answer_hash = 0;
+  WorldTurn m_turn;  ///< the next one
   std::string m_out;
   std::string m_in;
   std::optional<ViewReader> m_views;

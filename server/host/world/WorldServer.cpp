@@ -5,8 +5,11 @@
 
 #include <cerrno>
 
+#include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "host/world/FixedStart.h"
+#include "host/world/Repeatable.h"
 
 namespace naiad {
 
@@ -31,6 +34,8 @@ WorldReady readyOf(const df::World& world) {
     ready.frame_millis = p_extras->settings.frame_time;
   ready.compat = world.compat();
   ready.help = world.getHelp();
+  ready.files = takeReadFiles();
+  ready.fixed_addresses = hasFixedAddresses();
   return ready;
 }
 
@@ -75,6 +80,7 @@ void WorldServer::run(df::World& world) {
       break;
     }
     updateLagCompensation(*turn, world);
+    setRepeatTick(static_cast<std::uint32_t>(world.getStepCount()) + 1);
     applyTurn(*turn, world);
     world.tick();
     goes_on = sendAnswer(*turn, world) && !world.isGameOver();
@@ -112,6 +118,7 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   answer.leavers = world.takeLeavers();
   answer.has_view = turn.watched;
   if (df::WorldExtras* p_extras = world.findExtras()) answer.scores = p_extras->scores.takeAdded();
+  if (turn.checked) answer.state_hash = df::hashState(world);
   if (turn.watched && turn.wants_truth) {
     for (const df::PlayerFacts& player : world.view().players) {
       if (turn.pictured != 0 && turn.pictured != player.id) continue;

@@ -1,24 +1,36 @@
 #include "host/world/WorldStart.h"
 
 #include <fcntl.h>
+#include <limits.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 
 #include <charconv>
 #include <cstdlib>
-#include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace naiad {
 
 namespace {
 
 constexpr const char* kVariable = "NAIAD_WORLD_SOCKET";
+constexpr const char* kSeedVariable = "NAIAD_WORLD_SEED";
 
+template <class Number>
+bool parseWhole(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+// As much memory however long it is: what comes later in a world's process lies at the same addresses then.
 std::string workingDirectory() {
-  std::error_code error;
-  return std::filesystem::current_path(error).string();
+  char path[PATH_MAX];
+  std::string text;
+  text.reserve(sizeof path);
+  if (getcwd(path, sizeof path) != nullptr) text = path;
+  return text;
 }
 
 const std::string& g_began_in = *new std::string(workingDirectory());
@@ -33,13 +45,24 @@ std::string worldSocketEntry() {
   return std::string(kVariable) + "=" + std::to_string(kWorldSocket);
 }
 
+std::string worldSeedEntry(std::uint64_t seed) {
+  return std::string(kSeedVariable) + "=" + std::to_string(seed);
+}
+
+std::optional<std::uint64_t> takeWorldSeed() {
+  const char* p_said = std::getenv(kSeedVariable);
+  if (p_said == nullptr) return std::nullopt;
+  std::uint64_t seed = 0;
+  const bool good = parseWhole(p_said, seed);
+  unsetenv(kSeedVariable);
+  return good ? std::optional(seed) : std::nullopt;
+}
+
 std::optional<int> takeWorldSocket() {
   const char* p_said = std::getenv(kVariable);
   if (p_said == nullptr) return std::nullopt;
-  const std::string_view text(p_said);
   int socket = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), socket);
-  const bool good = error == std::errc() && end == text.data() + text.size() && socket > STDERR_FILENO;
+  const bool good = parseWhole(p_said, socket) && socket > STDERR_FILENO;
   unsetenv(kVariable);  // programs that the game starts are no worlds
   if (!good || fcntl(socket, F_SETFD, FD_CLOEXEC) != 0) return std::nullopt;
   return socket;

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,13 @@ inline constexpr int kWorldPage = kWorldSocket + 1;
 
 /// What the environment of a world's process has for takeWorldSocket().
 std::string worldSocketEntry();
+
+/// What it has for takeWorldSeed().
+std::string worldSeedEntry(std::uint64_t seed);
+
+/// In a world's process: the seed that its front gave it. Nothing in others, and when it was asked for
+/// before.
+std::optional<std::uint64_t> takeWorldSeed();
 
 /// In a world's process: its end of the socket. Nothing in others, and when it was asked for before.
 std::optional<int> takeWorldSocket();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/body/BodyState.h"
+#include "physics/geometry/Reserve.h"
 
 namespace naiad::physics {
 
@@ -14,6 +15,11 @@ class BodyContacts {
  public:
   /// A tick begins.
   void beginTick();
+  /// Up to so many will be added: memory is taken once.
+  void expect(std::size_t contacts) {
+    if (contacts > m_changes.capacity()) m_touching.reserve(m_touching.size() + contacts);
+    reserveFor(m_changes, contacts);
+  }
   /// What a solver found; from each in the order of time. What is known already changes nothing.
   void add(const BodyContact& contact);
   /// The body or obstacle is gone: its contacts end with this tick.

@@ -11,6 +11,7 @@
 #include "physics/body/BodyEvents.h"
 #include "physics/body/BodyFlight.h"
 #include "physics/body/BodyLimits.h"
+#include "physics/geometry/Reserve.h"
 
 namespace df {
 
@@ -52,6 +53,7 @@ void BodyLayer::step(World& world) {
   m_is_mixed = m_has_pulls = false;
   m_links.prepare(*m_table);
   m_impacts.beginTick();
+  reserveFor(m_states, m_table->inOrder().size());
   for (const BodyTable::Index index : m_table->inOrder()) beginBody(world, index);
   ++m_table->ticks;
   chooseSolvers(world.store());

@@ -90,6 +90,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
     proxy.id = -1;
   }
   m_count = 0;
+  m_world.expect(states.size());
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState& state = states[i];
     if (!isStepped(state)) continue;
@@ -270,6 +271,7 @@ void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<Bod
 }
 
 void BodyRigids::collect(std::vector<BodyState>& states, BodyContacts& contacts) const {
+  contacts.expect(m_world.events().size());
   for (const RigidEvent& event : m_world.events()) {
     const Identity* p_first = &m_identities[at(event.first)];
     const Identity* p_second = &m_identities[at(event.second)];

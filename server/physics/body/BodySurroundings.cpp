@@ -7,6 +7,12 @@ namespace df {
 
 namespace {
 
+// Where few Objects are no bodies they are listed, and compared with the regions themselves: the grid of a
+// heap finds the heap.
+constexpr std::size_t kFew = 128;
+constexpr std::size_t kScanned = 16;   // Objects looked at for a region, at most
+constexpr std::size_t kTogether = 32;  // regions, added one after the other, that are compared first
+
 // Regions that begin in the same 8 by 8 cells, and are not larger than that, are asked for together.
 constexpr int kTileBits = kFixedBits + 3;
 constexpr Fixed kLargest = Fixed{1} << kTileBits;
@@ -30,8 +36,46 @@ void BodySurroundings::addRegion(const FixedBox& region) {
 }
 
 void BodySurroundings::search(const WorldStore& store) {
-  constexpr WorldStore::Slot kNoSlot = ~WorldStore::Slot{0};
   m_found.clear();
+  if (m_regions.empty()) return;
+  listOthers(store) ? searchOthers() : searchGrid(store);
+}
+
+// Fills m_others; or returns false, because there are too many.
+bool BodySurroundings::listOthers(const WorldStore& store) {
+  m_others.clear();
+  const WorldStore::Walk walk(store);
+  if (walk.size() > kScanned * m_regions.size()) return false;
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    const WorldStore::Slot slot = walk[i];
+    if (slot == WorldStore::kNoSlot || store.has(slot, WorldStore::kBody) || !store.collides(slot)) continue;
+    if (m_others.size() == kFew) return false;
+    m_others.push_back({store.key(slot), store.worldBox(slot, store.position(slot))});
+  }
+  return true;
+}
+
+void BodySurroundings::searchOthers() {
+  for (std::size_t begin = 0, end = 0; begin < m_regions.size() && !m_others.empty(); begin = end) {
+    end = std::min(begin + kTogether, m_regions.size());
+    FixedBox place = m_regions[begin].region;
+    for (std::size_t i = begin + 1; i < end; ++i) place = around(place, m_regions[i].region);
+    m_close.clear();
+    for (const Other& other : m_others) {
+      if (intersects(other.box, place)) m_close.push_back(other);
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      std::uint32_t turn = 0;
+      for (const Other& other : m_close) {
+        if (intersects(other.box, m_regions[i].region))
+          m_found.push_back({m_regions[i].number, turn++, other.key});
+      }
+    }
+  }
+}
+
+void BodySurroundings::searchGrid(const WorldStore& store) {
+  constexpr WorldStore::Slot kNoSlot = ~WorldStore::Slot{0};
   std::sort(m_regions.begin(), m_regions.end(), [](const Region& a, const Region& b) {
     return std::tie(a.tile_y, a.tile_x, a.number) < std::tie(b.tile_y, b.tile_x, b.number);
   });

@@ -35,11 +35,19 @@ class BodySurroundings {
     std::uint32_t turn;  // in creation order
     ObjectKey key;
   };
+  struct Other {
+    ObjectKey key;
+    FixedBox box;  // in the world
+  };
   void search(const WorldStore& store);
+  bool listOthers(const WorldStore& store);
+  void searchOthers();
+  void searchGrid(const WorldStore& store);
 
   std::vector<Region> m_regions;
   std::vector<Found> m_found;
   std::vector<ObjectKey> m_near;
+  std::vector<Other> m_others, m_close;  // in creation order
 };
 
 }  // namespace df

@@ -94,7 +94,7 @@ class PhysicsManager : public Manager {
   /// Drags a body by a point of it towards Joint::setTarget(), at first where the point is: a critically
   /// damped spring of one radian per tick, with a force of at most `strength` >= 0 along each axis.
   Joint addMouse(Body* p_body, Vector grabbed, double strength);
-  int getJointCount() const;
+  int getJointCount() const;  ///< Joints there are.
 
   /// Bodies in the world, removed ones included.
   int getBodyCount() const;

@@ -95,8 +95,8 @@ class SoftBody : public Object {
   int grab(Vector where, double strength);
   /// At first where it was grabbed. -1 if nothing is grabbed.
   int dragTo(Vector target);
-  void release();
-  bool isGrabbed() const;
+  void release();          ///< Let go; nothing if nothing is grabbed.
+  bool isGrabbed() const;  ///< Is a node?
 
   /// Is it in quarantine, because its motion has no finite solution? It stands and collides with nothing
   /// until its position or velocity is set; then it is back in the shape in which it was made.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "physics/geometry/Reserve.h"
 namespace naiad::physics {
 
 namespace {
@@ -16,6 +17,9 @@ namespace {
 constexpr std::size_t kMaxHeaped = 32;   // of which a proxy keeps all pairs that it finds …
 constexpr std::size_t kKeptHeaped = 16;  // … and of more only the nearest
 constexpr std::size_t kCollected = 64;   // before the farthest are dropped
+// A tree is built in about a quarter of the time that it takes to move each of its leaves.
+constexpr std::size_t kRebuiltShare = 4;
+constexpr std::size_t kRebuilt = 16;  // fewer are moved
 
 std::int64_t twiceMiddle(std::int64_t lower, std::int64_t upper) {
   return lower + upper;
@@ -50,29 +54,73 @@ std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool move
     proxy = m_free.back();
     m_free.pop_back();
   }
-  m_proxies[index(proxy)] = {
-      id, m_tree.insert(wide, static_cast<std::uint32_t>(proxy)), moves, false, false, order};
+  m_proxies[index(proxy)] = {id, BroadPhaseTree::kNone, moves, false, false, false, false, order, wide};
+  ++m_count;
+  markPending(proxy);
   markChanged(proxy);
   return proxy;
 }
 
 void BroadPhase::remove(std::int32_t proxy) {
-  assert(m_proxies[index(proxy)].leaf != BroadPhaseTree::kNone);
-  m_tree.remove(m_proxies[index(proxy)].leaf);
-  m_proxies[index(proxy)].leaf = BroadPhaseTree::kNone;
+  Proxy& own = m_proxies[index(proxy)];
+  assert(!own.is_removed);
+  if (own.leaf != BroadPhaseTree::kNone) m_tree.remove(own.leaf);
+  own.leaf = BroadPhaseTree::kNone;
+  own.is_removed = true;
+  --m_count;
   markChanged(proxy);  // its number is free only after its pairs are gone
 }
 
 bool BroadPhase::move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide) {
-  const std::int32_t leaf = m_proxies[index(proxy)].leaf;
-  if (contains(m_tree.bounds(leaf), tight)) return false;
+  if (contains(m_proxies[index(proxy)].bounds, tight)) return false;
   set(proxy, wide);
   return true;
 }
 
 void BroadPhase::set(std::int32_t proxy, const GridBounds& bounds) {
-  m_tree.move(m_proxies[index(proxy)].leaf, bounds);
+  m_proxies[index(proxy)].bounds = bounds;
+  markPending(proxy);
   markChanged(proxy);
+}
+
+void BroadPhase::markPending(std::int32_t proxy) {
+  if (m_proxies[index(proxy)].is_pending) return;
+  m_proxies[index(proxy)].is_pending = true;
+  m_pending.push_back(proxy);
+}
+
+// Where many have new bounds the tree is built again.
+void BroadPhase::updateTree() {
+  if (m_pending.empty()) return;
+  const bool are_many = m_pending.size() >= kRebuilt && m_pending.size() * kRebuiltShare >= m_count;
+  for (const std::int32_t proxy : m_pending) {
+    Proxy& own = m_proxies[index(proxy)];
+    own.is_pending = false;
+    if (are_many || own.is_removed) continue;
+    if (own.leaf == BroadPhaseTree::kNone) {
+      own.leaf = m_tree.insert(own.bounds, static_cast<std::uint32_t>(proxy));
+    } else {
+      m_tree.move(own.leaf, own.bounds);
+    }
+  }
+  m_pending.clear();
+  if (are_many) rebuildTree();
+}
+
+void BroadPhase::rebuildTree() {
+  m_leaves.clear();
+  m_leaf_proxies.clear();
+  reserveFor(m_leaves, m_count);
+  reserveFor(m_leaf_proxies, m_count);
+  for (std::size_t i = 0; i < m_proxies.size(); ++i) {
+    if (m_proxies[i].is_removed) continue;
+    m_leaves.push_back({m_proxies[i].bounds, static_cast<std::uint32_t>(i)});
+    m_leaf_proxies.push_back(static_cast<std::int32_t>(i));
+  }
+  m_leaf_numbers.resize(m_leaves.size());
+  m_tree.rebuild(m_leaves, m_leaf_numbers);
+  for (std::size_t i = 0; i < m_leaves.size(); ++i)
+    m_proxies[index(m_leaf_proxies[i])].leaf = m_leaf_numbers[i];
 }
 
 void BroadPhase::markChanged(std::int32_t proxy) {
@@ -98,7 +146,7 @@ void BroadPhase::keepNearest() {
 // Of two changed proxies, the one that comes first finds the pair.
 void BroadPhase::findPairs(std::int32_t proxy) {
   Proxy& own = m_proxies[index(proxy)];
-  const GridBounds bounds = m_tree.bounds(own.leaf);
+  const GridBounds bounds = own.bounds;
   m_heaped.clear();
   own.is_thinned = false;
   double farthest = std::numeric_limits<double>::infinity();  // of those that may be kept
@@ -108,7 +156,7 @@ void BroadPhase::findPairs(std::int32_t proxy) {
     if (other == proxy || (that.changed && isBefore(other, proxy)) || !(own.moves || that.moves)) return;
     const BroadPhasePair pair = own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
                                                  : BroadPhasePair{that.id, own.id, other, proxy};
-    const GridBounds& its = m_tree.bounds(that.leaf);
+    const GridBounds& its = that.bounds;
     if (!(m_thins_crowds && own.moves && that.moves && areHeaped(bounds, its))) {
       m_found.push_back(pair);
       return;
@@ -148,9 +196,10 @@ void BroadPhase::sortFound() {
 
 std::span<const BroadPhasePair> BroadPhase::updatePairs() {
   if (m_changed.empty()) return m_pairs;
+  updateTree();
   m_found.clear();
   for (const std::int32_t proxy : m_changed) {
-    if (m_proxies[index(proxy)].leaf != BroadPhaseTree::kNone) findPairs(proxy);
+    if (!m_proxies[index(proxy)].is_removed) findPairs(proxy);
   }
   sortFound();
   // Old pairs of changed bodies were found again if they still are any.
@@ -165,7 +214,7 @@ std::span<const BroadPhasePair> BroadPhase::updatePairs() {
   m_pairs.swap(m_spare);
   for (const std::int32_t proxy : m_changed) {
     m_proxies[index(proxy)].changed = false;
-    if (m_proxies[index(proxy)].leaf == BroadPhaseTree::kNone) m_free.push_back(proxy);
+    if (m_proxies[index(proxy)].is_removed) m_free.push_back(proxy);
   }
   m_changed.clear();
   return m_pairs;

@@ -39,7 +39,7 @@ class BroadPhase {
   bool move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide);
   /// It gets these bounds.
   void set(std::int32_t proxy, const GridBounds& bounds);
-  const GridBounds& bounds(std::int32_t proxy) const { return m_tree.bounds(m_proxies[index(proxy)].leaf); }
+  const GridBounds& bounds(std::int32_t proxy) const { return m_proxies[index(proxy)].bounds; }
 
   /// All pairs, ordered by (id_a, id_b), good until the next call. Pairs whose bounds ceased to overlap are
   /// gone. Work is done for what was added, removed or given new bounds since the last call.
@@ -47,12 +47,14 @@ class BroadPhase {
 
   /// visit(id) for every body whose bounds overlap; in no particular order, but always the same one.
   template <class Visit>
-  void query(const GridBounds& bounds, Visit&& visit) const {
+  void query(const GridBounds& bounds, Visit&& visit) {
+    updateTree();
     m_tree.query(bounds, [&](std::uint32_t proxy) { visit(m_proxies[proxy].id); });
   }
   /// visit(id, limit) → new limit, as of BroadPhaseTree.
   template <class Visit>
-  void castRay(const Place& from, Vec2 displacement, Visit&& visit) const {
+  void castRay(const Place& from, Vec2 displacement, Visit&& visit) {
+    updateTree();
     m_tree.castRay(from, displacement,
                    [&](std::uint32_t proxy, double limit) { return visit(m_proxies[proxy].id, limit); });
   }
@@ -60,16 +62,22 @@ class BroadPhase {
   /// Has it found so many in one place that some are left out of its pairs?
   bool isThinned(std::int32_t proxy) const { return m_proxies[index(proxy)].is_thinned; }
 
-  const BroadPhaseTree& tree() const { return m_tree; }
+  const BroadPhaseTree& tree() {
+    updateTree();
+    return m_tree;
+  }
 
  private:
   struct Proxy {
     std::uint32_t id;
-    std::int32_t leaf;  // kNone: removed
+    std::int32_t leaf;  // kNone: not in the tree
     bool moves;
     bool changed;  // it is in m_changed
+    bool is_removed;
+    bool is_pending;  // its bounds are not those in the tree yet
     bool is_thinned;
     std::uint64_t order;
+    GridBounds bounds;
   };
   static std::size_t index(std::int32_t proxy) { return static_cast<std::size_t>(proxy); }
   struct Heaped {
@@ -78,6 +86,9 @@ class BroadPhase {
     BroadPhasePair pair;
   };
   void markChanged(std::int32_t proxy);
+  void markPending(std::int32_t proxy);
+  void updateTree();
+  void rebuildTree();
   void findPairs(std::int32_t proxy);
   bool isBefore(std::int32_t a, std::int32_t b) const;
   void keepNearest();
@@ -88,6 +99,10 @@ class BroadPhase {
   std::vector<Proxy> m_proxies;
   std::vector<std::int32_t> m_free;
   std::vector<std::int32_t> m_changed;
+  std::vector<std::int32_t> m_pending;
+  std::size_t m_count = 0;                     // of bodies that are in it
+  std::vector<BroadPhaseTree::Leaf> m_leaves;  // of a tree that is built again
+  std::vector<std::int32_t> m_leaf_proxies, m_leaf_numbers;
   std::vector<BroadPhasePair> m_pairs, m_found, m_spare;
   std::vector<Heaped> m_heaped;
 };

@@ -1,9 +1,11 @@
 #include "physics/broadphase/BroadPhaseTree.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstdlib>
 #include <utility>
 
+#include "physics/geometry/Reserve.h"
 namespace naiad::physics {
 
 std::int32_t BroadPhaseTree::allocate() {
@@ -41,6 +43,55 @@ void BroadPhaseTree::move(std::int32_t leaf, const GridBounds& bounds) {
   detach(leaf);
   node(leaf).bounds = bounds;
   attach(leaf);
+}
+
+void BroadPhaseTree::rebuild(std::span<const Leaf> of, std::span<std::int32_t> leaves) {
+  m_nodes.clear();
+  m_root = m_free = m_spare = kNone;
+  reserveFor(m_nodes, 2 * of.size());
+  m_middles.clear();
+  reserveFor(m_middles, of.size());
+  for (const Leaf& leaf : of) {
+    const GridBounds& b = leaf.bounds;
+    m_middles.push_back(
+        {b.lower_x + b.upper_x, b.lower_y + b.upper_y, static_cast<std::int32_t>(m_middles.size())});
+  }
+  if (!of.empty()) m_root = build(m_middles, kNone, of, leaves);
+}
+
+// Depth first, so that what is near in the tree is near in memory. Halves bound the depth.
+std::int32_t BroadPhaseTree::build(std::span<Middle> middles, std::int32_t parent, std::span<const Leaf> of,
+                                   std::span<std::int32_t> leaves) {
+  const auto made = static_cast<std::int32_t>(m_nodes.size());
+  if (middles.size() == 1) {
+    const std::int32_t i = middles[0].index;
+    const Leaf& leaf = of[index(i)];
+    m_nodes.push_back({leaf.bounds, parent, {kNone, kNone}, leaf.value});
+    return leaves[index(i)] = made;
+  }
+  m_nodes.push_back({{}, parent, {kNone, kNone}, 0});
+  std::int64_t low_x = middles[0].x, high_x = low_x, low_y = middles[0].y, high_y = low_y;
+  for (const Middle& m : middles) {
+    low_x = std::min(low_x, m.x), high_x = std::max(high_x, m.x);
+    low_y = std::min(low_y, m.y), high_y = std::max(high_y, m.y);
+  }
+  const auto half = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
+  if (high_x - low_x >= high_y - low_y) {
+    std::nth_element(middles.begin(), half, middles.end(), [](const Middle& a, const Middle& b) {
+      return a.x != b.x ? a.x < b.x : a.index < b.index;
+    });
+  } else {
+    std::nth_element(middles.begin(), half, middles.end(), [](const Middle& a, const Middle& b) {
+      return a.y != b.y ? a.y < b.y : a.index < b.index;
+    });
+  }
+  const std::int32_t first = build({middles.begin(), half}, made, of, leaves);
+  const std::int32_t second = build({half, middles.end()}, made, of, leaves);
+  Node& n = node(made);
+  n.child[0] = first;
+  n.child[1] = second;
+  n.bounds = unite(node(first).bounds, node(second).bounds);
+  return made;
 }
 
 // Goes down where the growth of everything passed is least, and stops where a new pair would cost no more.

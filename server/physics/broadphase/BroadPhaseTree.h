@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "physics/broadphase/BroadPhaseBounds.h"
@@ -26,6 +27,14 @@ class BroadPhaseTree {
   void remove(std::int32_t leaf);
   /// The leaf keeps its number.
   void move(std::int32_t leaf, const GridBounds& bounds);
+
+  /// A tree of these leaves alone, divided in halves: what n insertions do, in a quarter of the time. Leaves
+  /// get other numbers, which are written to `leaves`.
+  struct Leaf {
+    GridBounds bounds;
+    std::uint32_t value;
+  };
+  void rebuild(std::span<const Leaf> of, std::span<std::int32_t> leaves);
 
   const GridBounds& bounds(std::int32_t leaf) const { return m_nodes[index(leaf)].bounds; }
   std::uint32_t value(std::int32_t leaf) const { return m_nodes[index(leaf)].value; }
@@ -63,12 +72,19 @@ class BroadPhaseTree {
   void replaceChild(std::int32_t parent, std::int32_t old_child, std::int32_t new_child);
   void refitUpwards(std::int32_t i);
   void rotate(std::int32_t i);
+  struct Middle {  // of a leaf, times two
+    std::int64_t x, y;
+    std::int32_t index;
+  };
+  std::int32_t build(std::span<Middle> middles, std::int32_t parent, std::span<const Leaf> of,
+                     std::span<std::int32_t> leaves);
 
   std::vector<Node> m_nodes;
   std::int32_t m_root = kNone;
   std::int32_t m_free = kNone;
   std::int32_t m_spare = kNone;  // the inner node that a leaf keeps while it is moved
   mutable std::vector<std::int32_t> m_stack;
+  std::vector<Middle> m_middles;
 };
 
 template <class Visit>

@@ -112,7 +112,7 @@ bool stillGood(const TurnedShape& owner, const TurnedShape& other, Vec2 offset, 
 }  // namespace
 
 bool collide(const TurnedShape& a, const TurnedShape& b, Vec2 offset, double speculative, ReferenceFace kept,
-             Manifold& manifold) {
+             Manifold& manifold, bool prefers_faces) {
   const double enough = a.radius + b.radius + speculative;
   manifold.count = 0;
   const FaceSeparation face_a = bestFace(a, b, offset, enough);
@@ -131,6 +131,13 @@ bool collide(const TurnedShape& a, const TurnedShape& b, Vec2 offset, double spe
   }
   const Separation s = separationFrom(a, b, offset, face_a, face_b);
   if (s.distance > enough) return false;
+  if (prefers_faces && s.feature == Feature::kVertices && a.count > 2 && b.count > 2) {
+    const bool is_of_a = face_a.distance >= face_b.distance;
+    if (is_of_a ? facePoints(a, b, offset, face_a, true, speculative, manifold)
+                : facePoints(b, a, -offset, face_b, false, speculative, manifold)) {
+      if (manifold.count == 2) return true;
+    }
+  }
   if (s.feature == Feature::kVertices || a.count == 1 || b.count == 1) {
     onePoint(a, b, offset, s, manifold);
     return true;

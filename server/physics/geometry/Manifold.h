@@ -42,9 +42,11 @@ struct Manifold {
 
 /// `offset` is from A's origin to B's, a difference of two places. Points with a gap beyond `speculative` are
 /// left out. Without `kept` the smallest separation is exact; with it, within the hysteresis. Returns whether
-/// there is a point; if not, of `manifold` only the count is written.
+/// there is a point; if not, of `manifold` only the count is written. `prefers_faces`: two polygons whose
+/// nearest points are corners, yet of which one has an edge in front of the other's, get the two points of
+/// these edges; which corner is the nearest one may be another one before they meet.
 bool collide(const TurnedShape& a, const TurnedShape& b, Vec2 offset, double speculative, ReferenceFace kept,
-             Manifold& manifold);
+             Manifold& manifold, bool prefers_faces = false);
 
 /// For a pair that is tested once: turns the shapes first.
 bool collide(const ConvexShape& a, Rotation rotation_a, const ConvexShape& b, Rotation rotation_b,

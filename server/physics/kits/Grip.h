@@ -33,8 +33,8 @@ class Grip {
   int grab(Vector where, double strength = kUsualStrength);
   /// Pulls it towards `where`. Return 0, else -1: nothing is held, or the place is out of range.
   int dragTo(Vector where);
-  void release();
-  bool isHolding() const;
+  void release();          ///< Let go; nothing if it holds nothing.
+  bool isHolding() const;  ///< Does it hold a body that is there?
 
  private:
   Joint m_joint;

@@ -15,18 +15,34 @@ constexpr double kStiffness = 1e4;
 constexpr double kRounding = 1e-14;  // of the largest impulse: no sum of impulses is known better
 constexpr int kSpareRounds = 2;  // to bring velocities and impulses together, once rows are as they should be
 
-// The row's Jacobian at one of its bodies.
-struct Lever {
-  double x[3];
-};
-Lever leverA(const DirectRow& row) {
-  return {{-row.n.x, -row.n.y, row.ja}};
-}
-Lever leverB(const DirectRow& row) {
-  return {{row.n.x, row.n.y, row.jb}};
-}
-
 }  // namespace
+
+// The row's Jacobian at one of its bodies.
+struct RigidDirect::Lever {
+  Two low;
+  double high;
+  Lever times(const Lever& by) const { return Lever{low * by.low, high * by.high}; }
+};
+
+// Three rows and columns of the matrix.
+struct RigidDirect::Corner {
+  Two low[3];
+  double high[3];
+  void add(double k, const Lever& p, const Lever& q) {
+    const double parts[3] = {k * p.low[0], k * p.low[1], k * p.high};
+    for (int r = 0; r < 3; ++r) {
+      low[r] += parts[r] * q.low;
+      high[r] += parts[r] * q.high;
+    }
+  }
+};
+
+RigidDirect::Lever RigidDirect::leverA(const DirectRow& row) {
+  return Lever{Two{-row.n.x, -row.n.y}, row.ja};
+}
+RigidDirect::Lever RigidDirect::leverB(const DirectRow& row) {
+  return Lever{Two{row.n.x, row.n.y}, row.jb};
+}
 
 void RigidDirect::begin(std::span<const int> bodies, std::span<const RigidState> states) {
   for (const int body : m_bodies) m_local[at(body)] = -1;
@@ -174,31 +190,68 @@ void RigidDirect::assemble() {
       m_matrix[at(m_row_at[at(k)] + k)] = m_mass[i].x[c] > 0 ? m_mass[i].x[c] : 1;
     }
   }
-  const auto add = [&](std::int32_t i, const Lever& p, std::int32_t j, const Lever& q, double k) {
-    const std::int64_t row = 3 * static_cast<std::int64_t>(m_rank[at(i)]),
-                       column = 3 * static_cast<std::int64_t>(m_rank[at(j)]);
-    for (std::int64_t r = 0; r < 3; ++r) {
-      const double part = m_mass[at(i)].x[r] > 0 ? k * p.x[r] : 0;
-      double* const line = m_matrix.data() + m_row_at[at(row + r)] + column;
-      const std::int64_t last = i == j ? r : 2;
-      for (std::int64_t s = 0; s <= last; ++s) {
-        if (m_mass[at(j)].x[s] > 0) line[s] += part * q.x[s];
-      }
+  for (std::size_t i = 0, end = 0; i < m_rows.size(); i = end) {  // the rows of a contact, or of a joint
+    for (end = i + 1; end < m_rows.size(); ++end) {
+      if (m_rows[end].a != m_rows[i].a || m_rows[end].b != m_rows[i].b) break;
     }
-  };
-  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    addStiffness(i, end);
+  }
+}
+
+// Of rows between the same two bodies: the three corners of the matrix that they are in are read and written
+// once. Each entry is the same sum in the same order as row by row.
+void RigidDirect::addStiffness(std::size_t begin, std::size_t end) {
+  const std::int32_t a = m_rows[begin].a, b = m_rows[begin].b;
+  const bool has_a = a >= 0, has_b = b >= 0;
+  const bool is_a_later = has_a && has_b && m_rank[at(a)] > m_rank[at(b)];
+  const std::int32_t later = is_a_later ? a : b, earlier = is_a_later ? b : a;
+  const Lever free_a = freeOf(a), free_b = freeOf(b);
+  Corner of_a = cornerOf(a, a), of_b = cornerOf(b, b), between = cornerOf(later, earlier);
+  for (std::size_t i = begin; i < end; ++i) {
     if (m_side[i] != Side::kFree) continue;
     const DirectRow& row = m_rows[i];
     const double k = row.softness > 0 ? 1 / row.softness : m_stiffness[i];
-    const Lever a = leverA(row), b = leverB(row);
-    if (row.a >= 0) add(row.a, a, row.a, a, k);
-    if (row.b >= 0) add(row.b, b, row.b, b, k);
-    if (row.a < 0 || row.b < 0) continue;
-    if (m_rank[at(row.a)] > m_rank[at(row.b)]) {
-      add(row.a, a, row.b, b, k);
-    } else {
-      add(row.b, b, row.a, a, k);
-    }
+    const Lever p = leverA(row).times(free_a), q = leverB(row).times(free_b);
+    of_a.add(k, p, p);
+    of_b.add(k, q, q);
+    is_a_later ? between.add(k, p, q) : between.add(k, q, p);
+  }
+  setCorner(a, a, of_a);
+  setCorner(b, b, of_b);
+  setCorner(later, earlier, between);
+}
+
+// 0 in what is fixed, and of what is not there.
+RigidDirect::Lever RigidDirect::freeOf(std::int32_t body) const {
+  if (body < 0) return Lever{Two{}, 0};
+  const auto isFree = [&](std::size_t c) { return m_mass[at(body)].x[c] > 0 ? 1.0 : 0.0; };
+  return Lever{Two{isFree(0), isFree(1)}, isFree(2)};
+}
+
+// Of one body, what is above the diagonal is not used.
+RigidDirect::Corner RigidDirect::cornerOf(std::int32_t i, std::int32_t j) {
+  Corner corner = {};
+  if (i < 0 || j < 0) return corner;
+  const std::int64_t row = 3 * static_cast<std::int64_t>(m_rank[at(i)]);
+  const std::int64_t column = 3 * static_cast<std::int64_t>(m_rank[at(j)]);
+  for (std::int64_t r = 0; r < 3; ++r) {
+    const double* const line = lineOf(row + r) + column;
+    corner.low[r][0] = line[0];
+    if (i != j || r > 0) corner.low[r][1] = line[1];
+    if (i != j || r > 1) corner.high[r] = line[2];
+  }
+  return corner;
+}
+
+void RigidDirect::setCorner(std::int32_t i, std::int32_t j, const Corner& corner) {
+  if (i < 0 || j < 0) return;
+  const std::int64_t row = 3 * static_cast<std::int64_t>(m_rank[at(i)]);
+  const std::int64_t column = 3 * static_cast<std::int64_t>(m_rank[at(j)]);
+  for (std::int64_t r = 0; r < 3; ++r) {
+    double* const line = lineOf(row + r) + column;
+    line[0] = corner.low[r][0];
+    if (i != j || r > 0) line[1] = corner.low[r][1];
+    if (i != j || r > 1) line[2] = corner.high[r];
   }
 }
 
@@ -289,9 +342,11 @@ void RigidDirect::setResidual() {
     const double more = m_force[i] - row.impulse;
     const auto give = [&](std::int32_t body, const Lever& lever) {
       if (body < 0) return;
-      for (std::int32_t c = 0; c < 3; ++c) {
-        if (m_mass[at(body)].x[c] > 0) m_right[at(3 * m_rank[at(body)] + c)] += more * lever.x[c];
-      }
+      const double* const mass = m_mass[at(body)].x;
+      double* const right = &m_right[at(3 * m_rank[at(body)])];
+      if (mass[0] > 0) right[0] += more * lever.low[0];
+      if (mass[1] > 0) right[1] += more * lever.low[1];
+      if (mass[2] > 0) right[2] += more * lever.high;
     };
     give(row.a, leverA(row));
     give(row.b, leverB(row));

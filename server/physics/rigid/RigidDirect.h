@@ -60,6 +60,14 @@ class RigidDirect {
   bool setForces(bool is_first);
   void setResidual();
   void assemble();
+  struct Lever;
+  struct Corner;
+  static Lever leverA(const DirectRow& row);
+  static Lever leverB(const DirectRow& row);
+  void addStiffness(std::size_t begin, std::size_t end);
+  Lever freeOf(std::int32_t body) const;
+  Corner cornerOf(std::int32_t i, std::int32_t j);
+  void setCorner(std::int32_t i, std::int32_t j, const Corner& corner);
   bool factor();
   void reduceBlock(std::int64_t first, std::int64_t column);
   bool factorBlock(std::int64_t first, std::int64_t row);

@@ -1,6 +1,7 @@
 // What moves bodies that turn, a step at a time: RigidWorld or SubstepWorld.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,6 +33,8 @@ class RigidStepper {
  public:
   virtual ~RigidStepper() = default;
 
+  /// That many bodies will be there: memory is taken once.
+  virtual void expect(std::size_t /*bodies*/) {}
   /// `order`: unique among the bodies. Shapes are relative to the centre of mass; none: a body that touches
   /// nothing, for joints. Returns the id, or −1 if the body is not sound.
   virtual int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) = 0;

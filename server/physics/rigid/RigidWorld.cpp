@@ -4,14 +4,22 @@
 #include <cmath>
 
 #include "physics/geometry/Mass.h"
+#include "physics/geometry/Reserve.h"
 #include "shared/math/Elementary.h"
 
 namespace naiad::physics {
 
+void RigidWorld::expect(std::size_t bodies) {
+  reserveFor(m_bodies, bodies);
+  reserveFor(m_extras, bodies);
+  reserveFor(m_states, bodies);
+}
+
 int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) {
   if (!isSound(body)) return -1;
-  int id = 0;
+  int id = m_first_free;
   while (id < idLimit() && m_extras[at(id)].exists) ++id;
+  m_first_free = id + 1;
   if (id == idLimit()) {
     m_bodies.emplace_back();
     m_extras.emplace_back();
@@ -80,6 +88,7 @@ bool RigidWorld::remove(int id) {
   leave(id);
   forgetPairs(id);
   m_extras[at(id)].exists = false;
+  m_first_free = std::min(m_first_free, id);
   return true;
 }
 

@@ -61,6 +61,7 @@ class RigidWorld final : public RigidStepper {
   /// Shapes are relative to the centre of mass; none: a body that touches nothing, for joints. Returns the
   /// id, the lowest free one, or −1 if the body is not sound.
   int add(const RigidBody& body, std::span<const ConvexShape> shapes);
+  void expect(std::size_t bodies) override;
   int addInOrder(std::uint64_t /*order*/, const RigidBody& body,
                  std::span<const ConvexShape> shapes) override {
     return add(body, shapes);
@@ -291,6 +292,7 @@ class RigidWorld final : public RigidStepper {
   std::vector<RigidBody> m_bodies;
   std::vector<Extra> m_extras;
   std::vector<RigidState> m_states;
+  int m_first_free = 0;  // no id below it is free
   BroadPhase m_broad;
   std::vector<Pair> m_pairs, m_pairs_before;
   std::vector<RigidContact> m_contacts;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/geometry/Index.h"
+#include "physics/geometry/Reserve.h"
 #include "physics/substep/Softness.h"
 
 namespace naiad::physics {
@@ -53,12 +54,19 @@ void scatter(std::span<SubstepState> states, const std::array<std::int32_t, kLan
 
 }  // namespace
 
+void ContactRows::clear(std::size_t rows, float h) {
+  constexpr std::size_t kOpen = 32;  // blocks that are not full
+  m_softness = softnessOf(kFastestTurns, kContactDamping, h);
+  m_held_softness = softnessOf(2 * kFastestTurns, kContactDamping, h);
+  m_blocks.clear();
+  reserveFor(m_blocks, rows / kLanes + kOpen);
+}
+
 void ContactRows::beginBlock() {
   m_blocks.emplace_back();
 }
 
-std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory,
-                              float h) {
+std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory) {
   Block& block = m_blocks.back();
   const int lane = block.count++;
   block.a[at(lane)] = row.a, block.b[at(lane)] = row.b;
@@ -73,7 +81,7 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.max_push[lane] = row.max_push;
   block.rest[lane] = row.rest;
   block.bounces = block.bounces || row.restitution > 0;
-  const Softness softness = softnessOf(row.is_held ? 2 * kFastestTurns : kFastestTurns, kContactDamping, h);
+  const Softness& softness = row.is_held ? m_held_softness : m_softness;
   block.rate[lane] = softness.rate;
   block.mass_scale[lane] = softness.mass_scale;
   block.impulse_scale[lane] = softness.impulse_scale;
@@ -84,7 +92,7 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
     const auto ax = static_cast<float>(from.anchor_a.x), ay = static_cast<float>(from.anchor_a.y);
     const auto bx = static_cast<float>(from.anchor_b.x), by = static_cast<float>(from.anchor_b.y);
     to.ax[lane] = ax, to.ay[lane] = ay, to.bx[lane] = bx, to.by[lane] = by;
-    to.gap[lane] = static_cast<float>(from.separation);
+    to.gap[lane] = to.gap_now[lane] = static_cast<float>(from.separation);
     to.approach[lane] = nx * (static_cast<float>(row.velocity.x) - row.spin_b * by + row.spin_a * ay) +
                         ny * (static_cast<float>(row.velocity.y) + row.spin_b * bx - row.spin_a * ax);
     const float normal_a = ax * ny - ay * nx, normal_b = bx * ny - by * nx;
@@ -119,13 +127,23 @@ void ContactRows::warmStart(std::span<SubstepState> states) {
   }
 }
 
+// Bodies have moved; levers turn with them.
+void ContactRows::updateGaps(Block& k, std::span<const SubstepState> states, float time) {
+  const Moved at_a = gatherMoved(states, k.a), at_b = gatherMoved(states, k.b);
+  const Lanes x = at_b.x - at_a.x + time * k.vx, y = at_b.y - at_a.y + time * k.vy;
+  for (std::int32_t i = 0; i < k.points; ++i) {
+    Point& p = k.point[at(i)];
+    const Lanes dx = x + (at_b.c * p.bx - at_b.s * p.by - p.bx) - (at_a.c * p.ax - at_a.s * p.ay - p.ax);
+    const Lanes dy = y + (at_b.s * p.bx + at_b.c * p.by - p.by) - (at_a.s * p.ax + at_a.c * p.ay - p.ay);
+    p.gap_now = p.gap + dx * k.nx + dy * k.ny;
+  }
+}
+
 template <bool kIsSoft>
 void ContactRows::solveRows(std::span<SubstepState> states, float h, float time) {
   const Lanes zero = {}, one = lanesOf(1), inverse_h = lanesOf(1 / h);
   for (Block& k : m_blocks) {
     Body a = gather(states, k.a), b = gather(states, k.b);
-    const Moved at_a = gatherMoved(states, k.a), at_b = gatherMoved(states, k.b);
-    const Lanes x = at_b.x - at_a.x + time * k.vx, y = at_b.y - at_a.y + time * k.vy;
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
       const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
@@ -142,12 +160,10 @@ void ContactRows::solveRows(std::span<SubstepState> states, float h, float time)
       b.vx += k.inverse_mass_b * px, b.vy += k.inverse_mass_b * py;
       b.spin += k.inverse_inertia_b * (p.bx * py - p.by * px);
     }
+    if constexpr (!kIsSoft) updateGaps(k, states, time);
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
-      // The levers turn with their bodies.
-      const Lanes dx = x + (at_b.c * p.bx - at_b.s * p.by - p.bx) - (at_a.c * p.ax - at_a.s * p.ay - p.ax);
-      const Lanes dy = y + (at_b.s * p.bx + at_b.c * p.by - p.by) - (at_a.s * p.ax + at_a.c * p.ay - p.ay);
-      const Lanes gap = p.gap + dx * k.nx + dy * k.ny;
+      const Lanes gap = p.gap_now;
       const LaneMask is_open = gap > zero;
       const Lanes soft_bias = kIsSoft ? larger(k.rate * gap, -k.max_push) : zero;
       const Lanes bias = select(is_open, gap * inverse_h, soft_bias);

@@ -14,6 +14,7 @@
 
 #include "physics/geometry/Manifold.h"
 #include "physics/substep/Lanes.h"
+#include "physics/substep/Softness.h"
 #include "physics/substep/SubstepBody.h"
 
 namespace naiad::physics {
@@ -39,14 +40,15 @@ struct ContactImpulse {
 
 class ContactRows {
  public:
-  void clear() { m_blocks.clear(); }
+  /// `rows`: as many will be added, for sub-steps over `h`.
+  void clear(std::size_t rows, float h);
   /// Rows of one block have no movable body in common: at most kLanes of them, then a new block must begin.
   void beginBlock();
   /// Returns where its impulses are read from.
-  std::int32_t add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory, float h);
+  std::int32_t add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory);
 
   void warmStart(std::span<SubstepState> states);
-  /// `time`: since the step began.
+  /// `time`: since the step began. Softly before bodies move, then, where they are, without softness.
   void solve(std::span<SubstepState> states, float h, float time, bool is_soft) {
     is_soft ? solveRows<true>(states, h, time) : solveRows<false>(states, h, time);
   }
@@ -62,6 +64,7 @@ class ContactRows {
   struct Point {
     Lanes ax = {}, ay = {}, bx = {}, by = {};  // levers about both centres
     Lanes gap = {};                            // at the start, less what the levers say of it
+    Lanes gap_now = {};                        // since bodies moved last
     Lanes normal_mass = {}, tangent_mass = {};
     Lanes normal = {}, friction = {}, total = {};
     Lanes approach = {};  // normal speed at the start of the step
@@ -78,7 +81,9 @@ class ContactRows {
     bool bounces = false;            // any of them
     std::array<Point, 2> point;
   };
+  static void updateGaps(Block& block, std::span<const SubstepState> states, float time);
   std::vector<Block> m_blocks;
+  Softness m_softness, m_held_softness;
 };
 
 }  // namespace naiad::physics

@@ -23,6 +23,9 @@ struct SubstepBody {
   RigidBody body;
   std::vector<ConvexShape> shapes;
   std::vector<TurnedShape> turned;
+  Bounds bounds = {};                             ///< of `turned`
+  Rotation turned_at;                             ///< what `turned` was made for …
+  std::uint32_t turned_version = 0, version = 0;  ///< … and of which shapes
   std::uint64_t order = 0;
   std::int32_t proxy = -1;                      ///< in the broad phase
   std::int32_t state = 0;                       ///< within a step; 0: nothing moves it
@@ -38,7 +41,7 @@ struct SubstepBody {
   double first_speed = 0;                       ///< when it began to be still
   std::int32_t ring = -1;                       ///< the next body that fell asleep with it
   std::uint64_t colours = 0, held_colours = 0;  ///< of its contacts in this step
-  bool is_swept = false;                        ///< its bounds in the broad phase are those of its last path
+  bool is_fast = false;                         ///< it goes farther than contacts were searched for
   bool exists = false, is_asleep = false, is_frozen = false;
   bool is_changed = false;  ///< it cannot be moved, and was set or removed since the last step
 };

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "physics/geometry/Reserve.h"
 #include "physics/substep/SubstepWorld.h"
 
 namespace naiad::physics {
@@ -18,6 +19,7 @@ constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 // In thicknesses of the thinner body.
 constexpr double kMaxPush = 0.2;  // per tick: the greatest speed at which overlap is undone
 constexpr double kLinger = 0.01;  // a larger gap ends a contact
+constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
 // In what acceleration adds to a speed in a tick: slower impacts do not bounce.
 constexpr float kRest = 2;
 
@@ -84,6 +86,7 @@ void SubstepWorld::updatePairs() {
   const std::span<const BroadPhasePair> found = m_broad.updatePairs();
   m_pairs.swap(m_pairs_before);
   m_pairs.clear();
+  reserveFor(m_pairs, found.size());
   auto old = m_pairs_before.begin();
   const auto drop = [&] {
     endPair(*old);
@@ -108,9 +111,54 @@ void SubstepWorld::updatePairs() {
   m_joints_changed = false;
 }
 
+// Brings the gaps up to date, if the bodies have hardly moved against each other since they were found.
+bool SubstepWorld::keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset) {
+  const double most = kKept * std::min(a.thickness, b.thickness);
+  if (a.margin + b.margin > memory.margin + most || memory.version_a != a.version ||
+      memory.version_b != b.version)
+    return false;
+  const Vec2 moved = offset - memory.offset;
+  const auto turnSince = [](Rotation before, Rotation now) { return before.c * now.s - before.s * now.c; };
+  const double turn_a = turnSince(memory.rotation_a, a.body.rotation);
+  const double turn_b = turnSince(memory.rotation_b, b.body.rotation);
+  const double roll = std::fabs(turn_a) * a.reach + std::fabs(turn_b) * b.reach;
+  if (!(lengthSquared(moved) <= most * most && roll <= most)) return false;
+  for (std::int32_t k = 0; k < memory.manifold.count; ++k) {
+    ManifoldPoint& point = memory.manifold.points[at(k)];
+    const Vec2 apart = moved + cross(turn_b, point.anchor_b) - cross(turn_a, point.anchor_a);
+    point.separation = memory.gap[at(k)] + dot(memory.manifold.normal, apart);
+  }
+  return true;
+}
+
+// Do the two shapes touch, or nearly? Their contact is made if there is none yet, or freed.
+bool SubstepWorld::findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
+                                std::int32_t shape_b, Vec2 offset) {
+  if (memory >= 0 && keepsManifold(m_memory[at(memory)], a, b, offset)) return true;
+  const double margin = a.margin + b.margin;
+  const ReferenceFace kept = memory >= 0 ? m_memory[at(memory)].manifold.reference : ReferenceFace{};
+  Manifold manifold;
+  turnShapes(a);
+  turnShapes(b);
+  if (!collide(a.turned[at(shape_a)], b.turned[at(shape_b)], offset, margin, kept, manifold, true)) {
+    if (memory >= 0) freeMemory(memory);
+    return false;
+  }
+  if (memory < 0) memory = makeMemory();
+  Memory& found = m_memory[at(memory)];
+  found.shape_a = shape_a, found.shape_b = shape_b;
+  found.manifold = manifold;
+  found.offset = offset;
+  found.rotation_a = a.body.rotation, found.rotation_b = b.body.rotation;
+  found.gap = {manifold.points[0].separation, manifold.points[1].separation};
+  found.margin = margin;
+  found.version_a = a.version, found.version_b = b.version;
+  return true;
+}
+
 void SubstepWorld::updatePair(std::int32_t index) {
   Pair& pair = m_pairs[at(index)];
-  const SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
+  SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
   const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
   if (pair.is_seen || !is_met || (!isMovable(a) && !isMovable(b))) return;
   pair.is_seen = true;
@@ -133,24 +181,16 @@ void SubstepWorld::updatePair(std::int32_t index) {
         memory = old;
         old = m_memory[at(old)].next;
       }
-      const ReferenceFace kept = memory >= 0 ? m_memory[at(memory)].reference : ReferenceFace{};
-      Contact& contact = m_contacts.emplace_back();
-      if (!collide(a.turned[at(i)], b.turned[at(j)], offset, margin, kept, contact.manifold)) {
-        m_contacts.pop_back();
-        if (memory >= 0) freeMemory(memory);
-        continue;
-      }
-      if (memory < 0) memory = makeMemory();
+      if (!findManifold(memory, a, b, i, j, offset)) continue;
       (last >= 0 ? m_memory[at(last)].next : pair.first) = memory;
       last = memory;
       Memory& known = m_memory[at(memory)];
       known.next = -1;
-      known.shape_a = i, known.shape_b = j;
-      known.reference = contact.manifold.reference;
+      Contact& contact = m_contacts.emplace_back();
       contact.pair = index, contact.memory = memory;
       contact.a = pair.a, contact.b = pair.b;
-      for (std::int32_t k = 0; k < contact.manifold.count; ++k) {
-        const ManifoldPoint& point = contact.manifold.points[at(k)];
+      for (std::int32_t k = 0; k < known.manifold.count; ++k) {
+        const ManifoldPoint& point = known.manifold.points[at(k)];
         is_near = is_near || point.separation <= linger;
         m_deepest = std::max(m_deepest, -point.separation);
         for (std::int32_t l = 0; l < known.count; ++l) {
@@ -191,6 +231,8 @@ void SubstepWorld::updateContacts() {
   m_contacts.clear();
   m_deepest = 0;
   const auto pairs = static_cast<std::int32_t>(m_pairs.size());
+  reserveFor(m_contacts, m_pairs.size());
+  reserveFor(m_memory, m_pairs.size());
   bool is_sorted = !m_is_shuffled;
   for (std::size_t first = 0;;) {
     for (std::int32_t i = 0; i < pairs; ++i) updatePair(i);
@@ -253,7 +295,7 @@ void SubstepWorld::chooseColours() {
 }
 
 void SubstepWorld::fillRows() {
-  m_rows.clear();
+  m_rows.clear(m_by_colour.size(), m_h);
   std::int32_t colour = -1;
   std::size_t in_block = 0;
   for (const std::int32_t i : m_by_colour) {
@@ -281,7 +323,7 @@ void SubstepWorld::fillRows() {
       return of.state > 0 ? std::fabs(of.kick_x) + std::fabs(of.kick_y) : 0.0f;
     };
     row.rest = kRest * static_cast<float>(m_options.substeps) * std::max(gain(a), gain(b));
-    contact.place = m_rows.add(row, contact.manifold, contact.impulse, m_h);
+    contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse);
   }
   m_counters.blocks += static_cast<std::int64_t>(m_rows.blocks());
 }
@@ -290,9 +332,9 @@ void SubstepWorld::storeContacts() {
   for (const Contact& contact : m_contacts) {
     const ContactImpulse impulse = m_rows.impulse(contact.place);
     Memory& known = m_memory[at(contact.memory)];
-    known.count = contact.manifold.count;
+    known.count = known.manifold.count;
     for (std::int32_t k = 0; k < known.count; ++k) {
-      known.id[at(k)] = contact.manifold.points[at(k)].id;
+      known.id[at(k)] = known.manifold.points[at(k)].id;
       known.normal[at(k)] = impulse.normal[at(k)];
       known.friction[at(k)] = impulse.friction[at(k)];
     }
@@ -303,7 +345,7 @@ void SubstepWorld::storeContacts() {
     if (pair.is_touching) continue;
     pair.is_touching = true;
     pair.event = static_cast<std::int32_t>(m_events.size());
-    const Vec2 normal = pair.a == pair.low ? contact.manifold.normal : -contact.manifold.normal;
+    const Vec2 normal = pair.a == pair.low ? known.manifold.normal : -known.manifold.normal;
     m_events.push_back(
         {std::max(double{impulse.first}, 0.0), pair.low, pair.high, true, double{impulse.total}, normal});
   }

@@ -19,9 +19,25 @@ constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched
 constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
 constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
 
+constexpr double kAhead = 1;  // … and further in the direction in which it goes, at most
+constexpr double kTicksAhead = 2;
+
 // How far turning moves a corner in this step.
 double rollOf(const SubstepBody& b) {
   return b.state == 0 ? 0 : std::min(std::fabs(b.turn), 2.0) * b.reach;
+}
+
+Vec2 accelerationOf(const RigidBody& body) {
+  return body.inverse_mass > 0 ? body.acceleration + body.inverse_mass * body.force : Vec2{};
+}
+double spinGainOf(const RigidBody& body) {
+  return body.inverse_inertia > 0 ? body.inverse_inertia * body.torque : 0;
+}
+
+SweptBox relativeTo(const Place& origin, const GridBounds& bounds) {
+  const std::int64_t x = origin.cell_x * kGridUnits, y = origin.cell_y * kGridUnits;
+  return {{static_cast<double>(bounds.lower_x - x), static_cast<double>(bounds.lower_y - y)},
+          {static_cast<double>(bounds.upper_x - x), static_cast<double>(bounds.upper_y - y)}};
 }
 
 }  // namespace
@@ -51,10 +67,8 @@ void SubstepWorld::listActive() {
 void SubstepWorld::begin(int id) {
   SubstepBody& b = m_bodies[at(id)];
   const RigidBody& body = b.body;
-  Vec2 acceleration;
-  double spin_gain = 0;
-  if (body.inverse_mass > 0) acceleration = body.acceleration + body.inverse_mass * body.force;
-  if (body.inverse_inertia > 0) spin_gain = body.inverse_inertia * body.torque;
+  const Vec2 acceleration = accelerationOf(body);
+  const double spin_gain = spinGainOf(body);
   const double path = length(body.velocity) + length(acceleration);
   const double angle = std::fabs(body.spin) + std::fabs(spin_gain);
   if (!(path < kFarthest && angle < kFarthest)) return freeze(id);
@@ -70,15 +84,26 @@ void SubstepWorld::begin(int id) {
   b.kick_y = static_cast<float>(m_h * acceleration.y);
   b.spin_kick = static_cast<float>(m_h * spin_gain);
   if (b.proxy < 0) return;
-  const double movement = length(body.velocity + 0.5 * acceleration) + std::min(angle, 2.0) * b.reach;
-  b.margin = std::min(movement, b.thickness) + kSlack * b.thickness;
-  const Bounds bounds = turnShapes(b);
-  const GridBounds wide = gridBounds(body.place, bounds, b.margin + kBoundsSlack * b.thickness);
-  if (std::exchange(b.is_swept, false)) {
-    m_broad.set(b.proxy, wide);
-  } else {
-    m_broad.move(b.proxy, gridBounds(body.place, bounds, b.margin), wide);
-  }
+  b.margin = marginOf(b);
+  const Bounds bounds = boundsNow(b);
+  m_broad.move(b.proxy, gridBounds(body.place, bounds, b.margin), wideBounds(b, bounds));
+}
+
+double SubstepWorld::marginOf(const SubstepBody& b) {
+  const double angle = std::fabs(b.body.spin) + std::fabs(spinGainOf(b.body));
+  const double movement =
+      length(b.body.velocity + 0.5 * accelerationOf(b.body)) + std::min(angle, 2.0) * b.reach;
+  return std::min(movement, b.thickness) + kSlack * b.thickness;
+}
+
+// Room for the moves of the next steps.
+GridBounds SubstepWorld::wideBounds(const SubstepBody& b, const Bounds& bounds) {
+  const double most = kAhead * b.thickness;
+  const Vec2 ahead = {std::clamp(kTicksAhead * b.body.velocity.x, -most, most),
+                      std::clamp(kTicksAhead * b.body.velocity.y, -most, most)};
+  const Bounds swept = {bounds.lower + Vec2{std::min(ahead.x, 0.0), std::min(ahead.y, 0.0)},
+                        bounds.upper + Vec2{std::max(ahead.x, 0.0), std::max(ahead.y, 0.0)}};
+  return gridBounds(b.body.place, swept, b.margin + kBoundsSlack * b.thickness);
 }
 
 // The rotation by the half angle's tangent: of length one for any angle.
@@ -166,14 +191,21 @@ void SubstepWorld::stopFast() {
     const SubstepBody& b = m_bodies[at(id)];
     if (b.proxy >= 0 && isFast(b)) m_fast.push_back(id);
   }
+  if (m_fast.empty()) return;
+  m_paths.clear();
+  m_path_ids.clear();
+  const Place& origin = m_bodies[at(m_fast[0])].body.place;
   for (const std::int32_t id : m_fast) {  // so that they find one another
     SubstepBody& b = m_bodies[at(id)];
-    m_broad.set(b.proxy, sweptBounds(b));
-    b.is_swept = true;
+    b.is_fast = true;
+    m_path_ids.push_back(static_cast<int>(m_paths.size()));
+    m_paths.push_back(relativeTo(origin, sweptBounds(b)));
   }
-  for (const std::int32_t id : m_fast) {
-    if (isMovable(m_bodies[at(id)])) stop(id);
+  m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()));
+  for (std::size_t i = 0; i < m_fast.size(); ++i) {
+    if (isMovable(m_bodies[at(m_fast[i])])) stop(m_fast[i], m_paths[i]);
   }
+  for (const std::int32_t id : m_fast) m_bodies[at(id)].is_fast = false;
 }
 
 GridBounds SubstepWorld::sweptBounds(const SubstepBody& b) const {
@@ -191,12 +223,15 @@ bool SubstepWorld::areDeep(const SubstepBody& a, const SubstepBody& b) const {
 }
 
 // Two fast ones that meet both stop there.
-void SubstepWorld::stop(int id) {
+void SubstepWorld::stop(int id, const SweptBox& swept) {
   SubstepBody& b = m_bodies[at(id)];
   const Vec2 path = movedBy(b);
   m_near.clear();
   m_broad.query(sweptBounds(b), [&](std::uint32_t other) {
-    if (static_cast<int>(other) != id) m_near.push_back(static_cast<std::int32_t>(other));
+    if (!m_bodies[other].is_fast) m_near.push_back(static_cast<std::int32_t>(other));
+  });
+  m_path_tree.query(swept, [&](int other) {
+    if (m_fast[at(other)] != id) m_near.push_back(m_fast[at(other)]);
   });
   const auto motionOf = [&](const SubstepBody& of) -> RigidMotion {
     if (of.state == 0) return {{}, of.body.rotation, 0};
@@ -209,15 +244,15 @@ void SubstepWorld::stop(int id) {
   const bool is_thinned = m_broad.isThinned(b.proxy);
   for (const std::int32_t near : m_near) {
     const SubstepBody& other = m_bodies[at(near)];
+    const RigidMotion its = motionOf(other);
+    const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
+    if (nearer <= b.margin + other.margin + kMaxPass * std::min(b.thickness, other.thickness)) continue;
     if ((is_thinned || m_broad.isThinned(other.proxy)) && areDeep(b, other)) continue;
     const auto pair = findPair(id, near);
     const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
     if (pair != m_pairs.end() && pair->is_jointed) continue;
-    const RigidMotion its = motionOf(other);
     const Vec2 offset = other.body.place - b.body.place +
                         (other.state > 0 && other.part < 1 ? other.part * movedBy(other) : Vec2{});
-    const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
-    if (nearer <= b.margin + other.margin + kMaxPass * std::min(b.thickness, other.thickness)) continue;
     // The rows keep the points apart that they know, yet others may come down in the same tick: what is
     // pushed may turn, but its middle passes nothing.
     ConvexShape core;
@@ -226,7 +261,9 @@ void SubstepWorld::stop(int id) {
          is_pushing ? std::span<const ConvexShape>(&core, 1) : std::span<const ConvexShape>(b.shapes)) {
       for (const ConvexShape& that : other.shapes) {
         const TimeOfImpact impact = timeOfImpact(own, motion, that, its, offset);
-        if (impact.status == TimeOfImpactStatus::kApart || impact.time >= first) continue;
+        if (impact.status == TimeOfImpactStatus::kApart || impact.time > first) continue;
+        const bool is_later = impact.time == first && (met < 0 || m_bodies[at(met)].order < other.order);
+        if (is_later) continue;
         first = impact.time;
         met = near;
       }

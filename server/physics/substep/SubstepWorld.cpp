@@ -3,7 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/Reserve.h"
 namespace naiad::physics {
+
+namespace {
+
+constexpr double kRollKept = 0.02;  // thicknesses that a corner may move before bounds are measured again
+
+}  // namespace
+
+void SubstepWorld::expect(std::size_t bodies) {
+  reserveFor(m_bodies, bodies);
+  reserveFor(m_states, bodies + 1);
+  reserveFor(m_active, bodies);
+}
 
 int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
                              std::span<const ConvexShape> shapes) {
@@ -29,6 +42,7 @@ int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
 }
 
 void SubstepWorld::measure(SubstepBody& b) {
+  ++b.version;
   b.turned.resize(b.shapes.size());
   b.reach = 0;
   b.thickness = b.shapes.empty() ? 0 : kLargestShape;
@@ -38,15 +52,29 @@ void SubstepWorld::measure(SubstepBody& b) {
   }
 }
 
-Bounds SubstepWorld::turnShapes(SubstepBody& b) {
-  Bounds bounds = {{b.reach, b.reach}, {-b.reach, -b.reach}};
+// Its shapes as they are turned now; only if they are needed, and once.
+void SubstepWorld::turnShapes(SubstepBody& b) {
+  if (b.turned_at == b.body.rotation && b.turned_version == b.version) return;
+  b.turned_at = b.body.rotation;
+  b.turned_version = b.version;
+  b.bounds = {{b.reach, b.reach}, {-b.reach, -b.reach}};
   for (std::size_t i = 0; i < b.shapes.size(); ++i) {
     turn(b.shapes[i], b.body.rotation, b.turned[i]);
     const Bounds own = boundsOf(b.turned[i]);
-    bounds.lower = {std::min(bounds.lower.x, own.lower.x), std::min(bounds.lower.y, own.lower.y)};
-    bounds.upper = {std::max(bounds.upper.x, own.upper.x), std::max(bounds.upper.y, own.upper.y)};
+    b.bounds.lower = {std::min(b.bounds.lower.x, own.lower.x), std::min(b.bounds.lower.y, own.lower.y)};
+    b.bounds.upper = {std::max(b.bounds.upper.x, own.upper.x), std::max(b.bounds.upper.y, own.upper.y)};
   }
-  return bounds;
+}
+
+// A body that has hardly turned since its shapes were keeps its bounds, by so much wider.
+Bounds SubstepWorld::boundsNow(SubstepBody& b) {
+  const Rotation at = b.turned_at, now = b.body.rotation;
+  const double roll = std::fabs(at.c * now.s - at.s * now.c) * b.reach;
+  const bool is_near =
+      b.turned_version == b.version && roll <= kRollKept * b.thickness && at.c * now.c + at.s * now.s > 0;
+  if (!is_near) turnShapes(b);
+  const double wider = is_near ? 2 * roll : 0;
+  return {b.bounds.lower - Vec2{wider, wider}, b.bounds.upper + Vec2{wider, wider}};
 }
 
 // Into the broad phase.
@@ -58,9 +86,11 @@ void SubstepWorld::enter(int id) {
   m_active_changed = true;
   if (!isMovable(b)) markChanged(id);
   if (b.shapes.empty()) return;
-  const Bounds bounds = turnShapes(b);
-  b.proxy =
-      m_broad.add(static_cast<std::uint32_t>(id), gridBounds(b.body.place, bounds, 0), isMovable(b), b.order);
+  const Bounds bounds = boundsNow(b);
+  const bool moves = isMovable(b);
+  if (moves) b.margin = marginOf(b);
+  const GridBounds wide = moves ? wideBounds(b, bounds) : gridBounds(b.body.place, bounds, 0);
+  b.proxy = m_broad.add(static_cast<std::uint32_t>(id), wide, moves, b.order);
 }
 
 // Out of the broad phase; its contacts are forgotten.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "physics/broadphase/BroadPhase.h"
+#include "physics/broadphase/ImpactTree.h"
 #include "physics/geometry/Index.h"
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
@@ -40,6 +41,7 @@ class SubstepWorld final : public RigidStepper {
  public:
   explicit SubstepWorld(SubstepOptions options = {}) : m_options(options), m_states(1) {}
 
+  void expect(std::size_t bodies) override;
   /// Of two bodies the one of the lower order comes first in everything.
   int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) override;
   bool set(int id, const RigidBody& body) override;
@@ -70,7 +72,13 @@ class SubstepWorld final : public RigidStepper {
   struct Memory {  // of a contact, from step to step
     std::int32_t next = -1;
     std::int32_t shape_a = 0, shape_b = 0;
-    ReferenceFace reference;
+    Manifold manifold;
+    // When the manifold was found. It is kept while its bodies hardly move against each other.
+    Vec2 offset;
+    Rotation rotation_a, rotation_b;
+    std::array<double, 2> gap = {};
+    double margin = -1;  // below 0: none has been found
+    std::uint32_t version_a = 0, version_b = 0;
     std::int32_t count = 0;
     std::array<std::uint32_t, 2> id = {};
     std::array<float, 2> normal = {}, friction = {};
@@ -90,7 +98,6 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t contact;
   };
   struct Contact {  // within a step
-    Manifold manifold;
     ContactImpulse impulse;
     std::int32_t pair, memory;
     std::int32_t a, b;
@@ -109,7 +116,8 @@ class SubstepWorld final : public RigidStepper {
 
   // SubstepWorld.cpp
   void measure(SubstepBody& body);
-  Bounds turnShapes(SubstepBody& body);
+  static void turnShapes(SubstepBody& body);
+  static Bounds boundsNow(SubstepBody& body);
   void enter(int id);
   void leave(int id);
   void freeze(int id);
@@ -127,7 +135,9 @@ class SubstepWorld final : public RigidStepper {
   void stopFast();
   GridBounds sweptBounds(const SubstepBody& body) const;
   bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
-  void stop(int id);
+  void stop(int id, const SweptBox& swept);
+  static double marginOf(const SubstepBody& body);
+  static GridBounds wideBounds(const SubstepBody& body, const Bounds& bounds);
   Vec2 movedBy(const SubstepBody& body) const;
 
   // SubstepContacts.cpp
@@ -137,6 +147,9 @@ class SubstepWorld final : public RigidStepper {
   void updateContacts();
   bool wakeTouched(std::size_t first_contact);
   void updatePair(std::int32_t pair);
+  static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset);
+  bool findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
+                    std::int32_t shape_b, Vec2 offset);
   void sequence(bool is_sorted);
   void chooseColours();
   void fillRows();
@@ -159,7 +172,10 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_active;  // ids of those that move in this step, by order
   std::vector<std::int32_t> m_changed;
   std::vector<std::int32_t> m_near;
-  std::vector<std::int32_t> m_fast;    // in this step
+  std::vector<std::int32_t> m_fast;  // in this step
+  std::vector<SweptBox> m_paths;     // of those, in grid units about the first of them
+  std::vector<int> m_path_ids;
+  ImpactTree m_path_tree;
   std::vector<SubstepState> m_states;  // the first one is of all that does not move
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;

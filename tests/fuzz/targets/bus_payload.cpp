@@ -34,7 +34,7 @@ void requireResult(const std::string& text) {
   const auto result = GameResult::parse(text);
   if (!result) return;
   REQUIRE(text.size() <= kMaxBusPayload);
-  REQUIRE(isServerId(result->server) && result->round.size() == 32 && result->number < 16);
+  REQUIRE(isServerId(result->server) && result->round.size() == 32 && result->number < 256);
   REQUIRE(!result->name.empty() && safeText(result->name, 16) == result->name);
   REQUIRE(result->points >= -1'000'000'000'000'000 && result->points <= 1'000'000'000'000'000);
   REQUIRE(!result->table.empty() && result->table.size() <= 32);

@@ -38,7 +38,7 @@ GameResult fullResult() {
   result.at = 1'800'000'000;
   result.round = "0123456789abcdef0123456789abcdef";
   result.tick = 4'000'000'000;
-  result.number = 15;
+  result.number = 255;
   result.recording = "2026-11-26.dfr";
   return result;
 }
@@ -68,7 +68,7 @@ TEST(BusPayloads, CrossWhole) {
   least.port = 1;
   least.protocol = 1;
   EXPECT_EQ(Presence::parse(least.payload()), least);
-  EXPECT_EQ(fullResult().messageId(), "0123456789abcdef0123456789abcdef-4000000000-15");
+  EXPECT_EQ(fullResult().messageId(), "0123456789abcdef0123456789abcdef-4000000000-255");
 }
 
 TEST(BusPayloads, TheLongestFits) {
@@ -123,7 +123,7 @@ TEST(BusPayloads, WhatNoServerWritesIsRefused) {
                                     {"round", "\"0123\""},
                                     {"tick", "-1"},
                                     {"tick", "4294967296"},
-                                    {"number", "16"},
+                                    {"number", "256"},
                                     {"recording", "\"a b\""}})
     EXPECT_FALSE(GameResult::parse(with(result, name, value))) << with(result, name, value);
 }

@@ -53,6 +53,38 @@ TEST(ResumeTokens, AreVoidOnceALaterOneIsUsedOrTheSessionIsOver) {
   EXPECT_EQ(tokens.redeem(third), std::nullopt);
 }
 
+// Another server knows of them what is kept: their hashes.
+TEST(ResumeTokens, AreGoodAfterARestoreAsTheyWereBefore) {
+  ResumeTokens killed;
+  const std::string first = killed.issue(5);
+  ASSERT_EQ(killed.redeem(first), 5u);
+  const std::string second = killed.issue(5);
+  const std::string other = killed.issue(6);
+  ResumeTokens tokens;
+  tokens.restore(1, killed.hashed(5));
+  EXPECT_EQ(tokens.find(first), 1u) << "the answer with the second may be lost";
+  EXPECT_EQ(tokens.find(second), 1u);
+  EXPECT_EQ(tokens.holderOf(second), 1u);
+  EXPECT_EQ(tokens.find(other), std::nullopt);
+  tokens.confirm(1);
+  EXPECT_EQ(tokens.find(first), std::nullopt);
+}
+
+TEST(ResumeTokens, MoveToTheSessionThatGoesOn) {
+  ResumeTokens tokens;
+  const std::string first = tokens.issue(5);
+  ASSERT_EQ(tokens.redeem(first), 5u);
+  tokens.move(5, 9);
+  const std::string second = tokens.issue(9);
+  EXPECT_EQ(tokens.find(first), 9u);
+  EXPECT_EQ(tokens.find(second), 9u);
+  tokens.forget(5);
+  EXPECT_EQ(tokens.find(first), 9u) << "the one before is no more";
+  tokens.confirm(9);
+  EXPECT_EQ(tokens.find(first), std::nullopt);
+  EXPECT_EQ(tokens.find(second), 9u);
+}
+
 TEST(ResumeTokens, SayWhenTheSessionGoesOnElsewhere) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);

@@ -85,6 +85,7 @@ void moveState(SubstepState& s) {
 std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_block) {
   std::vector<SubstepState> states(1);
   ContactRows rows;
+  rows.clear(trials.size(), kSubstep);
   std::vector<std::int32_t> places;
   std::vector<ContactRow> packed;
   for (std::size_t i = 0; i < trials.size(); ++i) {
@@ -96,7 +97,7 @@ std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_blo
     row.b = static_cast<std::int32_t>(states.size());
     states.push_back(trials[i].b);
     if (i % in_block == 0) rows.beginBlock();
-    places.push_back(rows.add(row, trials[i].manifold, trials[i].memory, kSubstep));
+    places.push_back(rows.add(row, trials[i].manifold, trials[i].memory));
     packed.push_back(row);
   }
   float time = 0;

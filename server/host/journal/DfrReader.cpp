@@ -1,0 +1,147 @@
+#include "host/journal/DfrReader.h"
+
+#include <algorithm>
+
+#include "shared/net/base/SafeText.h"
+#include "shared/replica/Bytes.h"
+#include "shared/values/LittleEndian.h"
+
+namespace naiad {
+
+namespace {
+
+/// Turns are some four times as long as in the file, and ten times if nobody plays. A file that promises more
+/// would cost more time than its size says.
+constexpr std::uint64_t kMaxRatio = 64;
+
+}  // namespace
+
+DfrReader::DfrReader(std::string_view bytes) : m_bytes(bytes) {
+  readHeader();
+  if (!m_problem.empty()) {
+    m_ended = true;
+    m_end = DfrEnd::kDamaged;
+    return;
+  }
+  // So that facts are there before the first turn is asked for.
+  while (!m_ended && m_records.atEnd()) {
+    m_whole_records = m_at;
+    readChunk();
+  }
+}
+
+void DfrReader::readHeader() {
+  if (m_bytes.substr(0, kDfrMagic.size()) != kDfrMagic) {
+    m_problem = "it is no recording of a round";
+    return;
+  }
+  if (m_bytes.size() < kDfrHeaderSize) {
+    m_problem = "it is cut off before the first chunk";
+    return;
+  }
+  const char* p = m_bytes.data();
+  if (const auto version = loadLittleEndian<std::uint16_t>(p + 8); version != kDfrVersion) {
+    m_problem = "its format is version " + std::to_string(version) + ", and this program reads version " +
+                std::to_string(kDfrVersion);
+    return;
+  }
+  m_header.flags = loadLittleEndian<std::uint16_t>(p + kDfrFlagsAt);
+  if (loadLittleEndian<std::uint32_t>(p + 12) != crc32c(m_bytes.substr(16, kDfrHeaderSize - 16))) {
+    m_problem = "its header is damaged";
+    return;
+  }
+  std::copy_n(p + 16, m_header.uuid.size(), m_header.uuid.begin());
+  m_header.frame_nanos = loadLittleEndian<std::uint64_t>(p + 32);
+  m_header.seed = loadLittleEndian<std::uint64_t>(p + 40);
+  m_header.start_nanos = loadLittleEndian<std::uint64_t>(p + 48);
+  m_at = kDfrHeaderSize;
+}
+
+// The first chunk of them may have been read already, for the facts before it.
+void DfrReader::copyRecordsTo(std::string& records) {
+  m_p_copy = &records;
+  if (m_offset > 0) records = m_unpacked;
+}
+
+std::optional<TurnRecord> DfrReader::next() {
+  while (true) {
+    if (auto record = m_records.next()) return record;
+    if (m_records.isBad()) {
+      m_ended = true;
+      m_end = DfrEnd::kDamaged;
+    }
+    if (m_records.atEnd()) m_whole_records = m_at;
+    if (m_ended || !readChunk()) return std::nullopt;
+  }
+}
+
+bool DfrReader::readChunk() {
+  const auto chunk = nextChunk();
+  if (chunk && !takeChunk(*chunk)) m_end = DfrEnd::kDamaged;
+  m_ended = m_ended || !chunk || m_end == DfrEnd::kDamaged;
+  return !m_ended;
+}
+
+std::optional<DfrReader::Chunk> DfrReader::nextChunk() {
+  const std::string_view rest = m_bytes.substr(m_at);
+  if (rest.size() < kDfrChunkHead) return std::nullopt;
+  const auto size = loadLittleEndian<std::uint32_t>(rest.data() + 4);
+  if (size > kMaxDfrPayload) {
+    m_end = DfrEnd::kDamaged;
+    return std::nullopt;
+  }
+  if (rest.size() - kDfrChunkHead < size) return std::nullopt;
+  const std::string_view payload = rest.substr(kDfrChunkHead, size);
+  if (loadLittleEndian<std::uint32_t>(rest.data() + 8) != crc32c(payload, crc32c(rest.substr(0, 8)))) {
+    // Blocks of a file that were never written, before a power cut, read as zeros.
+    const bool zeros = rest.find_first_not_of('\0') == std::string_view::npos;
+    m_end = zeros ? DfrEnd::kTorn : DfrEnd::kDamaged;
+    return std::nullopt;
+  }
+  m_at += kDfrChunkHead + size;
+  return Chunk{loadLittleEndian<std::uint32_t>(rest.data()), payload};
+}
+
+bool DfrReader::takeChunk(const Chunk& chunk) {
+  if (chunk.type == kDfrMeta) return readMeta(chunk.payload);
+  if (chunk.type == kDfrTurn) return readTurns(chunk.payload);
+  if (chunk.type != kDfrDone) return true;
+  m_ended = true;
+  m_end = DfrEnd::kDone;
+  m_why = safeText(std::string(chunk.payload.substr(0, kMaxDfrName)), kMaxDfrName);
+  return true;
+}
+
+bool DfrReader::readMeta(std::string_view payload) {
+  ByteReader in(payload);
+  const std::uint64_t count = in.upTo(kMaxDfrFacts);
+  for (std::uint64_t i = 0; i < count && in.ok(); ++i) {
+    const std::string_view name = in.bytes(in.upTo(kMaxDfrName));
+    const std::string_view value = in.bytes(in.upTo(kMaxDfrValue));
+    if (m_facts.size() < kMaxDfrFacts && in.ok()) m_facts[std::string(name)] = value;
+  }
+  return in.ok() && in.atEnd();
+}
+
+bool DfrReader::readTurns(std::string_view payload) {
+  if (payload.size() < kDfrTurnHead) return false;
+  if (loadLittleEndian<std::uint32_t>(payload.data()) != static_cast<std::uint32_t>(m_offset)) return false;
+  const auto packing = static_cast<std::uint8_t>(payload[4]);
+  const std::string_view packed = payload.substr(kDfrTurnHead);
+  const auto count = loadLittleEndian<std::uint32_t>(payload.data() + kDfrTurnHead - 4);
+  m_offset += count;
+  if (count > kMaxDfrPayload || m_offset > kMaxRatio * m_bytes.size() + kMaxDfrPayload) return false;
+  m_unpacked.clear();
+  if (packing == kDfrModelled) {
+    m_unpacker.unpack(packed, count, m_unpacked);
+  } else if (packing == kDfrRaw && packed.size() == count) {
+    m_unpacked = packed;
+  } else {
+    return false;
+  }
+  m_records.add(m_unpacked);
+  if (m_p_copy != nullptr) m_p_copy->append(m_unpacked);
+  return true;
+}
+
+}  // namespace naiad

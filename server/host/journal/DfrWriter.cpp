@@ -1,0 +1,100 @@
+#include "host/journal/DfrWriter.h"
+
+#include <algorithm>
+#include <array>
+
+#include "shared/replica/Bytes.h"
+#include "shared/values/LittleEndian.h"
+
+namespace naiad {
+
+namespace {
+
+/// Bytes of records in one chunk: what grows fits in a payload, too.
+constexpr std::size_t kMaxPacked = kMaxDfrPayload / 2;
+
+template <class Number>
+void append(std::string& out, Number number) {
+  std::array<char, sizeof(Number)> bytes{};
+  storeLittleEndian(number, bytes.data());
+  out.append(bytes.data(), bytes.size());
+}
+
+std::string turnHead(std::uint64_t position, DfrPacking packing, std::size_t count) {
+  std::string head;
+  append(head, static_cast<std::uint32_t>(position));
+  head.push_back(static_cast<char>(packing));
+  append(head, static_cast<std::uint32_t>(count));
+  return head;
+}
+
+}  // namespace
+
+std::string spellDfrHeader(const DfrHeader& header) {
+  std::string rest;
+  for (const std::uint8_t byte : header.uuid) rest.push_back(static_cast<char>(byte));
+  append(rest, header.frame_nanos);
+  append(rest, header.seed);
+  append(rest, header.start_nanos);
+  append(rest, std::uint64_t{0});
+  std::string bytes(kDfrMagic);
+  append(bytes, kDfrVersion);
+  append(bytes, header.flags);
+  append(bytes, crc32c(rest));
+  return bytes + rest;
+}
+
+std::string spellDfrChunk(std::uint32_t type, std::string_view payload) {
+  std::string head;
+  append(head, type);
+  append(head, static_cast<std::uint32_t>(payload.size()));
+  std::string bytes = head;
+  append(bytes, crc32c(payload, crc32c(head)));
+  return bytes.append(payload);
+}
+
+std::string spellDfrMeta(const DfrFacts& facts) {
+  std::string payload;
+  ByteWriter out(payload);
+  out.varint(std::min(facts.size(), kMaxDfrFacts));
+  std::size_t count = 0;
+  for (const auto& [name, value] : facts) {
+    if (count++ == kMaxDfrFacts) break;
+    for (const std::string_view part :
+         {std::string_view(name).substr(0, kMaxDfrName), std::string_view(value).substr(0, kMaxDfrValue)}) {
+      out.varint(part.size());
+      out.bytes(part);
+    }
+  }
+  return spellDfrChunk(kDfrMeta, std::string_view(payload).substr(0, kMaxDfrPayload));
+}
+
+std::string spellDfrDone(std::string_view why) {
+  return spellDfrChunk(kDfrDone, why.substr(0, kMaxDfrValue));
+}
+
+std::string spellDfrTurns(std::string_view records, std::uint64_t position) {
+  std::string chunks;
+  while (!records.empty()) {
+    const std::string_view part = records.substr(0, kMaxPacked);
+    chunks += spellDfrChunk(kDfrTurn, turnHead(position, kDfrRaw, part.size()).append(part));
+    position += part.size();
+    records.remove_prefix(part.size());
+  }
+  return chunks;
+}
+
+std::string DfrTurnPacker::pack(std::string_view records) {
+  std::string chunks;
+  while (!records.empty()) {
+    const std::string_view part = records.substr(0, kMaxPacked);
+    std::string payload = turnHead(m_position, kDfrModelled, part.size());
+    m_packer.pack(part, payload);
+    chunks += spellDfrChunk(kDfrTurn, payload);
+    m_position += part.size();
+    records.remove_prefix(part.size());
+  }
+  return chunks;
+}
+
+}  // namespace naiad

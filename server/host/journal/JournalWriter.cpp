@@ -1,0 +1,74 @@
+#include "host/journal/JournalWriter.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace naiad {
+
+struct JournalWriter::Shared {
+  std::mutex mutex;
+  std::condition_variable wanted;
+  std::condition_variable done;
+  std::vector<std::shared_ptr<Journal>> journals;
+  std::uint64_t asked = 0;   ///< turns of the thread that were asked for
+  std::uint64_t served = 0;  ///< the newest of them that has been done
+  bool ends = false;
+
+  void run();
+};
+
+void JournalWriter::Shared::run() {
+  std::unique_lock lock(mutex);
+  while (true) {
+    wanted.wait_for(lock, kBetween, [this] { return ends || asked > served; });
+    const bool last = ends;
+    const std::uint64_t serving = asked;
+    const std::vector<std::shared_ptr<Journal>> now = journals;
+    lock.unlock();
+    std::vector<std::shared_ptr<Journal>> over;
+    for (const auto& journal : now) {
+      if (!journal->flush()) over.push_back(journal);
+    }
+    lock.lock();
+    std::erase_if(journals, [&over](const auto& journal) {
+      return std::find(over.begin(), over.end(), journal) != over.end();
+    });
+    served = serving;
+    done.notify_all();
+    if (last) return;
+  }
+}
+
+JournalWriter::JournalWriter() : m_shared(std::make_shared<Shared>()) {
+  std::thread([shared = m_shared] { shared->run(); }).detach();
+}
+
+JournalWriter::~JournalWriter() {
+  drain(kLastWait);
+  const std::lock_guard lock(m_shared->mutex);
+  m_shared->ends = true;
+  m_shared->wanted.notify_all();
+}
+
+void JournalWriter::add(std::shared_ptr<Journal> journal) {
+  const std::lock_guard lock(m_shared->mutex);
+  m_shared->journals.push_back(std::move(journal));
+}
+
+void JournalWriter::wake() {
+  const std::lock_guard lock(m_shared->mutex);
+  ++m_shared->asked;
+  m_shared->wanted.notify_all();
+}
+
+bool JournalWriter::drain(std::chrono::milliseconds most) {
+  std::unique_lock lock(m_shared->mutex);
+  const std::uint64_t asked = ++m_shared->asked;
+  m_shared->wanted.notify_all();
+  return m_shared->done.wait_for(lock, most, [&] { return m_shared->served >= asked; });
+}
+
+}  // namespace naiad

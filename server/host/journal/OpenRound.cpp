@@ -1,0 +1,135 @@
+#include "host/journal/OpenRound.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace naiad {
+
+namespace {
+
+using Input = df::InputQueue::Input;
+
+std::string bytesOf(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw OpenRoundError("there is no such file");
+  if (std::filesystem::file_size(path, error) > OpenRound::kMaxFile || error)
+    throw OpenRoundError("it is too long");
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad()) throw OpenRoundError("it cannot be read");
+  return bytes;
+}
+
+}  // namespace
+
+OpenRound::OpenRound(std::string path) : m_path(std::move(path)), m_bytes(bytesOf(m_path)) {
+  std::error_code ignored;
+  m_written_at = std::filesystem::last_write_time(m_path, ignored);
+  readAll();
+}
+
+OpenRound::OpenRound(const DfrHeader& header, std::string_view records)
+    : m_bytes(spellDfrHeader(header) + spellDfrTurns(records, 0)) {
+  readAll();
+  m_records.clear();
+}
+
+std::string OpenRound::fact(const std::string& name) const {
+  const auto found = m_facts.find(name);
+  return found != m_facts.end() ? found->second : std::string();
+}
+
+// A file may end in the middle of a record, of which the next chunk had the rest: the journal goes on behind
+// the last chunk that ends with a record.
+void OpenRound::readAll() {
+  std::size_t whole = 0;
+  {
+    DfrReader reader(m_bytes);
+    if (!reader.problem().empty()) throw OpenRoundError(reader.problem());
+    m_header = reader.header();
+    reader.copyRecordsTo(m_records);
+    while (const auto record = reader.next()) {
+      if (const auto* p_turn = std::get_if<WorldTurn>(&*record)) noteTurn(*p_turn);
+      m_has_last_result = std::holds_alternative<TickResult>(*record) ||
+                          (m_has_last_result && !std::holds_alternative<WorldTurn>(*record));
+      if (const auto* p_session = std::get_if<KeptSession>(&*record)) noteSession(*p_session);
+    }
+    whole = reader.bytesOfWholeRecords();
+    m_facts = reader.facts();
+    m_over = reader.end() == DfrEnd::kDone;
+    if (m_over || whole == reader.wholeBytes()) {
+      m_place.emplace(reader.takePlace());
+      m_bytes.resize(whole);
+      return;
+    }
+  }
+  m_bytes.resize(whole);
+  m_turns = 0;
+  m_last_turn = {};
+  m_has_last_result = false;
+  m_records.clear();
+  m_sessions.clear();
+  m_players.clear();
+  m_down.clear();
+  readAll();
+}
+
+void OpenRound::noteTurn(const WorldTurn& turn) {
+  ++m_turns;
+  for (const Input& input : turn.inputs) noteInput(input);
+  m_last_turn = turn;
+  m_last_turn.inputs.clear();
+}
+
+void OpenRound::noteInput(const Input& input) {
+  switch (input.kind) {
+    case df::InputQueue::kJoin:
+      m_players.push_back(input.player);
+      break;
+    case df::InputQueue::kLeave:
+      std::erase(m_players, input.player);
+      std::erase_if(m_down, [&input](const auto& one) { return one.first == input.player; });
+      break;
+    case df::InputQueue::kKey:
+      if (input.key_action == df::KEY_RELEASED) {
+        m_down.erase({input.player, input.key});
+      } else {
+        m_down.insert({input.player, input.key});
+      }
+      break;
+    case df::InputQueue::kMouse:
+    case df::InputQueue::kScore:
+      break;
+  }
+}
+
+void OpenRound::noteSession(const KeptSession& session) {
+  if (session.over) {
+    m_sessions.erase(session.player);
+  } else {
+    m_sessions[session.player] = session;
+  }
+}
+
+std::vector<Input> OpenRound::closingInputs() const {
+  std::vector<Input> inputs;
+  for (const auto& [player, key] : m_down) {
+    Input release{.kind = df::InputQueue::kKey, .player = player};
+    release.key = static_cast<df::Keyboard::Key>(key);
+    release.key_action = df::KEY_RELEASED;
+    inputs.push_back(release);
+  }
+  for (const std::uint32_t player : m_players) {
+    if (!m_sessions.contains(player)) inputs.push_back({.kind = df::InputQueue::kLeave, .player = player});
+  }
+  for (const auto& [player, session] : m_sessions) {
+    if (std::find(m_players.begin(), m_players.end(), player) != m_players.end()) continue;
+    inputs.push_back(
+        {.kind = df::InputQueue::kJoin, .player = player, .name = session.name, .color = session.color});
+  }
+  return inputs;
+}
+
+}  // namespace naiad

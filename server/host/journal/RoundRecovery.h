@@ -1,0 +1,53 @@
+// Which turns a world gets that goes on with the round of a server that was killed, and whether it answers
+// as it did then.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/journal/OpenRound.h"
+#include "host/world/WorldPort.h"
+
+namespace naiad {
+
+class RoundRecovery {
+ public:
+  explicit RoundRecovery(std::shared_ptr<const OpenRound> round);
+
+  /// It has had the last one, and the file does not say what came of it.
+  bool isAtUnknownResult() const { return m_turns == m_round->turns() && !m_round->hasLastResult(); }
+
+  const OpenRound& round() const { return *m_round; }
+  /// How far it is, in percent.
+  int percent() const;
+
+  /// The next turn of the file; nothing: the world has had all of them.
+  std::optional<WorldTurn> nextTurn();
+  /// Hold what came of that turn against the file. Return what is other, as words; empty: nothing is.
+  std::string compareResult(const WorldPort& world);
+  /// The file does not say what came of that turn: the server was killed before it knew.
+  bool isResultMissing() const { return m_result_missing; }
+  /// Turns that the world has had.
+  std::uint32_t turns() const { return m_turns; }
+
+  /// The turn behind all of them (OpenRound::closingInputs). It is not watched, so that the next one that is
+  /// shows every Object again.
+  WorldTurn closingTurn() const;
+  /// Of the players who may come back.
+  std::vector<KeptSession> sessions() const;
+
+ private:
+  /// The next record that says something of a turn.
+  std::optional<TurnRecord> nextRecord();
+
+  std::shared_ptr<const OpenRound> m_round;
+  std::unique_ptr<DfrReader> m_reader;
+  std::optional<TurnRecord> m_ahead;  ///< read while a result was looked for
+  std::uint32_t m_turns = 0;
+  bool m_result_missing = false;
+};
+
+}  // namespace naiad

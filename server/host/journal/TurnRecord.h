@@ -1,0 +1,89 @@
+// What a journal keeps of a world's ticks: a stream of records, each a length and its fields.
+//
+//   record  size of the rest (varint) | kind (1) | fields
+//
+// A turn is what the world is sent before a tick, an answer what came of it. Records of unknown kinds are
+// skipped.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "host/world/KeptSession.h"
+#include "host/world/WorldMessages.h"
+
+namespace naiad {
+
+/// How the tick of the last turn ended.
+struct TickResult {
+  std::uint8_t check = 0;  ///< eight bits of WorldPort::answerHash(); 0 if there is none
+  bool has_check = false;
+  bool game_over = false;
+  std::optional<std::uint64_t> state_hash;  ///< df::hashState()
+};
+
+/// What a player saw after the last turn.
+struct RecordedPicture {
+  std::uint32_t player = 0;
+  df::Canvas canvas;
+};
+
+/// The world ended in the last turn, and another one had it without its keys and clicks.
+struct InputsDropped {};
+/// Joins and leaves stay.
+void dropKeys(WorldTurn& turn);
+
+using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture, KeptSession, InputsDropped>;
+
+/// Eight bits of a hash of an answer.
+std::uint8_t checkOf(std::uint64_t answer_hash);
+
+/// Spells records. Turns are spelled by what is other than in the turn before.
+class TurnRecordWriter {
+ public:
+  TurnRecordWriter() = default;
+  /// Goes on with a stream whose last turn was this.
+  explicit TurnRecordWriter(const WorldTurn& last);
+  /// Append one to `out`. False, and nothing is appended: more than kMaxTurnInputs.
+  bool write(const WorldTurn& turn, std::string& out);
+  void write(const TickResult& result, std::string& out);
+  void write(const RecordedPicture& picture, std::string& out);
+  void write(const KeptSession& session, std::string& out);
+  void write(const InputsDropped& dropped, std::string& out);
+
+ private:
+  void append(std::string& out);
+
+  WorldTurn m_last;  ///< without inputs
+  std::string m_fields;
+};
+
+/// Bytes of a record without its length, at most: a whole turn, or a picture.
+inline constexpr std::size_t kMaxTurnRecord = std::size_t{8} << 20;
+
+/// Reads a stream of them, which may come in pieces.
+class TurnRecordReader {
+ public:
+  /// The next bytes of the stream.
+  void add(std::string_view bytes) { m_bytes.append(bytes); }
+  /// The next record; nothing if there is no whole one left, or isBad().
+  std::optional<TurnRecord> next();
+  /// Something was malformed; nothing can be read any more.
+  bool isBad() const { return m_bad; }
+  /// All that was added has been read.
+  bool atEnd() const { return m_at == m_bytes.size(); }
+
+ private:
+  std::optional<TurnRecord> read(std::string_view record);
+  std::optional<TurnRecord> readTurn(FieldReader& in, std::uint8_t kind);
+
+  std::string m_bytes;
+  std::size_t m_at = 0;
+  WorldTurn m_last;
+  bool m_bad = false;
+};
+
+}  // namespace naiad

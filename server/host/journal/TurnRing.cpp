@@ -1,0 +1,159 @@
+#include "host/journal/TurnRing.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+namespace naiad {
+
+namespace {
+
+constexpr char kRingMagic[9] = "NAIADRG1";
+constexpr std::uint64_t kMaxRing = std::uint64_t{64} << 20;
+
+std::string ringPath(const std::array<std::uint8_t, 16>& uuid) {
+  return "/dev/shm/naiad-" + uuidText(uuid);
+}
+
+std::string readAll(int file) {
+  std::string bytes;
+  struct stat facts {};
+  if (fstat(file, &facts) != 0 || !S_ISREG(facts.st_mode) || facts.st_uid != getuid()) return bytes;
+  bytes.resize(std::min(static_cast<std::uint64_t>(facts.st_size), kMaxRing));
+  std::size_t at = 0;
+  for (ssize_t got = 1; at < bytes.size() && got > 0;
+       at += static_cast<std::size_t>(std::max<ssize_t>(got, 0)))
+    got = pread(file, bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
+  bytes.resize(at);
+  return bytes;
+}
+
+}  // namespace
+
+std::string uuidText(const std::array<std::uint8_t, 16>& uuid) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (const std::uint8_t byte : uuid) {
+    text.push_back(kDigits[byte >> 4]);
+    text.push_back(kDigits[byte & 15]);
+  }
+  return text;
+}
+
+TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
+                   std::uint64_t position)
+    : m_capacity(capacity) {
+  if (!shared || !mapShared(uuid)) {
+    void* p_memory =
+        mmap(nullptr, sizeof(Head) + m_capacity, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (p_memory == MAP_FAILED)
+      throw std::system_error(errno, std::generic_category(), "the journal's memory");
+    m_p_head = new (p_memory) Head{};
+  }
+  std::memcpy(m_p_head->magic, kRingMagic, sizeof m_p_head->magic);
+  std::copy(uuid.begin(), uuid.end(), m_p_head->uuid);
+  m_p_head->capacity = m_capacity;
+  m_p_head->stored = position;
+  m_p_head->released = position;
+}
+
+TurnRing::~TurnRing() {
+  munmap(m_p_head, sizeof(Head) + m_capacity);
+  if (!m_path.empty()) unlink(m_path.c_str());
+  if (m_file >= 0) close(m_file);
+}
+
+// All of it is there from the beginning: to write into a hole of a full file system would be a SIGBUS.
+bool TurnRing::mapShared(const std::array<std::uint8_t, 16>& uuid) {
+  const std::string path = ringPath(uuid);
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (file < 0) return false;
+  const auto size = static_cast<off_t>(sizeof(Head) + m_capacity);
+  void* p_memory = MAP_FAILED;
+  if (posix_fallocate(file, 0, size) == 0)
+    p_memory = mmap(nullptr, static_cast<std::size_t>(size), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (p_memory == MAP_FAILED || flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (p_memory != MAP_FAILED) munmap(p_memory, static_cast<std::size_t>(size));
+    unlink(path.c_str());
+    close(file);
+    return false;
+  }
+  m_file = file;
+  m_p_head = new (p_memory) Head{};
+  m_path = path;
+  return true;
+}
+
+bool TurnRing::store(std::string_view data) {
+  const std::uint64_t stored = m_p_head->stored.load(std::memory_order_relaxed);
+  const std::uint64_t used = stored - m_p_head->released.load(std::memory_order_acquire);
+  if (data.size() > m_capacity - used) return false;
+  const auto at = static_cast<std::size_t>(stored % m_capacity);
+  const std::size_t first = std::min(data.size(), m_capacity - at);
+  std::memcpy(bytes() + at, data.data(), first);
+  std::memcpy(bytes(), data.data() + first, data.size() - first);
+  m_p_head->stored.store(stored + data.size(), std::memory_order_release);
+  return true;
+}
+
+bool TurnRing::isFilling() const {
+  const std::uint64_t stored = m_p_head->stored.load(std::memory_order_relaxed);
+  return stored - m_p_head->released.load(std::memory_order_relaxed) > m_capacity / 2;
+}
+
+std::size_t TurnRing::peek(std::string& out, std::size_t most) const {
+  const std::uint64_t released = m_p_head->released.load(std::memory_order_relaxed);
+  const std::uint64_t stored = m_p_head->stored.load(std::memory_order_acquire);
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(stored - released, most));
+  const auto at = static_cast<std::size_t>(released % m_capacity);
+  const std::size_t first = std::min(count, m_capacity - at);
+  out.append(bytes() + at, first);
+  out.append(bytes(), count - first);
+  return count;
+}
+
+std::optional<LeftRing> LeftRing::find(const std::array<std::uint8_t, 16>& uuid) {
+  LeftRing ring;
+  ring.m_path = ringPath(uuid);
+  const int file = open(ring.m_path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0) return std::nullopt;
+  if (flock(file, LOCK_EX | LOCK_NB) == 0) ring.m_bytes = readAll(file);
+  close(file);
+  TurnRing::Head head{};
+  if (ring.m_bytes.size() < sizeof head) return std::nullopt;
+  std::memcpy(static_cast<void*>(&head), ring.m_bytes.data(), sizeof head);
+  const bool good = std::memcmp(head.magic, kRingMagic, sizeof head.magic) == 0 && head.capacity > 0 &&
+                    head.capacity == ring.m_bytes.size() - sizeof head &&
+                    head.released.load() <= head.stored.load() &&
+                    head.stored.load() - head.released.load() <= head.capacity;
+  return good ? std::optional(std::move(ring)) : std::nullopt;
+}
+
+std::optional<std::string> LeftRing::bytesFrom(std::uint64_t position) const {
+  TurnRing::Head head{};
+  std::memcpy(static_cast<void*>(&head), m_bytes.data(), sizeof head);
+  const std::uint64_t stored = head.stored.load();
+  if (position > stored || stored - position > head.capacity) return std::nullopt;
+  const std::string_view ring = std::string_view(m_bytes).substr(sizeof head);
+  const auto count = static_cast<std::size_t>(stored - position);
+  const auto at = static_cast<std::size_t>(position % head.capacity);
+  const std::size_t first = std::min(count, ring.size() - at);
+  return std::string(ring.substr(at, first)).append(ring.substr(0, count - first));
+}
+
+void LeftRing::remove() const {
+  unlink(m_path.c_str());
+}
+
+void TurnRing::release(std::size_t count) {
+  m_p_head->released.fetch_add(count, std::memory_order_release);
+}
+
+}  // namespace naiad

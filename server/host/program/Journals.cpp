@@ -1,0 +1,369 @@
+#include "host/program/Journals.h"
+
+#include <openssl/evp.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <sstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "host/auth/Seed.h"
+#include "host/journal/DfrWriter.h"
+#include "host/journal/Salvage.h"
+#include "host/program/TickClock.h"
+#include "host/program/WorldSandbox.h"
+#include "host/world/Repeatable.h"
+#include "shared/program/BuildId.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Bytes of turns that may wait for a disk: of a thousand players for 20 seconds, and of one alone.
+constexpr std::size_t kSharedRing = std::size_t{4} << 20;
+constexpr std::size_t kPrivateRing = std::size_t{256} << 10;
+
+/// To go on with one round. A server that ends while it does so may have been ended by the round.
+constexpr int kMaxAttempts = 3;
+
+std::string hexOf(const unsigned char* p, std::size_t count) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) {
+    text.push_back(kDigits[p[i] >> 4]);
+    text.push_back(kDigits[p[i] & 15]);
+  }
+  return text;
+}
+
+std::string readSettings() {
+  const char* p_named = std::getenv("DRAGONFLY_CONFIG");
+  const fs::path path = p_named != nullptr ? p_named : "df-config.txt";
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kMaxSettings) return {};
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string hexNumber(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+  return text;
+}
+
+DfrFacts factsOfStart(const WorldProcess& world) {
+  DfrFacts facts;
+  facts[kFactFirstTick] = std::to_string(world.nextTick());
+  if (!world.ready()) return facts;
+  facts[kFactAddresses] = world.ready()->fixed_addresses ? "fixed" : "random";
+  for (const ReadFile& file : world.ready()->files) facts[kFactFile + file.name] = hexNumber(file.hash);
+  return facts;
+}
+
+}  // namespace
+
+namespace {
+
+/// The header of a file that is one of this game's by its name, which pathOf() has made.
+std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& game) {
+  const std::string name = path.filename().string();
+  if (path.extension() != ".dfr" || !name.starts_with(game + "-")) return std::nullopt;
+  std::string bytes(kDfrHeaderSize, '\0');
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return std::nullopt;
+  const DfrReader reader(bytes);
+  return reader.problem().empty() ? std::optional(reader.header()) : std::nullopt;
+}
+
+/// Newest first.
+std::vector<fs::path> roundsOf(const std::string& folder, const std::string& game) {
+  std::vector<std::pair<std::uint64_t, fs::path>> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (const auto header = headerOfRound(entry.path(), game))
+      found.emplace_back(header->start_nanos, entry.path());
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<fs::path> paths;
+  for (auto& [time, path] : found) paths.push_back(std::move(path));
+  return paths;
+}
+
+/// What of a round is not as this server would play it, in words; empty: nothing is.
+std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::uint64_t frame_nanos) {
+  if ((round.header().flags & kDfrStopped) != 0) return "its journal had stopped before";
+  if ((round.header().flags & kDfrInProcess) != 0) return "the game ran in the server's own process";
+  if (round.fact(kFactRepeatable) == "no") return "the game is not repeatable";
+  if (round.header().frame_nanos != frame_nanos) return "its ticks have another length";
+  if (round.fact(kFactClocks) != "repeatable") return "its clocks were real";
+  for (const char* p_name : {kFactModule, kFactPlayers, kFactGameOver, kFactSettings, kFactClocks}) {
+    const auto here = expected.find(p_name);
+    if (round.fact(p_name) != (here != expected.end() ? here->second : std::string()))
+      return "of its facts, " + std::string(p_name) + " is another one here";
+  }
+  for (const auto& [name, value] : expected) {
+    if (name.starts_with(kFactVariable) && round.fact(name) != value)
+      return "of its facts, " + name + " is another one here";
+  }
+  return {};
+}
+
+}  // namespace
+
+// Only the newest one: from those before, players have gone on already.
+std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
+                                         std::uint64_t frame_nanos, std::string& said) {
+  for (const fs::path& path : roundsOf(folder, expected.at(kFactGame))) {
+    try {
+      auto round = std::make_unique<OpenRound>(path.string());
+      if (round->fact(kFactPort) != expected.at(kFactPort)) continue;  // another server's
+      if (round->isOver() || round->turns() == 0) return nullptr;
+      const std::string difference = differenceOf(*round, expected, frame_nanos);
+      if (difference.empty()) return round;
+      said = path.string() + ": " + difference;
+    } catch (const OpenRoundError& error) {
+      said = path.string() + ": " + error.what();
+    }
+    return nullptr;
+  }
+  return nullptr;
+}
+
+std::string hashOfModule(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  EVP_MD_CTX* p_context = EVP_MD_CTX_new();
+  bool good = file.good() && p_context != nullptr && EVP_DigestInit_ex(p_context, EVP_sha256(), nullptr) == 1;
+  std::array<char, 65'536> part{};
+  while (good && file.read(part.data(), part.size()).gcount() > 0)
+    good = EVP_DigestUpdate(p_context, part.data(), static_cast<std::size_t>(file.gcount())) == 1;
+  unsigned char hash[EVP_MAX_MD_SIZE];
+  unsigned size = 0;
+  good = good && EVP_DigestFinal_ex(p_context, hash, &size) == 1;
+  EVP_MD_CTX_free(p_context);
+  return good ? hexOf(hash, size) : std::string();
+}
+
+DfrFacts factsOfMachine() {
+  DfrFacts facts;
+  utsname system{};
+  if (uname(&system) == 0) facts["kernel"] = std::string(system.release) + " " + system.machine;
+  for (const char* p_library : {"libdragonfly.so", "libc.so", "libstdc++.so"})
+    facts["build " + std::string(p_library)] = buildIdOf(p_library);
+  return facts;
+}
+
+std::shared_ptr<Journals> Journals::open(const HostOptions& options, const std::string& game,
+                                         const std::string& module, const LogLine& log) {
+  return wantsJournal(options) ? std::make_shared<Journals>(options, game, module, log) : nullptr;
+}
+
+Journals::Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log)
+    : m_folder(fs::absolute(options.journal).string()),
+      m_game(std::move(game)),
+      m_seed(options.seed),
+      m_frame_nanos(static_cast<std::uint64_t>(
+          std::chrono::nanoseconds(TickLength::fromMicros(options.frame_micros).times(1)).count())),
+      m_ring(options.players == "private" ? kPrivateRing : kSharedRing),
+      m_facts(factsOfMachine()),
+      m_log(std::move(log)) {
+  m_facts[kFactGame] = m_game;
+  m_facts[kFactVersion] = kVersion;
+  m_facts[kFactPort] = std::to_string(options.port);
+  m_facts[kFactPlayers] = options.players;
+  m_facts[kFactGameOver] = options.on_game_over;
+  m_facts[kFactClocks] = repeatPreload().empty() ? "real" : "repeatable";
+  if (!module.empty()) m_facts[kFactModule] = hashOfModule(module);
+  if (const std::string settings = readSettings(); !settings.empty()) m_facts[kFactSettings] = settings;
+  for (const std::string& entry : makeFixedEnvironment(options)) {
+    const std::size_t equals = entry.find('=');
+    if (isGameVariable(entry)) m_facts[kFactVariable + entry.substr(0, equals)] = entry.substr(equals + 1);
+  }
+  for (const std::string& sentence : salvageRounds(m_folder)) m_log(sentence);
+  findRound(options);
+  m_log("each round is written down in " + m_folder);
+  if (repeatPreload().empty())
+    m_log("warning: libdragonfly-repeat.so is missing: a game that reads a clock cannot be executed again");
+}
+
+WorldOrder Journals::makeOrder() const {
+  WorldOrder order;
+  order.seed = m_seed != 0 ? static_cast<std::uint64_t>(m_seed) : newSeed();
+  order.repeatable = true;
+  order.start_nanos = static_cast<std::uint64_t>(
+      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
+  order.frame_nanos = m_frame_nanos;
+  return order;
+}
+
+std::string Journals::pathOf(const DfrHeader& header) const {
+  const auto seconds = static_cast<std::time_t>(header.start_nanos / 1'000'000'000);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  char when[32];
+  std::strftime(when, sizeof when, "%Y%m%d-%H%M%S", &utc);
+  return m_folder + "/" + m_game + "-" + when + "-" + uuidText(header.uuid).substr(0, 8) + ".dfr";
+}
+
+void Journals::findRound(const HostOptions& options) {
+  if (options.recover != "on") return;
+  std::string why_not;
+  m_open = findOpenRound(m_folder, m_facts, m_frame_nanos, why_not);
+  if (m_open != nullptr && options.players == "private") {
+    why_not = m_open->path() + ": worlds of single players are not gone on with";
+    m_open.reset();
+  }
+  // A player comes back within the grace time; a file is written once a second.
+  const auto patience = std::chrono::duration<double>(options.grace) + JournalWriter::kBetween;
+  if (m_open != nullptr && std::filesystem::file_time_type::clock::now() - m_open->writtenAt() > patience)
+    m_open->dropSessions();
+  if (!why_not.empty()) m_log({LogEvent::Level::kWarning, "warning: the round cannot go on: " + why_not});
+}
+
+std::optional<WorldOrder> Journals::orderOfOpenRound() const {
+  if (m_open == nullptr) return std::nullopt;
+  WorldOrder order;
+  order.seed = m_open->header().seed;
+  order.repeatable = true;
+  order.again = true;  // or a game that sleeps would take as long as the round
+  order.start_nanos = m_open->header().start_nanos;
+  order.frame_nanos = m_open->header().frame_nanos;
+  return order;
+}
+
+namespace {
+
+/// Attempts to go on with the round from where it is. Each that comes to its end adds a turn.
+int attemptsOf(const OpenRound& round) {
+  std::istringstream fact(round.fact(kFactAttempts));
+  int attempts = 0;
+  std::uint32_t turns = 0;
+  return fact >> attempts >> turns && turns >= round.turns() ? attempts : 0;
+}
+
+}  // namespace
+
+// The attempt is noted in the file before it begins: a round that kills the server again and again is given
+// up.
+std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
+  auto sink = std::make_unique<JournalFileSink>(round.path(), round.wholeBytes());
+  const int attempts = attemptsOf(round);
+  if (attempts >= kMaxAttempts) {
+    sink->write(spellDfrDone("given up: it could not go on " + std::to_string(attempts) + " times"));
+    sink->sync();
+    m_log({LogEvent::Level::kError, "the round " + round.path() + " has ended " + std::to_string(attempts) +
+                                        " servers that went on with it; another one begins"});
+    return nullptr;
+  }
+  sink->write(
+      spellDfrMeta({{kFactAttempts, std::to_string(attempts + 1) + " " + std::to_string(round.turns())}}));
+  sink->sync();
+  return std::make_shared<Journal>(std::move(sink), round.header(), DfrFacts(), m_ring, true,
+                                   round.takePlace());
+}
+
+std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
+                                          std::function<void()> on_recovered, NewWorld another) {
+  const auto round = std::shared_ptr<OpenRound>(std::move(m_open));
+  const std::string path = round->path();
+  JournaledWorld::Book book = makeBook(path, *world);
+  try {
+    book.journal = goOnWriting(*round);
+  } catch (const std::system_error& error) {
+    m_log({LogEvent::Level::kError, "the round cannot go on: " + std::string(error.what())});
+  }
+  if (book.journal == nullptr) return nullptr;
+  book.find_difference = [p_world = world.get(), round] {
+    for (const auto& [name, value] : factsOfStart(*p_world)) {
+      const std::string before = round->fact(name);
+      if (name.starts_with(kFactFile) && !before.empty() && before != value)
+        return "it reads another " + name + " than it did";
+    }
+    return std::string();
+  };
+  book.on_recovered = [log = m_log, path, began = std::chrono::steady_clock::now(),
+                       on_recovered = std::move(on_recovered)](std::uint32_t ticks,
+                                                               const std::string& problem) {
+    on_recovered();
+    if (!problem.empty()) {
+      log({LogEvent::Level::kError, "the round cannot go on, and is kept in " + path + ": " + problem});
+      return;
+    }
+    const auto took =
+        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - began);
+    log("the round goes on after " + std::to_string(ticks) + " ticks, which were executed again in " +
+        std::to_string(took.count()) + " ms");
+  };
+  m_log("the server was killed in a round, which is executed again: " + path);
+  book.history = round->takeRecords();
+  book.first_tick =
+      static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
+  book.new_world = std::move(another);
+  book.recovery = std::make_unique<RoundRecovery>(round);
+  m_writer->add(book.journal);
+  return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
+}
+
+JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProcess& world) const {
+  JournaledWorld::Book book;
+  book.writer = m_writer;
+  book.recording = std::filesystem::path(path).filename().string();
+  book.late_facts = [&world] { return factsOfStart(world); };
+  book.on_problem = [log = m_log, path](const std::string& problem) {
+    log({LogEvent::Level::kError,
+         "the round is not written down any more, and goes on: " + problem + " (" + path + ")"});
+  };
+  book.on_death = [log = m_log, path](const WorldEnd& end, std::uint32_t tick, bool goes_on) {
+    log({LogEvent::Level::kError,
+         "the game " + end.text + (end.when.empty() ? "" : " " + end.when) +
+             (goes_on ? "; another world takes over, without the keys and clicks of that tick"
+                      : " again; the round is kept in " + path + ", where it is tick " +
+                            std::to_string(tick) + " (dfreplay)")});
+    for (const std::string& line : end.last_lines) log("the game's log: " + line);
+  };
+  return book;
+}
+
+std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
+                                          RepeatCheck::NewWorld again, NewWorld another) {
+  DfrHeader header;
+  std::random_device device;
+  for (std::uint8_t& byte : header.uuid) byte = static_cast<std::uint8_t>(device());
+  header.seed = order.seed;
+  header.start_nanos = order.start_nanos;
+  header.frame_nanos = order.frame_nanos;
+  const std::string path = pathOf(header);
+  JournaledWorld::Book book = makeBook(path, *world);
+  try {
+    book.journal =
+        std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring, true);
+  } catch (const std::system_error& error) {
+    m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
+    return world;
+  }
+  book.new_world = std::move(another);
+  if (again && !std::exchange(m_checked, true)) {
+    book.check = std::make_unique<RepeatCheck>(
+        std::move(again), [log = m_log, journal = book.journal](const std::string& sentence) {
+          journal->addFacts({{kFactRepeatable, "no"}});
+          log({LogEvent::Level::kWarning, "warning: " + sentence});
+        });
+  }
+  m_writer->add(book.journal);
+  m_writer->wake();  // a server that is killed within the first second leaves a file, too
+  return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
+}
+
+}  // namespace naiad

@@ -1,0 +1,91 @@
+// The journals of a server's worlds: what is said of each round beside its turns, and where its file is.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/journal/JournaledWorld.h"
+#include "host/journal/OpenRound.h"
+#include "host/program/HostOptions.h"
+#include "host/world/WorldOrder.h"
+#include "host/world/WorldProcess.h"
+#include "shared/program/LineLog.h"
+
+namespace naiad {
+
+class Journals {
+ public:
+  /// Null if the options want none. `module`: the game's path; empty for a game that is this program itself.
+  static std::shared_ptr<Journals> open(const HostOptions& options, const std::string& game,
+                                        const std::string& module, const LogLine& log);
+
+  using NewWorld = std::function<JournaledWorld::AnotherWorld()>;
+
+  Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log);
+
+  /// For the next world.
+  WorldOrder makeOrder() const;
+  /// For the world that goes on with the round of a server that was killed; nothing: there is no such round,
+  /// or it has been begun.
+  std::optional<WorldOrder> orderOfOpenRound() const;
+  /// That world, which first gets the turns of its round. `on_recovered`: it has had them.
+  std::unique_ptr<WorldPort> goOn(std::unique_ptr<WorldProcess> world, std::function<void()> on_recovered,
+                                  NewWorld another);
+  /// That world, its turns written down. If they cannot be, the log says so, and it plays without. `again`
+  /// starts another one from the same order: the first round of this server is held against it. `another`
+  /// starts one that takes over from a world that crashed or hangs.
+  std::unique_ptr<WorldPort> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
+                                  RepeatCheck::NewWorld again = {}, NewWorld another = {});
+
+ private:
+  void findRound(const HostOptions& options);
+  std::string pathOf(const DfrHeader& header) const;
+  std::shared_ptr<Journal> goOnWriting(OpenRound& round) const;
+  JournaledWorld::Book makeBook(const std::string& path, const WorldProcess& world) const;
+
+  const std::string m_folder;
+  const std::string m_game;
+  const std::int64_t m_seed;
+  const std::uint64_t m_frame_nanos;
+  const std::size_t m_ring;
+  DfrFacts m_facts;
+  LogLine m_log;
+  bool m_checked = false;             ///< a round has been, or is
+  std::unique_ptr<OpenRound> m_open;  ///< to go on with
+  std::shared_ptr<JournalWriter> m_writer = std::make_shared<JournalWriter>();
+};
+
+/// The round that a server of this folder was killed in, if this one can go on with it: the same game with
+/// the same settings, on the same port, by `expected` facts. Else null, and `said` has why, if there is one.
+std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
+                                         std::uint64_t frame_nanos, std::string& said);
+
+/// The hash of a file by which a round says which game it was; empty if it cannot be read.
+std::string hashOfModule(const std::string& path);
+
+/// "name=hash" of build ids: this library's, and those of the C library and the kernel, which decide where
+/// memory lies.
+DfrFacts factsOfMachine();
+
+/// The text of the game's settings, if there is such a file and it is of a sensible length.
+inline constexpr std::size_t kMaxSettings = kMaxDfrValue;
+
+// Names of facts.
+inline constexpr const char* kFactGame = "game";
+inline constexpr const char* kFactModule = "module_sha256";  ///< missing: the game was a program
+inline constexpr const char* kFactVersion = "naiad";
+inline constexpr const char* kFactPlayers = "players";
+inline constexpr const char* kFactGameOver = "on_game_over";
+inline constexpr const char* kFactAddresses = "addresses";    ///< "fixed" or "random"
+inline constexpr const char* kFactClocks = "clocks";          ///< "repeatable" or "real"
+inline constexpr const char* kFactSettings = "settings";      ///< the text of df-config.txt
+inline constexpr const char* kFactPort = "port";              ///< that players joined by
+inline constexpr const char* kFactFirstTick = "first_tick";   ///< by which the server's log and players count
+inline constexpr const char* kFactRepeatable = "repeatable";  ///< "no": a second world answered otherwise
+inline constexpr const char* kFactAttempts = "attempts";      ///< to go on with it, and behind how many turns
+inline constexpr const char* kFactFile = "file ";          ///< and its name: the hash of a file that was read
+inline constexpr const char* kFactVariable = "variable ";  ///< and its name: its value
+
+}  // namespace naiad

@@ -1,0 +1,161 @@
+#include "server/replay/RecordedRound.h"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "host/program/GameModule.h"
+#include "host/program/HostOptions.h"
+#include "host/program/Journals.h"
+#include "host/program/WorldSandbox.h"
+#include "host/program/Worlds.h"
+#include "shared/net/base/SafeText.h"
+
+namespace naiad {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Days of a busy server.
+constexpr std::uintmax_t kMaxRound = std::uintmax_t{1} << 30;
+
+/// A name of an installed game, and no path: a file may come from a stranger.
+bool isGameName(const std::string& name) {
+  return !name.empty() && name.size() <= 100 && name[0] != '.' &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                  c == '_' || c == '.';
+         });
+}
+
+std::string quoted(const std::string& text) {
+  return "\"" + safeText(text, 100) + "\"";
+}
+
+fs::path ownFolder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+/// One of these; else the first.
+std::string choiceOf(const std::string& value, std::initializer_list<const char*> choices) {
+  const bool known =
+      std::any_of(choices.begin(), choices.end(), [&](const char* one) { return value == one; });
+  return known ? value : *choices.begin();
+}
+
+std::vector<std::string> variablesOf(const DfrFacts& facts) {
+  std::vector<std::string> entries;
+  for (const auto& [name, value] : facts) {
+    if (!name.starts_with(kFactVariable)) continue;
+    const std::string entry = name.substr(std::string_view(kFactVariable).size()) + "=" + value;
+    if (isGameVariable(entry) && entry.find('\0') == std::string::npos) entries.push_back(entry);
+  }
+  return entries;
+}
+
+}  // namespace
+
+RecordedRound::RecordedRound(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw RoundError(path.string() + ": there is no such file.");
+  if (fs::file_size(path, error) > kMaxRound)
+    throw RoundError(path.string() + ": it is too long for a round.");
+  std::ifstream file(path, std::ios::binary);
+  m_bytes.assign(std::istreambuf_iterator<char>(file), {});
+  if (!file.good() && !file.eof()) throw RoundError(path.string() + ": it cannot be read.");
+  const DfrReader reader(m_bytes);
+  if (!reader.problem().empty()) throw RoundError(path.string() + ": " + reader.problem() + ".");
+  m_header = reader.header();
+  m_facts = reader.facts();
+}
+
+std::string RecordedRound::fact(const std::string& name) const {
+  const auto found = m_facts.find(name);
+  return found != m_facts.end() ? found->second : std::string();
+}
+
+std::unique_ptr<DfrReader> RecordedRound::read() const {
+  return std::make_unique<DfrReader>(m_bytes);
+}
+
+std::vector<std::string> RecordedRound::doubts() const {
+  std::vector<std::string> doubts;
+  if ((m_header.flags & kDfrInProcess) != 0)
+    doubts.emplace_back(
+        "the game ran in the server's own process: its clocks, entropy and addresses were real");
+  else if (fact(kFactClocks) != "repeatable")
+    doubts.emplace_back("the game's clocks and entropy were real");
+  if ((m_header.flags & kDfrInProcess) == 0 && fact(kFactAddresses) != "fixed")
+    doubts.emplace_back("the game's addresses were random");
+  if ((m_header.flags & kDfrStopped) != 0) doubts.emplace_back("the file ends before the round did");
+  return doubts;
+}
+
+// ---- the game ---------------------------------------------------------------------------------------------
+
+RoundStage::RoundStage(const RecordedRound& round, const std::string& game) : m_round(round) {
+  const std::string module = findModule(game);
+  char name[] = "/tmp/dfreplay-XXXXXX";
+  if (mkdtemp(name) == nullptr) throw std::system_error(errno, std::generic_category(), "a folder in /tmp");
+  m_folder = name;
+  if (const std::string settings = round.fact(kFactSettings); !settings.empty())
+    std::ofstream(m_folder / "df-config.txt", std::ios::binary) << settings;
+  HostOptions options;
+  options.players = choiceOf(round.fact(kFactPlayers), {"together", "first", "private"});
+  options.on_game_over = choiceOf(round.fact(kFactGameOver), {"leave", "exit", "restart"});
+  m_launcher = launchAgain(options, module, (ownFolder() / "dfserver").string(), m_folder.string(),
+                           variablesOf(round.facts()));
+  findDifferences();
+}
+
+RoundStage::~RoundStage() {
+  m_launcher.reset();
+  std::error_code ignored;
+  fs::remove_all(m_folder, ignored);
+}
+
+std::string RoundStage::findModule(const std::string& game) {
+  const std::string recorded = m_round.fact(kFactModule);
+  const std::string name = m_round.fact(kFactGame);
+  if (game.empty() && !isGameName(name)) throw RoundError("The file does not say which game it was.");
+  if (game.empty() && recorded.empty())
+    throw RoundError("The game " + quoted(name) +
+                     " was a program of its own, which cannot be executed again here.");
+  std::string module;
+  try {
+    module = GameModule::find(game.empty() ? name : game).string();
+  } catch (const GameError& error) {
+    throw RoundError(error.what());
+  }
+  if (hashOfModule(module) == recorded) return module;
+  if (game.empty())
+    throw RoundError("The installed game " + quoted(name) +
+                     " is another version than the recorded one; --game executes it nevertheless.");
+  m_doubts.push_back(module + " is another version than the recorded game");
+  return module;
+}
+
+void RoundStage::findDifferences() {
+  const DfrFacts here = factsOfMachine();
+  for (const char* p_name : {"build libdragonfly.so", "build libc.so", "build libstdc++.so", "kernel"}) {
+    const auto found = here.find(p_name);
+    const std::string now = found != here.end() ? found->second : std::string();
+    if (now != m_round.fact(p_name)) m_doubts.push_back(std::string(p_name) + " is another one than it was");
+  }
+}
+
+WorldOrder RoundStage::order() const {
+  WorldOrder order;
+  order.seed = m_round.header().seed;
+  order.repeatable = true;
+  order.again = true;
+  order.start_nanos = m_round.header().start_nanos;
+  order.frame_nanos = m_round.header().frame_nanos;
+  return order;
+}
+
+}  // namespace naiad

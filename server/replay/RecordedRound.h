@@ -1,0 +1,67 @@
+// The file of a round, and the game that executes it again.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "host/journal/DfrReader.h"
+#include "host/world/WorldLauncher.h"
+
+namespace naiad {
+
+/// A round that cannot be read or executed. what() is a sentence.
+class RoundError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class RecordedRound {
+ public:
+  /// Reads the whole file. Throws RoundError.
+  explicit RecordedRound(const std::filesystem::path& path);
+
+  const DfrHeader& header() const { return m_header; }
+  const DfrFacts& facts() const { return m_facts; }
+  /// A fact; empty if the file does not have it.
+  std::string fact(const std::string& name) const;
+  /// Reads it from the beginning. This outlives it.
+  std::unique_ptr<DfrReader> read() const;
+  /// What cannot be promised of it, as sentences: that its clocks were real, say.
+  std::vector<std::string> doubts() const;
+
+ private:
+  std::string m_bytes;
+  DfrHeader m_header;
+  DfrFacts m_facts;
+};
+
+/// Executes the worlds of a round in a folder of their own, which is removed at the end.
+class RoundStage {
+ public:
+  /// `game`: a name or path that the user gives; empty: the installed game that the file names, if it is the
+  /// same. Throws RoundError or std::system_error.
+  RoundStage(const RecordedRound& round, const std::string& game);
+  ~RoundStage();
+  RoundStage(const RoundStage&) = delete;
+  RoundStage& operator=(const RoundStage&) = delete;
+
+  const WorldLauncher& launcher() const { return *m_launcher; }
+  WorldOrder order() const;
+  /// That the game or the machine is another one than it was, as sentences.
+  const std::vector<std::string>& doubts() const { return m_doubts; }
+
+ private:
+  std::string findModule(const std::string& game);
+  void findDifferences();
+
+  const RecordedRound& m_round;
+  std::filesystem::path m_folder;
+  std::vector<std::string> m_doubts;
+  std::shared_ptr<const WorldLauncher> m_launcher;
+};
+
+}  // namespace naiad

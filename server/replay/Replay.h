@@ -1,0 +1,71 @@
+// A round that is executed again, tick by tick, and held against what its file says.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/replay/RecordedRound.h"
+#include "server/replay/ReplayWorld.h"
+
+namespace naiad {
+
+class Replay {
+ public:
+  /// Starts the world. Throws RoundError if the game does not run, or std::system_error.
+  Replay(const RecordedRound& round, const RoundStage& stage);
+
+  /// Execute the next recorded turn. `pictures`: of all players, where the turn does not ask for them; then
+  /// the answer is not the recorded one, and only the state is compared. False: there are no more, or the
+  /// world has ended.
+  bool step(bool pictures = false);
+  /// Ticks executed so far.
+  std::uint32_t tick() const { return m_tick; }
+
+  // Of the last tick.
+
+  const WorldTurn& turn() const { return m_turn; }
+  /// What the players saw, as far as it was asked for.
+  const std::vector<WorldPicture>& pictures() const { return m_pictures; }
+  /// What the file has of it.
+  const std::optional<RecordedPicture>& recordedPicture() const { return m_recorded; }
+  /// Was it other than the file says?
+  bool differs() const { return m_differs; }
+
+  /// The first tick that was; 0: none so far.
+  std::uint32_t firstDifference() const { return m_first_difference; }
+  /// What of it was: "the world's answer", "the state".
+  const std::string& whatDiffers() const { return m_what_differs; }
+  /// How the world ended before its recorded end; empty: it did not.
+  const std::string& failure() const { return m_failure; }
+  /// Files that the game reads and that are other ones than they were.
+  const std::vector<std::string>& otherFiles() const { return m_other_files; }
+  /// Does it have the addresses that it had?
+  bool hasFixedAddresses() const { return m_world.ready()->fixed_addresses; }
+  DfrEnd end() const { return m_reader->end(); }
+  const std::string& why() const { return m_reader->why(); }
+
+ private:
+  void readAhead();
+  bool nextTurn();
+  void takeRest(std::string_view answer, bool exact);
+  void compare(const TickResult& result, std::string_view answer, bool exact);
+  void noteDifference(const char* what);
+  void compareFiles(const RecordedRound& round);
+
+  std::unique_ptr<DfrReader> m_reader;
+  ReplayWorld m_world;
+  std::optional<TurnRecord> m_next;  ///< read ahead
+  std::uint32_t m_tick = 0;
+  WorldTurn m_turn;
+  std::vector<WorldPicture> m_pictures;
+  std::optional<RecordedPicture> m_recorded;
+  bool m_differs = false;
+  std::uint32_t m_first_difference = 0;
+  std::string m_what_differs;
+  std::string m_failure;
+  std::vector<std::string> m_other_files;
+};
+
+}  // namespace naiad

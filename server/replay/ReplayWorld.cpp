@@ -1,0 +1,113 @@
+#include "server/replay/ReplayWorld.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+
+#include "host/world/WorldFrame.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr std::size_t kMaxPrinted = 4096;
+
+}  // namespace
+
+ReplayWorld::ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order)
+    : m_started(launcher.start(order)) {
+  if (receiveFrame()) m_ready = readReady(m_answer);
+  if (!m_ready && m_failure.empty()) m_failure = "sent what no world sends";
+}
+
+ReplayWorld::~ReplayWorld() {
+  for (const int one : {m_started.socket, m_started.keeper, m_started.output, m_started.page}) close(one);
+}
+
+std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {
+  if (!m_failure.empty()) return std::nullopt;
+  if (!writeTurn(turn, m_frame)) {
+    m_failure = "was asked too much";
+    return std::nullopt;
+  }
+  if (!send(m_frame) || !receiveFrame()) return std::nullopt;
+  return m_answer;
+}
+
+// What it prints is read meanwhile, or it would wait for us.
+bool ReplayWorld::wait(short events) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (true) {
+    pollfd either[2] = {{m_started.socket, events, 0}, {m_started.output, POLLIN, 0}};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+    if (left.count() <= 0) {
+      m_failure = "did not answer any more";
+      return false;
+    }
+    if (poll(either, m_started.output >= 0 ? 2 : 1, static_cast<int>(left.count())) < 0) continue;
+    if (either[1].revents != 0) readOutput();
+    if (either[0].revents != 0) return true;
+  }
+}
+
+void ReplayWorld::readOutput() {
+  std::array<char, 4096> part{};
+  const ssize_t count = read(m_started.output, part.data(), part.size());
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (count <= 0) {
+    close(std::exchange(m_started.output, -1));
+    return;
+  }
+  m_printed.append(part.data(), static_cast<std::size_t>(count));
+  if (m_printed.size() > kMaxPrinted) m_printed.erase(0, m_printed.size() - kMaxPrinted);
+}
+
+bool ReplayWorld::send(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::send(m_started.socket, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      if (!wait(POLLOUT)) return false;
+    } else if (errno != EINTR) {
+      m_failure = "ended";
+      return false;
+    }
+  }
+  return true;
+}
+
+bool ReplayWorld::receive(char* p_to, std::size_t count) {
+  while (count > 0) {
+    const ssize_t got = recv(m_started.socket, p_to, count, MSG_DONTWAIT);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EAGAIN) {
+      if (!wait(POLLIN)) return false;
+      continue;
+    }
+    if (got <= 0) {
+      m_failure = "ended";
+      return false;
+    }
+    p_to += got;
+    count -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+bool ReplayWorld::receiveFrame() {
+  char head[kWorldFrameHead];
+  if (!receive(head, sizeof head)) return false;
+  const auto size = loadLittleEndian<std::uint32_t>(head);
+  if (size > kMaxWorldFrame) {
+    m_failure = "sent too long a frame";
+    return false;
+  }
+  m_answer.resize(size);
+  return receive(m_answer.data(), size);
+}
+
+}  // namespace naiad

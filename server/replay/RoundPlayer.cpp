@@ -1,0 +1,205 @@
+#include "server/replay/RoundPlayer.h"
+
+#include <langinfo.h>
+#include <locale.h>
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "client/terminal/Screen.h"
+#include "client/terminal/TerminalGuard.h"
+#include "client/terminal/TerminalType.h"
+
+namespace naiad {
+
+namespace {
+
+/// Pictures a second, at most: faster rounds leave some out.
+constexpr std::chrono::milliseconds kBetweenFrames{16};
+
+}  // namespace
+
+RoundControls::RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now)
+    : m_reel(reel),
+      m_frame_nanos(std::max<std::uint64_t>(frame_nanos, 1'000'000)),
+      m_player(player),
+      m_since(now) {
+  m_reel.seek(1);
+}
+
+double RoundControls::ticksPerNano() const {
+  return std::ldexp(1.0, m_speed) / static_cast<double>(m_frame_nanos);
+}
+
+bool RoundControls::update(Time now) {
+  if (m_paused) return false;
+  const std::chrono::nanoseconds passed = now - m_since;
+  const auto wanted =
+      m_from + static_cast<std::uint32_t>(static_cast<double>(passed.count()) * ticksPerNano());
+  if (wanted <= m_reel.tick()) return false;
+  const std::uint32_t before = m_reel.tick();
+  m_reel.seek(std::min(wanted, std::max(m_reel.count(), 1u)));
+  if (m_reel.tick() >= m_reel.count() || m_reel.tick() < wanted) m_paused = true;  // the end
+  return m_reel.tick() != before || m_paused;
+}
+
+RoundControls::Time RoundControls::deadline(Time now) const {
+  if (m_paused) return now + std::chrono::hours(1);
+  const double ticks = m_reel.tick() + 1.0 - m_from;
+  const auto due = m_since + std::chrono::nanoseconds(static_cast<std::int64_t>(ticks / ticksPerNano()));
+  return std::max(due, now + std::chrono::milliseconds(1));
+}
+
+bool RoundControls::takeKey(const KeyEvent& key, Time now) {
+  if (key.action == KeyEvent::Action::kRelease) return true;
+  const auto five = static_cast<std::int64_t>(kJumpNanos / m_frame_nanos);
+  if (key.ch == U'q' || key.key == df::Keyboard::ESCAPE) return false;
+  if (key.key == df::Keyboard::C && (key.modifiers & kControl) != 0) return false;
+  if (key.key == df::Keyboard::SPACE || key.ch == U' ') {
+    m_paused = !m_paused;
+    go(m_reel.tick(), now);
+  } else if (key.key == df::Keyboard::LEFTARROW) {
+    jump(-five, now);
+  } else if (key.key == df::Keyboard::RIGHTARROW) {
+    jump(five, now);
+  } else if (key.ch == U'.' || key.ch == U',') {
+    m_paused = true;
+    jump(key.ch == U'.' ? 1 : -1, now);
+  } else if (key.ch == U'+' || key.ch == U'=') {
+    changeSpeed(1, now);
+  } else if (key.ch == U'-') {
+    changeSpeed(-1, now);
+  } else if (key.key == df::Keyboard::TAB) {
+    changeEyes();
+  }
+  return true;
+}
+
+void RoundControls::jump(std::int64_t ticks, Time now) {
+  const std::int64_t last = std::max<std::int64_t>(m_reel.count(), 1);
+  go(static_cast<std::uint32_t>(std::clamp<std::int64_t>(m_reel.tick() + ticks, 1, last)), now);
+}
+
+void RoundControls::go(std::uint32_t tick, Time now) {
+  m_from = m_reel.seek(tick);
+  m_since = now;
+}
+
+void RoundControls::changeSpeed(int by, Time now) {
+  m_speed = std::clamp(m_speed + by, kSlowest, kFastest);
+  m_from = m_reel.tick();
+  m_since = now;
+}
+
+void RoundControls::changeEyes() {
+  const WorldPicture* p_shown = shown();
+  if (p_shown == nullptr) return;
+  const std::vector<WorldPicture>& all = m_reel.pictures();
+  const auto at = static_cast<std::size_t>(p_shown - all.data());
+  m_player = all[(at + 1) % all.size()].player;
+}
+
+const WorldPicture* RoundControls::shown() const {
+  const std::vector<WorldPicture>& all = m_reel.pictures();
+  for (const WorldPicture& picture : all) {
+    if (picture.player == m_player) return &picture;
+  }
+  return all.empty() ? nullptr : &all.front();
+}
+
+std::string RoundControls::status() const {
+  const double seconds = static_cast<double>(m_frame_nanos) * m_reel.tick() / 1e9;
+  const auto whole = static_cast<long>(seconds);
+  char text[200];
+  const WorldPicture* p_shown = shown();
+  const std::string eyes = p_shown != nullptr ? "player " + std::to_string(p_shown->player) : "nobody plays";
+  const std::string speed = m_speed < 0 ? "1/" + std::to_string(1 << -m_speed) : std::to_string(1 << m_speed);
+  std::snprintf(text, sizeof text, " %s  %ld:%02ld  tick %u of %u  x%s  %s%s", m_paused ? "paused" : "plays",
+                whole / 60, whole % 60, m_reel.tick(), m_reel.count(), speed.c_str(), eyes.c_str(),
+                m_reel.firstDifference() != 0 ? "  (not as recorded)" : "");
+  return text;
+}
+
+Picture RoundControls::compose(int columns, int rows) const {
+  Picture picture(columns, rows);
+  const int line = rows - 1;
+  if (const WorldPicture* p_shown = shown()) {
+    const df::Canvas& canvas = p_shown->canvas;
+    for (int y = 0; y < std::min(canvas.height(), line); ++y) {
+      for (int x = 0; x < std::min(canvas.width(), columns); ++x)
+        picture.put(x, y, {canvas.at(x, y).ch, canvas.at(x, y).color});
+    }
+  }
+  picture.fill(0, line, columns, 1, Style::kReverse);
+  picture.write(0, line, status(), columns, df::COLOR_DEFAULT, Style::kReverse);
+  return picture;
+}
+
+// ---- in the terminal --------------------------------------------------------------------------------------
+
+bool RoundPlayer::hasTerminal() {
+  return TerminalGuard::isTerminal();
+}
+
+void RoundPlayer::run() {
+  using Clock = std::chrono::steady_clock;
+  setlocale(LC_CTYPE, "");
+  const TerminalType type = chooseTerminalType(std::getenv("TERM"));
+  PictureReel reel(m_round, m_stage);
+  TerminalGuard guard(TerminalGuard::Options{false});
+  Screen screen(
+      {type.name, std::strcmp(nl_langinfo(CODESET), "UTF-8") != 0, std::getenv("NO_COLOR") == nullptr});
+  guard.onRestore([&screen] { screen.end(); });
+  guard.installHandlers();
+  guard.enterModes();
+  InputDecoder decoder;
+  RoundControls controls(reel, m_round.header().frame_nanos, m_player, Clock::now());
+  Clock::time_point shown_at;
+  bool goes_on = true;
+  bool changed = true;
+  while (goes_on) {
+    Clock::time_point now = Clock::now();
+    changed = controls.update(now) || changed;
+    if (changed && now - shown_at >= kBetweenFrames) {
+      screen.show(controls.compose(screen.columns(), screen.rows()));
+      shown_at = now;
+      changed = false;
+    }
+    Clock::time_point until = controls.deadline(now);
+    if (changed) until = std::min(until, shown_at + kBetweenFrames);
+    if (const auto due = decoder.deadline()) until = std::min(until, *due);
+    const auto wait = std::chrono::ceil<std::chrono::milliseconds>(until - now).count();
+    pollfd either[2] = {{STDIN_FILENO, POLLIN, 0}, {guard.signalFd(), POLLIN, 0}};
+    poll(either, 2, static_cast<int>(std::clamp<long>(wait, 0, 1000)));
+    now = Clock::now();
+    std::vector<TerminalEvent> events = decoder.flush(now);
+    if (either[0].revents != 0) {
+      std::array<char, 256> bytes{};
+      const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+      if (count <= 0) break;
+      const auto more = decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now);
+      events.insert(events.end(), more.begin(), more.end());
+    }
+    for (const TerminalEvent& event : events) {
+      const auto* p_key = std::get_if<KeyEvent>(&event);
+      if (p_key == nullptr) continue;
+      goes_on = goes_on && controls.takeKey(*p_key, now);
+      changed = true;
+    }
+    if (either[1].revents != 0) {
+      char signal = 0;
+      if (read(guard.signalFd(), &signal, 1) == 1) goes_on = goes_on && signal == SIGWINCH;
+    }
+    if (screen.readSize()) changed = true;
+  }
+  guard.restore();
+}
+
+}  // namespace naiad

@@ -1,0 +1,74 @@
+// Plays a round in the terminal: forwards at any speed, 5 s to and fro, with the eyes of any player.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "client/terminal/InputDecoder.h"
+#include "client/terminal/Picture.h"
+#include "server/replay/PictureReel.h"
+
+namespace naiad {
+
+/// What the keys do, without a terminal: time is passed in.
+class RoundControls {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  static constexpr int kSlowest = -2;  ///< a quarter, as a power of two
+  static constexpr int kFastest = 6;   ///< 64 times
+  static constexpr std::uint64_t kJumpNanos = 5'000'000'000;
+
+  /// `player`: whose eyes; 0: the first there is. Begins with the first tick.
+  RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now);
+
+  /// False: the player wants to end it.
+  bool takeKey(const KeyEvent& key, Time now);
+  /// Go on to where the round is at this time. True: the picture is another one.
+  bool update(Time now);
+  /// When update() will next have something to do.
+  Time deadline(Time now) const;
+
+  bool isPaused() const { return m_paused; }
+  int speed() const { return m_speed; }
+  std::uint32_t player() const { return m_player; }
+  /// A picture of this size: the game, and a line that says where it is.
+  Picture compose(int columns, int rows) const;
+
+ private:
+  void jump(std::int64_t ticks, Time now);
+  void go(std::uint32_t tick, Time now);
+  void changeSpeed(int by, Time now);
+  void changeEyes();
+  const WorldPicture* shown() const;
+  std::string status() const;
+  double ticksPerNano() const;
+
+  PictureReel& m_reel;
+  std::uint64_t m_frame_nanos;
+  std::uint32_t m_player;
+  bool m_paused = false;
+  int m_speed = 0;
+  Time m_since;  ///< when the round was at m_from
+  std::uint32_t m_from = 1;
+};
+
+class RoundPlayer {
+ public:
+  RoundPlayer(const RecordedRound& round, const RoundStage& stage, std::uint32_t player)
+      : m_round(round), m_stage(stage), m_player(player) {}
+  /// Until a key or a signal ends it. Throws std::runtime_error with a sentence if the terminal cannot show
+  /// it.
+  void run();
+
+  static bool hasTerminal();
+
+ private:
+  const RecordedRound& m_round;
+  const RoundStage& m_stage;
+  std::uint32_t m_player;
+};
+
+}  // namespace naiad

@@ -1,0 +1,197 @@
+#include "server/replay/Verify.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iomanip>
+#include <ostream>
+
+#include "server/replay/Replay.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/replica/Limits.h"
+
+namespace naiad {
+
+namespace {
+
+using WorldInput = df::InputQueue::Input;
+
+double secondsOf(const RecordedRound& round, std::uint32_t ticks) {
+  return static_cast<double>(round.header().frame_nanos) * ticks / 1e9;
+}
+
+const df::Canvas* findPicture(const Replay& replay, std::uint32_t player) {
+  for (const WorldPicture& picture : replay.pictures()) {
+    if (picture.player == player || player == 0) return &picture.canvas;
+  }
+  return nullptr;
+}
+
+std::string trimmed(const std::string& row) {
+  const std::size_t last = row.find_last_not_of(' ');
+  return safeText(row.substr(0, last == std::string::npos ? 0 : last + 1), 1000);
+}
+
+void printRows(const df::Canvas& recorded, const df::Canvas& again, std::ostream& out) {
+  int same = 0;
+  const int height = std::max(recorded.height(), again.height());
+  for (int y = 0; y < height; ++y) {
+    bool equal = true;
+    const int width = std::max(recorded.width(), again.width());
+    for (int x = 0; x < width && equal; ++x) equal = recorded.at(x, y) == again.at(x, y);
+    if (equal) {
+      ++same;
+      continue;
+    }
+    out << "  row " << std::setw(3) << y + 1 << " recorded |" << trimmed(recorded.rowText(y)) << "\n"
+        << "          again    |" << trimmed(again.rowText(y)) << "\n";
+  }
+  out << "  " << same << " of " << height << " rows are the same\n";
+}
+
+/// The next picture that the file has, and what the world shows then.
+void showDifference(Replay& replay, std::ostream& out) {
+  do {
+    if (!replay.recordedPicture()) continue;
+    const RecordedPicture& recorded = *replay.recordedPicture();
+    const df::Canvas* p_again = findPicture(replay, recorded.player);
+    out << "What player " << recorded.player << " saw at tick " << replay.tick() << ":\n";
+    return printRows(recorded.canvas, p_again != nullptr ? *p_again : df::Canvas(), out);
+  } while (replay.step());
+  out << "The file has no picture after that tick.\n";
+}
+
+void printDoubts(const std::vector<std::string>& doubts, std::ostream& out) {
+  for (const std::string& doubt : doubts) out << "note: " << safeText(doubt, 300) << "\n";
+}
+
+const char* endText(DfrEnd end) {
+  switch (end) {
+    case DfrEnd::kDone:
+      return "to its end";
+    case DfrEnd::kTorn:
+      return "to the last whole record of a file that has no end";
+    case DfrEnd::kDamaged:
+      break;
+  }
+  return "to the record before one that is damaged";
+}
+
+std::string keyName(df::Keyboard::Key key) {
+  if (key >= df::Keyboard::A && key <= df::Keyboard::Z)
+    return std::string(1, static_cast<char>('A' + key - df::Keyboard::A));
+  if (key >= df::Keyboard::NUM1 && key <= df::Keyboard::NUM9)
+    return std::string(1, static_cast<char>('1' + key - df::Keyboard::NUM1));
+  if (key >= df::Keyboard::F1 && key <= df::Keyboard::F12)
+    return "F" + std::to_string(1 + key - df::Keyboard::F1);
+  switch (key) {
+    case df::Keyboard::SPACE:
+      return "space";
+    case df::Keyboard::RETURN:
+      return "return";
+    case df::Keyboard::ESCAPE:
+      return "escape";
+    case df::Keyboard::LEFTARROW:
+      return "left";
+    case df::Keyboard::RIGHTARROW:
+      return "right";
+    case df::Keyboard::UPARROW:
+      return "up";
+    case df::Keyboard::DOWNARROW:
+      return "down";
+    case df::Keyboard::NUM0:
+      return "0";
+    default:
+      return "key-" + std::to_string(static_cast<int>(key));
+  }
+}
+
+const char* actionName(df::EventKeyboardAction action) {
+  return action == df::KEY_PRESSED ? "pressed" : action == df::KEY_RELEASED ? "released" : "down";
+}
+
+const char* actionName(df::EventMouseAction action) {
+  return action == df::CLICKED ? "clicked" : action == df::PRESSED ? "pressed" : "moved";
+}
+
+void printInput(const WorldInput& input, std::ostream& out) {
+  out << " player=" << input.player;
+  switch (input.kind) {
+    case df::InputQueue::kJoin:
+      out << " joins name=\"" << safeText(input.name, 100) << "\" color=" << input.color;
+      break;
+    case df::InputQueue::kLeave:
+      out << " leaves";
+      break;
+    case df::InputQueue::kKey:
+      out << " key=" << keyName(input.key) << " " << actionName(input.key_action);
+      break;
+    case df::InputQueue::kMouse:
+      out << " mouse=" << actionName(input.mouse_action) << " button=" << input.button << " x=" << input.x
+          << " y=" << input.y;
+      break;
+    case df::InputQueue::kScore:
+      out << " score table=" << safeText(input.table, 100) << " name=\"" << safeText(input.name, 100)
+          << "\" points=" << input.points;
+      break;
+  }
+}
+
+}  // namespace
+
+bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostream& out) {
+  printDoubts(round.doubts(), out);
+  printDoubts(stage.doubts(), out);
+  Replay replay(round, stage);
+  for (const std::string& file : replay.otherFiles())
+    out << "note: the file " << safeText(file, 300) << " is another one than it was\n";
+  if (!replay.hasFixedAddresses()) out << "note: addresses cannot be fixed here\n";
+  const auto begin = std::chrono::steady_clock::now();
+  while (replay.firstDifference() == 0 && replay.step()) continue;
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  if (replay.firstDifference() != 0) {
+    out << "tick " << replay.firstDifference() << ": " << replay.whatDiffers()
+        << " is not as it was recorded\n";
+    if (!replay.failure().empty()) out << "the world " << replay.failure() << "\n";
+    showDifference(replay, out);
+    return false;
+  }
+  const double real = secondsOf(round, replay.tick());
+  out << "verified ticks=" << replay.tick() << " seconds=" << std::fixed << std::setprecision(1) << real
+      << " took=" << std::setprecision(3) << took.count() << " times_real_time=" << std::setprecision(0)
+      << (took.count() > 0 ? real / took.count() : 0) << " read " << endText(replay.end())
+      << (replay.why().empty() ? "" : ": the game " + replay.why()) << "\n";
+  return true;
+}
+
+void printInputs(const RecordedRound& round, std::ostream& out) {
+  const auto reader = round.read();
+  std::uint32_t tick = 0;
+  while (const auto record = reader->next()) {
+    const auto* p_turn = std::get_if<WorldTurn>(&*record);
+    if (p_turn == nullptr) continue;
+    ++tick;
+    for (const WorldInput& input : p_turn->inputs) {
+      out << "tick=" << tick;
+      printInput(input, out);
+      out << "\n";
+    }
+    if (p_turn->ends_game) out << "tick=" << tick << " the host ends the game\n";
+  }
+  out << "ticks=" << tick << " read " << endText(reader->end())
+      << (reader->why().empty() ? "" : ": the game " + reader->why()) << "\n";
+}
+
+bool printPicture(const RecordedRound& round, const RoundStage& stage, std::uint32_t tick,
+                  std::uint32_t player, std::ostream& out) {
+  Replay replay(round, stage);
+  while (replay.tick() + 1 < tick) {
+    if (!replay.step()) return false;
+  }
+  if (!replay.step(true)) return false;
+  const df::Canvas* p_picture = findPicture(replay, player);
+  if (p_picture == nullptr) return false;
+  for (int y = 0; y < p_picture->height(); ++y) out << trimmed(p_picture->rowText(y)) << "\n";
+  return true;
+}
+
+}  // namespace naiad

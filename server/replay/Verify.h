@@ -1,0 +1,24 @@
+// dfreplay --verify: is the round the same when it is executed again?
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+
+namespace naiad {
+
+class RecordedRound;
+class RoundStage;
+
+/// Print it; true: it is, to the last whole turn of the file.
+bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostream& out);
+
+/// One line for each input and each tick's end that is worth one.
+void printInputs(const RecordedRound& round, std::ostream& out);
+
+/// What a player sees after this tick; 0: the first of them. False: the round has no such tick, or nobody to
+/// see it.
+bool printPicture(const RecordedRound& round, const RoundStage& stage, std::uint32_t tick,
+                  std::uint32_t player, std::ostream& out);
+
+}  // namespace naiad

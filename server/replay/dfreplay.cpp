@@ -1,0 +1,99 @@
+// dfreplay: plays rounds that dfserver has written down (--journal), and executes them again to the same end.
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <system_error>
+
+#include "server/replay/RecordedRound.h"
+#include "server/replay/RoundPlayer.h"
+#include "server/replay/Verify.h"
+#include "shared/options/Options.h"
+#include "shared/program/BrokenPipes.h"
+
+namespace {
+
+enum ExitCode { kOk = 0, kDiffers = 1, kUsage = 2, kNoRound = 3, kNoTerminal = 4 };
+
+constexpr const char* kHelp =
+    "In the terminal: space pauses, left and right go 5 s, . goes one tick, + and - change the speed (1/4 to "
+    "64\n"
+    "times), Tab changes whose eyes, q ends it.\n\n"
+    "Exit codes: 0 in order; 1 --verify: it is not the same; 2 wrong usage; 3 the file or its game cannot "
+    "be\n"
+    "used; 4 there is no terminal to play in.\n";
+
+struct ReplayOptions {
+  std::string file;
+  std::string game;
+  bool verify = false;
+  bool inputs = false;
+  int text = 0;
+  int player = 0;
+};
+
+std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
+  return {
+      {.name = "file",
+       .target = &replay.file,
+       .help = "A round's file, as dfserver --journal writes it",
+       .type = "FILE"},
+      {.name = "--verify",
+       .target = &replay.verify,
+       .help = "Execute it again and compare: the ticks and the speed, or the first tick that differs"},
+      {.name = "--inputs", .target = &replay.inputs, .help = "Print what players pressed, tick by tick"},
+      {.name = "--text",
+       .target = &replay.text,
+       .help = "Print what is on the screen after this tick",
+       .range = naiad::OptionRange{1, 2e9},
+       .type = "TICK"},
+      {.name = "--player",
+       .target = &replay.player,
+       .help = "With whose eyes: a number, as --inputs has them (default: the first there is)",
+       .range = naiad::OptionRange{1, 4e9}},
+      {.name = "--game",
+       .target = &replay.game,
+       .help = "Execute this game: a name or the path of a module (default: the installed game that the file "
+               "names, if it is the same)"}};
+}
+
+int fail(ExitCode code, const std::string& sentence) {
+  std::cerr << "dfreplay: " << sentence << "\n";
+  return code;
+}
+
+int run(const ReplayOptions& replay) {
+  const naiad::RecordedRound round(replay.file);
+  if (replay.inputs) {
+    naiad::printInputs(round, std::cout);
+    return kOk;
+  }
+  const naiad::RoundStage stage(round, replay.game);
+  const auto player = static_cast<std::uint32_t>(replay.player);
+  if (replay.verify) return naiad::verifyRound(round, stage, std::cout) ? kOk : kDiffers;
+  if (replay.text > 0) {
+    const bool there =
+        naiad::printPicture(round, stage, static_cast<std::uint32_t>(replay.text), player, std::cout);
+    return there ? kOk : fail(kNoRound, "there is no picture of that tick and player.");
+  }
+  if (!naiad::RoundPlayer::hasTerminal()) return fail(kNoTerminal, "playing a round takes a terminal.");
+  naiad::RoundPlayer(round, stage, player).run();
+  return kOk;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  naiad::surviveBrokenPipes();
+  ReplayOptions replay;
+  const naiad::Program program{"dfreplay", "Plays rounds that dfserver has written down.", kHelp, false};
+  const auto parsed = naiad::parseOptions(program, optionsOf(replay), argc, argv);
+  if (const auto code = naiad::exitCodeOf(parsed)) return *code;
+  try {
+    return run(replay);
+  } catch (const naiad::RoundError& error) {
+    return fail(kNoRound, error.what());
+  } catch (const std::exception& error) {
+    return fail(kNoRound, error.what());
+  }
+}

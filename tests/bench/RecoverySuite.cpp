@@ -1,0 +1,50 @@
+// recovery: a server is killed again and again while clients play, and journals are measured. docs/bench.md
+// says how.
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "ResultLine.h"
+#include "Suite.h"
+#include "path/suite/Subprocess.h"
+
+namespace bench {
+
+namespace {
+
+const std::vector<std::string> kGames = {"breakout", "bullethell", "chase",       "hello", "lander",
+                                         "maze",     "platformer", "saucershoot", "tron",  "sandbox"};
+
+void printLines(const std::string& output) {
+  std::istringstream lines(output);
+  for (std::string text; std::getline(lines, text);) {
+    std::istringstream words(text);
+    std::string suite;
+    words >> suite;
+    Line line(suite);
+    for (std::string word; words >> word;) {
+      const std::size_t equals = word.find('=');
+      if (equals != std::string::npos) line.add(word.substr(0, equals), word.substr(equals + 1));
+    }
+  }
+}
+
+void run(const char* suite, const std::string& game, std::vector<std::string> words) {
+  progress(std::string(suite) + ": " + game);
+  words.insert(words.begin(), std::string(NAIAD_BINARY_DIR) + "/bin/naiad_recovery");
+  const path::Finished finished = path::runProgram(words);
+  printLines(finished.output);
+  if (finished.code != 0) Line(suite).add("game", game).addZero("failed", 1);
+}
+
+const Suite s_suite("recovery", "a server is killed while clients play, who come back; journals are measured",
+                    [](const Options& options) {
+                      for (const std::string& game : kGames) {
+                        run("recovery", game, {"kills", game, options.quick ? "5" : "100", "1"});
+                        run("journal", game, {"journal", game, options.quick ? "900" : "9000"});
+                      }
+                    });
+
+}  // namespace
+
+}  // namespace bench

@@ -1,0 +1,116 @@
+#include "JournalCost.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/journal/JournaledWorld.h"
+#include "host/world/WorldProcess.h"
+#include "shared/values/SplitMix64.h"
+
+namespace bench {
+
+namespace {
+
+using naiad::Journal;
+using naiad::JournaledWorld;
+
+constexpr int kTicks = 20'000;
+constexpr int kRuns = 5;
+constexpr std::size_t kAnswer = 400;  ///< bytes: of a busy scene's changes in one tick
+
+struct Nowhere : naiad::JournalSink {
+  void write(std::string_view /*bytes*/) override {}
+  void sync() override {}
+  void setFlags(std::uint16_t /*flags*/) override {}
+};
+
+/// Answers at once; `hashes`: as a world does that is journaled.
+class StubWorld : public naiad::WorldPort {
+ public:
+  explicit StubWorld(bool hashes) : m_hashes(hashes) {}
+  std::uint32_t addInput(df::InputQueue::Input input) override {
+    m_inputs.push_back(std::move(input));
+    return m_inputs.back().player;
+  }
+  void setHeard(std::uint32_t /*player*/) override {}
+  void endGame() override {}
+  bool isReady() const override { return true; }
+  std::uint64_t answerHash() const override { return m_hash; }
+  void tick(bool /*watched*/, bool /*truth*/) override {
+    ++m_ticks;
+    m_inputs.clear();
+    if (m_hashes) m_hash = naiad::hashAnswer(m_answer);
+    reportTick();
+  }
+  std::uint32_t nextTick() const override { return m_ticks + 1; }
+  const df::WorldView& view() const override { return m_view; }
+  void notePublished(const naiad::Publisher& /*publisher*/) override {}
+  std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
+  bool isGameOver() const override { return false; }
+  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {80, 24}; }
+
+ private:
+  const bool m_hashes;
+  std::uint32_t m_ticks = 0;
+  std::uint64_t m_hash = 0;
+  std::string m_answer = std::string(kAnswer, 'x');
+  std::vector<df::InputQueue::Input> m_inputs;
+  df::WorldView m_view;
+};
+
+double threadNanos() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
+}
+
+double nanosPerTick(naiad::WorldPort& world, int players) {
+  naiad::SplitMix64 random(3);
+  const double began = threadNanos();
+  for (int tick = 0; tick < kTicks; ++tick) {
+    for (int player = 1; player <= players; ++player) {
+      if (random.below(10) >= 3) continue;
+      df::InputQueue::Input key{.kind = df::InputQueue::kKey, .player = static_cast<std::uint32_t>(player)};
+      key.key = static_cast<df::Keyboard::Key>(random.below(12));
+      key.key_action = static_cast<df::EventKeyboardAction>(random.below(3));
+      world.addInput(key);
+    }
+    world.tick(true, false);
+  }
+  return (threadNanos() - began) / kTicks;
+}
+
+double plain(int players) {
+  StubWorld world(false);
+  return nanosPerTick(world, players);
+}
+
+double journaled(int players) {
+  JournaledWorld::Book book;
+  book.writer = std::make_shared<naiad::JournalWriter>();
+  book.journal = std::make_shared<Journal>(std::make_unique<Nowhere>(), naiad::DfrHeader(), naiad::DfrFacts(),
+                                           std::size_t{4} << 20, false);
+  book.writer->add(book.journal);
+  JournaledWorld world(std::make_unique<StubWorld>(true), std::move(book));
+  return nanosPerTick(world, players);
+}
+
+}  // namespace
+
+// The least of several: whatever else runs only adds.
+double journalNanos(int players) {
+  double least = 1e12;
+  double without = 1e12;
+  for (int run = 0; run < kRuns; ++run) {
+    least = std::min(least, journaled(players));
+    without = std::min(without, plain(players));
+  }
+  return least - without;
+}
+
+}  // namespace bench

@@ -1,0 +1,130 @@
+// Kills dfserver while clients play its game, and measures what a journal costs. deploy/bench recovery runs
+// it.
+//
+//   naiad_recovery kills GAME COUNT SEED   one line: what became of so many kills
+//   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "JournalCost.h"
+#include "RecoveryRun.h"
+#include "server/replay/RecordedRound.h"
+#include "server/replay/Verify.h"
+#include "tests/server/replay/Recorder.h"
+
+namespace {
+
+using naiad::test::KillResult;
+using naiad::test::RecoveryRun;
+using std::chrono::milliseconds;
+
+constexpr int kPlayers = 4;
+/// Kills in one round: each of them compares pictures by executing the round from its beginning.
+constexpr int kKillsInARound = 10;
+constexpr milliseconds kMostPlay{1500};
+
+struct Total {
+  int kills = 0;
+  int players = 0;
+  int returned = 0;
+  std::uint64_t ticks_lost = 0;
+  std::uint64_t cells = 0;
+  std::uint64_t wrong_cells = 0;
+  int verified = 0;
+  int rounds = 0;
+  std::vector<long> took;  ///< milliseconds
+};
+
+void add(const KillResult& result, Total& total) {
+  ++total.kills;
+  total.players += result.players;
+  total.returned += result.returned;
+  total.ticks_lost += result.ticks_lost;
+  total.cells += result.cells;
+  total.wrong_cells += result.wrong_cells;
+  total.took.push_back(result.took.count());
+  if (!result.problem.empty()) std::fprintf(stderr, "naiad_recovery: %s\n", result.problem.c_str());
+}
+
+/// Kills in one round, which is verified then.
+void runRound(const std::string& game, int kills, std::mt19937_64& random, Total& total) {
+  RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
+  for (int i = 0; i < kills; ++i) {
+    run.play(milliseconds(random() % static_cast<std::uint64_t>(kMostPlay.count())));
+    const KillResult result = run.kill();
+    add(result, total);
+    if (result.returned < result.players) return;
+  }
+  ++total.rounds;
+  std::string said;
+  if (run.verify(said)) {
+    ++total.verified;
+  } else {
+    std::fprintf(stderr, "naiad_recovery: %s\n", said.c_str());
+  }
+}
+
+long percentile(std::vector<long> values, std::size_t percent) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, values.size() * percent / 100)];
+}
+
+int kills(const std::string& game, int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  Total total;
+  while (total.kills < count) {
+    try {
+      runRound(game, std::min(kKillsInARound, count - total.kills), random, total);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
+      return 1;
+    }
+  }
+  std::printf(
+      "recovery game=%s kills=%d players=%d returned=%d ticks_lost=%llu compared_cells=%llu wrong_cells=%llu "
+      "p50_ms=%ld p99_ms=%ld rounds=%d verified=%d\n",
+      game.c_str(), total.kills, total.players, total.returned,
+      static_cast<unsigned long long>(total.ticks_lost), static_cast<unsigned long long>(total.cells),
+      static_cast<unsigned long long>(total.wrong_cells), percentile(total.took, 50),
+      percentile(total.took, 99), total.rounds, total.verified);
+  const bool good = total.returned == total.players && total.ticks_lost == 0 && total.wrong_cells == 0 &&
+                    total.verified == total.rounds;
+  return good ? 0 : 1;
+}
+
+int journal(const std::string& game, std::uint32_t ticks) {
+  naiad::Recorder recorder;
+  const auto file = recorder.record({.game = game, .seed = 1, .ticks = ticks, .players = kPlayers});
+  const double hours = ticks / 30.0 / 3600;
+  std::printf("journal game=%s players=%d bytes_per_hour=%.0f ns_per_tick=%.0f\n", game.c_str(), kPlayers,
+              static_cast<double>(std::filesystem::file_size(file)) / hours, bench::journalNanos(kPlayers));
+  const naiad::RecordedRound round(file);
+  const naiad::RoundStage stage(round, "");
+  std::ostringstream said;
+  const auto began = std::chrono::steady_clock::now();
+  const bool same = naiad::verifyRound(round, stage, said);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  std::printf("verify game=%s ticks=%u times_real_time=%.0f%s\n", game.c_str(), ticks,
+              ticks / 30.0 / took.count(), same ? "" : " failed=1");
+  return same ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() == 4 && words[0] == "kills")
+    return kills(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
+  if (words.size() == 3 && words[0] == "journal")
+    return journal(words[1], static_cast<std::uint32_t>(std::atoi(words[2].c_str())));
+  std::fprintf(stderr, "usage: naiad_recovery kills GAME COUNT SEED | journal GAME TICKS\n");
+  return 2;
+}

@@ -1,0 +1,89 @@
+// The file of a round, which a stranger may have made.
+//
+//   input   0 a file as it is; 1 chunks: each: type (1) | length (2) | payload | …; 2 records of a
+//           TURN chunk (1) | bytes
+//
+// In 1 and 2 the checksums are right, as in a file by somebody who can compute them.
+#include "Require.h"
+#include "Script.h"
+#include "host/journal/DfrReader.h"
+#include "host/journal/DfrWriter.h"
+#include "shared/values/LittleEndian.h"
+
+namespace naiad::fuzz {
+namespace {
+
+/// What was read is spelled, and read again.
+void tryAgain(const WorldTurn& turn) {
+  std::string first;
+  std::string second;
+  REQUIRE(writeTurn(turn, first));
+  const auto same = readTurn(std::string_view(first).substr(kWorldFrameHead));
+  REQUIRE(same && writeTurn(*same, second));
+  REQUIRE(first == second);
+  std::string records;
+  REQUIRE(TurnRecordWriter().write(turn, records));
+  TurnRecordReader reader;
+  reader.add(records);
+  const auto record = reader.next();
+  REQUIRE(record && std::holds_alternative<WorldTurn>(*record) && reader.atEnd());
+  REQUIRE(writeTurn(std::get<WorldTurn>(*record), second));
+  REQUIRE(first == second);
+}
+
+void tryFile(std::string_view bytes) {
+  const Exactly file(bytes);
+  DfrReader reader(file.view());
+  std::size_t records = 0;
+  while (const auto record = reader.next()) {
+    REQUIRE(reader.problem().empty());
+    // A record has two bytes at least, and no file unpacks to more than 64 times its size.
+    REQUIRE(++records <= (64 * bytes.size() + kMaxDfrPayload) / 2);
+    if (const auto* p_turn = std::get_if<WorldTurn>(&*record)) tryAgain(*p_turn);
+    if (const auto* p_picture = std::get_if<RecordedPicture>(&*record)) {
+      REQUIRE(p_picture->canvas.width() <= 400 && p_picture->canvas.height() <= 150);
+    }
+  }
+  REQUIRE(!reader.next());
+  REQUIRE(reader.facts().size() <= kMaxDfrFacts);
+  REQUIRE(reader.end() == DfrEnd::kDone || reader.why().empty());
+}
+
+std::string chunksOf(Script& script) {
+  constexpr std::uint32_t kTypes[] = {kDfrMeta, kDfrTurn, kDfrDone, dfrType("VIEW")};
+  std::string bytes = spellDfrHeader({});
+  while (!script.atEnd()) {
+    const std::uint32_t type = kTypes[script.below(4)];
+    bytes += spellDfrChunk(type, script.bytes(script.number<std::uint16_t>()));
+  }
+  return bytes;
+}
+
+std::string turnsOf(Script& script) {
+  std::string payload(kDfrTurnHead, '\0');
+  payload[4] = static_cast<char>(script.byte());
+  const std::string records = script.rest();
+  storeLittleEndian(static_cast<std::uint32_t>(records.size() * (payload[4] == kDfrModelled ? 4 : 1)),
+                    payload.data() + kDfrTurnHead - 4);
+  return spellDfrHeader({}) + spellDfrChunk(kDfrTurn, payload + records);
+}
+
+}  // namespace
+}  // namespace naiad::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace naiad::fuzz;
+  Script script(data, size);
+  switch (script.below(3)) {
+    case 0:
+      tryFile(script.rest());
+      break;
+    case 1:
+      tryFile(chunksOf(script));
+      break;
+    default:
+      tryFile(turnsOf(script));
+      break;
+  }
+  return 0;
+}

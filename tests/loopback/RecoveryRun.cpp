@@ -1,0 +1,312 @@
+#include "RecoveryRun.h"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "client/bot/BotPlayer.h"
+#include "client/session/Connection.h"
+#include "host/journal/OpenRound.h"
+#include "host/program/Journals.h"
+#include "server/replay/PictureReel.h"
+#include "server/replay/RecordedRound.h"
+#include "server/replay/Verify.h"
+
+namespace naiad::test {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kBetweenKeys{20};
+/// Ticks that clients may have on their way.
+constexpr std::uint32_t kSeenTicks = 10;
+
+/// The parent and the name of a process; nothing if there is none.
+std::optional<std::pair<pid_t, std::string>> factsOf(const std::string& process) {
+  std::ifstream file("/proc/" + process + "/stat");
+  std::string line;
+  if (!std::getline(file, line)) return std::nullopt;
+  const std::size_t name = line.find('(');
+  const std::size_t end = line.rfind(')');
+  if (name == std::string::npos || end == std::string::npos) return std::nullopt;
+  return std::pair(static_cast<pid_t>(std::atoi(line.c_str() + end + 4)),
+                   line.substr(name + 1, end - name - 1));
+}
+
+/// The process below the server's keepers that executes its program; 0: there is none.
+pid_t worldOf(pid_t server) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string process = entry.path().filename().string();
+    const auto facts = factsOf(process);
+    if (!facts || facts->second != "exe") continue;  // of /proc/self/exe
+    for (auto above = facts; above && above->first > 1; above = factsOf(std::to_string(above->first))) {
+      if (above->first == server) return std::atoi(process.c_str());
+    }
+  }
+  return 0;
+}
+
+constexpr const char* kIsBack = "\" is back, in the round that goes on";
+constexpr const char* kGoesOn = "the round goes on after ";
+
+}  // namespace
+
+/// Plays at random, and remembers the newest picture that the server called complete.
+class RecoveryClient {
+ public:
+  RecoveryClient(asio::io_context& context, std::uint16_t port, const ClientSetup& setup, std::uint64_t seed)
+      : m_connection(context, ServerAddress{"127.0.0.1", port}, setup.options, true, setup.trust),
+        m_player(seed, 80, 24) {
+    m_connection.onSession([this](ClientSession& session) {
+      session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
+        if (m_is_complete && tick != m_newest) keep(session);
+      });
+      session.onAfterSnapshot([this](const SnapshotHeader& header, const AckWindow&) {
+        m_newest = header.tick;
+        m_is_complete = header.complete;
+      });
+    });
+    m_connection.start();
+  }
+
+  void update(Clock::time_point now) {
+    m_connection.update(now);
+    ClientSession* p_session = m_connection.session();
+    if (p_session == nullptr || m_connection.state() != Connection::State::kJoined || now < m_next_key)
+      return;
+    m_next_key = now + kBetweenKeys;
+    for (const BotAction& action : m_player.tick()) {
+      if (const auto* p_key = std::get_if<KeyAction>(&action))
+        p_session->sendKey(p_key->key, p_key->action, now);
+    }
+  }
+  void leave() { m_connection.leave(); }
+  bool isJoined() { return m_connection.state() == Connection::State::kJoined; }
+  bool isOver() const { return m_connection.isOver(); }
+  const std::string& sentence() const { return m_connection.sentence(); }
+  const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
+  const ClientSession* session() { return m_connection.session(); }
+  std::uint32_t newestTick() const { return m_newest; }
+  /// The last one before freezePicture().
+  const std::optional<df::Canvas>& picture() const { return m_frozen; }
+  std::uint32_t pictureTick() const { return m_frozen_tick; }
+  void freezePicture() {
+    m_frozen = std::exchange(m_picture, std::nullopt);
+    m_frozen_tick = m_picture_tick;
+    m_is_complete = false;
+  }
+
+ private:
+  void keep(ClientSession& session) {
+    m_picture = session.replica().render(m_newest);
+    m_picture_tick = m_newest;
+  }
+
+  Connection m_connection;
+  RandomPlayer m_player;
+  Clock::time_point m_next_key;
+  std::uint32_t m_newest = 0;
+  bool m_is_complete = false;
+  std::optional<df::Canvas> m_picture;
+  std::uint32_t m_picture_tick = 0;
+  std::optional<df::Canvas> m_frozen;
+  std::uint32_t m_frozen_tick = 0;
+};
+
+RecoveryRun::RecoveryRun(const std::string& game, int players, std::uint64_t seed,
+                         std::chrono::microseconds frame)
+    : m_game(game), m_random(seed), m_frame(frame), m_rounds(m_home.identity("rounds")) {
+  startServer();
+  for (int i = 0; i < players; ++i) {
+    m_clients.push_back(std::make_unique<RecoveryClient>(
+        m_context, m_port, m_home.player("player" + std::to_string(i + 1)), m_random()));
+  }
+  if (!serveUntilJoined()) throw std::runtime_error("the players cannot join: " + m_server->log());
+  waitForFirstTick();
+}
+
+// It is in the file once the disk has taken it.
+void RecoveryRun::waitForFirstTick() {
+  const auto end = Clock::now() + kPatience;
+  while (m_first_tick == 0 && Clock::now() < end) {
+    play(std::chrono::milliseconds(10));
+    const OpenRound so_far(round().string());
+    m_first_tick = static_cast<std::uint32_t>(std::atoi(so_far.fact(kFactFirstTick).c_str()));
+  }
+}
+
+RecoveryRun::~RecoveryRun() = default;
+
+void RecoveryRun::startServer() {
+  m_server.reset();
+  m_server = std::make_unique<GameProgram>(
+      "dfserver", std::map<std::string, std::string>{{"NAIAD_FRAME_TIME", std::to_string(m_frame.count())},
+                                                     {"NAIAD_PORT", std::to_string(m_port)},
+                                                     {"NAIAD_IDENTITY", m_home.identity("key").string()},
+                                                     {"NAIAD_JOURNAL", m_rounds.string()},
+                                                     {"NAIAD_GAME", m_game},
+                                                     {"DRAGONFLY_CONFIG", m_home.identity("none").string()}});
+  m_port = m_server->port();
+  if (m_port == 0) throw std::runtime_error("the server does not start: " + m_server->log());
+}
+
+bool RecoveryRun::serveUntilJoined() {
+  const auto end = Clock::now() + kPatience;
+  const auto is_ready = [](const auto& client) { return client->isJoined() || client->isOver(); };
+  while (Clock::now() < end) {
+    for (const auto& client : m_clients) client->update(Clock::now());
+    if (std::all_of(m_clients.begin(), m_clients.end(), is_ready)) return true;
+    m_context.restart();
+    m_context.run_one_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+void RecoveryRun::play(std::chrono::milliseconds time) {
+  const auto end = Clock::now() + time;
+  while (Clock::now() < end) {
+    for (const auto& client : m_clients) client->update(Clock::now());
+    m_context.restart();
+    m_context.run_one_for(std::chrono::milliseconds(5));
+  }
+}
+
+std::filesystem::path RecoveryRun::round() const {
+  for (const auto& entry : std::filesystem::directory_iterator(m_rounds)) return entry.path();
+  return {};
+}
+
+std::uint32_t RecoveryRun::recoveredTurns() const {
+  const std::string log = m_server->log();
+  const std::size_t at = log.find(kGoesOn);
+  return at == std::string::npos
+             ? 0
+             : static_cast<std::uint32_t>(std::atoi(log.c_str() + at + std::string_view(kGoesOn).size()));
+}
+
+KillResult RecoveryRun::kill() {
+  killServer();
+  return comeBack();
+}
+
+void RecoveryRun::killServer() {
+  m_killed_at = Clock::now();
+  m_server->signal(SIGKILL);
+  m_server->wait();
+  m_log += m_server->log();
+  play(std::chrono::milliseconds(20));  // what was sent arrives
+  for (const auto& client : m_clients) client->freezePicture();
+}
+
+KillResult RecoveryRun::comeBack() {
+  struct Before {
+    WelcomeMessage welcome;
+    const ClientSession* p_session;
+  };
+  KillResult result;
+  std::vector<Before> before;
+  std::uint32_t seen = 0;
+  for (const auto& client : m_clients) {
+    before.push_back({client->welcome(), client->session()});
+    seen = std::max(seen, client->newestTick());
+  }
+  startServer();
+  const bool back = serveUntilJoined();
+  result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_killed_at);
+  if (!back) result.problem = "not all are back: " + m_server->log();
+  const std::string log = m_server->log();
+  for (std::size_t i = 0; i < m_clients.size(); ++i) {
+    RecoveryClient& client = *m_clients[i];
+    ++result.players;
+    const bool same = client.isJoined() && client.session() != before[i].p_session &&
+                      client.welcome().player == before[i].welcome.player &&
+                      client.welcome().name == before[i].welcome.name &&
+                      log.find("\"" + before[i].welcome.name + kIsBack) != std::string::npos;
+    result.returned += same ? 1 : 0;
+    if (!same && result.problem.empty())
+      result.problem = before[i].welcome.name + " is not back: " + client.sentence() + "\n" + m_server->log();
+  }
+  const std::uint32_t turns = recoveredTurns();
+  const std::uint32_t last = seen + 1 - m_first_tick;  // by the world's own numbers
+  if (last > turns) {
+    result.ticks_lost = last - turns;
+    result.problem = "a client saw tick " + std::to_string(seen) + ", the world's " + std::to_string(last) +
+                     "; there are " + std::to_string(turns) + " turns:\n" + m_log + m_server->log();
+  }
+  if (result.problem.empty()) compare(result);
+  return result;
+}
+
+std::optional<std::chrono::milliseconds> RecoveryRun::killWorld() {
+  const pid_t world = worldOf(m_server->process());
+  if (world <= 0) return std::nullopt;
+  std::vector<std::pair<const ClientSession*, std::uint32_t>> before;
+  for (const auto& client : m_clients) before.emplace_back(client->session(), client->newestTick());
+  const auto began = Clock::now();
+  ::kill(world, SIGKILL);
+  const auto sees_more = [&] {
+    for (std::size_t i = 0; i < m_clients.size(); ++i) {
+      if (m_clients[i]->newestTick() < before[i].second + kSeenTicks) return false;
+    }
+    return true;
+  };
+  while (!sees_more()) {
+    if (Clock::now() > began + kPatience) return std::nullopt;
+    play(std::chrono::milliseconds(5));
+  }
+  for (std::size_t i = 0; i < m_clients.size(); ++i) {
+    if (m_clients[i]->session() != before[i].first) return std::nullopt;
+  }
+  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
+}
+
+// The world that goes on was executed from the file; executed again, it shows what its players saw.
+void RecoveryRun::compare(KillResult& result) {
+  const RecordedRound recorded(round());
+  const RoundStage stage(recorded, "");
+  PictureReel reel(recorded, stage);
+  for (const auto& client : m_clients) {
+    if (!client->picture()) continue;
+    const std::uint32_t tick = client->pictureTick() + 1 - m_first_tick;
+    if (reel.seek(tick) != tick) {
+      result.problem = "the round has no tick " + std::to_string(tick);
+      return;
+    }
+    for (const WorldPicture& picture : reel.pictures()) {
+      if (picture.player != client->welcome().player) continue;
+      const df::Canvas& saw = *client->picture();
+      for (int y = 0; y < saw.height(); ++y) {
+        for (int x = 0; x < saw.width(); ++x) {
+          ++result.cells;
+          const bool same = saw.at(x, y).ch == picture.canvas.at(x, y).ch &&
+                            saw.at(x, y).color == picture.canvas.at(x, y).color;
+          result.wrong_cells += same ? 0 : 1;
+        }
+      }
+    }
+  }
+  if (result.wrong_cells > 0) result.problem = std::to_string(result.wrong_cells) + " wrong cells";
+}
+
+bool RecoveryRun::verify(std::string& said) {
+  for (const auto& client : m_clients) client->leave();
+  play(std::chrono::milliseconds(200));
+  m_server->signal(SIGTERM);
+  m_server->wait();
+  m_log += m_server->log();
+  const RecordedRound recorded(round());
+  const RoundStage stage(recorded, "");
+  std::ostringstream out;
+  const bool same = verifyRound(recorded, stage, out);
+  said = out.str();
+  return same;
+}
+
+}  // namespace naiad::test

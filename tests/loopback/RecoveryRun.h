@@ -1,0 +1,82 @@
+// A server of a game whose rounds are journaled is killed again and again, while clients play: does each of
+// them come back as the same player, into the same world?
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "GameProgram.h"
+#include "Home.h"
+
+namespace naiad::test {
+
+/// What came of one kill.
+struct KillResult {
+  int players = 0;
+  int returned = 0;              ///< of them, as the same player
+  std::uint32_t ticks_lost = 0;  ///< that a client had seen, and the round that goes on had not
+  std::uint64_t cells = 0;       ///< compared: of the last picture that each client had
+  std::uint64_t wrong_cells = 0;
+  std::chrono::milliseconds took{0};  ///< from the kill to the last client's new picture
+  std::string problem;                ///< the first, in words
+};
+
+class RecoveryClient;
+
+class RecoveryRun {
+ public:
+  /// Starts the server with so many players, who press keys at random. Ticks take `frame`.
+  RecoveryRun(const std::string& game, int players, std::uint64_t seed,
+              std::chrono::microseconds frame = std::chrono::microseconds(5000));
+  ~RecoveryRun();
+  RecoveryRun(const RecoveryRun&) = delete;
+  RecoveryRun& operator=(const RecoveryRun&) = delete;
+
+  /// Let them play for so long.
+  void play(std::chrono::milliseconds time);
+  /// Kill the server, start it again, and wait until all are back.
+  KillResult kill();
+  /// The two halves of that.
+  void killServer();
+  KillResult comeBack();
+  /// Kill the world's process alone, and wait until its players see more of it. How long they waited;
+  /// nothing: they do not, or not in the sessions that they had.
+  std::optional<std::chrono::milliseconds> killWorld();
+  /// End the server, and execute its round from the beginning. Is it the same, tick by tick? `said`: what
+  /// dfreplay --verify prints.
+  bool verify(std::string& said);
+  /// The next server plays this one.
+  void setGame(const std::string& game) { m_game = game; }
+  /// What the servers logged.
+  const std::string& log() const { return m_log; }
+  std::filesystem::path round() const;
+
+ private:
+  void startServer();
+  bool serveUntilJoined();
+  void waitForFirstTick();
+  void compare(KillResult& result);
+  std::uint32_t recoveredTurns() const;
+
+  Home m_home;
+  std::string m_game;
+  std::mt19937_64 m_random;
+  std::chrono::microseconds m_frame;
+  std::filesystem::path m_rounds;
+  asio::io_context m_context;
+  std::unique_ptr<GameProgram> m_server;
+  std::uint16_t m_port = 0;
+  std::uint32_t m_first_tick = 0;  ///< what the server calls the world's first one
+  std::vector<std::unique_ptr<RecoveryClient>> m_clients;
+  std::string m_log;
+  std::chrono::steady_clock::time_point m_killed_at;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,73 @@
+// A server that is killed while clients play: its next start goes on with the round, and each of them is back
+// as the same player. deploy/bench recovery does it a thousand times.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "RecoveryRun.h"
+#include "host/journal/DfrWriter.h"
+#include "host/program/Journals.h"
+
+namespace naiad::test {
+namespace {
+
+class KilledServer : public testing::TestWithParam<const char*> {};
+
+TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
+  constexpr int kKills = 5;
+  std::mt19937_64 random(7);
+  RecoveryRun run(GetParam(), 2, random());
+  for (int i = 0; i < kKills; ++i) {
+    run.play(std::chrono::milliseconds(100 + random() % 900));
+    const KillResult result = run.kill();
+    EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
+    EXPECT_EQ(result.ticks_lost, 0u) << i << ": " << result.problem;
+    EXPECT_GT(result.cells, 0u) << i;
+    EXPECT_EQ(result.wrong_cells, 0u) << i << " of " << result.cells;
+    if (HasFailure()) return;
+  }
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
+}
+
+TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {
+  RecoveryRun run("saucershoot", 2, 3);
+  for (int i = 0; i < 3; ++i) {
+    run.play(std::chrono::milliseconds(700));
+    ASSERT_TRUE(run.killWorld()) << i << ": " << run.log();
+  }
+  run.play(std::chrono::milliseconds(300));
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
+}
+
+TEST(Recovery, ARoundThatKillsServersIsGivenUp) {
+  RecoveryRun run("hello", 1, 3);
+  run.play(std::chrono::milliseconds(500));
+  run.killServer();
+  std::ofstream(run.round(), std::ios::binary | std::ios::app)
+      << spellDfrMeta({{kFactAttempts, "3 1000000"}});
+  EXPECT_EQ(run.comeBack().returned, 0);
+  std::string said;
+  run.verify(said);
+  EXPECT_NE(run.log().find("has ended 3 servers that went on with it"), std::string::npos) << run.log();
+}
+
+TEST(Recovery, OfAnotherGameDoesNotHappen) {
+  RecoveryRun run("hello", 1, 3);
+  run.play(std::chrono::milliseconds(500));
+  run.killServer();
+  run.setGame("maze");
+  run.comeBack();
+  std::string said;
+  run.verify(said);
+  EXPECT_EQ(run.log().find("the round goes on"), std::string::npos) << run.log();
+}
+
+INSTANTIATE_TEST_SUITE_P(Games, KilledServer,
+                         testing::Values("saucershoot", "breakout", "platformer", "tron"),
+                         [](const auto& one) { return std::string(one.param); });
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,309 @@
+// The round of a server that was killed: what its file says, and a world that goes on with it.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "host/journal/JournaledWorld.h"
+#include "host/journal/OpenRound.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+using Input = df::InputQueue::Input;
+
+Input joinOf(std::uint32_t player) {
+  Input input{.kind = df::InputQueue::kJoin, .player = player};
+  input.name = "Ann";
+  input.color = df::RED;
+  return input;
+}
+
+Input keyOf(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) {
+  Input input{.kind = df::InputQueue::kKey, .player = player};
+  input.key = key;
+  input.key_action = action;
+  return input;
+}
+
+KeptSession sessionOf(std::uint32_t player) {
+  return {.player = player,
+          .muted = player == 2,
+          .name = "Ann",
+          .color = df::RED,
+          .newest = std::string(kKeptHash, static_cast<char>(player)),
+          .redeemed = {}};
+}
+
+/// Answers each turn at once, as it did when the round was recorded.
+class EchoWorld : public WorldPort {
+ public:
+  std::uint32_t addInput(Input input) override {
+    m_inputs.push_back(input);
+    return input.player;
+  }
+  void setHeard(std::uint32_t player) override { heard = player; }
+  void endGame() override {}
+  bool isReady() const override { return ready && !ended; }
+  std::uint64_t answerHash() const override { return std::uint64_t{turns.size() % 200 + 1} << 56; }
+  void tick(bool is_watched, bool /*truth*/) override {
+    watched.push_back(is_watched);
+    turns.push_back(std::exchange(m_inputs, {}));
+    pending = turns.size() != dies_at;
+    if (turns.size() == dies_at) ended = WorldEnd{WorldEnd::kCrashed, "crashed (SIGSEGV)"};
+  }
+  /// What a world in another process does: the tick ends later.
+  void answer() {
+    while (std::exchange(pending, false)) reportTick();
+  }
+  std::uint32_t nextTick() const override { return 11 + static_cast<std::uint32_t>(turns.size()); }
+  const df::WorldView& view() const override { return m_view; }
+  void notePublished(const Publisher& /*publisher*/) override {}
+  std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
+  bool isGameOver() const override { return false; }
+  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {20, 10}; }
+  std::optional<WorldEnd> end() const override { return ended; }
+
+  bool ready = false;
+  bool pending = false;
+  std::size_t dies_at = 0;
+  std::uint32_t heard = 0;
+  std::optional<WorldEnd> ended;
+  std::vector<std::vector<Input>> turns;
+  std::vector<bool> watched;
+
+ private:
+  std::vector<Input> m_inputs;
+  df::WorldView m_view;
+};
+
+class RecoveryTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    char name[] = "/tmp/naiad-recovery-XXXXXX";
+    ASSERT_NE(mkdtemp(name), nullptr);
+    folder = name;
+    path = (folder / "hello.dfr").string();
+    packed = spellDfrHeader({}) + spellDfrMeta({{"game", "hello"}});
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  /// One turn, and what EchoWorld answers to it.
+  void turn(std::vector<Input> inputs, bool with_result = true) {
+    WorldTurn turn;
+    turn.watched = true;
+    turn.inputs = std::move(inputs);
+    writer.write(turn, records);
+    ++count;
+    if (!with_result) return;
+    TickResult result;
+    result.has_check = true;
+    result.check = static_cast<std::uint8_t>(count % 200 + 1);
+    writer.write(result, records);
+  }
+  void session(const KeptSession& one) { writer.write(one, records); }
+  void flush() { packed += packer.pack(std::exchange(records, {})); }
+  OpenRound& open() {
+    flush();
+    std::ofstream(path, std::ios::binary) << packed;
+    return *(round = std::make_shared<OpenRound>(path));
+  }
+  /// A round of two players, the first of whom holds a key; the last turn had no result yet.
+  void play() {
+    turn({joinOf(1)});
+    session(sessionOf(1));
+    turn({joinOf(2), keyOf(1, df::Keyboard::A, df::KEY_PRESSED)});
+    session(sessionOf(2));
+    for (int i = 0; i < 50; ++i)
+      turn({keyOf(2, df::Keyboard::B, i % 2 == 0 ? df::KEY_PRESSED : df::KEY_RELEASED)});
+    turn({}, false);
+  }
+  void goOn() {
+    open();
+    auto echo = std::make_unique<EchoWorld>();
+    p_echo = echo.get();
+    JournaledWorld::Book book;
+    book.writer = std::make_shared<JournalWriter>();
+    book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path, round->wholeBytes()),
+                                             round->header(), DfrFacts(), 1 << 20, false, round->takePlace());
+    book.recovery = std::make_unique<RoundRecovery>(round);
+    book.on_recovered = [this](std::uint32_t ticks, const std::string& problem) {
+      recovered = ticks;
+      said = problem;
+    };
+    book.writer->add(book.journal);
+    disk = book.writer;
+    world = std::make_unique<JournaledWorld>(std::move(echo), std::move(book));
+    world->setOnTick([this] { ++reported; });
+  }
+
+  fs::path folder;
+  std::string path;
+  std::string packed;
+  std::string records;
+  TurnRecordWriter writer;
+  DfrTurnPacker packer;
+  std::uint32_t count = 0;
+  std::shared_ptr<OpenRound> round;
+  EchoWorld* p_echo = nullptr;
+  std::shared_ptr<JournalWriter> disk;
+  std::unique_ptr<JournaledWorld> world;
+  std::optional<std::uint32_t> recovered;
+  std::string said;
+  int reported = 0;
+};
+
+TEST_F(RecoveryTest, AFileSaysWhoPlaysAndWhichKeysAreDown) {
+  play();
+  session({.player = 2, .over = true});
+  session(sessionOf(3));  // welcomed; the world had not been told yet
+  const OpenRound& found = open();
+  EXPECT_FALSE(found.isOver());
+  EXPECT_EQ(found.turns(), 53u);
+  EXPECT_EQ(found.players(), (std::vector<std::uint32_t>{1, 2}));
+  ASSERT_EQ(found.sessions().size(), 2u);
+  EXPECT_EQ(found.sessions().at(1).newest, std::string(kKeptHash, '\1'));
+  const std::vector<Input> inputs = found.closingInputs();
+  ASSERT_EQ(inputs.size(), 3u);
+  EXPECT_EQ(inputs[0].kind, df::InputQueue::kKey);
+  EXPECT_EQ(inputs[0].player, 1u);
+  EXPECT_EQ(inputs[0].key, df::Keyboard::A);
+  EXPECT_EQ(inputs[0].key_action, df::KEY_RELEASED);
+  EXPECT_EQ(inputs[1].kind, df::InputQueue::kLeave);
+  EXPECT_EQ(inputs[1].player, 2u);
+  EXPECT_EQ(inputs[2].kind, df::InputQueue::kJoin);
+  EXPECT_EQ(inputs[2].player, 3u);
+}
+
+// Wherever the file is torn, it opens, and its journal goes on behind the last whole record.
+TEST_F(RecoveryTest, AFileThatIsTornAnywhereGoesOn) {
+  for (int i = 0; i < 6; ++i) {
+    turn({keyOf(1, df::Keyboard::A, df::KEY_PRESSED)});
+    if (i % 2 == 1)
+      packed += packer.pack(records.substr(0, records.size() - 2));  // in the middle of a record
+    if (i % 2 == 1) records.erase(0, records.size() - 2);
+  }
+  flush();
+  for (std::size_t size = kDfrHeaderSize; size <= packed.size(); ++size) {
+    std::ofstream(path, std::ios::binary) << packed.substr(0, size);
+    OpenRound torn(path);
+    ASSERT_LE(torn.wholeBytes(), size);
+    JournalPlace place = torn.takePlace();
+    std::string more;
+    TurnRecordWriter next(torn.lastTurn());
+    WorldTurn turn;
+    turn.heard_player = 77;
+    next.write(turn, more);
+    const std::string bytes = packed.substr(0, torn.wholeBytes()) + place.packer.pack(more);
+    DfrReader reader(bytes);
+    std::uint32_t turns = 0;
+    std::uint32_t heard = 0;
+    while (const auto record = reader.next()) {
+      const auto* p_turn = std::get_if<WorldTurn>(&*record);
+      turns += p_turn != nullptr ? 1 : 0;
+      if (p_turn != nullptr) heard = p_turn->heard_player;
+    }
+    ASSERT_EQ(reader.end(), DfrEnd::kTorn) << size;
+    ASSERT_EQ(reader.bytesOfWholeRecords(), bytes.size()) << size;
+    ASSERT_EQ(turns, torn.turns() + 1) << size;
+    ASSERT_EQ(heard, 77u) << size;
+  }
+}
+
+TEST_F(RecoveryTest, AWorldHasAllTurnsAgainBeforeItIsReady) {
+  play();
+  goOn();
+  world->checkProcess(1);
+  EXPECT_EQ(world->recovering(), 0) << "the world has not begun";
+  p_echo->ready = true;
+  world->checkProcess(2);
+  EXPECT_FALSE(world->isReady());
+  EXPECT_EQ(world->takeSessions(), std::nullopt);
+  p_echo->answer();
+  EXPECT_EQ(recovered, 53u);
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(world->recovering(), std::nullopt);
+  EXPECT_TRUE(world->isReady());
+  EXPECT_EQ(reported, 0) << "its players have seen these ticks";
+  ASSERT_EQ(p_echo->turns.size(), 54u);
+  EXPECT_FALSE(p_echo->watched.back()) << "so that the next view has all";
+  ASSERT_EQ(p_echo->turns.back().size(), 1u);
+  EXPECT_EQ(p_echo->turns.back()[0].key_action, df::KEY_RELEASED);
+  const auto sessions = world->takeSessions();
+  ASSERT_TRUE(sessions);
+  ASSERT_EQ(sessions->size(), 2u);
+  EXPECT_TRUE((*sessions)[1].muted);
+  EXPECT_EQ(world->takeSessions(), std::nullopt);
+}
+
+TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
+  play();
+  goOn();
+  p_echo->ready = true;
+  world->checkProcess(1);
+  p_echo->answer();
+  world->addInput(keyOf(2, df::Keyboard::C, df::KEY_PRESSED));
+  world->tick(true, false);
+  p_echo->answer();
+  EXPECT_EQ(reported, 1);
+  ASSERT_TRUE(disk->drain(std::chrono::seconds(60)));
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  DfrReader reader(bytes);
+  std::uint32_t turns = 0;
+  std::uint32_t results = 0;
+  while (const auto record = reader.next()) {
+    turns += std::holds_alternative<WorldTurn>(*record) ? 1 : 0;
+    results += std::holds_alternative<TickResult>(*record) ? 1 : 0;
+  }
+  EXPECT_EQ(reader.end(), DfrEnd::kTorn);
+  EXPECT_EQ(turns, 55u) << "the closing one, and the one after it";
+  EXPECT_EQ(results, 55u) << "also that of the tick that the server was killed in";
+}
+
+TEST_F(RecoveryTest, AWorldThatAnswersOtherwiseIsNotGoneOnWith) {
+  play();
+  turn({}, false);
+  TickResult result;
+  result.has_check = true;
+  result.check = 255;
+  writer.write(result, records);
+  goOn();
+  p_echo->ready = true;
+  world->checkProcess(1);
+  p_echo->answer();
+  EXPECT_FALSE(said.empty());
+  ASSERT_TRUE(world->end());
+  EXPECT_EQ(world->end()->why, WorldEnd::kNotRecovered);
+  EXPECT_TRUE(world->takeSessions()) << "its players are in the next round";
+}
+
+TEST_F(RecoveryTest, AWorldThatEndsMeanwhileIsNotGoneOnWith) {
+  play();
+  goOn();
+  p_echo->ready = true;
+  p_echo->dies_at = 10;
+  world->checkProcess(1);
+  p_echo->answer();
+  world->checkProcess(2);
+  EXPECT_NE(said.find("crashed (SIGSEGV)"), std::string::npos) << said;
+  ASSERT_TRUE(world->end());
+  EXPECT_EQ(world->end()->why, WorldEnd::kNotRecovered);
+}
+
+TEST_F(RecoveryTest, TwoServersDoNotWriteOneFile) {
+  play();
+  const std::size_t size = open().wholeBytes();
+  const JournalFileSink first(path, size);
+  EXPECT_THROW(JournalFileSink(path, size), std::system_error);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,96 @@
+// A second world gets the turns of the first, and a difference is said once, with its tick and what it is.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "host/journal/RepeatCheck.h"
+
+namespace naiad {
+namespace {
+
+df::WorldView viewOf(double x) {
+  df::WorldView view;
+  df::ObjectFacts facts;
+  facts.order = 3;
+  facts.position = {static_cast<df::Fixed>(x * static_cast<double>(df::kFixedOne)), 0};
+  view.changed.push_back(facts);
+  return view;
+}
+
+/// Answers at once; from a tick on its Object is elsewhere.
+class QuickWorld : public WorldPort {
+ public:
+  QuickWorld(std::vector<WorldTurn>& turns, std::uint32_t strays_at)
+      : m_turns(turns), m_strays_at(strays_at) {}
+  std::uint32_t addInput(df::InputQueue::Input input) override {
+    m_turn.inputs.push_back(input);
+    return input.player;
+  }
+  void setHeard(std::uint32_t player) override { m_turn.heard_player = player; }
+  void endGame() override { m_turn.ends_game = true; }
+  bool isReady() const override { return true; }
+  void setChecked(bool state) override { m_turn.checked = state; }
+  std::uint64_t answerHash() const override { return m_tick < m_strays_at ? 7 : 8; }
+  void tick(bool watched, bool truth) override {
+    m_turn.watched = watched;
+    m_turn.wants_truth = truth;
+    m_turns.push_back(std::exchange(m_turn, {}));
+    ++m_tick;
+    m_view = viewOf(m_tick < m_strays_at ? 1 : 2.5);
+    reportTick();
+  }
+  std::uint32_t nextTick() const override { return m_tick + 1; }
+  const df::WorldView& view() const override { return m_view; }
+  void notePublished(const Publisher& /*publisher*/) override {}
+  std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
+  bool isGameOver() const override { return false; }
+  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
+
+ private:
+  std::vector<WorldTurn>& m_turns;
+  std::uint32_t m_strays_at;
+  std::uint32_t m_tick = 0;
+  WorldTurn m_turn;
+  df::WorldView m_view;
+};
+
+struct Checked {
+  std::vector<WorldTurn> turns;  ///< that the second world got
+  std::vector<std::string> said;
+  std::uint32_t updates = 0;  ///< until it was over
+
+  explicit Checked(std::uint32_t strays_at) {
+    RepeatCheck check([&] { return std::make_unique<QuickWorld>(turns, strays_at); },
+                      [this](const std::string& sentence) { said.push_back(sentence); });
+    for (; updates < 5000; ++updates) {
+      WorldTurn turn;
+      turn.watched = true;
+      turn.heard_player = updates + 1;
+      if (updates == 4) turn.inputs.push_back({.kind = df::InputQueue::kLeave, .player = 5});
+      check.add(turn, 7, viewOf(1));
+      if (!check.update()) break;
+    }
+  }
+};
+
+TEST(RepeatCheck, AGameThatIsTheSameIsComparedForItsBeginningAndNothingIsSaid) {
+  const Checked checked(UINT32_MAX);
+  EXPECT_TRUE(checked.said.empty());
+  ASSERT_EQ(checked.turns.size(), RepeatCheck::kTicks);
+  EXPECT_LT(checked.updates, RepeatCheck::kTicks + RepeatCheck::kDelay) << "it catches up";
+  EXPECT_EQ(checked.turns[0].heard_player, 1u) << "the same turns, from the first on";
+  EXPECT_EQ(checked.turns[899].heard_player, 900u);
+  EXPECT_EQ(checked.turns[4].inputs.size(), 1u);
+}
+
+TEST(RepeatCheck, ADifferenceIsSaidOnceWithItsTickAndWhatItIs) {
+  const Checked checked(300);
+  EXPECT_EQ(checked.said, (std::vector<std::string>{"the game is not repeatable: executed again, in tick 300 "
+                                                    "Object 3 is at (2.50, 0.00), not at (1.00, 0.00)"}));
+  EXPECT_EQ(checked.turns.size(), 300u) << "and nothing is compared any more";
+}
+
+}  // namespace
+}  // namespace naiad

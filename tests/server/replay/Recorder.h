@@ -1,0 +1,34 @@
+// Records rounds as dfserver does, without a network: a world in a process of its own, journaled, and players
+// who press keys at random.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace naiad {
+
+struct Recording {
+  std::string game;  ///< name, or path of a module
+  std::uint64_t seed = 1;
+  std::uint32_t ticks = 300;
+  std::size_t players = 4;
+};
+
+/// A folder of its own for files and worlds, removed at the end.
+class Recorder {
+ public:
+  Recorder();
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  const std::filesystem::path& folder() const { return m_folder; }
+  /// The file.
+  std::filesystem::path record(const Recording& what);
+
+ private:
+  std::filesystem::path m_folder;
+};
+
+}  // namespace naiad
