@@ -62,8 +62,8 @@ void ScoreKeeper::add(const std::string& round, const std::vector<df::AddedScore
       continue;
     }
     ++m_added;
-    rows.push_back(
-        {added.table, df::scoreName(added.score.name), added.score.points, m_clock(), round, tick, number});
+    rows.push_back({added.table, df::scoreName(added.score.name), added.score.points, m_clock(), round,
+                    added.tick, added.number, recording});
   }
   if (m_observer) {
     for (const ScoreRow& row : rows) m_observer(row);
