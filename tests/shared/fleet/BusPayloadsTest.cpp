@@ -75,7 +75,9 @@ TEST(BusPayloads, TheLongestFits) {
   Presence presence = fullPresence();
   presence.id = std::string(kMaxServerId, 'x');
   presence.name = presence.game = std::string(Presence::kMaxName, '"');
-  presence.host = "a" + std::string(252, 'b');
+  presence.host.clear();
+  for (int label = 0; label < 50; ++label) presence.host += "host.";
+  presence.host += "abc";
   ASSERT_LE(presence.payload().size(), kMaxBusPayload);
   EXPECT_EQ(Presence::parse(presence.payload()), presence);
 }

@@ -116,8 +116,11 @@ class NatsBusTest : public testing::Test {
   static std::unique_ptr<Bus> connect(const std::string& url) { return connectBus({url, "", ""}); }
   static bool waitFor(const std::function<bool()>& holds) {
     const auto end = std::chrono::steady_clock::now() + 60s;
-    while (!holds() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
-    return holds();
+    while (std::chrono::steady_clock::now() < end) {
+      if (holds()) return true;
+      std::this_thread::yield();
+    }
+    return false;
   }
 };
 
