@@ -130,7 +130,7 @@ void printInput(const WorldInput& input, std::ostream& out) {
           << " y=" << input.y;
       break;
     case df::InputQueue::kScore:
-      out << " score of \"" << safeText(input.name, 100) << "\" in \"" << safeText(input.table, 100)
+      out << " score table=" << safeText(input.table, 100) << " name=\"" << safeText(input.name, 100)
           << "\" points=" << input.points;
       break;
   }

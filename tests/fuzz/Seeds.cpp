@@ -14,6 +14,8 @@
 #include "host/world/BuildId.h"
 #include "host/world/WorldMessages.h"
 #include "naiad.pb.h"
+#include "shared/fleet/GameResult.h"
+#include "shared/fleet/Presence.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/lan/LanMessage.h"
 #include "shared/net/stream/Framing.h"
@@ -93,6 +95,35 @@ void gamesLists(Folder folder) {
   folder.add("hello " + kLink + " /run/hello pass\n");
   folder.add("hello " + kLink + "\n");
   folder.add("hello naiad:// /run/hello\n");
+}
+
+void busPayloads(Folder folder) {
+  Presence presence;
+  presence.id = "berlin-9876";
+  presence.name = "Berlin";
+  presence.game = "tron";
+  presence.host = "192.0.2.7";
+  presence.port = kDefaultPort;
+  presence.key = std::string(64, 'a');
+  presence.protocol = kProtocolVersion;
+  folder.add(std::string(1, '\0') + presence.payload());
+  presence.host = "-o";
+  folder.add(std::string(1, '\0') + presence.payload());
+  presence.host = "2001:db8::7";
+  folder.add(std::string(1, '\0') + presence.payload());
+  GameResult result;
+  result.server = "berlin-9876";
+  result.game = "tron";
+  result.table = "rides";
+  result.name = "Ann";
+  result.points = 143;
+  result.round = std::string(32, '0');
+  folder.add("\1" + result.payload());
+  const std::string server =
+      R"({"object_meta":{"name":"naiad-x7"},"spec":{"health":{"period_seconds":5}},"status":{"state":"Ready",)"
+      R"("address":"192.0.2.7","ports":[{"name":"default","port":7012}]}})";
+  folder.add("\2" + server);
+  folder.add("\3{\"result\":" + server + "}");
 }
 
 void webRequests(Folder folder) {
@@ -558,6 +589,7 @@ int main(int argc, char** argv) {
   visitors(Folder(base / "visitor"));
   gamesLists(Folder(base / "games_list"));
   webRequests(Folder(base / "web_request"));
+  busPayloads(Folder(base / "bus_payload"));
   keys(Folder(base / "input_decoder"));
   updates(Folder(base / "update"));
   hostile(Folder(base / "update", "hostile-"), Folder(base / "snapshot_fields"));

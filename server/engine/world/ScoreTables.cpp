@@ -54,10 +54,10 @@ bool ScoreTables::keep(const std::string& table, const std::string& name, std::i
 }
 
 bool ScoreTables::add(const std::string& table, const std::string& name, std::int64_t points) {
-  if (m_added.size() - m_finished >= HighScores::kMaxAddedInTick) return false;
+  if (m_added.size() - m_finished >= HighScores::kMaxAddedInTick || m_number > kMaxNumber) return false;
   HighScore score{scoreName(name), points};
   if (!insert(table, score)) return false;
-  m_added.push_back({table, std::move(score)});
+  m_added.push_back({table, std::move(score), m_tick, m_number++});
   return true;
 }
 
@@ -72,7 +72,9 @@ std::vector<AddedScore> ScoreTables::takeAdded() {
   return std::exchange(m_added, {});
 }
 
-void ScoreTables::beginTick() {
+void ScoreTables::beginTick(std::uint32_t tick) {
+  m_tick = tick;
+  m_number = 0;
   m_added.erase(m_added.begin(), m_added.begin() + static_cast<std::ptrdiff_t>(m_finished));
   m_finished = 0;
 }

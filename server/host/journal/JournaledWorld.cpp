@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "host/journal/TurnRing.h"
 #include "host/world/WorldProcess.h"
 
 namespace naiad {
@@ -210,9 +211,28 @@ void JournaledWorld::sendTurn(const WorldTurn& turn) {
   m_world->tick(turn.watched, turn.wants_truth);
 }
 
+// A server that was killed may not have written the last ones. Those of a world before were taken from it.
+void JournaledWorld::keepRepeatedScores() {
+  if (isTakingOver()) return;
+  const std::vector<df::AddedScore> scores = m_world->takeScores();
+  m_scores.insert(m_scores.end(), scores.begin(), scores.end());
+  if (m_scores.size() > kMaxScores) m_scores.erase(m_scores.begin(), m_scores.end() - kMaxScores);
+}
+
+std::vector<df::AddedScore> JournaledWorld::takeScores() {
+  std::vector<df::AddedScore> scores = std::exchange(m_scores, {});
+  const std::vector<df::AddedScore> last = m_world->takeScores();
+  scores.insert(scores.end(), last.begin(), last.end());
+  return scores;
+}
+
+RoundName JournaledWorld::roundName() const {
+  return {uuidText(m_book.journal->header().uuid), m_book.recording};
+}
+
 // What was sent last may have no result in the file; that of the closing turn is stored as any other.
 void JournaledWorld::endRepeatedTick() {
-  if (!isTakingOver()) keepRepeatedScores();
+  keepRepeatedScores();
   if (m_closing) {
     storeResult();
     return endRecovery({});
@@ -222,13 +242,6 @@ void JournaledWorld::endRepeatedTick() {
     return endRecovery("in tick " + std::to_string(m_book.recovery->turns()) + " " + difference);
   if (m_book.recovery->isResultMissing() && !isTakingOver()) storeResult();
   m_world->isGameOver() ? endRecovery({}) : repeatNextTurn();
-}
-
-void JournaledWorld::keepRepeatedScores() {
-  std::vector<df::AddedScore> scores = m_world->takeScores();
-  if (scores.empty()) return;
-  if (m_repeated_scores.size() >= kMaxRepeatedScores) m_repeated_scores.erase(m_repeated_scores.begin());
-  m_repeated_scores.push_back({m_world->nextTick() - 1, std::move(scores)});
 }
 
 // A world that takes over is then where its players are.
@@ -301,6 +314,7 @@ bool JournaledWorld::beginAgain(bool drops_keys) {
       std::make_unique<RoundRecovery>(std::make_shared<const OpenRound>(m_book.journal->header(), m_history));
   m_ticks = 0;
   m_players.clear();
+  m_scores.clear();
   m_repeating = m_closing = false;
   return true;
 }

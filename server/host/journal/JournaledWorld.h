@@ -31,10 +31,11 @@ class JournaledWorld : public WorldPort {
 
   /// A second death within so many ticks of the first one is the same: the round is over.
   static constexpr std::uint32_t kSameDeath = 30;
-  /// Ticks with scores of a recovery that are handed over, the last ones: those before them are on disk.
-  static constexpr std::size_t kMaxRepeatedScores = 1024;
   /// Bytes of records that are kept for another world: days. A longer round ends with its world.
   static constexpr std::size_t kMaxHistory = std::size_t{64} << 20;
+
+  /// Scores of a recovery's turns that are kept: those before them are in the server's file.
+  static constexpr std::size_t kMaxScores = 4096;
 
   /// Another world of the same round, and what is to be called when it has had its turns: what it prints
   /// until then was printed.
@@ -47,7 +48,6 @@ class JournaledWorld : public WorldPort {
   struct Book {
     std::shared_ptr<JournalWriter> writer;
     std::shared_ptr<Journal> journal;
-    std::string name = {};  ///< of the file
     /// More facts, once the world has begun; empty: there are none.
     std::function<DfrFacts()> late_facts;
     /// The journal has stopped, and why; the game goes on.
@@ -59,6 +59,7 @@ class JournaledWorld : public WorldPort {
     /// Of a recovery, at its end: in how many ticks; or why the round cannot go on, and in which tick that
     /// showed.
     std::function<void(std::uint32_t ticks, const std::string& problem)> on_recovered = {};
+    std::string recording = {};    ///< the name of the file
     std::string history = {};      ///< records of a recovery's round
     std::uint32_t first_tick = 0;  ///< the number that the host gave to its first tick; 0: unknown
     /// Starts one; throws std::system_error. Empty: the round ends with its world.
@@ -83,9 +84,8 @@ class JournaledWorld : public WorldPort {
   const df::WorldView& view() const override { return isTakingOver() ? m_view : m_world->view(); }
   void notePublished(const Publisher& publisher) override { m_world->notePublished(publisher); }
   std::vector<std::uint32_t> takeLeavers() override { return m_world->takeLeavers(); }
-  std::vector<df::AddedScore> takeScores() override { return m_world->takeScores(); }
-  std::vector<TickScores> takeRepeatedScores() override { return std::exchange(m_repeated_scores, {}); }
-  std::string recording() const override { return m_book.name; }
+  std::vector<df::AddedScore> takeScores() override;
+  RoundName roundName() const override;
   bool isGameOver() const override { return m_world->isGameOver(); }
   df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }
   void checkProcess(std::uint32_t tick) override;
@@ -136,8 +136,8 @@ class JournaledWorld : public WorldPort {
   bool m_repeating = false;  ///< it has begun
   bool m_closing = false;    ///< the world has been sent the turn behind those of the file
   std::optional<std::vector<KeptSession>> m_sessions;
+  std::vector<df::AddedScore> m_scores;  ///< of repeated turns, which the server may not know
   std::optional<WorldEnd> m_unrecovered;
-  std::vector<TickScores> m_repeated_scores;
 
   // Of a world that takes over.
   bool m_in_tick = false;

@@ -109,13 +109,15 @@ Host::Host(HostOptions options, std::string game, Log log)
                   m_client_log,
                   m_log},
                  m_io),
+      m_fleet(fleetSetup()),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
+  m_rooms.setScores(m_scores);
+  m_scores.setObserver([this](const ScoreRow& row) { m_fleet.noteScore(row); });
   m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
                       [this](Room& room, const std::vector<KeptSession>& sessions) {
                         m_admission.restoreSessions(room, sessions);
                       });
-  m_rooms.setScores(m_scores);
   openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
@@ -241,7 +243,7 @@ void Host::run(df::World& world) {
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_options.frame_micros));
   const auto work = asio::make_work_guard(m_io);  // or waiting for a deadline would end at once
   m_network.start();
-  m_service.notifyReady();
+  m_fleet.begin();
   beginMetrics();
   m_listing.start();
   while (!isOver()) {
@@ -260,20 +262,23 @@ void Host::heedSignals(StopSignals& signals) {
   const Clock::time_point now = Clock::now();
   if (signals.count() > std::exchange(m_heeded_signals, signals.count())) {
     const bool waits = signals.signal() == SIGTERM && m_options.drain_time > 0;
-    const auto patience = std::chrono::duration_cast<Clock::duration>(
-        std::chrono::duration<double>(waits ? m_options.drain_time : 0));
-    end({.at = now + patience, .when_empty = true});
+    endWhenEmpty(waits ? m_options.drain_time : 0);
     if (waits) m_log("SIGTERM: no new players; ending when all have left");
   }
   if (!signals.takeHangUp()) return;
   LineLog::reopenAll();
   m_log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
   if (!m_reload) return;
-  m_service.notifyReloading(now);
+  m_fleet.noteReloading(now);
   reload([this](bool, const std::string& sentence) {
-    m_service.notifyReady();
+    m_fleet.begin();
     m_log(sentence);
   });
+}
+
+void Host::endWhenEmpty(double seconds) {
+  const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  end({.at = Clock::now() + patience, .when_empty = true});
 }
 
 void Host::end(Ending::Plan plan) {
@@ -356,6 +361,7 @@ void Host::endProcess(const ForcedEnd& end, SideLog& log) {
   wire::ServerMessage message;
   message.mutable_goodbye()->set_sentence(kShuttingDown);
   m_network.sendLast(message.SerializeAsString(), kDrainTime);
+  m_fleet.sayLast(kDrainTime);
   log.waitUntilLogged(kDrainTime);
   LineLog::waitUntilWritten(kDrainTime);
   if (!end.hung) endBySignal(end.signal);
@@ -429,7 +435,7 @@ void Host::tick() {
   m_stages.enter(Stage::kNews);
   sendPlayers();
   flush();
-  notifyService();
+  m_fleet.tick(m_tick_began);
   m_stages.enter(Stage::kBetween);
   if (m_observer) m_observer(*m_p_world);
 }
@@ -454,13 +460,19 @@ void Host::checkSessions() {
   m_commands.update(now);
 }
 
-// A tick that hangs sends no keep-alive, so the service manager ends and restarts the server.
-void Host::notifyService() {
-  if (!m_service.isActive()) return;
-  m_service.keepAlive(m_tick_began);
-  const std::size_t playing = m_sessions.playing();
-  m_service.notifyStatus(m_network.address() + ", " + std::to_string(playing) +
-                         (playing == 1 ? " player" : " players"));
+HostFleet::Setup Host::fleetSetup() {
+  return {m_options,
+          m_sessions,
+          m_network,
+          m_counters,
+          m_admission.game(),
+          m_identity ? m_identity->fingerprint().text() : "",
+          m_log,
+          [this] { return m_ending.isOpen(); },
+          [this] {
+            m_log("the platform shuts the server down");
+            endWhenEmpty(m_options.drain_time);
+          }};
 }
 
 // The list of players has those of all rooms.
@@ -567,7 +579,7 @@ bool Host::isOver() const {
 }
 
 void Host::drain() {
-  m_service.notifyStopping();
+  m_fleet.noteStopping();
   if (m_metrics) m_metrics->beginDrain(false);
   m_network.closeListener();
   m_listing.stop();
@@ -588,6 +600,7 @@ void Host::drain() {
   m_network.stop();
   m_commands.close();
   m_rooms.finishScores();
+  m_fleet.finish();
   m_client_log.finish();
   m_log("stopped: " + m_counters.summary());
   logPasswords(m_admission.passwordCounters(), m_log);

@@ -23,6 +23,7 @@
 #include "host/program/Admission.h"
 #include "host/program/Ending.h"
 #include "host/program/HostCommands.h"
+#include "host/program/HostFleet.h"
 #include "host/program/HostMetrics.h"
 #include "host/program/HostOptions.h"
 #include "host/program/InactivityCheck.h"
@@ -30,7 +31,6 @@
 #include "host/program/PlayerNews.h"
 #include "host/program/Reload.h"
 #include "host/program/Rooms.h"
-#include "host/program/ServiceNotify.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
 #include "host/program/StreamRefusalLog.h"
@@ -144,6 +144,7 @@ class Host : public df::Runner {
   bool isDue(TickClock& schedule);
   void tick();
   void tickWorlds();
+  void endWhenEmpty(double seconds);
   void heedSignals(StopSignals& signals);
   void heedEnd(Clock::time_point now);
   void heedUpgrade();
@@ -155,7 +156,7 @@ class Host : public df::Runner {
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);
   void checkSessions();
   void sendPlayers();
-  void notifyService();
+  HostFleet::Setup fleetSetup();
   void flush();
   void sweep();
   void drain();
@@ -186,7 +187,7 @@ class Host : public df::Runner {
   PlayerNews m_player_news;
   HostCommands m_commands;
   InactivityCheck m_inactivity;
-  ServiceNotify m_service;
+  HostFleet m_fleet;
   std::function<void(df::World&)> m_observer;
   df::World* m_p_world = nullptr;
   Ending m_ending;

@@ -10,6 +10,7 @@
 
 #include "host/metrics/MetricsAddress.h"
 #include "host/program/Announcement.h"
+#include "host/program/HostFleet.h"
 #include "shared/net/base/UserDirectory.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/OptionPages.h"
@@ -218,6 +219,25 @@ std::vector<Row> tableOf(HostOptions& o) {
         "before; "
         "0 never",
         "NAIAD_INACTIVE_KICK", OptionRange{0, 86400}}},
+      {{"--platform",
+        &o.platform,
+        "What runs the server, and is sent that it is ready, healthy, played on and at its end: systemd; "
+        "agones = the sidecar at 127.0.0.1, port $AGONES_SDK_HTTP_PORT (9358); none; auto = the one that has "
+        "set its variable",
+        "NAIAD_PLATFORM",
+        {},
+        {"auto", "none", "systemd", "agones"}}},
+      {{"--bus", &o.bus,
+        "Say on this NATS server what plays here, and the scores: nats://HOST:PORT or tls://HOST:PORT (other "
+        "users see the command line: a password rather in --bus-credentials)",
+        "NAIAD_BUS"}},
+      {{"--bus-id", &o.bus_id,
+        "Name of this server on the bus, of a-z, 0-9 and '-'; default: of the machine and the port",
+        "NAIAD_BUS_ID"}},
+      {{"--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it",
+        "NAIAD_BUS_CREDENTIALS"}},
+      {{"--bus-ca", &o.bus_ca,
+        "Certificates (PEM) by which that of a tls:// bus is judged; default: the system's", "NAIAD_BUS_CA"}},
       {{"--headless", &o.headless, "Without network and players, as fast as possible", "NAIAD_HEADLESS"},
        UsedBy::kProgram},
       {{"--local-client", &o.local_client, "Started in a terminal: play there, too", "NAIAD_LOCAL_CLIENT"},
@@ -242,7 +262,8 @@ const char* const kOtherVariables[] = {
 
 /// Files, for completions: these options name them.
 const char* typeOf(const std::string& name) {
-  for (const char* p_file : {"--certificate", "--key", "--join-file", "--truth", "--port-file", "--log"})
+  for (const char* p_file : {"--certificate", "--key", "--join-file", "--truth", "--port-file", "--log",
+                             "--bus-credentials", "--bus-ca"})
     if (name == p_file) return "FILE";
   if (name == "--identity" || name == "--journal") return "DIR";
   return name == "--visitors" ? "SOCKET" : "";
@@ -319,6 +340,7 @@ std::string complaint(const HostOptions& options) {
   if (options.insecure && options.lan == "on") return "--lan on needs encryption, so not --insecure";
   if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
   if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
+  if (std::string wrong = fleetComplaint(options); !wrong.empty()) return wrong;
   return printedComplaint(options);
 }
 

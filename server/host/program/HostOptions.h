@@ -66,6 +66,11 @@ struct HostOptions {
   bool log_chat = false;            ///< log what players say, too
   std::string control;              ///< path of the socket for commands (ControlSocket.h); empty: none
   bool control_by_port = false;     ///< it is controlPath(), by the port listened on
+  std::string platform = "auto";    ///< what runs it: "auto", "none", "systemd" or "agones" (HostPlatform.h)
+  std::string bus;                  ///< nats:// or tls:// address of the fleet's bus (Bus.h); empty: none
+  std::string bus_id;               ///< how it is called there; empty: by machine and port
+  std::string bus_credentials;      ///< file with what proves that; empty: none
+  std::string bus_ca;               ///< PEM file that the bus's certificate is judged by; empty: the system's
   std::string state;                ///< folder of the files of bans and scores; empty: none
   std::string
       admin_password;      ///< for /admin in the chat: itself, or its Argon2id hash; empty: no admins there

@@ -319,7 +319,7 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
 JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProcess& world) const {
   JournaledWorld::Book book;
   book.writer = m_writer;
-  book.name = std::filesystem::path(path).filename().string();
+  book.recording = std::filesystem::path(path).filename().string();
   book.late_facts = [&world] { return factsOfStart(world); };
   book.on_problem = [log = m_log, path](const std::string& problem) {
     log({LogEvent::Level::kError,

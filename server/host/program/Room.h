@@ -91,8 +91,8 @@ class Room {
   /// Objects that are published; 0 without players.
   std::size_t objects() const { return m_watched ? m_publisher.liveCount() : 0; }
   /// Names the round in the file of scores.
-  const std::string& round() const { return m_round; }
-  void setRound(std::string round) { m_round = std::move(round); }
+  const RoundName& round() const { return m_round; }
+  void setRound(RoundName round) { m_round = std::move(round); }
   /// Ticks of the present world.
   std::uint64_t ticks() const { return m_ticks; }
 
@@ -119,7 +119,7 @@ class Room {
   bool m_watched = false;
   bool m_ticking = false;
   std::uint64_t m_ticks = 0;
-  std::string m_round;
+  RoundName m_round;
   int m_short_rounds = 0;
 };
 

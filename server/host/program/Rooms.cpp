@@ -7,6 +7,7 @@
 
 #include "host/program/Ending.h"
 #include "host/world/BuildId.h"
+#include "host/program/NewsEvent.h"
 #include "host/world/WorldInProcess.h"
 #include "naiad.pb.h"
 #include "shared/net/base/SafeFile.h"
@@ -63,9 +64,10 @@ void Rooms::watchWorld(Room& room) {
 // Inputs like any other: before all others of its first tick. A round that goes on has had them.
 void Rooms::passScores(Room& room) const {
   if (m_p_scores == nullptr) return;
-  const std::string recording = room.port().recording();
-  room.setRound(recording.empty() ? ScoreKeeper::beginRound() : recording);
-  if (room.port().recovering()) return;
+  RoundName round = room.port().roundName();
+  if (round.id.empty()) round.id = ScoreKeeper::beginRound();
+  room.setRound(std::move(round));
+  if (room.port().recovering()) return;  // they are in its journal
   for (const auto& [table, rows] : m_p_scores->tables()) {
     for (const df::HighScore& row : rows)
       room.port().addInput({.kind = df::InputQueue::kScore,
@@ -79,13 +81,7 @@ void Rooms::passScores(Room& room) const {
 void Rooms::keepScores(Room& room) {
   const std::vector<df::AddedScore> added = room.port().takeScores();
   if (m_p_scores == nullptr) return;
-  m_p_scores->add(room.round(), room.tick(), added, room.port().recording());
-}
-
-void Rooms::keepRepeatedScores(Room& room) {
-  for (const TickScores& tick : room.port().takeRepeatedScores()) {
-    if (m_p_scores != nullptr) m_p_scores->add(room.round(), tick.tick, tick.scores, room.port().recording());
-  }
+  m_p_scores->add(room.round().id, added, room.round().file);
 }
 
 void Rooms::noteScores() {
@@ -95,7 +91,7 @@ void Rooms::noteScores() {
   m_counters.scores_refused = counters.refused;
   m_counters.scores_written = counters.written;
   m_counters.scores_dropped = counters.dropped;
-  if (const std::string news = m_p_scores->takeNews(); !news.empty()) m_log(news);
+  if (const std::string news = m_p_scores->takeNews(); !news.empty()) m_log(newsEvent(news));
 }
 
 void Rooms::finishScores() {
@@ -234,7 +230,6 @@ void Rooms::checkWorlds() {
     room->port().checkProcess(tickNumber());
     if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
       m_on_sessions(*room, *sessions);
-    keepRepeatedScores(*room);
     if (const auto warning = room->port().takeWarning()) m_log(*warning);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);

@@ -122,7 +122,6 @@ class Rooms {
   Room& openRoom(std::unique_ptr<WorldPort> port);
   void passScores(Room& room) const;
   void keepScores(Room& room);
-  void keepRepeatedScores(Room& room);
   void noteScores();
   void watchWorld(Room& room);
   void endTick(Room& room);

@@ -23,8 +23,10 @@ ScoreKeeper::ScoreKeeper(const std::filesystem::path& folder, std::string game, 
   if (folder.empty()) return;
   m_store = std::make_unique<ScoreStore>(folder / kScoreFile, std::move(game));
   try {
-    for (const ScoreRow& row : m_store->best("", df::HighScores::kMaxRows))
-      if (m_tables.keep(row.table, row.name, row.points)) m_known.emplace(row.round, row.tick, row.number);
+    for (const ScoreRow& row : m_store->best("", df::HighScores::kMaxRows)) {
+      m_tables.keep(row.table, row.name, row.points);
+      m_loaded.insert({row.round, row.tick, row.number});
+    }
   } catch (const StateFileError& error) {
     m_store.reset();
     note(std::string(error.what()) + " Scores hold until the server ends.");
@@ -49,20 +51,22 @@ std::string ScoreKeeper::beginRound() {
   return name;
 }
 
-void ScoreKeeper::add(const std::string& round, std::uint32_t tick, const std::vector<df::AddedScore>& scores,
+void ScoreKeeper::add(const std::string& round, const std::vector<df::AddedScore>& scores,
                       const std::string& recording) {
   if (scores.empty()) return;
   std::vector<ScoreRow> rows;
   for (const df::AddedScore& added : scores) {
-    const int number = static_cast<int>(&added - scores.data());
-    if (m_known.contains({round, tick, number})) continue;
+    if (m_loaded.contains({round, added.tick, added.number})) continue;
     if (!m_tables.keep(added.table, added.score.name, added.score.points)) {
       ++m_refused;
       continue;
     }
     ++m_added;
-    rows.push_back({added.table, df::scoreName(added.score.name), added.score.points, m_clock(), round, tick,
-                    number, recording});
+    rows.push_back({added.table, df::scoreName(added.score.name), added.score.points, m_clock(), round,
+                    added.tick, added.number, recording});
+  }
+  if (m_observer) {
+    for (const ScoreRow& row : rows) m_observer(row);
   }
   if (m_store == nullptr || rows.empty()) return;
   const std::lock_guard lock(m_mutex);

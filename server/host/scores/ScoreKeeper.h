@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "engine/world/ScoreTables.h"
@@ -51,11 +52,12 @@ class ScoreKeeper {
   const std::map<std::string, std::vector<df::HighScore>>& tables() const { return m_tables.all(); }
   /// A name for a round that begins, which no other round has.
   static std::string beginRound();
-  /// A world has added these in a tick of its round. It may be a stranger's program: all is checked. What
-  /// was in the file when this server began, under the same round, tick and place, is the same row.
-  /// `recording`: of the round; empty: there is none.
-  void add(const std::string& round, std::uint32_t tick, const std::vector<df::AddedScore>& scores,
-           const std::string& recording = {});
+  /// Gets each row that is taken over, before it is written. On the host's thread.
+  void setObserver(std::function<void(const ScoreRow& row)> observer) { m_observer = std::move(observer); }
+  /// A world has added these in its round. It may be a stranger's program: all is checked. Of a round that
+  /// is executed again they may come again, and count once. `recording`: the name of its file.
+  void add(const std::string& round, const std::vector<df::AddedScore>& scores,
+           const std::string& recording = "");
 
   /// Rows of the file, with those that waited for it until now, or why it cannot be read. On the worker's
   /// thread.
@@ -76,10 +78,11 @@ class ScoreKeeper {
   void note(std::string problem);
 
   Clock m_clock;
+  std::function<void(const ScoreRow&)> m_observer;
   df::ScoreTables m_tables;
   std::unique_ptr<ScoreStore> m_store;  ///< the worker's, after the constructor
-  /// Round, tick and number of the rows that were in the file.
-  std::set<std::tuple<std::string, std::uint32_t, int>> m_known;
+  std::set<std::tuple<std::string, std::uint32_t, int>>
+      m_loaded;  ///< what names rows of the file in m_tables
   std::uint64_t m_added = 0;
   std::uint64_t m_refused = 0;
   std::uint64_t m_dropped = 0;

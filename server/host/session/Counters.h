@@ -82,13 +82,20 @@ struct Counters {
   std::uint64_t rounds_broken = 0;
   std::uint64_t rounds_unrecovered = 0;
   // Scores that games added (HighScores.h):
-  std::uint64_t scores = 0;            ///< taken over
-  std::uint64_t scores_refused = 0;    ///< no good, or of more tables than a game may have
-  std::uint64_t scores_written = 0;    ///< on disk
-  std::uint64_t scores_dropped = 0;    ///< in memory alone: too many waited for the disk
-  std::uint64_t audited_pictures = 0;  ///< of players, held against the world's (PictureAudit.h)
-  std::uint64_t audited_cells = 0;     ///< of these
-  std::uint64_t wrong_cells = 0;       ///< of these
+  std::uint64_t scores = 0;          ///< taken over
+  std::uint64_t scores_refused = 0;  ///< no good, or of more tables than a game may have
+  std::uint64_t scores_written = 0;  ///< on disk
+  std::uint64_t scores_dropped = 0;  ///< in memory alone: too many waited for the disk
+  // What runs the server (HostPlatform.h), and what servers say to each other (Bus.h):
+  std::uint64_t platform_requests = 0;  ///< answered well
+  std::uint64_t platform_failures = 0;  ///< not; tried again
+  std::uint64_t bus_published = 0;      ///< messages that arrived
+  std::uint64_t bus_dropped = 0;        ///< the oldest of too many that waited
+  std::uint64_t bus_failures = 0;       ///< tried again
+  std::uint64_t bus_connections = 0;    ///< more than one: it was lost and came back
+  std::uint64_t audited_pictures = 0;   ///< of players, held against the world's (PictureAudit.h)
+  std::uint64_t audited_cells = 0;      ///< of these
+  std::uint64_t wrong_cells = 0;        ///< of these
 
   /// "connections=3 joined=2 …", only what is not zero.
   std::string summary() const;

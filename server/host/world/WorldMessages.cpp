@@ -143,8 +143,11 @@ template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
   f.list(answer.leavers, kMaxViewPlayers, [](F& in, auto& leaver) { in.number(leaver); });
-  f.list(answer.scores, df::HighScores::kMaxAddedInTick,
-         [](F& in, auto& added) { visitScore(in, added.table, added.score.name, added.score.points); });
+  f.list(answer.scores, df::HighScores::kMaxAddedInTick, [](F& in, auto& added) {
+    visitScore(in, added.table, added.score.name, added.score.points);
+    in.number(added.tick);
+    in.number(added.number, 0, df::ScoreTables::kMaxNumber);
+  });
   f.list(answer.pictures, kMaxViewPlayers, [](F& in, auto& picture) {
     in.number(picture.player);
     visitCanvas(in, picture.canvas);

@@ -38,10 +38,10 @@ struct WorldEnd {
   std::vector<std::string> last_lines = {};  ///< of the game's log, of a failure; escaped
 };
 
-/// What the game added in one tick.
-struct TickScores {
-  std::uint32_t tick = 0;  ///< the host's number
-  std::vector<df::AddedScore> scores = {};
+/// A round that is written down.
+struct RoundName {
+  std::string id;    ///< 32 hexadecimal digits that no other round has; empty: it is not written down
+  std::string file;  ///< the name of its recording
 };
 
 class WorldPort {
@@ -87,14 +87,11 @@ class WorldPort {
   virtual std::vector<std::uint32_t> takeLeavers() = 0;
   /// The scores that the game added in the last tick, in that order.
   virtual std::vector<df::AddedScore> takeScores() = 0;
-  /// Those of ticks that were executed again, once they all were: the server that was killed may not have
-  /// kept the last ones.
-  virtual std::vector<TickScores> takeRepeatedScores() { return {}; }
-  /// The name of the file in which the round is written down; empty: it is not.
-  virtual std::string recording() const { return {}; }
   virtual bool isGameOver() const = 0;
   /// What this player sees, as the engine drew it in the last tick.
   virtual df::Canvas renderPlayer(std::uint32_t player) const = 0;
+
+  virtual RoundName roundName() const { return {}; }
 
   // A round of a server that was killed, which is executed again until it is where it was.
 

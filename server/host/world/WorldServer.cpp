@@ -117,8 +117,8 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   answer.game_over = world.isGameOver();
   answer.leavers = world.takeLeavers();
   answer.has_view = turn.watched;
-  if (turn.checked) answer.state_hash = df::hashState(world);
   if (df::WorldExtras* p_extras = world.findExtras()) answer.scores = p_extras->scores.takeAdded();
+  if (turn.checked) answer.state_hash = df::hashState(world);
   if (turn.watched && turn.wants_truth) {
     for (const df::PlayerFacts& player : world.view().players) {
       if (turn.pictured != 0 && turn.pictured != player.id) continue;

@@ -80,6 +80,9 @@ TEST_F(HighScoresTest, AHostGetsWhatWasAddedOnceInItsOrder) {
   ASSERT_EQ(added.size(), 2u);
   EXPECT_EQ(added[0].score.name, "bob");
   EXPECT_EQ(added[1].score.name, "ann");
+  EXPECT_EQ(added[0].tick, 1u) << "after the first";
+  EXPECT_EQ(added[0].number, 0);
+  EXPECT_EQ(added[1].number, 1);
 }
 
 TEST_F(HighScoresTest, WithoutAHostNothingPilesUp) {

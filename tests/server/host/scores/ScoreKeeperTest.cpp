@@ -28,6 +28,16 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
+/// As a world adds them in this tick.
+void addAll(ScoreKeeper& keeper, const std::string& round, std::uint32_t tick,
+            std::vector<df::AddedScore> scores) {
+  for (df::AddedScore& score : scores) {
+    score.tick = tick;
+    score.number = static_cast<int>(&score - scores.data());
+  }
+  keeper.add(round, scores, "round.dfr");
+}
+
 class ScoreKeeperTest : public testing::Test {
  protected:
   ScoreKeeperTest() {
@@ -56,7 +66,7 @@ class ScoreKeeperTest : public testing::Test {
 TEST_F(ScoreKeeperTest, TheNextServerKnowsThem) {
   {
     ScoreKeeper keeper(folder, "game", [] { return 1'800'000'000; });
-    keeper.add("round", 7, {of("ann", 5), of("bob", 9), of("eve", -3, "other")});
+    addAll(keeper, "round", 7, {of("ann", 5), of("bob", 9), of("eve", -3, "other")});
     EXPECT_EQ(keeper.tables().at("arcade").front(), (df::HighScore{"bob", 9})) << "at once";
   }
   const ScoreKeeper keeper(folder, "game");
@@ -69,27 +79,35 @@ TEST_F(ScoreKeeperTest, TheNextServerKnowsThem) {
   EXPECT_EQ(rows[0].tick, 7u);
   EXPECT_EQ(rows[0].number, 1);
   EXPECT_EQ(rows[0].at, 1'800'000'000);
-  EXPECT_EQ(rows[0].recording, "");
+  EXPECT_EQ(rows[0].recording, "round.dfr");
   struct stat status {};
   ASSERT_EQ(::stat((folder / "scores.sqlite3").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777u, 0600u);
 }
 
 TEST_F(ScoreKeeperTest, EachGameHasItsOwn) {
-  { ScoreKeeper(folder, "game").add("r", 1, {of("ann", 5)}); }
-  { ScoreKeeper(folder, "other").add("s", 1, {of("bob", 9)}); }
+  {
+    ScoreKeeper keeper(folder, "game");
+    addAll(keeper, "r", 1, {of("ann", 5)});
+  }
+  {
+    ScoreKeeper keeper(folder, "other");
+    addAll(keeper, "s", 1, {of("bob", 9)});
+  }
   EXPECT_EQ(ScoreKeeper(folder, "game").tables().at("arcade"), (std::vector<df::HighScore>{{"ann", 5}}));
 }
 
 TEST_F(ScoreKeeperTest, TheSameRowIsKeptOnceHoweverOftenItComes) {
   for (int times = 0; times < 3; ++times) {
     ScoreKeeper keeper(folder, "game");
-    keeper.add("round", 7, {of("ann", 5), of("ann", 5)}, "round.dfr");
-    EXPECT_EQ(keeper.tables().at("arcade").size(), 2u)
-        << "as for one that goes on with a killed server's round";
+    addAll(keeper, "round", 7, {of("ann", 5), of("ann", 5)});
   }
-  ASSERT_EQ(stored().size(), 2u) << "two in one tick are two";
-  EXPECT_EQ(stored()[0].recording, "round.dfr");
+  EXPECT_EQ(stored().size(), 2u) << "two in one tick are two";
+  EXPECT_EQ(ScoreKeeper(folder, "game").tables().at("arcade").size(), 2u);
+  ScoreKeeper keeper(folder, "game");
+  addAll(keeper, "round", 7, {of("ann", 5), of("ann", 5), of("bob", 1)});
+  EXPECT_EQ(keeper.tables().at("arcade").size(), 3u) << "of a round that goes on the new one counts";
+  EXPECT_EQ(keeper.counters().added, 1u);
 }
 
 TEST_F(ScoreKeeperTest, ATableOnDiskHasTenThousandRowsAndTheLeastGo) {
@@ -109,10 +127,10 @@ TEST_F(ScoreKeeperTest, ATableOnDiskHasTenThousandRowsAndTheLeastGo) {
 
 TEST_F(ScoreKeeperTest, AWorldThatSendsNonsenseFillsNothing) {
   ScoreKeeper keeper(folder, "game");
-  for (std::uint32_t t = 0; t < 100; ++t) keeper.add("round", t, {of("ann", 1, "t" + std::to_string(t))});
-  keeper.add("round", 100,
-             {of("", 1, "t1"), of("ann", 1, "no table"), of("ann", df::HighScores::kMaxPoints + 1, "t1")});
-  keeper.add("round", 101, {of("a\nb\x1b[2J and a very long name", 2, "t1")});
+  for (std::uint32_t t = 0; t < 100; ++t) addAll(keeper, "round", t, {of("ann", 1, "t" + std::to_string(t))});
+  addAll(keeper, "round", 100,
+         {of("", 1, "t1"), of("ann", 1, "no table"), of("ann", df::HighScores::kMaxPoints + 1, "t1")});
+  addAll(keeper, "round", 101, {of("a\nb\x1b[2J and a very long name", 2, "t1")});
   keeper.finish();
   EXPECT_EQ(keeper.tables().size(), 16u);
   EXPECT_EQ(keeper.counters().refused, 84u + 3u);
@@ -130,7 +148,7 @@ TEST_F(ScoreKeeperTest, AFileThatCannotBeUsedStaysAsItIsAndIsSaidOnce) {
     EXPECT_EQ(keeper.takeNews(), "");
     EXPECT_FALSE(keeper.hasFile());
     EXPECT_FALSE(keeper.read("", 10, [](const auto&, const auto&) { FAIL(); }));
-    keeper.add("round", 1, {of("ann", 5)});
+    addAll(keeper, "round", 1, {of("ann", 5)});
     EXPECT_EQ(keeper.tables().at("arcade").size(), 1u) << "until the server ends";
     keeper.finish();
     EXPECT_EQ(content(), bytes);
@@ -139,7 +157,7 @@ TEST_F(ScoreKeeperTest, AFileThatCannotBeUsedStaysAsItIsAndIsSaidOnce) {
 
 TEST_F(ScoreKeeperTest, WithoutAFolderTheyEndWithTheServer) {
   ScoreKeeper keeper({}, "game");
-  keeper.add("round", 1, {of("ann", 5)});
+  addAll(keeper, "round", 1, {of("ann", 5)});
   EXPECT_EQ(keeper.tables().at("arcade").size(), 1u);
   EXPECT_EQ(keeper.takeNews(), "");
 }
@@ -160,7 +178,7 @@ class Blocker {
 
 TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
   ScoreKeeper keeper(folder, "game");
-  keeper.add("round", 0, {of("ann", 0)});
+  addAll(keeper, "round", 0, {of("ann", 0)});
   std::mutex mutex;
   std::condition_variable read;
   int reads = 0;
@@ -180,7 +198,7 @@ TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
   EXPECT_EQ(keeper.counters().written, 1u);
   {
     Blocker blocker(folder / "scores.sqlite3");
-    for (std::uint32_t t = 1; t <= 5000; ++t) keeper.add("round", t, {of("ann", t)});
+    for (std::uint32_t t = 1; t <= 5000; ++t) addAll(keeper, "round", t, {of("ann", t)});
     sync();  // the writing was tried
     EXPECT_EQ(keeper.counters().written, 1u);
     EXPECT_NE(keeper.takeNews().find("cannot be written"), std::string::npos);
@@ -199,8 +217,8 @@ TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
 [[noreturn]] void addWithoutEnd(const fs::path& folder, const std::string& round, int pipe) {
   ScoreKeeper keeper(folder, "game");
   for (std::uint32_t tick = 0;; ++tick) {
-    keeper.add(round, tick,
-               {{"arcade", {"ann", tick}}, {"arcade", {"ann", tick}}, {"arcade", {"bob", tick}}});
+    addAll(keeper, round, tick,
+           {{"arcade", {"ann", tick}}, {"arcade", {"ann", tick}}, {"arcade", {"bob", tick}}});
     std::uint64_t written = 0;
     while ((written = keeper.counters().written) < 3 * std::uint64_t{tick}) std::this_thread::yield();
     if (::write(pipe, &written, sizeof written) != sizeof written) _exit(1);

@@ -239,7 +239,8 @@ TEST(WorldMessages, AnswersCrossWhole) {
   WorldAnswer sent{true, {3, 70'000}, false, {}};
   sent.pictures.push_back({5, df::Canvas(3, 2)});
   sent.pictures[0].canvas.put(1, 1, {U'ü', df::RED});
-  sent.scores = {{"arcade", {"ann", -7}}, {"other", {"bob", df::HighScores::kMaxPoints}}};
+  sent.scores = {{"arcade", {"ann", -7}, 70'000, 3},
+                 {"other", {"bob", df::HighScores::kMaxPoints}, 70'000, 4}};
   df::WorldView view;
   const auto answer = readAnswer(fieldsOf(frameOf({}, writer, sent)), reader, view);
   ASSERT_TRUE(answer);
@@ -250,6 +251,8 @@ TEST(WorldMessages, AnswersCrossWhole) {
   EXPECT_EQ(answer->scores[0].table, "arcade");
   EXPECT_EQ(answer->scores[0].score, sent.scores[0].score);
   EXPECT_EQ(answer->scores[1].score, sent.scores[1].score);
+  EXPECT_EQ(answer->scores[1].tick, 70'000u);
+  EXPECT_EQ(answer->scores[1].number, 4);
   ASSERT_EQ(answer->pictures.size(), 1u);
   EXPECT_EQ(answer->pictures[0].player, 5u);
   EXPECT_EQ(countDifferences(answer->pictures[0].canvas, sent.pictures[0].canvas), 0);
@@ -361,7 +364,7 @@ TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
     ViewWriter writer;
     ViewReader reader;
     df::WorldView view;
-    const df::AddedScore score{"t", {"n", 0}};
+    const df::AddedScore score{"t", {"n", 0}, 0, 0};
     WorldAnswer sent;
     sent.scores.assign(df::HighScores::kMaxAddedInTick, score);
     std::string fields(fieldsOf(frameOf({}, writer, sent)));

@@ -1,4 +1,4 @@
-#include "host/program/ServiceNotify.h"
+#include "host/fleet/ServiceNotify.h"
 
 #include <sys/socket.h>
 #include <sys/un.h>

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host/program/ServiceNotify.h"
+#include "host/fleet/ServiceNotify.h"
 
 namespace naiad {
 namespace {

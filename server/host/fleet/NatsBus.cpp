@@ -1,0 +1,230 @@
+#include "host/fleet/Bus.h"
+
+#ifdef NAIAD_NATS
+#include <nats/nats.h>
+#include <pthread.h>
+#include <signal.h>
+#endif
+
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "host/fleet/BusQueue.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr std::string_view kPlain = "nats://";
+constexpr std::string_view kEncrypted = "tls://";
+
+}  // namespace
+
+std::string busComplaint(const BusSettings& settings) {
+#ifndef NAIAD_NATS
+  return "--bus: this program was built without NATS (Debian: libnats-dev)";
+#endif
+  const std::string& url = settings.url;
+  for (const std::string_view scheme : {kPlain, kEncrypted}) {
+    if (url.starts_with(scheme) && url.size() > scheme.size()) {
+      if (scheme == kPlain && !settings.authorities.empty()) return "--bus-ca is for tls://, not for nats://";
+      return "";
+    }
+  }
+  return "--bus: nats://HOST:PORT or tls://HOST:PORT is wanted";
+}
+
+#ifdef NAIAD_NATS
+
+namespace {
+
+constexpr std::chrono::seconds kConnectAgain{1};
+constexpr std::chrono::milliseconds kLook{250};  ///< whether the connection still stands
+constexpr int kTimeoutMillis = 2000;             ///< to connect, and for an answer
+constexpr int kPingMillis = 2000;
+constexpr int kMaxPings = 2;
+
+template <class T, void (*Destroy)(T*)>
+struct NatsDeleter {
+  void operator()(T* p_thing) const { Destroy(p_thing); }
+};
+using Options = std::unique_ptr<natsOptions, NatsDeleter<natsOptions, natsOptions_Destroy>>;
+using Connection = std::unique_ptr<natsConnection, NatsDeleter<natsConnection, natsConnection_Destroy>>;
+using JetStream = std::unique_ptr<jsCtx, NatsDeleter<jsCtx, jsCtx_Destroy>>;
+
+/// The library would keep what it could not send, and try again by itself: this does so, in bounded memory.
+Options optionsOf(const BusSettings& settings) {
+  natsOptions* p_made = nullptr;
+  if (natsOptions_Create(&p_made) != NATS_OK) return nullptr;
+  Options options(p_made);
+  bool good = natsOptions_SetURL(p_made, settings.url.c_str()) == NATS_OK &&
+              natsOptions_SetName(p_made, "naiad") == NATS_OK &&
+              natsOptions_SetAllowReconnect(p_made, false) == NATS_OK &&
+              natsOptions_SetTimeout(p_made, kTimeoutMillis) == NATS_OK &&
+              natsOptions_SetPingInterval(p_made, kPingMillis) == NATS_OK &&
+              natsOptions_SetMaxPingsOut(p_made, kMaxPings) == NATS_OK;
+  if (settings.url.starts_with(kEncrypted)) good = good && natsOptions_SetSecure(p_made, true) == NATS_OK;
+  if (!settings.authorities.empty())
+    good = good && natsOptions_LoadCATrustedCertificates(p_made, settings.authorities.c_str()) == NATS_OK;
+  if (!settings.credentials.empty())
+    good = good &&
+           natsOptions_SetUserCredentialsFromFiles(p_made, settings.credentials.c_str(), nullptr) == NATS_OK;
+  return good ? std::move(options) : nullptr;
+}
+
+/// Connects, and publishes, on a thread of its own.
+class NatsBus : public Bus {
+ public:
+  explicit NatsBus(BusSettings settings) : m_settings(std::move(settings)) {
+    sigset_t all;
+    sigset_t before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are for the threads that were there before
+    m_thread = std::thread([this] { run(); });
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+  ~NatsBus() override {
+    {
+      const std::lock_guard lock(m_mutex);
+      m_stopping = true;
+    }
+    m_wake.notify_all();
+    m_thread.join();
+  }
+
+  void publish(BusMessage message) override {
+    {
+      const std::lock_guard lock(m_mutex);
+      m_queue.push(std::move(message));
+    }
+    m_wake.notify_all();
+  }
+  bool isConnected() const override {
+    const std::lock_guard lock(m_mutex);
+    return m_connected;
+  }
+  void finish(std::chrono::milliseconds patience) override {
+    std::unique_lock lock(m_mutex);
+    m_sent.wait_for(lock, patience,
+                    [this] { return !m_connected || (!m_queue.hasKept() && !m_queue.hasFleeting()); });
+  }
+  BusCounters counters() const override {
+    const std::lock_guard lock(m_mutex);
+    BusCounters counters = m_counters;
+    counters.dropped = m_queue.dropped();
+    return counters;
+  }
+  std::string takeNews() override {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_news, "");
+  }
+
+ private:
+  using Lock = std::unique_lock<std::mutex>;
+
+  void run() {
+    Lock lock(m_mutex);
+    while (!m_stopping) {
+      lock.unlock();
+      natsStatus status = NATS_ERR;
+      const Connection connection = connect(status);
+      lock.lock();
+      noteConnection(connection != nullptr, status);
+      if (connection) serve(*connection, lock);
+      m_connected = false;
+      m_sent.notify_all();
+      if (!m_stopping) m_wake.wait_for(lock, kConnectAgain, [this] { return m_stopping; });
+    }
+  }
+
+  Connection connect(natsStatus& status) const {
+    const Options options = optionsOf(m_settings);
+    natsConnection* p_made = nullptr;
+    status = options ? natsConnection_Connect(&p_made, options.get()) : NATS_INVALID_ARG;
+    return Connection(status == NATS_OK ? p_made : nullptr);
+  }
+
+  /// The same news is no news. An address may have a password in it, so it is not said.
+  void noteConnection(bool connected, natsStatus status) {
+    m_connected = connected;
+    m_counters.connections += connected ? 1 : 0;
+    m_counters.failures += connected ? 0 : 1;
+    const std::string news = connected ? "the bus is connected"
+                                       : std::string("warning: the bus cannot be reached (") +
+                                             natsStatus_GetText(status) + "); trying again";
+    if (std::exchange(m_last_news, news) != news) m_news = news;
+  }
+
+  /// Until the connection is lost.
+  void serve(natsConnection& connection, Lock& lock) {
+    jsCtx* p_made = nullptr;
+    natsConnection_JetStream(&p_made, &connection, nullptr);
+    const JetStream stream(p_made);
+    auto not_before = std::chrono::steady_clock::now();
+    while (!m_stopping && natsConnection_Status(&connection) == NATS_CONN_STATUS_CONNECTED) {
+      const bool may_keep = stream && m_queue.hasKept() && std::chrono::steady_clock::now() >= not_before;
+      if (m_queue.hasFleeting()) {
+        const BusMessage message = m_queue.takeFleeting();
+        lock.unlock();
+        const bool sent = natsConnection_Publish(&connection, message.subject.c_str(), message.payload.data(),
+                                                 static_cast<int>(message.payload.size())) == NATS_OK;
+        lock.lock();
+        ++(sent ? m_counters.published : m_counters.failures);
+      } else if (may_keep) {
+        const BusMessage message = m_queue.firstKept();
+        lock.unlock();
+        const bool arrived = keep(*stream, message);
+        lock.lock();
+        ++(arrived ? m_counters.published : m_counters.failures);
+        if (arrived) m_queue.dropKept(message.id);
+        if (!arrived) not_before = std::chrono::steady_clock::now() + kConnectAgain;
+      } else {
+        m_sent.notify_all();
+        m_wake.wait_for(lock, kLook);
+      }
+    }
+  }
+
+  /// JetStream has stored it, or had it already.
+  static bool keep(jsCtx& stream, const BusMessage& message) {
+    jsPubOptions options;
+    jsPubOptions_Init(&options);
+    options.MaxWait = kTimeoutMillis;
+    options.MsgId = message.id.c_str();
+    jsErrCode code{};
+    return js_Publish(nullptr, &stream, message.subject.c_str(), message.payload.data(),
+                      static_cast<int>(message.payload.size()), &options, &code) == NATS_OK;
+  }
+
+  const BusSettings m_settings;
+  mutable std::mutex m_mutex;
+  std::condition_variable m_wake;
+  std::condition_variable m_sent;
+  BusQueue m_queue;
+  bool m_connected = false;
+  bool m_stopping = false;
+  BusCounters m_counters;
+  std::string m_last_news;
+  std::string m_news;
+  std::thread m_thread;
+};
+
+}  // namespace
+
+std::unique_ptr<Bus> connectBus(const BusSettings& settings) {
+  return std::make_unique<NatsBus>(settings);
+}
+
+#else
+
+std::unique_ptr<Bus> connectBus(const BusSettings& settings) {
+  throw std::logic_error(busComplaint(settings));
+}
+
+#endif
+
+}  // namespace naiad

@@ -1,0 +1,121 @@
+#include "host/fleet/SidecarDuties.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace naiad {
+
+namespace {
+
+using Kind = SidecarRequest::Kind;
+
+constexpr std::chrono::milliseconds kIdle{500};  ///< between two looks where nothing is due
+constexpr int kNotFound = 404;
+constexpr int kNotImplemented = 501;
+
+bool isGood(int status) {
+  return status >= 200 && status < 300;
+}
+
+SidecarRequest post(Kind kind, const char* p_path) {
+  return {kind, "POST", p_path, "{}"};
+}
+
+/// Numbers of 64 bits are texts in the JSON of Protocol Buffers.
+std::string quoted(std::size_t number) {
+  std::string text = "\"";
+  text += std::to_string(number);
+  return text += '"';
+}
+
+}  // namespace
+
+void SidecarDuties::setPlayers(const PlatformPlayers& players) {
+  m_players = players.ids;
+  m_most = players.most;
+}
+
+std::chrono::milliseconds SidecarDuties::healthTime() const {
+  if (!m_facts || m_facts->health_seconds == 0) return kHealth;
+  return std::clamp(std::chrono::milliseconds(std::chrono::seconds(m_facts->health_seconds)) / 2,
+                    std::chrono::milliseconds(500), std::chrono::milliseconds(5000));
+}
+
+std::optional<SidecarRequest> SidecarDuties::next(Time now) {
+  m_wake = now + kIdle;
+  if (m_asked || m_over) return std::nullopt;
+  if (m_not_before && now < *m_not_before) {
+    m_wake = *m_not_before;
+    return std::nullopt;
+  }
+  m_asked = choose(now);
+  return m_asked;
+}
+
+// The end first. A cluster ends a server that is not ready or not healthy, so those come before what is only
+// shown. A server that does not tick any more is not healthy.
+std::optional<SidecarRequest> SidecarDuties::choose(Time now) const {
+  if (m_ending) return post(Kind::kShutdown, "/shutdown");
+  if (!m_ready) return std::nullopt;
+  const bool ticks = m_ticked && now - *m_ticked < healthTime();
+  if (ticks && (!m_healthy || now - *m_healthy >= healthTime())) return post(Kind::kHealth, "/health");
+  const Said wanted = m_players.empty() ? Said::kReady : Said::kAllocated;
+  if (m_said == Said::kNothing) return post(Kind::kReady, "/ready");
+  if (m_said != wanted)
+    return m_players.empty() ? post(Kind::kReady, "/ready") : post(Kind::kAllocate, "/allocate");
+  if (!m_facts) return SidecarRequest{Kind::kFacts, "GET", "/gameserver", ""};
+  const std::string counter =
+      R"({"count":)" + quoted(m_players.size()) + R"(,"capacity":)" + quoted(m_most) + "}";
+  if (m_counter != counter)
+    return SidecarRequest{Kind::kCounter, "PATCH", "/v1beta1/counters/players", counter};
+  std::string list = R"({"capacity":)" + quoted(std::min(m_most, kMaxListed)) + R"(,"values":[)";
+  for (std::size_t i = 0; i < std::min(m_players.size(), kMaxListed); ++i) {
+    if (i > 0) list += ',';
+    list += quoted(m_players[i]);
+  }
+  list += "]}";
+  if (m_list != list) return SidecarRequest{Kind::kList, "PATCH", "/v1beta1/lists/players", list};
+  return std::nullopt;
+}
+
+void SidecarDuties::onAnswer(int status, const std::string& body, Time now) {
+  if (!m_asked) return;
+  const SidecarRequest asked = *std::exchange(m_asked, std::nullopt);
+  const bool optional = asked.kind == Kind::kCounter || asked.kind == Kind::kList;
+  const bool missing = optional && (status == kNotFound || status == kNotImplemented);
+  if (missing && m_missing.find(asked.path) == std::string::npos)
+    m_missing += (m_missing.empty() ? "" : ", ") + asked.path;
+  if (!isGood(status) && !missing) {
+    ++m_counters.failures;
+    m_not_before = now + kRetry;
+    return;
+  }
+  m_not_before.reset();
+  if (!missing) ++m_counters.requests;
+  switch (asked.kind) {
+    case Kind::kReady:
+      m_said = Said::kReady;
+      break;
+    case Kind::kAllocate:
+      m_said = Said::kAllocated;
+      break;
+    case Kind::kHealth:
+      ++m_counters.health;
+      m_healthy = now;
+      break;
+    case Kind::kCounter:
+      m_counter = asked.body;
+      break;
+    case Kind::kList:
+      m_list = asked.body;
+      break;
+    case Kind::kFacts:
+      m_facts = GameServerFacts::parse(body, false).value_or(GameServerFacts());
+      break;
+    case Kind::kShutdown:
+      m_over = true;
+      break;
+  }
+}
+
+}  // namespace naiad

@@ -1,0 +1,40 @@
+// What a server says of itself on the bus, every two seconds: where it is, which key it proves, who plays.
+//
+//   naiad.presence.ID {"v":1,"id":"berlin-9876","name":"Berlin","game":"tron","host":"192.0.2.7","port":9876,
+//                       "key":"…64 hexadecimal digits…","protocol":4,"players":3,"max_players":64,
+//                       "password":false,"open":true}
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace naiad {
+
+struct Presence {
+  /// Between two; a server that is silent for three of them is gone.
+  static constexpr std::chrono::seconds kInterval{2};
+  static constexpr std::size_t kMaxName = 64;  ///< characters of name and game
+
+  std::string id;  ///< ServerId.h
+  std::string name;
+  std::string game;
+  std::string host;        ///< name or numeric address for players; empty: it does not know
+  std::uint16_t port = 0;  ///< 1 to 65535
+  std::string key;         ///< Fingerprint::text(); empty: without encryption
+  std::uint32_t protocol = 0;
+  std::uint32_t players = 0;
+  std::uint32_t max_players = 0;
+  bool asks_password = false;
+  bool is_open = true;  ///< lets players in: it neither drains nor ends
+
+  std::string payload() const;
+  /// Nothing for what no server writes.
+  static std::optional<Presence> parse(std::string_view payload);
+
+  friend bool operator==(const Presence&, const Presence&) = default;
+};
+
+}  // namespace naiad

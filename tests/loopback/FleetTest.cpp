@@ -1,0 +1,140 @@
+// dfserver in a fleet: what it says to the sidecar of a cluster and to the bus, and that players notice
+// neither when they go. Real processes and sockets, a fake sidecar, the real nats-server.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "GameProgram.h"
+#include "Home.h"
+#include "TestClient.h"
+#include "tests/server/host/fleet/FakeSidecar.h"
+#include "tests/server/host/fleet/NatsServer.h"
+
+namespace naiad::test {
+namespace {
+
+class Fleet : public testing::Test {
+ protected:
+  void start(std::map<std::string, std::string> environment) {
+    environment["NAIAD_GAME"] = "hello";
+    game = std::make_unique<GameProgram>("dfserver", std::move(environment));
+    ASSERT_NE(game->port(), 0) << game->log();
+  }
+  std::unique_ptr<TestClient> join(const std::string& name) {
+    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
+    EXPECT_TRUE(serve(*client, [&] { return client->joined(); })) << game->log();
+    return client;
+  }
+  bool serve(TestClient& client, const std::function<bool()>& done) {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      client.connection().update(std::chrono::steady_clock::now());
+      context.restart();
+      context.run_one_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+  bool logs(TestClient& client, const std::string& text) {
+    return serve(client, [&] { return game->log().find(text) != std::string::npos; });
+  }
+
+  Home home;
+  asio::io_context context;
+  std::unique_ptr<GameProgram> game;
+};
+
+std::pair<int, std::string> answerWell(const std::string& request) {
+  return {200, request == "GET /gameserver" ? R"({"spec":{"health":{"period_seconds":1}}})" : "{}"};
+}
+
+TEST_F(Fleet, AServerOfAClusterIsReadyHealthyAllocatedAndShutDown) {
+  FakeSidecar sidecar;
+  sidecar.start(answerWell);
+  start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}});
+  EXPECT_TRUE(sidecar.waitFor("POST /ready {}"));
+  EXPECT_TRUE(sidecar.waitFor("POST /health {}", 3));
+  auto ann = join("ann");
+  EXPECT_TRUE(sidecar.waitFor("POST /allocate {}"));
+  EXPECT_TRUE(sidecar.waitFor(R"(PATCH /v1beta1/lists/players {"capacity":"64","values":["1"]})"));
+  ann.reset();
+  game->signal(SIGTERM);
+  game->wait();
+  EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
+  EXPECT_NE(game->log().find("platform_requests="), std::string::npos) << game->log();
+}
+
+TEST_F(Fleet, AServerThatIsEndedAtOnceSaysSoToo) {
+  FakeSidecar sidecar;
+  sidecar.start(answerWell);
+  start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}, {"NAIAD_DRAIN_TIME", "1000"}});
+  auto ann = join("ann");
+  game->signal(SIGTERM);
+  EXPECT_TRUE(logs(*ann, "ending when all have left"));
+  game->signal(SIGTERM);
+  game->wait();
+  EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
+}
+
+TEST_F(Fleet, AClusterThatShutsTheServerDownEndsItWithDrainTime) {
+  FakeSidecar sidecar;
+  sidecar.start(answerWell);
+  start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())},
+         {"NAIAD_DRAIN_TIME", "1000"},
+         {"NAIAD_GRACE", "0"}});
+  ASSERT_TRUE(sidecar.waitFor("GET /watch/gameserver"));
+  auto ann = join("ann");
+  sidecar.push(R"({"result":{"status":{"state":"Shutdown"}}})"
+               "\n");
+  EXPECT_TRUE(logs(*ann, "the platform shuts the server down"));
+  EXPECT_TRUE(ann->joined()) << "ann plays on";
+  ann.reset();
+  EXPECT_EQ(game->wait(), 0);
+}
+
+TEST_F(Fleet, ASidecarThatGoesCostsPlayersNothing) {
+  auto sidecar = std::make_unique<FakeSidecar>();
+  sidecar->start(answerWell);
+  start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar->port())}});
+  auto ann = join("ann");
+  sidecar.reset();
+  EXPECT_TRUE(logs(*ann, "warning: Agones: the sidecar does not answer"));
+  const std::uint32_t tick = ann->newestTick();
+  EXPECT_TRUE(serve(*ann, [&] { return ann->newestTick() > tick + 200; })) << "the game goes on";
+  EXPECT_EQ(ann->session().counters().resets, 0u);
+}
+
+TEST_F(Fleet, ABusThatIsKilledCostsPlayersNothingAndIsFoundAgain) {
+  if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
+  NatsServer bus;
+  ASSERT_TRUE(bus.start()) << bus.log();
+  start({{"NAIAD_BUS", bus.url()}, {"NAIAD_BUS_ID", "berlin"}});
+  auto ann = join("ann");
+  if (game->log().find("without NATS") != std::string::npos) GTEST_SKIP() << "built without libnats";
+  EXPECT_TRUE(logs(*ann, "the bus is connected"));
+  bus.kill();
+  EXPECT_TRUE(logs(*ann, "warning: the bus cannot be reached"));
+  const std::uint32_t tick = ann->newestTick();
+  EXPECT_TRUE(serve(*ann, [&] { return ann->newestTick() > tick + 200; })) << "the game goes on";
+  ASSERT_TRUE(bus.start()) << bus.log();
+  const std::size_t before = game->log().size();
+  EXPECT_TRUE(serve(*ann, [&] {
+    return game->log().find("the bus is connected", game->log().find("cannot be reached")) !=
+           std::string::npos;
+  })) << game->log().substr(before);
+  EXPECT_EQ(ann->session().counters().resets, 0u);
+  EXPECT_EQ(game->log().find("is back"), std::string::npos) << "ann had to come back";
+  game->signal(SIGTERM);
+  game->wait();
+  EXPECT_NE(game->log().find("bus_connections=2"), std::string::npos) << game->log();
+}
+
+}  // namespace
+}  // namespace naiad::test

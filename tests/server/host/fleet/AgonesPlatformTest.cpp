@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "FakeSidecar.h"
+#include "host/fleet/AgonesPlatform.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using test::FakeSidecar;
+
+const std::string kServer =
+    R"({"object_meta":{"name":"naiad-x7"},"spec":{"health":{"period_seconds":1}},)"
+    R"("status":{"state":"Ready","address":"192.0.2.7","ports":[{"name":"default","port":7012}]}})";
+
+std::pair<int, std::string> well(const std::string& request) {
+  return {200, request == "GET /gameserver" ? kServer : "{}"};
+}
+
+TEST(AgonesPlatform, TriesAgainUntilALateSidecarThatIsBusyAtFirstAnswers) {
+  FakeSidecar sidecar;
+  AgonesPlatform platform(sidecar.port());
+  platform.notifyReady();
+  std::string news;
+  while (news.empty()) news = platform.takeNews();  // it was refused at least once
+  EXPECT_EQ(news, "warning: Agones: the sidecar does not answer; trying again");
+  std::atomic<int> asked = 0;
+  sidecar.start([&](const std::string& request) {
+    if (request == "POST /ready {}" && asked++ < 2) return std::pair<int, std::string>{503, "starting"};
+    return well(request);
+  });
+  EXPECT_TRUE(sidecar.waitFor("POST /ready {}", 3));
+  EXPECT_TRUE(sidecar.waitFor("GET /gameserver"));
+  news.clear();
+  while (news.find("players reach") == std::string::npos) news += platform.takeNews();
+  ASSERT_TRUE(platform.address());
+  EXPECT_EQ(platform.address()->host, "192.0.2.7");
+  EXPECT_EQ(platform.address()->port, 7012);
+  EXPECT_NE(news.find("players reach naiad-x7 at 192.0.2.7:7012"), std::string::npos) << news;
+}
+
+TEST(AgonesPlatform, PlayersAreACounterAndAListAndHealthComesFromTheTick) {
+  FakeSidecar sidecar;
+  sidecar.start(well);
+  AgonesPlatform platform(sidecar.port());
+  platform.notifyReady();
+  platform.notifyPlayers({"", {3, 17}, 64});
+  EXPECT_TRUE(sidecar.waitFor(R"(PATCH /v1beta1/lists/players {"capacity":"64","values":["3","17"]})"));
+  EXPECT_TRUE(sidecar.waitFor(R"(PATCH /v1beta1/counters/players {"count":"2","capacity":"64"})"));
+  EXPECT_TRUE(sidecar.waitFor("POST /allocate {}"));
+  const auto requests = sidecar.requests();
+  EXPECT_EQ(std::count(requests.begin(), requests.end(), "POST /health {}"), 0) << "no tick yet";
+  EXPECT_TRUE(sidecar.wait([&](const std::vector<std::string>& all) {
+    platform.notifyTick(AgonesPlatform::Clock::now());
+    return std::count(all.begin(), all.end(), "POST /health {}") >= 1;
+  }));
+}
+
+TEST(AgonesPlatform, SaysThatItEndsAndWaitsForTheAnswer) {
+  FakeSidecar sidecar;
+  sidecar.start(well);
+  AgonesPlatform platform(sidecar.port());
+  platform.notifyReady();
+  platform.finish(60s);
+  EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
+}
+
+TEST(AgonesPlatform, WithoutASidecarTheEndDoesNotWaitForLong) {
+  FakeSidecar sidecar;  // refuses
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    AgonesPlatform platform(sidecar.port());
+    platform.notifyReady();
+    platform.finish(200ms);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 30s);
+}
+
+TEST(AgonesPlatform, TheWatchSaysWhenTheServerIsShutDownAlsoAfterItWasCutAndInPieces) {
+  FakeSidecar sidecar;
+  sidecar.start(well);
+  AgonesPlatform platform(sidecar.port());
+  ASSERT_TRUE(sidecar.waitFor("GET /watch/gameserver"));
+  sidecar.push("{\"result\":" + kServer + "}\n", 7);
+  sidecar.push("nonsense\n");
+  EXPECT_FALSE(platform.takeEnd());
+  sidecar.endWatches();
+  ASSERT_TRUE(sidecar.waitFor("GET /watch/gameserver", 2));
+  sidecar.push(R"({"result":{"status":{"state":"Shutdown"}}})"
+               "\n",
+               5);
+  while (!platform.takeEnd()) {
+  }
+  EXPECT_FALSE(platform.takeEnd()) << "once";
+}
+
+TEST(AgonesPlatform, AWatchWithoutLinesIsHungUpOn) {
+  FakeSidecar sidecar;
+  sidecar.start(well);
+  AgonesPlatform platform(sidecar.port());
+  ASSERT_TRUE(sidecar.waitFor("GET /watch/gameserver"));
+  sidecar.push(std::string(GameServerFacts::kMaxBytes + 1, 'x'), 60'000);
+  EXPECT_TRUE(sidecar.waitFor("GET /watch/gameserver", 2));
+}
+
+}  // namespace
+}  // namespace naiad

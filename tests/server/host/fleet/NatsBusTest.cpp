@@ -1,0 +1,204 @@
+// The bus with the real nats-server.
+#include <gtest/gtest.h>
+
+#include "host/fleet/Bus.h"
+#include "host/fleet/BusQueue.h"
+
+#ifdef NAIAD_NATS
+#include <nats/nats.h>
+#endif
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "NatsServer.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+BusMessage kept(int number) {
+  return {"naiad.results.a", "result " + std::to_string(number), "round-0-" + std::to_string(number)};
+}
+
+TEST(BusQueue, TheOldestGoAndOfPresenceTheNewestIsEnough) {
+  BusQueue queue;
+  for (int i = 0; i < 100; ++i) queue.push({"naiad.presence.a", std::to_string(i)});
+  ASSERT_TRUE(queue.hasFleeting());
+  EXPECT_EQ(queue.takeFleeting().payload, "99");
+  EXPECT_FALSE(queue.hasFleeting());
+  for (int i = 0; i < 100; ++i) queue.push({"naiad.presence." + std::to_string(i), ""});
+  EXPECT_EQ(queue.dropped(), 100 - Bus::kMaxFleeting);
+  for (int i = 0; i < 5000; ++i) queue.push(kept(i));
+  EXPECT_EQ(queue.dropped(), 100 - Bus::kMaxFleeting + 5000 - Bus::kMaxKept);
+  EXPECT_EQ(queue.firstKept().id, kept(5000 - Bus::kMaxKept).id);
+  queue.dropKept("round-0-0");
+  EXPECT_EQ(queue.firstKept().id, kept(5000 - Bus::kMaxKept).id) << "it was dropped while it was on its way";
+  queue.dropKept(queue.firstKept().id);
+  EXPECT_EQ(queue.firstKept().id, kept(5001 - Bus::kMaxKept).id);
+}
+
+TEST(BusSettings, WhatIsNoAddressIsSaidBeforeTheStart) {
+#ifdef NAIAD_NATS
+  EXPECT_EQ(busComplaint({"nats://127.0.0.1:4222", "", ""}), "");
+  EXPECT_EQ(busComplaint({"tls://bus.example", "file", "ca.pem"}), "");
+  EXPECT_NE(busComplaint({"nats://bus", "", "ca.pem"}), "");
+#endif
+  for (const std::string url : {"nats://", "bus.example", "http://bus.example", "tls:/bus"})
+    EXPECT_NE(busComplaint({url, "", ""}), "") << url;
+}
+
+#ifdef NAIAD_NATS
+
+/// Reads what is on the bus, and looks after its streams.
+class Listener {
+ public:
+  explicit Listener(const std::string& url, const char* p_subject = "naiad.presence.>") {
+    if (natsConnection_ConnectTo(&m_p_connection, url.c_str()) != NATS_OK) return;
+    natsConnection_SubscribeSync(&m_p_subscription, m_p_connection, p_subject);
+    natsConnection_Flush(m_p_connection);
+    natsConnection_JetStream(&m_p_stream, m_p_connection, nullptr);
+  }
+  ~Listener() {
+    jsCtx_Destroy(m_p_stream);
+    natsSubscription_Destroy(m_p_subscription);
+    natsConnection_Destroy(m_p_connection);
+  }
+  bool isConnected() const { return m_p_connection != nullptr; }
+  /// The next message within a minute, as "SUBJECT PAYLOAD".
+  std::string next() const {
+    natsMsg* p_message = nullptr;
+    if (natsSubscription_NextMsg(&p_message, m_p_subscription, 60'000) != NATS_OK) return "";
+    const std::string text =
+        std::string(natsMsg_GetSubject(p_message)) + " " +
+        std::string(natsMsg_GetData(p_message), static_cast<std::size_t>(natsMsg_GetDataLength(p_message)));
+    natsMsg_Destroy(p_message);
+    return text;
+  }
+  bool makeResults() const {
+    const char* subjects[] = {"naiad.results.>"};
+    jsStreamConfig config;
+    jsStreamConfig_Init(&config);
+    config.Name = "results";
+    config.Subjects = subjects;
+    config.SubjectsLen = 1;
+    return js_AddStream(nullptr, m_p_stream, &config, nullptr, nullptr) == NATS_OK;
+  }
+  /// Messages that are stored.
+  std::uint64_t results() const {
+    jsStreamInfo* p_info = nullptr;
+    if (js_GetStreamInfo(&p_info, m_p_stream, "results", nullptr, nullptr) != NATS_OK) return 0;
+    const std::uint64_t count = p_info->State.Msgs;
+    jsStreamInfo_Destroy(p_info);
+    return count;
+  }
+  bool waitForResults(std::uint64_t count) const {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (results() < count && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    return results() == count;
+  }
+
+ private:
+  natsConnection* m_p_connection = nullptr;
+  natsSubscription* m_p_subscription = nullptr;
+  jsCtx* m_p_stream = nullptr;
+};
+
+class NatsBusTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
+  }
+  static std::unique_ptr<Bus> connect(const std::string& url) { return connectBus({url, "", ""}); }
+  static bool waitFor(const std::function<bool()>& holds) {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (std::chrono::steady_clock::now() < end) {
+      if (holds()) return true;
+      std::this_thread::yield();
+    }
+    return false;
+  }
+};
+
+TEST_F(NatsBusTest, PresenceArrives) {
+  test::NatsServer server;
+  ASSERT_TRUE(server.start()) << server.log();
+  const Listener listener(server.url());
+  ASSERT_TRUE(listener.isConnected());
+  const auto bus = connect(server.url());
+  bus->publish({"naiad.presence.a", "here"});
+  EXPECT_EQ(listener.next(), "naiad.presence.a here");
+  EXPECT_TRUE(waitFor([&] { return bus->counters().published == 1; }));
+  EXPECT_EQ(bus->takeNews(), "the bus is connected");
+  EXPECT_EQ(bus->takeNews(), "");
+}
+
+TEST_F(NatsBusTest, OneOfEachResultIsKeptHoweverOftenItIsSent) {
+  test::NatsServer server;
+  ASSERT_TRUE(server.start()) << server.log();
+  const Listener listener(server.url());
+  ASSERT_TRUE(listener.makeResults());
+  for (int times = 0; times < 2; ++times) {
+    const auto bus = connect(server.url());
+    ASSERT_TRUE(waitFor([&] { return bus->isConnected(); }));
+    for (const int number : {1, 2, 1, 3}) bus->publish(kept(number));
+    bus->finish(60s);
+    EXPECT_EQ(bus->counters().published, 4u);
+  }
+  EXPECT_EQ(listener.results(), 3u);
+}
+
+TEST_F(NatsBusTest, WhatWasPublishedWhileTheBusWasGoneArrivesOnceItIsBackAndTooMuchIsDropped) {
+  test::NatsServer server;
+  ASSERT_TRUE(server.start()) << server.log();
+  const auto bus = connect(server.url());
+  ASSERT_TRUE(waitFor([&] { return bus->isConnected(); }));
+  bus->publish(kept(0));
+  EXPECT_TRUE(waitFor([&] { return bus->counters().failures > 0; })) << "there is no stream yet";
+  {
+    const Listener listener(server.url());
+    ASSERT_TRUE(listener.makeResults());
+    EXPECT_TRUE(listener.waitForResults(1));
+  }
+  EXPECT_TRUE(waitFor([&] { return bus->counters().published == 1; }));
+  server.kill();
+  EXPECT_TRUE(waitFor([&] { return !bus->isConnected(); }));
+  const auto begin = std::chrono::steady_clock::now();
+  for (int number = 1; number <= 4200; ++number) bus->publish(kept(number));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s) << "nothing waits";
+  EXPECT_EQ(bus->counters().dropped, 4200u - Bus::kMaxKept);
+  EXPECT_TRUE(waitFor([&] { return bus->takeNews().find("cannot be reached") != std::string::npos; }));
+  ASSERT_TRUE(server.start()) << server.log();
+  EXPECT_TRUE(waitFor([&] { return bus->counters().published == 1 + Bus::kMaxKept; }));
+  EXPECT_EQ(bus->counters().connections, 2u);
+  EXPECT_EQ(Listener(server.url()).results(), 1 + Bus::kMaxKept);
+}
+
+TEST_F(NatsBusTest, AServerMayPublishItsOwnPresenceAlone) {
+  test::NatsServer server(
+      "authorization { users = [\n"
+      "  {user: a, password: x, permissions: {publish: [\"naiad.presence.a\"]}}\n"
+      "  {user: all, password: y}\n"
+      "] }");
+  ASSERT_TRUE(server.start()) << server.log();
+  const Listener listener(server.url("all:y"));
+  ASSERT_TRUE(listener.isConnected());
+  const auto bus = connect(server.url("a:x"));
+  bus->publish({"naiad.presence.b", "a lie"});
+  bus->publish({"naiad.presence.a", "here"});
+  EXPECT_EQ(listener.next(), "naiad.presence.a here") << "nats-server refused the other";
+  const auto stranger = connect(server.url("a:wrong"));
+  EXPECT_TRUE(waitFor([&] { return stranger->counters().failures > 0; }));
+  const std::string news = stranger->takeNews();
+  EXPECT_NE(news.find("cannot be reached"), std::string::npos) << news;
+  EXPECT_EQ(news.find("wrong"), std::string::npos) << "no password in the log";
+}
+
+#endif
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "host/fleet/SidecarDuties.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using Time = SidecarDuties::Time;
+
+/// A server, and a sidecar that answers what the test says.
+class SidecarDutiesTest : public testing::Test {
+ protected:
+  /// What it says until there is nothing left to say now, each answered so.
+  std::vector<std::string> said(int status = 200, const std::string& body = "{}") {
+    std::vector<std::string> all;
+    while (const auto request = duties.next(now)) {
+      all.push_back(request->method + " " + request->path);
+      bodies.push_back(request->body);
+      duties.onAnswer(status, body, now);
+    }
+    return all;
+  }
+  void play(std::vector<std::uint32_t> ids) { duties.setPlayers({"", std::move(ids), 64}); }
+  using All = std::vector<std::string>;
+
+  SidecarDuties duties;
+  Time now{1000s};
+  std::vector<std::string> bodies;
+};
+
+TEST_F(SidecarDutiesTest, SaysNothingBeforeTheServerIsReady) {
+  duties.noteTick(now);
+  EXPECT_EQ(said(), All{});
+  duties.setReady();
+  play({});
+  EXPECT_EQ(said(), (All{"POST /health", "POST /ready", "GET /gameserver", "PATCH /v1beta1/counters/players",
+                         "PATCH /v1beta1/lists/players"}));
+  EXPECT_EQ(bodies[3], R"({"count":"0","capacity":"64"})");
+  EXPECT_EQ(bodies[4], R"({"capacity":"64","values":[]})");
+  EXPECT_EQ(said(), All{});
+}
+
+TEST_F(SidecarDutiesTest, AsksOneThingAtATimeAndTriesAgainAfterAWhile) {
+  duties.setReady();
+  ASSERT_TRUE(duties.next(now));
+  EXPECT_FALSE(duties.next(now + 1h)) << "no answer yet";
+  duties.onAnswer(503, "", now);
+  EXPECT_FALSE(duties.next(now));
+  EXPECT_EQ(duties.wake(), now + SidecarDuties::kRetry);
+  now = duties.wake();
+  ASSERT_TRUE(duties.next(now));
+  duties.onAnswer(0, "", now);
+  now += SidecarDuties::kRetry;
+  EXPECT_EQ(said().front(), "POST /ready");
+  EXPECT_EQ(duties.counters().failures, 2u);
+}
+
+TEST_F(SidecarDutiesTest, IsHealthyAsLongAsItTicks) {
+  duties.setReady();
+  duties.noteTick(now);
+  said();
+  for (int i = 0; i < 4; ++i) {
+    now += SidecarDuties::kHealth;
+    duties.noteTick(now - 1ms);
+    EXPECT_EQ(said(), All{"POST /health"});
+  }
+  now += 10s;  // hangs
+  EXPECT_EQ(said(), All{});
+  EXPECT_EQ(duties.counters().health, 5u);
+}
+
+TEST_F(SidecarDutiesTest, TheSidecarSaysHowOftenItWantsToHear) {
+  duties.setReady();
+  duties.noteTick(now);
+  said(200, R"({"spec":{"health":{"period_seconds":2}}})");
+  now += 1s;
+  duties.noteTick(now);
+  EXPECT_EQ(said(), All{"POST /health"});
+}
+
+TEST_F(SidecarDutiesTest, IsAllocatedWhilePlayersAreThereAndReadyAgainAfterThem) {
+  duties.setReady();
+  said();
+  bodies.clear();
+  play({3, 17});
+  EXPECT_EQ(said(),
+            (All{"POST /allocate", "PATCH /v1beta1/counters/players", "PATCH /v1beta1/lists/players"}));
+  EXPECT_EQ(bodies[1], R"({"count":"2","capacity":"64"})");
+  EXPECT_EQ(bodies[2], R"({"capacity":"64","values":["3","17"]})");
+  play({17});
+  EXPECT_EQ(said(), (All{"PATCH /v1beta1/counters/players", "PATCH /v1beta1/lists/players"}));
+  play({});
+  EXPECT_EQ(said().front(), "POST /ready");
+}
+
+TEST_F(SidecarDutiesTest, AListHasAThousandAtMost) {
+  duties.setReady();
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t id = 1; id <= 1500; ++id) ids.push_back(id);
+  duties.setPlayers({"", ids, 2000});
+  said();
+  EXPECT_EQ(bodies[bodies.size() - 2], R"({"count":"1500","capacity":"2000"})");
+  EXPECT_NE(bodies.back().find(R"("1000"])"), std::string::npos);
+  EXPECT_EQ(bodies.back().find("1001"), std::string::npos);
+}
+
+TEST_F(SidecarDutiesTest, WhatTheResourceDoesNotHaveIsNotAskedForWithoutEnd) {
+  duties.setReady();
+  play({});
+  for (int i = 0; i < 10; ++i) {
+    const auto request = duties.next(now);
+    if (!request) break;
+    duties.onAnswer(request->path.find("v1beta1") != std::string::npos ? 404 : 200, "{}", now);
+  }
+  EXPECT_FALSE(duties.next(now));
+  EXPECT_EQ(duties.missing(), "/v1beta1/counters/players, /v1beta1/lists/players");
+  EXPECT_EQ(duties.counters().failures, 0u);
+}
+
+TEST_F(SidecarDutiesTest, TheEndComesBeforeAllAndLast) {
+  duties.setReady();
+  duties.noteTick(now);
+  play({1});
+  duties.setEnding();
+  ASSERT_EQ(duties.next(now)->path, "/shutdown");
+  duties.onAnswer(503, "", now);
+  EXPECT_FALSE(duties.isOver());
+  now += SidecarDuties::kRetry;
+  EXPECT_EQ(said(), All{"POST /shutdown"});
+  EXPECT_TRUE(duties.isOver());
+  now += 1h;
+  EXPECT_EQ(said(), All{});
+}
+
+TEST(GameServerFacts, ReadsWhatIsPublishedAndLeavesTheRestOut) {
+  const std::string server =
+      R"({"object_meta":{"name":"naiad-x7","labels":{"a":"b"}},"spec":{"health":{"period_seconds":5}},)"
+      R"("status":{"state":"Allocated","address":"192.0.2.7","ports":[{"name":"default","port":7012},{"port":1}]}})";
+  const auto facts = GameServerFacts::parse(server, false);
+  ASSERT_TRUE(facts);
+  EXPECT_EQ(facts->name, "naiad-x7");
+  EXPECT_EQ(facts->state, "Allocated");
+  EXPECT_EQ(facts->address, "192.0.2.7");
+  EXPECT_EQ(facts->port, 7012);
+  EXPECT_EQ(facts->health_seconds, 5);
+  EXPECT_EQ(GameServerFacts::parse(R"({"result":)" + server + "}", true)->state, "Allocated");
+  EXPECT_FALSE(GameServerFacts::parse(server, true));
+  EXPECT_FALSE(GameServerFacts::parse(R"({"error":{"http_code":500}})", true));
+}
+
+TEST(GameServerFacts, NonsenseIsNoneOrEmpty) {
+  for (const std::string& text : {std::string(), std::string("{"), std::string("[]"), std::string("7"),
+                                  std::string(100'000, '['), std::string("{\"a\":\xff}")})
+    EXPECT_FALSE(GameServerFacts::parse(text, false)) << text.substr(0, 20);
+  const auto facts = GameServerFacts::parse(
+      R"({"object_meta":7,"spec":[],"status":{"state":["Ready"],"address":"a\nb","ports":[{"port":70000}]}})",
+      false);
+  ASSERT_TRUE(facts);
+  EXPECT_EQ(facts->name + facts->state + facts->address, "");
+  EXPECT_EQ(facts->port, 0);
+  for (const std::string port : {"-1", "0", "1.5", "\"80\"", "18446744073709551615"})
+    EXPECT_EQ(GameServerFacts::parse(R"({"status":{"ports":[{"port":)" + port + "}]}}", false)->port, 0)
+        << port;
+  EXPECT_FALSE(GameServerFacts::parse("{" + std::string(GameServerFacts::kMaxBytes, ' ') + "}", false));
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,191 @@
+// What servers say of themselves on the bus: whole, and refused when no server writes it.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "shared/fleet/BusFields.h"
+#include "shared/fleet/GameResult.h"
+#include "shared/fleet/Presence.h"
+#include "shared/fleet/ServerId.h"
+#include "shared/values/SplitMix64.h"
+
+namespace naiad {
+namespace {
+
+Presence fullPresence() {
+  Presence presence;
+  presence.id = "berlin-9876";
+  presence.name = "B\xc3\xa9rlin \"1\"";
+  presence.game = "tron";
+  presence.host = "2001:db8::7";
+  presence.port = 65'535;
+  presence.key = std::string(64, 'a');
+  presence.protocol = 4;
+  presence.players = 3;
+  presence.max_players = 64;
+  presence.asks_password = true;
+  presence.is_open = false;
+  return presence;
+}
+
+GameResult fullResult() {
+  GameResult result;
+  result.server = "berlin-9876";
+  result.game = "tron";
+  result.table = "rides";
+  result.name = "\xc3\x84nn";
+  result.points = -900'000'000'000'000;
+  result.at = 1'800'000'000;
+  result.round = "0123456789abcdef0123456789abcdef";
+  result.tick = 4'000'000'000;
+  result.number = 255;
+  result.recording = "2026-11-26.dfr";
+  return result;
+}
+
+/// The payload with another value for a member.
+std::string with(std::string payload, const std::string& name, const std::string& value) {
+  const std::size_t begin = payload.find("\"" + name + "\":") + name.size() + 3;
+  std::size_t end = begin;
+  for (bool quoted = false; end < payload.size(); ++end) {
+    const char c = payload[end];
+    if (c == '\\') {
+      ++end;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted && (c == ',' || c == '}')) {
+      break;
+    }
+  }
+  return payload.replace(begin, end - begin, value);
+}
+
+TEST(BusPayloads, CrossWhole) {
+  EXPECT_EQ(Presence::parse(fullPresence().payload()), fullPresence());
+  EXPECT_EQ(GameResult::parse(fullResult().payload()), fullResult());
+  Presence least;
+  least.id = "a";
+  least.port = 1;
+  least.protocol = 1;
+  EXPECT_EQ(Presence::parse(least.payload()), least);
+  EXPECT_EQ(fullResult().messageId(), "0123456789abcdef0123456789abcdef-4000000000-255");
+}
+
+TEST(BusPayloads, TheLongestFits) {
+  Presence presence = fullPresence();
+  presence.id = std::string(kMaxServerId, 'x');
+  presence.name = presence.game = std::string(Presence::kMaxName, '"');
+  presence.host.clear();
+  for (int label = 0; label < 50; ++label) presence.host += "host.";
+  presence.host += "abc";
+  ASSERT_LE(presence.payload().size(), kMaxBusPayload);
+  EXPECT_EQ(Presence::parse(presence.payload()), presence);
+}
+
+TEST(BusPayloads, WhatNoServerWritesIsRefused) {
+  const std::string good = fullPresence().payload();
+  for (const auto& [name, value] : {std::pair{"v", "2"},
+                                    {"id", "\"A\""},
+                                    {"id", "\"a.b\""},
+                                    {"id", "\"-a\""},
+                                    {"id", "\"\""},
+                                    {"id", "7"},
+                                    {"name", "\"a\\nb\""},
+                                    {"name", "\"\\u001b[2J\""},
+                                    {"name", "null"},
+                                    {"host", "\"-oProxyCommand=x\""},
+                                    {"host", "\"user@host\""},
+                                    {"host", "\"a b\""},
+                                    {"host", "\"host:80\""},
+                                    {"port", "0"},
+                                    {"port", "65536"},
+                                    {"port", "\"80\""},
+                                    {"port", "80.0"},
+                                    {"key", "\"abc\""},
+                                    {"key", "true"},
+                                    {"protocol", "0"},
+                                    {"players", "-1"},
+                                    {"players", "1000001"},
+                                    {"password", "1"},
+                                    {"open", "\"yes\""},
+                                    {"open", "{}"},
+                                    {"open", "[true]"}})
+    EXPECT_FALSE(Presence::parse(with(good, name, value))) << with(good, name, value);
+  EXPECT_FALSE(Presence::parse(with(good, "key", "\"" + std::string(64, 'A') + "\""))) << "another spelling";
+  const std::string result = fullResult().payload();
+  for (const auto& [name, value] : {std::pair{"server", "\"a b\""},
+                                    {"table", "\"\""},
+                                    {"table", "\"a/b\""},
+                                    {"name", "\"\""},
+                                    {"name", "\"12345678901234567\""},
+                                    {"points", "1000000000000001"},
+                                    {"points", "18446744073709551615"},
+                                    {"points", "1e3"},
+                                    {"at", "-1"},
+                                    {"round", "\"0123\""},
+                                    {"tick", "-1"},
+                                    {"tick", "4294967296"},
+                                    {"number", "256"},
+                                    {"recording", "\"a b\""}})
+    EXPECT_FALSE(GameResult::parse(with(result, name, value))) << with(result, name, value);
+}
+
+TEST(BusPayloads, MissingRepeatedAndNestedMembersAreRefusedUnknownOnesAreNot) {
+  const std::string good = fullPresence().payload();
+  const std::string inside = good.substr(1);
+  EXPECT_TRUE(Presence::parse("{\"region\":\"eu\",\"weight\":1.5,\"next\":null," + inside));
+  EXPECT_FALSE(Presence::parse("{\"port\":80," + inside)) << "twice";
+  EXPECT_FALSE(Presence::parse("{\"more\":{}," + inside));
+  EXPECT_FALSE(Presence::parse("{\"more\":[]," + inside));
+  EXPECT_FALSE(Presence::parse(good + "x"));
+  EXPECT_FALSE(Presence::parse("{\"more\":\"" + std::string(kMaxBusPayload, 'x') + "\"," + inside));
+  for (const std::string name : {"v", "id", "name", "game", "host", "port", "key", "protocol", "players",
+                                 "max_players", "password", "open"}) {
+    std::string without = good;
+    without.replace(without.find("\"" + name + "\""), name.size() + 2, "\"other\"");
+    EXPECT_FALSE(Presence::parse(without)) << name;
+  }
+}
+
+TEST(BusPayloads, EveryTruncationAndEveryFlippedBitIsRefusedOrLegal) {
+  for (const std::string& good : {fullPresence().payload(), fullResult().payload()}) {
+    for (std::size_t size = 0; size < good.size(); ++size) {
+      EXPECT_FALSE(Presence::parse(good.substr(0, size)));
+      EXPECT_FALSE(GameResult::parse(good.substr(0, size)));
+    }
+    for (std::size_t bit = 0; bit < good.size() * 8; ++bit) {
+      std::string bad = good;
+      bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
+      if (const auto presence = Presence::parse(bad))
+        EXPECT_EQ(Presence::parse(presence->payload()), presence);
+      if (const auto result = GameResult::parse(bad)) EXPECT_EQ(GameResult::parse(result->payload()), result);
+    }
+  }
+}
+
+TEST(BusPayloads, RandomBytesAndDeepNestingAreRefused) {
+  SplitMix64 random(7);
+  for (int i = 0; i < 10'000; ++i) {
+    std::string bytes(random.next() % 64, '\0');
+    for (char& c : bytes) c = static_cast<char>(random.next());
+    EXPECT_FALSE(Presence::parse(bytes));
+  }
+  EXPECT_FALSE(Presence::parse(std::string(2000, '[')));
+  std::string deep;
+  for (int i = 0; i < 300; ++i) deep += "{\"a\":";
+  EXPECT_FALSE(Presence::parse(deep));
+}
+
+TEST(ServerId, IsOneWordOfASubject) {
+  EXPECT_TRUE(isServerId("a"));
+  EXPECT_TRUE(isServerId("berlin-1-9876"));
+  for (const std::string bad : {"", "-a", "A", "a.b", "a*", ">", "a b", "\xc3\xa4"})
+    EXPECT_FALSE(isServerId(bad)) << bad;
+  EXPECT_FALSE(isServerId(std::string(kMaxServerId + 1, 'a')));
+  EXPECT_EQ(serverIdOf("My.Host-9876"), "my-host-9876");
+  EXPECT_EQ(serverIdOf("...\xc3\xa4"), "server");
+  EXPECT_TRUE(isServerId(serverIdOf(std::string(100, 'X'))));
+}
+
+}  // namespace
+}  // namespace naiad
