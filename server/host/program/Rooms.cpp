@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "host/program/Ending.h"
-#include "host/world/BuildId.h"
 #include "host/program/NewsEvent.h"
+#include "host/world/BuildId.h"
 #include "host/world/WorldInProcess.h"
 #include "naiad.pb.h"
 #include "shared/net/base/SafeFile.h"
