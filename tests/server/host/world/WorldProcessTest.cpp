@@ -89,7 +89,9 @@ TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
 }
 
 TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {
-  const std::string garbage = "head -c " + std::to_string(sizeof(df::ActivityPage)) + " /dev/urandom >&4; ";
+  // Without zeros: a line that begins with one is empty.
+  const std::string garbage =
+      "head -c " + std::to_string(sizeof(df::ActivityPage)) + " /dev/urandom | tr '\\000' x >&4; ";
   const WorldEnd end = play(isReady() + takesTurn() + garbage + "kill -SEGV $$");
   EXPECT_EQ(end.when.rfind("in tick 1, while an Object of unknown class handled an event", 0), 0u)
       << end.when;
