@@ -82,7 +82,7 @@ class ClientSession {
   /// of the server (IdleTimer.h).
   void update(Time now);
   /// When update() has something to do before its usual time; nothing if it has not.
-  std::optional<Time> nextWake() const { return m_timing.nextWake(); }
+  std::optional<Time> nextWake() const { return isOver() ? std::nullopt : m_timing.nextWake(); }
 
   // What the player does.
   /// Send a key or mouse action of the player immediately. False if it was not sent: not playing, or too

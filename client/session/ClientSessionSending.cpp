@@ -77,7 +77,8 @@ void ClientSession::sendUpdate(Time now) {
     sendProbe(now);
     if (!m_timing.isUndecided(now)) return;
   }
-  if (m_link.hasStream()) m_link.sendUpdate(nextUpdate(!m_link.hasSecondStream(), now));
+  if (!m_link.hasStream()) return m_timing.noteUpdateSent();  // none can be: the next snapshot asks again
+  m_link.sendUpdate(nextUpdate(!m_link.hasSecondStream(), now));
 }
 
 void ClientSession::sendChat(const std::string& text) {

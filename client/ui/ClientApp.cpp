@@ -52,7 +52,9 @@ ClientApp::Outcome ClientApp::run() {
   takeTerminal();
   while (!m_leaving && !m_connection.isOver()) {
     // One handler: bytes of the player (readInput), a signal, or a frame of the server (ClientSession).
-    m_context.run_one_until(nextDeadline(Clock::now()));
+    // One that waits is run even where a deadline is past already: nothing else may keep the player from
+    // leaving.
+    if (m_context.run_one_until(nextDeadline(Clock::now())) == 0) m_context.poll_one();
     const Time now = Clock::now();
     m_connection.update(now);
     takeEvents(m_decoder.flush(now), now);

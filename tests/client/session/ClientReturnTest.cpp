@@ -17,6 +17,7 @@ class ClientReturn : public ClientSessionFixture {
     session = std::make_unique<ClientSession>(std::make_unique<FakeChannel>(log), options, now);
     wire::ServerMessage message = welcomeMessage();
     message.mutable_welcome()->set_resumed(true);
+    message.mutable_welcome()->set_resume_token("fedcba9876543210");
     if (from) {
       wire::Continuation& wire = *message.mutable_welcome()->mutable_continuation();
       wire.set_snapshot(from->snapshot);
@@ -50,6 +51,23 @@ TEST_F(ClientReturn, AHelloOfAnotherProcessSaysSo) {
   EXPECT_TRUE(hello.hello().fresh());
   EXPECT_EQ(hello.hello().resume_token(), "0123456789abcdef");
   EXPECT_EQ(heard(), std::vector<std::string>{"You are back in your old session."});
+}
+
+TEST_F(ClientReturn, WithoutALineNoAcknowledgementIsDueForEver) {
+  restart(Continuation{});
+  SnapshotHeader header;
+  header.number = 1;
+  header.tick = 5;
+  SnapshotWriter out;
+  out.beginSnapshot(header, 0, {});
+  wire::ServerMessage message;
+  message.set_snapshot(out.finish());
+  receive(message);
+  session->closed(CloseReason::kPeer);
+  ASSERT_EQ(session->state(), ClientSession::State::kPlaying) << "it waits for another stream";
+  ASSERT_TRUE(session->nextWake());
+  session->update(now + UpdateTiming::kAckDelay);
+  EXPECT_EQ(session->nextWake(), std::nullopt);
 }
 
 TEST_F(ClientReturn, NumbersContinueFromTheWelcome) {

@@ -361,6 +361,14 @@ TEST_F(ClientSessionTest, ClosedChannelIsALostServer) {
   EXPECT_EQ(session->state(), State::kLost);
 }
 
+TEST_F(ClientSessionTest, ALostServerIsSentNoAcknowledgementThatWasDue) {
+  join();
+  snapshot(1, 100);
+  ASSERT_TRUE(session->nextWake());
+  session->closed(CloseReason::kPeer);
+  EXPECT_EQ(session->nextWake(), std::nullopt) << "who waits for it would never do anything else";
+}
+
 TEST_F(ClientSessionTest, LeavingSendsALeaveMessage) {
   join();
   session->leave();
