@@ -53,6 +53,7 @@ pid_t worldOf(pid_t server) {
   return 0;
 }
 
+constexpr std::chrono::seconds kForLog{3};  ///< a line of the server's that was written before
 constexpr const char* kIsBack = "\" is back, in the round that goes on";
 constexpr const char* kGoesOn = "the round goes on after ";
 
@@ -227,24 +228,34 @@ void RecoveryRun::killServer() {
   }
 }
 
+// A client can have its answer before the line is in the file.
+bool RecoveryRun::isLogged(const std::string& text) {
+  const auto end = Clock::now() + kForLog;
+  while (m_server->log().find(text) == std::string::npos) {
+    if (Clock::now() > end) return false;
+    play(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
 KillResult RecoveryRun::comeBack() {
   KillResult result;
   startServer();
   const bool back = serveUntilJoined();
   result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_killed_at);
   if (!back) result.problem = "not all are back: " + m_server->log();
-  const std::string log = m_server->log();
   for (std::size_t i = 0; i < m_clients.size(); ++i) {
     RecoveryClient& client = *m_clients[i];
     ++result.players;
     const bool same = client.isBack() && client.welcome().player == m_before[i].player &&
                       client.welcome().name == m_before[i].name &&
-                      log.find("\"" + m_before[i].name + kIsBack) != std::string::npos;
+                      isLogged("\"" + m_before[i].name + kIsBack);
     result.returned += same ? 1 : 0;
     if (!same && result.problem.empty())
       result.problem =
           m_before[i].name + " is not back: " + client.sentence() + "\n" + m_log + m_server->log();
   }
+  const std::string log = m_server->log();
   const std::uint32_t turns = recoveredTurns();
   const std::uint32_t last = m_seen + 1 - m_first_tick;  // by the world's own numbers
   if (last > turns) {

@@ -67,6 +67,7 @@ class RecoveryRun {
   void waitForFirstTick();
   void compare(KillResult& result);
   std::uint32_t recoveredTurns() const;
+  bool isLogged(const std::string& text);
 
   Home m_home;
   std::string m_game;
