@@ -132,12 +132,15 @@ class Wanderer : public df::Object {
     const std::uint64_t value = number() * 0x9e3779b97f4a7c15u;
     const double unit = static_cast<double>(value >> 32) / 4294967296.0;
     setPosition(df::Vector(5 + 60 * unit, 10));
+    m_text = std::to_string(value);
     return 1;
   }
-  int draw() override { return DM.drawCh(getPosition(), '@', df::YELLOW); }
+  // The number itself: two of them are seldom in the same column, but sometimes.
+  int draw() override { return DM.drawString(df::Vector(5, 10), m_text, df::LEFT_JUSTIFIED, df::YELLOW); }
 
  private:
   int m_ticks = 0;
+  std::string m_text = "@";
 };
 
 }  // namespace
