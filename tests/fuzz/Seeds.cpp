@@ -459,7 +459,7 @@ df::WorldView fullView() {
 std::string fieldsOf(const df::WorldView& view) {
   ViewWriter views;
   std::string frame;
-  writeAnswer({false, {}, true, {}}, &view, views, frame);
+  writeAnswer({.has_view = true}, &view, views, frame);
   return frame.substr(kWorldFrameHead);
 }
 
@@ -504,7 +504,7 @@ void worlds(Folder folder) {
        {Selector::clock(9, 3), Selector::turning(9, 1u << 30, 5), Selector::fixed(1)}) {
     df::WorldView view = fullView();
     view.looks[0].p_look = std::make_shared<const Look>(view.looks[0].p_look->sequence, 2, selector);
-    WorldAnswer answer{false, {1}, true, {{1, df::Canvas(2, 1)}}};
+    WorldAnswer answer{.leavers = {1}, .has_view = true, .pictures = {{1, df::Canvas(2, 1)}}};
     ViewWriter views;
     std::string frame;
     writeAnswer(answer, &view, views, frame);

@@ -36,7 +36,7 @@ ObjectList World::getAllObjects(bool inactive) const {
 }
 
 ObjectList World::objectsOfType(const std::string& type) const {
-  const ObjectList found = collect([&](auto s) {
+  ObjectList found = collect([&](auto s) {
     return m_p_store->has(s, WorldStore::kActive) && m_p_store->object(s)->getType() == type;
   });
   if (found.isEmpty()) explainMissing(type);
@@ -46,8 +46,9 @@ ObjectList World::objectsOfType(const std::string& type) const {
 // Once for each type that was asked for in vain: the look at all Objects is not free.
 void World::explainMissing(const std::string& type) const {
   if (m_missing.size() >= kMaxMissing || !m_missing.insert(type).second) return;
-  const auto isNamed = [&](auto s) {
-    const std::string name = classNameOf(typeid(*m_p_store->object(s)));
+  const auto isNamed = [this, &type](auto s) {
+    const Object& object = *m_p_store->object(s);
+    const std::string name = classNameOf(typeid(object));
     return name == type || name.ends_with("::" + type);
   };
   if (collect(isNamed).isEmpty()) return;

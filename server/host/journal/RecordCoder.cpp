@@ -61,7 +61,7 @@ struct RecordModel::Tables {
   };
   std::array<std::array<Slot, std::size_t{1} << kSlotBits>, kContexts> slots{};
   /// By kind of record and the bits of the byte so far.
-  std::array<std::array<std::int32_t, kContexts>, 4 * 256> weights{};
+  std::array<std::array<std::int32_t, kContexts>, std::size_t{4} * 256> weights{};
 };
 
 RecordModel::RecordModel() : m_tables(std::make_unique<Tables>()) {

@@ -29,7 +29,7 @@ constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 char g_name[64];
 int g_files[2] = {STDERR_FILENO, -1};
 long g_utc_offset = 0;  ///< seconds east
-df::World* g_p_world = nullptr;
+std::atomic<df::World*> g_p_world = nullptr;
 constinit df::ActivityPage g_page{};
 std::atomic<std::uint64_t> g_tick = 0;       ///< that is running
 std::atomic<std::uint64_t> g_last_tick = 0;  ///< that has begun
@@ -192,10 +192,15 @@ Report::~Report() {
   g_files[1] = -1;
 }
 
-void setWorld(df::World* p_world) {
-  if (g_p_world != nullptr) g_p_world->setActivityPage(nullptr);
-  g_p_world = p_world;
-  if (p_world != nullptr) p_world->setActivityPage(&g_page);
+void setWorld(df::World& world) {
+  df::World* p_before = nullptr;
+  if (g_p_world.compare_exchange_strong(p_before, &world) || p_before == &world)
+    world.setActivityPage(&g_page);
+}
+
+void clearWorld(df::World& world) {
+  df::World* p_before = &world;
+  if (g_p_world.compare_exchange_strong(p_before, nullptr)) world.setActivityPage(nullptr);
 }
 
 std::string activity(std::string_view verb) {

@@ -26,9 +26,10 @@ class Report {
   Report& operator=(const Report&) = delete;
 };
 
-/// Crashes happen in ticks of this world from now on; null: of none. It is still alive when the next call
-/// replaces it.
-void setWorld(df::World* p_world);
+/// Crashes happen in ticks of this world from now on, until clearWorld(). Of worlds that several threads tick
+/// at a time the first one is reported. Both on the thread that ticks this world.
+void setWorld(df::World& world);
+void clearWorld(df::World& world);
 
 /// ", while Ship handles EventStep" (`verb`: "handles"), at this moment; empty if no handler runs. Any
 /// thread.

@@ -370,7 +370,7 @@ void Host::endProcess(const ForcedEnd& end, SideLog& log) {
 
 void Host::beginGame(df::World& world) {
   m_p_world = &world;
-  crash::setWorld(&world);
+  crash::setWorld(world);
   adoptSettings(world);
   m_admission.setWorld(world);
   m_rooms.open(world);
@@ -380,7 +380,7 @@ void Host::beginGame(df::World& world) {
 void Host::endGame(df::World& world) {
   m_rooms.clear();
   world.setGameOverLeaves(false);
-  crash::setWorld(nullptr);
+  crash::clearWorld(world);
   m_p_world = nullptr;
 }
 

@@ -98,6 +98,7 @@ std::vector<fs::path> roundsOf(const std::string& folder, const std::string& gam
   }
   std::sort(found.rbegin(), found.rend());
   std::vector<fs::path> paths;
+  paths.reserve(found.size());
   for (auto& [time, path] : found) paths.push_back(std::move(path));
   return paths;
 }

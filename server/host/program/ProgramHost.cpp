@@ -235,7 +235,7 @@ void ProgramHost::startUp(df::World& world) {
     world.setActivityPage(openWorldPage());
   } else {
     static const crash::Report crashes(programName(), -1);
-    crash::setWorld(&world);
+    crash::setWorld(world);
     static const bool registered = std::atexit([] { reportEnd(); }) == 0;
     static_cast<void>(registered);
   }

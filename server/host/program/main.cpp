@@ -201,7 +201,7 @@ int serve(Start& start) {
   useLogOptions(options, log);
   if (naiad::wantsWorlds(options)) return serveWorlds(start, log);
   const naiad::crash::Report crashes("dfserver", log.descriptor());
-  naiad::crash::setWorld(&df::World::current());
+  naiad::crash::setWorld(df::World::current());
   const naiad::GameModule game(options.game);
   naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
   watchReloads(start, host, log);
