@@ -75,7 +75,7 @@ bool BusFields::flag(const std::string& name) {
 }
 
 std::string BusFields::line(const std::string& name, std::size_t most) {
-  const auto value = take<std::string>(name);
+  auto value = take<std::string>(name);
   if (safeText(value, most) == value) return value;
   m_ok = false;
   return "";
