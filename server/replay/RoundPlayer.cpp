@@ -119,7 +119,7 @@ std::string RoundControls::status() const {
   const auto whole = static_cast<long>(seconds);
   char text[200];
   const WorldPicture* p_shown = shown();
-  const std::string eyes = p_shown != nullptr ? "player " + std::to_string(p_shown->player) : "nobody plays";
+  const std::string eyes = p_shown != nullptr ? "player " + std::to_string(p_shown->player) : "no player";
   const std::string speed = m_speed < 0 ? "1/" + std::to_string(1 << -m_speed) : std::to_string(1 << m_speed);
   std::snprintf(text, sizeof text, " %s  %ld:%02ld  tick %u of %u  x%s  %s%s", m_paused ? "paused" : "plays",
                 whole / 60, whole % 60, m_reel.tick(), m_reel.count(), speed.c_str(), eyes.c_str(),

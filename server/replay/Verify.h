@@ -16,8 +16,8 @@ bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostre
 /// One line for each input and each tick's end that is worth one.
 void printInputs(const RecordedRound& round, std::ostream& out);
 
-/// What a player sees after this tick; 0: the first of them. False: the round has no such tick, or nobody to
-/// see it.
+/// What a player sees after this tick; 0: the first of them. False: the round has no such tick, or no player
+/// to see it.
 bool printPicture(const RecordedRound& round, const RoundStage& stage, std::uint32_t tick,
                   std::uint32_t player, std::ostream& out);
 

@@ -352,7 +352,7 @@ class World {
   int m_handlers = 0;  // eventHandler()s that are running, one inside the other
   std::unique_ptr<Activity> m_own_activity;
   Activity* m_p_activity;            // that, or the page's
-  ActivityPage* m_p_page = nullptr;  // null: nobody reads what the game does
+  ActivityPage* m_p_page = nullptr;  // null: what the game does is not noted
   std::uintptr_t m_named_event = 0;  // class of the event that was named last
   bool m_shutdown_pending = false;
 };

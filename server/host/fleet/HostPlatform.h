@@ -44,7 +44,7 @@ class HostPlatform {
   virtual void notifyTick(Clock::time_point now) = 0;
   /// Once a second.
   virtual void notifyPlayers(const PlatformPlayers& players) = 0;
-  /// The server lets nobody in any more, and is about to end.
+  /// The server takes no more players, and is about to end.
   virtual void notifyStopping() {}
   /// The last word, after the players' goodbyes: wait until it is said, at most so long. From any thread.
   virtual void finish(std::chrono::milliseconds /*patience*/) {}

@@ -10,7 +10,7 @@ namespace naiad {
 
 namespace {
 
-/// Turns are some four times as long as in the file, and ten times if nobody plays. A file that promises more
+/// Turns are some four times as long as in the file, and ten times without players. A file that promises more
 /// would cost more time than its size says.
 constexpr std::uint64_t kMaxRatio = 64;
 

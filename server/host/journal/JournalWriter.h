@@ -1,5 +1,5 @@
-// The thread that puts journals on the disk, those of all worlds of a server. Whatever the disk does, nobody
-// else waits for it.
+// The thread that puts journals on the disk, those of all worlds of a server. Whatever the disk does, no
+// other thread waits for it.
 #pragma once
 
 #include <chrono>

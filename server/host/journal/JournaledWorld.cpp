@@ -203,7 +203,7 @@ void JournaledWorld::sendTurn(const WorldTurn& turn) {
     input.seen.drawn += m_later;
     m_world->addInput(std::move(input));
   }
-  m_world->takeLeavers();  // of the tick before, whom its players know
+  m_world->takeLeavers();  // of the tick before, who have been dismissed
   m_world->setHeard(turn.heard_player);
   if (turn.ends_game) m_world->endGame();
   m_world->setPictured(turn.pictured);

@@ -52,7 +52,7 @@ class JournaledWorld : public WorldPort {
     std::function<DfrFacts()> late_facts;
     /// The journal has stopped, and why; the game goes on.
     std::function<void(const std::string& problem)> on_problem;
-    std::unique_ptr<RepeatCheck> check = nullptr;       ///< whether the game is repeatable; null: nobody asks
+    std::unique_ptr<RepeatCheck> check = nullptr;       ///< whether the game is repeatable; null: unchecked
     std::unique_ptr<RoundRecovery> recovery = nullptr;  ///< null: the round begins
     /// Of a recovery, once the world has begun: why it is not the world that the file has; empty: it is.
     std::function<std::string()> find_difference = {};

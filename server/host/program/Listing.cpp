@@ -42,7 +42,7 @@ std::unique_ptr<StatusFile> openStatus(const HostOptions& options, const Listing
 Listing::Listing(const HostOptions& options, const Server& server, LogLine log)
     : m_log(std::move(log)), m_lan(openLan(options, server)), m_status(openStatus(options, server)) {}
 
-// Loopback alone is found only if that is asked for: it is nobody's network.
+// Loopback alone is found only if that is asked for: it is no network with others in it.
 std::unique_ptr<LanResponder> Listing::openLan(const HostOptions& options, const Server& server) const {
   const bool automatic = options.lan == "auto";
   const bool loopback = asio::ip::make_address(options.address).is_loopback();

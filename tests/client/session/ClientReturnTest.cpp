@@ -26,6 +26,17 @@ class ClientReturn : public ClientSessionFixture {
     }
     receive(message);
   }
+  static wire::ServerMessage emptySnapshot(std::uint32_t number, std::uint32_t epoch) {
+    SnapshotHeader header;
+    header.number = number;
+    header.tick = 5;
+    header.epoch = static_cast<std::uint8_t>(epoch);
+    SnapshotWriter out;
+    out.beginSnapshot(header, 0, {});
+    wire::ServerMessage message;
+    message.set_snapshot(out.finish());
+    return message;
+  }
   static wire::ServerMessage line(const std::string& text, std::uint32_t number) {
     wire::ServerMessage message;
     message.mutable_chat()->set_text(text);
@@ -55,14 +66,7 @@ TEST_F(ClientReturn, AHelloOfAnotherProcessSaysSo) {
 
 TEST_F(ClientReturn, WithoutALineNoAcknowledgementIsDueForEver) {
   restart(Continuation{});
-  SnapshotHeader header;
-  header.number = 1;
-  header.tick = 5;
-  SnapshotWriter out;
-  out.beginSnapshot(header, 0, {});
-  wire::ServerMessage message;
-  message.set_snapshot(out.finish());
-  receive(message);
+  receive(emptySnapshot(1, 0));
   session->closed(CloseReason::kPeer);
   ASSERT_EQ(session->state(), ClientSession::State::kPlaying) << "it waits for another stream";
   ASSERT_TRUE(session->nextWake());
@@ -74,15 +78,7 @@ TEST_F(ClientReturn, NumbersContinueFromTheWelcome) {
   for (const std::uint32_t at : {70'000u, 0x80000005u, 0xFFFF0000u}) {
     restart(Continuation{at, 2, at + 9});
     ASSERT_EQ(session->state(), ClientSession::State::kPlaying);
-    SnapshotHeader header;
-    header.number = at + 1;
-    header.tick = 5;
-    header.epoch = 2;
-    SnapshotWriter out;
-    out.beginSnapshot(header, 0, {});
-    wire::ServerMessage message;
-    message.set_snapshot(out.finish());
-    receive(message);
+    receive(emptySnapshot(at + 1, 2));
     EXPECT_TRUE(session->hasPicture(now));
     EXPECT_EQ(session->replica().newest().number, at + 1);
     EXPECT_EQ(session->counters().resets, 0u) << "it is the first world that this process sees";
