@@ -15,6 +15,7 @@ constexpr double kFarthest = 1e9;  // metric cells in a step: the limit of timeO
 constexpr double kMaxTurn = 40;    // rad in a step that are swept: bounds the iterations of timeOfImpact()
 // In thicknesses of a body.
 constexpr double kSlack = 0.02;       // least margin of the search for contacts
+constexpr double kSlow = 0.1;         // in a step: contacts are searched for as far as it and others may get
 constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched: its centre passes nothing
 constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
 constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
@@ -80,40 +81,49 @@ void SubstepWorld::begin(int id) {
   b.colours = b.held_colours = 0;
   b.inverse_mass = inverseOf(body.inverse_mass);
   b.inverse_inertia = inverseOf(body.inverse_inertia);
-  b.kick_x = static_cast<float>(m_h * acceleration.x);
-  b.kick_y = static_cast<float>(m_h * acceleration.y);
-  b.spin_kick = static_cast<float>(m_h * spin_gain);
+  b.kick = {static_cast<float>(m_h * acceleration.x), static_cast<float>(m_h * acceleration.y),
+            static_cast<float>(m_h * spin_gain)};
+  m_kicks.push_back(b.kick);
   if (b.proxy < 0) return;
-  b.margin = marginOf(b);
-  const Bounds bounds = boundsNow(b);
-  m_broad.move(b.proxy, gridBounds(body.place, bounds, b.margin), wideBounds(b, bounds));
+  forecast(b);
+  boundNow(b);
+  m_broad.move(b.proxy, gridBounds(body.place, b.box, b.margin), wideBounds(b));
 }
 
-double SubstepWorld::marginOf(const SubstepBody& b) {
+// How far it gets on its own.
+void SubstepWorld::forecast(SubstepBody& b) {
   const double angle = std::fabs(b.body.spin) + std::fabs(spinGainOf(b.body));
-  const double movement =
-      length(b.body.velocity + 0.5 * accelerationOf(b.body)) + std::min(angle, 2.0) * b.reach;
-  return std::min(movement, b.thickness) + kSlack * b.thickness;
+  b.drift = b.body.velocity + 0.5 * accelerationOf(b.body);
+  b.roll = std::min(angle, 2.0) * b.reach;
+  const double movement = length(b.drift) + b.roll;
+  b.margin = std::min(movement, b.thickness) + kSlack * b.thickness;
+  b.is_slow = movement <= kSlow * b.thickness;
+}
+
+// Two bodies whose gap is wider do not meet, unless something pushes one of them.
+double SubstepWorld::calmMargin(const SubstepBody& a, const SubstepBody& b) {
+  return length(b.drift - a.drift) + a.roll + b.roll + kSlack * (a.thickness + b.thickness);
 }
 
 // Room for the moves of the next steps.
-GridBounds SubstepWorld::wideBounds(const SubstepBody& b, const Bounds& bounds) {
+GridBounds SubstepWorld::wideBounds(const SubstepBody& b) {
   const double most = kAhead * b.thickness;
+  const bool is_fast = std::max(std::fabs(b.body.velocity.x), std::fabs(b.body.velocity.y)) > most;
+  if (is_fast) return gridBounds(b.body.place, b.box, b.margin);  // they do not last anyway
   const Vec2 ahead = {std::clamp(kTicksAhead * b.body.velocity.x, -most, most),
                       std::clamp(kTicksAhead * b.body.velocity.y, -most, most)};
-  const Bounds swept = {bounds.lower + Vec2{std::min(ahead.x, 0.0), std::min(ahead.y, 0.0)},
-                        bounds.upper + Vec2{std::max(ahead.x, 0.0), std::max(ahead.y, 0.0)}};
+  const Bounds swept = {b.box.lower + Vec2{std::min(ahead.x, 0.0), std::min(ahead.y, 0.0)},
+                        b.box.upper + Vec2{std::max(ahead.x, 0.0), std::max(ahead.y, 0.0)}};
   return gridBounds(b.body.place, swept, b.margin + kBoundsSlack * b.thickness);
 }
 
 // The rotation by the half angle's tangent: of length one for any angle.
 void SubstepWorld::moveStates() {
-  for (const std::int32_t id : m_active) {
-    SubstepBody& b = m_bodies[at(id)];
-    SubstepState& s = m_states[at(b.state)];
+  for (std::size_t i = 1; i < m_states.size(); ++i) {
+    SubstepState& s = m_states[i];
     s.x += m_h * s.vx, s.y += m_h * s.vy;
     const float angle = m_h * s.spin;
-    b.turn += double{angle};
+    m_turns[i] += double{angle};
     const float square = 0.25f * angle * angle;
     const float by = 1 / (1 + square);
     const float cosine = (1 - square) * by, sine = angle * by;
@@ -130,6 +140,7 @@ void SubstepWorld::stepOnce() {
   wakeChanged();
   listActive();
   m_states.assign(1, {});
+  m_kicks.assign(1, {});
   for (const std::int32_t id : m_active) begin(id);
   std::erase_if(m_active, [&](int id) { return m_bodies[at(id)].is_frozen; });
   updatePairs();
@@ -138,12 +149,13 @@ void SubstepWorld::stepOnce() {
   chooseColours();
   fillRows();
   float time = 0;
+  m_turns.assign(m_states.size(), 0);
   m_joints.place(m_states, time);
   for (int i = 0; i < m_options.substeps; ++i) {
-    for (const std::int32_t id : m_active) {
-      const SubstepBody& b = m_bodies[at(id)];
-      SubstepState& s = m_states[at(b.state)];
-      s.vx += b.kick_x, s.vy += b.kick_y, s.spin += b.spin_kick;
+    for (std::size_t state = 1; state < m_states.size(); ++state) {
+      SubstepState& s = m_states[state];
+      const SubstepKick& kick = m_kicks[state];
+      s.vx += kick.x, s.vy += kick.y, s.spin += kick.spin;
     }
     m_joints.warmStart(m_states);
     m_rows.warmStart(m_states);
@@ -156,6 +168,7 @@ void SubstepWorld::stepOnce() {
     m_rows.solve(m_states, m_h, time, false);
   }
   m_rows.bounce(m_states);
+  for (const std::int32_t id : m_active) m_bodies[at(id)].turn = m_turns[at(m_bodies[at(id)].state)];
   finish();
 }
 
@@ -241,12 +254,13 @@ void SubstepWorld::stop(int id, const SweptBox& swept) {
   const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
   double first = b.part;
   std::int32_t met = -1;
+  const std::span<const ConvexShape> own_shapes = m_forms[b.form].shapes;
   const bool is_thinned = m_broad.isThinned(b.proxy);
   for (const std::int32_t near : m_near) {
     const SubstepBody& other = m_bodies[at(near)];
     const RigidMotion its = motionOf(other);
     const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
-    if (nearer <= b.margin + other.margin + kMaxPass * std::min(b.thickness, other.thickness)) continue;
+    if (nearer <= marginOf(b, other) + kMaxPass * std::min(b.thickness, other.thickness)) continue;
     if ((is_thinned || m_broad.isThinned(other.proxy)) && areDeep(b, other)) continue;
     const auto pair = findPair(id, near);
     const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
@@ -257,9 +271,8 @@ void SubstepWorld::stop(int id, const SweptBox& swept) {
     // pushed may turn, but its middle passes nothing.
     ConvexShape core;
     if (is_pushing && makeCircle(kCore * b.thickness, {}, core) != ShapeStatus::kOk) continue;
-    for (const ConvexShape& own :
-         is_pushing ? std::span<const ConvexShape>(&core, 1) : std::span<const ConvexShape>(b.shapes)) {
-      for (const ConvexShape& that : other.shapes) {
+    for (const ConvexShape& own : is_pushing ? std::span<const ConvexShape>(&core, 1) : own_shapes) {
+      for (const ConvexShape& that : m_forms[other.form].shapes) {
         const TimeOfImpact impact = timeOfImpact(own, motion, that, its, offset);
         if (impact.status == TimeOfImpactStatus::kApart || impact.time > first) continue;
         const bool is_later = impact.time == first && (met < 0 || m_bodies[at(met)].order < other.order);
