@@ -43,7 +43,6 @@ struct alignas(64) SubstepBody {
   float inverse_mass = 0, inverse_inertia = 0;  ///< in this step
   float pull = 0;                               ///< of joints, times the sub-step squared
   bool is_slow = true;                          ///< it moves by a small part of its thickness in this step
-  bool is_fast = false;                         ///< it goes farther than contacts were searched for
   bool exists = false, is_asleep = false, is_frozen = false;
   bool is_changed = false;  ///< it cannot be moved, and was set or removed since the last step
   double turn = 0;          ///< rad, in this step

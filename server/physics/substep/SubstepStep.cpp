@@ -202,23 +202,22 @@ void SubstepWorld::stopFast() {
   m_fast.clear();
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
-    if (b.proxy >= 0 && isFast(b)) m_fast.push_back(id);
+    if (b.proxy >= 0 && isFast(b)) m_fast.push_back({movedBy(b), rollOf(b), b.thickness, id});
   }
   if (m_fast.empty()) return;
   m_paths.clear();
   m_path_ids.clear();
-  const Place& origin = m_bodies[at(m_fast[0])].body.place;
-  for (const std::int32_t id : m_fast) {  // so that they find one another
-    SubstepBody& b = m_bodies[at(id)];
-    b.is_fast = true;
+  m_fastness.assign(m_bodies.size(), Fastness::kSlow);
+  const Place& origin = m_bodies[at(m_fast[0].id)].body.place;
+  for (const Fast& fast : m_fast) {  // so that they find one another
+    m_fastness[at(fast.id)] = Fastness::kFast;
     m_path_ids.push_back(static_cast<int>(m_paths.size()));
-    m_paths.push_back(relativeTo(origin, sweptBounds(b)));
+    m_paths.push_back(relativeTo(origin, sweptBounds(m_bodies[at(fast.id)])));
   }
   m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()));
   for (std::size_t i = 0; i < m_fast.size(); ++i) {
-    if (isMovable(m_bodies[at(m_fast[i])])) stop(m_fast[i], m_paths[i]);
+    if (isMovable(m_bodies[at(m_fast[i].id)])) stop(m_fast[i], m_paths[i]);
   }
-  for (const std::int32_t id : m_fast) m_bodies[at(id)].is_fast = false;
 }
 
 GridBounds SubstepWorld::sweptBounds(const SubstepBody& b) const {
@@ -235,17 +234,27 @@ bool SubstepWorld::areDeep(const SubstepBody& a, const SubstepBody& b) const {
   return isMovable(a) && isMovable(b) && lengthSquared(b.body.place - a.body.place) < near * near;
 }
 
-// Two fast ones that meet both stop there.
-void SubstepWorld::stop(int id, const SweptBox& swept) {
-  SubstepBody& b = m_bodies[at(id)];
-  const Vec2 path = movedBy(b);
+// What may be in its way. Of fast bodies that fly together none is.
+void SubstepWorld::findNear(const Fast& fast, const SweptBox& swept) {
   m_near.clear();
-  m_broad.query(sweptBounds(b), [&](std::uint32_t other) {
-    if (!m_bodies[other].is_fast) m_near.push_back(static_cast<std::int32_t>(other));
+  m_broad.query(sweptBounds(m_bodies[at(fast.id)]), [&](std::uint32_t other) {
+    if (m_fastness[other] == Fastness::kSlow) m_near.push_back(static_cast<std::int32_t>(other));
   });
-  m_path_tree.query(swept, [&](int other) {
-    if (m_fast[at(other)] != id) m_near.push_back(m_fast[at(other)]);
+  m_path_tree.query(swept, [&](int number) {
+    const Fast& other = m_fast[at(number)];
+    if (other.id == fast.id) return;
+    const Vec2 its = m_fastness[at(other.id)] == Fastness::kStopped ? Vec2{} : other.path;
+    const double nearer = length(fast.path - its) + fast.roll + other.roll;
+    if (nearer > kMaxPass * std::min(fast.thickness, other.thickness)) m_near.push_back(other.id);
   });
+}
+
+// Two fast ones that meet both stop there.
+void SubstepWorld::stop(const Fast& fast, const SweptBox& swept) {
+  const std::int32_t id = fast.id;
+  SubstepBody& b = m_bodies[at(id)];
+  const Vec2 path = fast.path;
+  findNear(fast, swept);
   const auto motionOf = [&](const SubstepBody& of) -> RigidMotion {
     if (of.state == 0) return {{}, of.body.rotation, 0};
     if (of.part < 1) return {{}, turned(of.body.rotation, of.part * of.turn), 0};  // where it stops
@@ -284,9 +293,12 @@ void SubstepWorld::stop(int id, const SweptBox& swept) {
   }
   if (first >= b.part) return;
   b.part = first;
+  m_fastness[at(id)] = Fastness::kStopped;
   ++m_counters.stopped;
   SubstepBody& other = m_bodies[at(met)];  // what comes the other way stops, too
-  if (other.state > 0 && isMovable(other) && isFast(other)) other.part = std::min(other.part, first);
+  if (m_fastness[at(met)] == Fastness::kSlow || !isMovable(other)) return;
+  other.part = std::min(other.part, first);
+  m_fastness[at(met)] = Fastness::kStopped;
 }
 
 // Impulses are floats, which the two bodies of a contact do not feel exactly alike. A group that nothing

@@ -127,9 +127,10 @@ void SubstepWorld::freeze(int id) {
 }
 
 bool SubstepWorld::set(int id, const RigidBody& body) {
-  if (!exists(id) || !isSound(body)) return false;
+  if (!exists(id)) return false;
   SubstepBody& b = m_bodies[at(id)];
   if (b.body == body && !b.is_frozen) return true;
+  if (!isSound(body)) return false;
   const bool was_movable = isMovable(b);
   wakeRing(id);
   b.still = 0;

@@ -99,6 +99,12 @@ class SubstepWorld final : public RigidStepper {
     double nearer;  // the gap that is left between them then, negative
     std::int32_t pair;
   };
+  enum class Fastness : std::uint8_t { kSlow, kFast, kStopped };
+  struct Fast {  // a body that goes farther in this step than contacts were searched for
+    Vec2 path;
+    double roll, thickness;
+    std::int32_t id;
+  };
   struct Turn {  // in the order in which contacts are solved for
     std::uint64_t order_a, order_b;
     std::int32_t contact;
@@ -142,7 +148,8 @@ class SubstepWorld final : public RigidStepper {
   void stopFast();
   GridBounds sweptBounds(const SubstepBody& body) const;
   bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
-  void stop(int id, const SweptBox& swept);
+  void findNear(const Fast& fast, const SweptBox& swept);
+  void stop(const Fast& fast, const SweptBox& swept);
   static void forecast(SubstepBody& body);
   static double calmMargin(const SubstepBody& a, const SubstepBody& b);
   static GridBounds wideBounds(const SubstepBody& body);
@@ -190,7 +197,8 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_active;  // ids of those that move in this step, by order
   std::vector<std::int32_t> m_changed;
   std::vector<std::int32_t> m_near;
-  std::vector<std::int32_t> m_fast;  // in this step
+  std::vector<Fast> m_fast;
+  std::vector<Fastness> m_fastness;  // by id
   std::vector<SweptBox> m_paths;     // of those, in grid units about the first of them
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
