@@ -77,13 +77,29 @@ Separation fromVertices(Vec2 apart, std::int32_t index_a, std::int32_t index_b) 
 
 }  // namespace
 
+namespace {
+
+// How near the other shape comes along a normal, and, in faceSeparation(), which of its corners does.
+double leastAlong(Vec2 n, const Vec2* p_corners, std::int32_t count) {
+  double least = dot(n, p_corners[0]);
+  for (std::int32_t j = 1; j < count; ++j) {
+    const double s = dot(n, p_corners[j]);
+    least = s < least ? s : least;
+  }
+  return least;
+}
+
+}  // namespace
+
 FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const TurnedView& other,
                               Vec2 offset) {
   const Vec2 n = shape.normals[at(edge)];
-  double least = dot(n, other.vertices[0]);
+  const Vec2* const p_corners = other.vertices;
+  const std::int32_t count = other.count;
+  double least = dot(n, p_corners[0]);
   std::int32_t support = 0;
-  for (std::int32_t j = 1; j < other.count; ++j) {
-    const double s = dot(n, other.vertices[at(j)]);
+  for (std::int32_t j = 1; j < count; ++j) {
+    const double s = dot(n, p_corners[j]);
     support = s < least ? j : support;
     least = s < least ? s : least;
   }
@@ -91,22 +107,21 @@ FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const 
 }
 
 FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 offset, double enough) {
-  if (shape.count == 1) return {};
+  const std::int32_t edges = shape.count;
+  if (edges == 1) return {};
   // Which corner it is costs more than how far; it is asked for the best edge alone.
+  const Vec2 *const p_normals = shape.normals, *const p_vertices = shape.vertices;
+  const Vec2* const p_corners = other.vertices;
+  const std::int32_t corners = other.count;
   double most = -std::numeric_limits<double>::infinity();
   std::int32_t best = 0;
-  for (std::int32_t i = 0; i < shape.count; ++i) {
-    const Vec2 n = shape.normals[at(i)];
-    double least = dot(n, other.vertices[0]);
-    for (std::int32_t j = 1; j < other.count; ++j) {
-      const double s = dot(n, other.vertices[at(j)]);
-      least = s < least ? s : least;
-    }
-    const double distance = dot(n, offset) + (least - dot(n, shape.vertices[at(i)]));
+  for (std::int32_t i = 0; i < edges; ++i) {
+    const Vec2 n = p_normals[i];
+    const double distance = dot(n, offset) + (leastAlong(n, p_corners, corners) - dot(n, p_vertices[i]));
     if (distance > most) most = distance, best = i;
     if (distance > enough) break;
   }
-  if (other.count == 1) return {most, best, 0};
+  if (corners == 1) return {most, best, 0};
   return faceSeparation(shape, best, other, offset);
 }
 

@@ -42,7 +42,7 @@ struct alignas(64) SubstepBody {
   SubstepKick kick;
   float inverse_mass = 0, inverse_inertia = 0;  ///< in this step
   float pull = 0;                               ///< of joints, times the sub-step squared
-  bool is_slow = true;                          ///< it moves by a small part of its thickness in this step
+  bool is_busy = true;                          ///< it hardly moves, or something pushed it in the last step
   bool exists = false, is_asleep = false, is_frozen = false;
   bool is_changed = false;  ///< it cannot be moved, and was set or removed since the last step
   double turn = 0;          ///< rad, in this step
@@ -52,6 +52,7 @@ struct alignas(64) SubstepBody {
   std::int32_t ring = -1;   ///< the next body that fell asleep with it
   std::int32_t proxy = -1;  ///< in the broad phase
   std::uint64_t order = 0;
+  std::int64_t pushed_at = -1;       ///< in which step something pushed it last
   std::int32_t form = -1;            ///< its shapes
   std::uint32_t turned_version = 0;  ///< which `version` of them `turned` was made of …
   Rotation turned_at;                ///< … and for which rotation

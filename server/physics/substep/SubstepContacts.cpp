@@ -195,7 +195,7 @@ double SubstepWorld::gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset) {
 // How far around two bodies their contacts are searched for.
 double SubstepWorld::marginOf(const SubstepBody& a, const SubstepBody& b) const {
   const double full = a.margin + b.margin;
-  if (a.is_slow && b.is_slow) return full;
+  if (a.is_busy && b.is_busy) return full;
   return std::min(full, calmMargin(a, b) + m_stirs[at(a.state)] + m_stirs[at(b.state)]);
 }
 
@@ -211,7 +211,7 @@ bool SubstepWorld::mayMeet(Pair& pair) {
   SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
   const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
   if (!is_met || (!isMovable(a) && !isMovable(b))) return false;
-  if (a.is_slow && b.is_slow) return true;  // they are not searched for far away
+  if (a.is_busy && b.is_busy) return true;  // they mostly do
   const Vec2 offset = b.body.place - a.body.place;
   const double gap = gapOf(a, b, offset);
   if (gap > a.margin + b.margin) return false;
@@ -461,6 +461,7 @@ void SubstepWorld::storeContacts() {
     if (impulse.first < 0) continue;
     Pair& pair = m_pairs[at(contact.pair)];
     pair.is_pushing = true;
+    m_bodies[at(pair.a)].pushed_at = m_bodies[at(pair.b)].pushed_at = m_counters.ticks;
     if (pair.event >= 0) m_events[at(pair.event)].impulse += double{impulse.total};
     if (pair.is_touching) continue;
     pair.is_touching = true;

@@ -93,7 +93,7 @@ void SubstepWorld::sleep() {
     b.is_asleep = true;
     b.body.velocity = b.drift = {};
     b.body.spin = b.roll = 0;
-    b.is_slow = true;
+    b.is_busy = true;
     b.ring = id;
     if (group.first >= 0) {
       std::swap(b.ring, m_bodies[at(group.first)].ring);

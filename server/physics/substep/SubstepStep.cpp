@@ -22,6 +22,7 @@ constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: s
 
 constexpr double kAhead = 1;  // … and further in the direction in which it goes, at most
 constexpr double kTicksAhead = 2;
+constexpr double kNeverKept = kAhead + 2 * kBoundsSlack;  // at that speed it leaves its bounds in any case
 
 // How far turning moves a corner in this step.
 double rollOf(const SubstepBody& b) {
@@ -91,13 +92,13 @@ void SubstepWorld::begin(int id) {
 }
 
 // How far it gets on its own.
-void SubstepWorld::forecast(SubstepBody& b) {
+void SubstepWorld::forecast(SubstepBody& b) const {
   const double angle = std::fabs(b.body.spin) + std::fabs(spinGainOf(b.body));
   b.drift = b.body.velocity + 0.5 * accelerationOf(b.body);
   b.roll = std::min(angle, 2.0) * b.reach;
   const double movement = length(b.drift) + b.roll;
   b.margin = std::min(movement, b.thickness) + kSlack * b.thickness;
-  b.is_slow = movement <= kSlow * b.thickness;
+  b.is_busy = !isMovable(b) || movement <= kSlow * b.thickness || b.pushed_at + 1 == m_counters.ticks;
 }
 
 // Two bodies whose gap is wider do not meet, unless something pushes one of them.
@@ -108,8 +109,8 @@ double SubstepWorld::calmMargin(const SubstepBody& a, const SubstepBody& b) {
 // Room for the moves of the next steps.
 GridBounds SubstepWorld::wideBounds(const SubstepBody& b) {
   const double most = kAhead * b.thickness;
-  const bool is_fast = std::max(std::fabs(b.body.velocity.x), std::fabs(b.body.velocity.y)) > most;
-  if (is_fast) return gridBounds(b.body.place, b.box, b.margin);  // they do not last anyway
+  const double speed = std::max(std::fabs(b.body.velocity.x), std::fabs(b.body.velocity.y));
+  if (speed > kNeverKept * b.thickness) return gridBounds(b.body.place, b.box, b.margin);
   const Vec2 ahead = {std::clamp(kTicksAhead * b.body.velocity.x, -most, most),
                       std::clamp(kTicksAhead * b.body.velocity.y, -most, most)};
   const Bounds swept = {b.box.lower + Vec2{std::min(ahead.x, 0.0), std::min(ahead.y, 0.0)},

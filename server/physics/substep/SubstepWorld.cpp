@@ -68,10 +68,11 @@ void SubstepWorld::turnShapes(SubstepBody& b) {
 
 // As turnShapes() made it last.
 TurnedView SubstepWorld::turnedShape(const SubstepBody& b, std::int32_t number) const {
-  const std::vector<ConvexShape>& shapes = m_forms[b.form].shapes;
-  std::size_t first = 0;
-  for (std::int32_t i = 0; i < number; ++i) first += 2 * at(shapes[at(i)].count);
-  return turnedView(shapes[at(number)], std::span<const Vec2>(b.turned).subspan(first));
+  const ConvexShape* const p_shapes = m_forms[b.form].shapes.data();
+  const Vec2* p_corners = b.turned.data();
+  for (std::int32_t i = 0; i < number; ++i) p_corners += 2 * p_shapes[i].count;
+  const ConvexShape& shape = p_shapes[number];
+  return {shape.count, shape.radius, shape.reach, p_corners, p_corners + shape.count};
 }
 
 // A body that has hardly turned since its shapes were keeps its bounds, by so much wider.
@@ -144,7 +145,7 @@ bool SubstepWorld::set(int id, const RigidBody& body) {
     markChanged(id);
     b.drift = {};
     b.roll = 0;
-    b.is_slow = true;
+    b.is_busy = true;
     if (b.proxy >= 0) {
       boundNow(b);
       m_broad.set(b.proxy, gridBounds(b.body.place, b.box, 0));

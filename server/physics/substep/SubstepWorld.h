@@ -150,7 +150,7 @@ class SubstepWorld final : public RigidStepper {
   bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
   void findNear(const Fast& fast, const SweptBox& swept);
   void stop(const Fast& fast, const SweptBox& swept);
-  static void forecast(SubstepBody& body);
+  void forecast(SubstepBody& body) const;
   static double calmMargin(const SubstepBody& a, const SubstepBody& b);
   static GridBounds wideBounds(const SubstepBody& body);
   Vec2 movedBy(const SubstepBody& body) const;
