@@ -1,0 +1,43 @@
+// The directory of a fleet: listens on the bus to servers that say they are there, and writes a list of them
+// for the web (ServerList.h).
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/directory/DirectorySettings.h"
+#include "server/directory/FleetList.h"
+#include "shared/program/LineLog.h"
+
+namespace naiad {
+
+/// All of it happens in run(), on the thread that calls it.
+class Directory {
+ public:
+  /// While the bus is gone the list stays as it was, for so long: the servers play on, and their players find
+  /// each other.
+  static constexpr std::chrono::minutes kBlind{10};
+
+  /// Throws std::runtime_error if the list cannot be written. The bus has no complaint (busComplaint()).
+  Directory(DirectorySettings settings, LogLine log);
+  ~Directory();
+  Directory(const Directory&) = delete;
+  Directory& operator=(const Directory&) = delete;
+
+  /// SIGINT and SIGTERM stop it; SIGHUP opens the log again. A second one of the first two has its usual
+  /// effect.
+  void heedSignals();
+  /// Serve until a signal comes, or stop().
+  void run();
+  void stop();
+
+  const FleetList& servers() const;
+
+ private:
+  struct Loop;
+  std::unique_ptr<Loop> m_loop;
+};
+
+}  // namespace naiad
