@@ -3,14 +3,15 @@
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
 #include <asio/steady_timer.hpp>
+#include <chrono>
 #include <csignal>
 #include <optional>
 #include <utility>
 
+#include "server/directory/FleetWatch.h"
 #include "server/directory/ListFile.h"
 #include "server/directory/ServerList.h"
 #include "shared/fleet/ServerId.h"
-#include "shared/net/base/TokenBucket.h"
 
 namespace naiad {
 namespace {
@@ -18,8 +19,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kTurn{250};
-/// Of servers that come and go, a second: names may come from servers that only pretend.
-constexpr BucketRate kNewsRate{5, 100};
 
 BusSettings listening(BusSettings settings) {
   settings.subjects = {presenceSubject("*")};
@@ -31,33 +30,27 @@ BusSettings listening(BusSettings settings) {
 struct Directory::Loop {
   Loop(DirectorySettings given, LogLine line);
 
-  void takeTurn(Clock::time_point now);
-  void listen(Clock::time_point now);
-  void forget(Clock::time_point now);
-  void publishList();
-  void logNews(const std::string& line, Clock::time_point now);
+  void takeTurn();
   void awaitTurn();
   void heedSignals();
   void stop();
-  void logCounters() const;
+  void logCounters();
 
   DirectorySettings settings;
   LogLine log;
   asio::io_context context{1};
   asio::steady_timer timer{context};
   asio::signal_set signals{context};
-  FleetList servers;
-  std::unique_ptr<Bus> bus;
   std::optional<ListFile> file;
-  Clock::time_point connected_at = Clock::now();
-  TokenBucket news;
-  std::uint64_t news_left_out = 0;
+  FleetWatch fleet;
 };
 
 Directory::Loop::Loop(DirectorySettings given, LogLine line)
-    : settings(std::move(given)), log(std::move(line)) {
+    : settings(std::move(given)),
+      log(std::move(line)),
+      fleet(
+          connectBus(listening(settings.bus)), [this](const std::string& text) { log(text); }, Clock::now()) {
   if (!settings.list.empty()) file.emplace(settings.list, serverListText({}));
-  bus = connectBus(listening(settings.bus));
   awaitTurn();
 }
 
@@ -65,48 +58,16 @@ void Directory::Loop::awaitTurn() {
   timer.expires_after(kTurn);
   timer.async_wait([this](const std::error_code& error) {
     if (error) return;
-    takeTurn(Clock::now());
+    takeTurn();
     awaitTurn();
   });
 }
 
-void Directory::Loop::takeTurn(Clock::time_point now) {
-  if (const std::string line = bus->takeNews(); !line.empty()) log(line);
-  listen(now);
-  forget(now);
-  publishList();
-}
-
-void Directory::Loop::listen(Clock::time_point now) {
-  for (const BusMessage& message : bus->takeMessages()) {
-    if (servers.put(message.subject, message.payload, now))
-      logNews(message.subject.substr(presenceSubject("").size()) + " is there", now);
-  }
-}
-
-// Servers cannot be heard without a bus, so their time does not run; it does once that has lasted for too
-// long.
-void Directory::Loop::forget(Clock::time_point now) {
-  if (bus->isConnected()) connected_at = now;
-  const bool is_blind = connected_at != now;
-  if (is_blind && now - connected_at < kBlind) return servers.forgiveSilence(now);
-  for (const std::string& id : servers.removeSilent(now)) logNews(id + " is gone", now);
-}
-
-void Directory::Loop::publishList() {
+void Directory::Loop::takeTurn() {
+  fleet.update(Clock::now());
   if (!file) return;
-  file->setText(serverListText(servers.servers()));
+  file->setText(serverListText(fleet.servers().servers()));
   if (const std::string line = file->takeNews(); !line.empty()) log(line);
-}
-
-void Directory::Loop::logNews(const std::string& line, Clock::time_point now) {
-  if (!news.takeToken(kNewsRate, now)) {
-    ++news_left_out;
-    return;
-  }
-  if (const auto count = std::exchange(news_left_out, 0); count > 0)
-    log(std::to_string(count) + " more servers came or went");
-  log(line);
 }
 
 void Directory::Loop::heedSignals() {
@@ -127,9 +88,9 @@ void Directory::Loop::stop() {
   context.stop();
 }
 
-void Directory::Loop::logCounters() const {
-  const FleetCounters& counted = servers.counters();
-  const BusCounters passed = bus->counters();
+void Directory::Loop::logCounters() {
+  const FleetCounters& counted = fleet.servers().counters();
+  const BusCounters passed = fleet.bus().counters();
   const std::pair<const char*, std::uint64_t> all[] = {{"heard", counted.heard},
                                                        {"unreadable", counted.unreadable},
                                                        {"foreign", counted.foreign},
@@ -162,10 +123,6 @@ void Directory::run() {
 
 void Directory::stop() {
   m_loop->stop();
-}
-
-const FleetList& Directory::servers() const {
-  return m_loop->servers;
 }
 
 }  // namespace naiad

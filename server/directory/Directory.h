@@ -2,13 +2,9 @@
 // for the web (ServerList.h).
 #pragma once
 
-#include <chrono>
-#include <functional>
 #include <memory>
-#include <string>
 
 #include "server/directory/DirectorySettings.h"
-#include "server/directory/FleetList.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
@@ -32,8 +28,6 @@ class Directory {
   /// Serve until a signal comes, or stop().
   void run();
   void stop();
-
-  const FleetList& servers() const;
 
  private:
   struct Loop;

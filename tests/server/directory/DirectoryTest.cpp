@@ -98,23 +98,6 @@ TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
   EXPECT_NE(directory->printed().find("counters: heard="), std::string::npos) << directory->printed();
 }
 
-TEST_F(DirectoryTest, WithoutABusTheListStays) {
-  NatsServer bus;
-  ASSERT_TRUE(bus.start()) << bus.log();
-  const auto directory = startDirectory(bus);
-  GameProgram berlin("dfserver", serverOf(bus, "berlin"));
-  ASSERT_TRUE(waitFor([&] { return listed().size() == 1; })) << listText();
-  bus.kill();
-  ASSERT_TRUE(directory->prints("the bus cannot be reached"));
-  const auto killed = std::chrono::steady_clock::now();
-  EXPECT_TRUE(waitFor([&] { return listed().size() != 1 || std::chrono::steady_clock::now() > killed + 7s; }));
-  EXPECT_EQ(listed().size(), 1u) << "longer than a silent server is listed";
-  ASSERT_TRUE(bus.start()) << bus.log();
-  EXPECT_TRUE(directory->prints("the bus is connected", 2)) << directory->printed();
-  berlin.signal(SIGKILL);
-  EXPECT_TRUE(waitFor([&] { return listed().empty(); })) << "it hears again";
-}
-
 TEST_F(DirectoryTest, HostilePayloadsAreCountedAndCostNothing) {
   NatsServer bus("max_payload: 100KB");
   ASSERT_TRUE(bus.start()) << bus.log();

@@ -1,6 +1,4 @@
 // Which servers there are, of what comes from the bus, and which of them a player is sent to.
-#include "server/directory/FleetList.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -8,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "server/directory/FleetList.h"
 #include "shared/fleet/ServerId.h"
 #include "shared/values/SplitMix64.h"
 

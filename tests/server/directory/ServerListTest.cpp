@@ -1,12 +1,11 @@
 // The list of a directory, as a client reads it.
-#include "server/directory/ServerList.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "client/lan/ListDownload.h"
 #include "client/lan/ServerListJson.h"
+#include "server/directory/ServerList.h"
 
 namespace naiad {
 namespace {
