@@ -12,10 +12,6 @@ namespace naiad {
 /// All of it happens in run(), on the thread that calls it.
 class Directory {
  public:
-  /// While the bus is gone the list stays as it was, for so long: the servers play on, and their players find
-  /// each other.
-  static constexpr std::chrono::minutes kBlind{10};
-
   /// Throws std::runtime_error if the list cannot be written. The bus has no complaint (busComplaint()).
   Directory(DirectorySettings settings, LogLine log);
   ~Directory();
