@@ -56,7 +56,8 @@ void requireFacts(const std::string& text, bool is_line) {
   }
 }
 
-/// Whatever servers say: those that are there have said so themselves, and no player is sent where none can play.
+/// Whatever servers say: those that are there have said so themselves, and no player is sent where none can
+/// play.
 void requireList(FleetList& list) {
   for (const Presence& one : list.servers()) REQUIRE(Presence::parse(one.payload()) == one);
   const std::string text = serverListText(list.servers());
@@ -80,9 +81,9 @@ void requireDirectory(std::string_view text) {
     const std::size_t before = list.size();
     const bool is_new = list.put(subject, line.substr(std::min(blank + 1, line.size())), now);
     REQUIRE(list.size() == before + (is_new ? 1 : 0));
-    if (is_new) REQUIRE(std::ranges::any_of(list.servers(), [&](const Presence& one) {
-      return presenceSubject(one.id) == subject;
-    }));
+    if (is_new)
+      REQUIRE(std::ranges::any_of(list.servers(),
+                                  [&](const Presence& one) { return presenceSubject(one.id) == subject; }));
     now += std::chrono::seconds(1);
     const std::size_t there = list.size();
     REQUIRE(list.removeSilent(now).size() == there - list.size());

@@ -10,7 +10,7 @@
 namespace naiad {
 namespace {
 
-Presence presenceOf(const std::string& id, char key = 'a') {
+Presence listedServer(const std::string& id, char key = 'a') {
   Presence presence;
   presence.id = id;
   presence.name = "B\xc3\xa9rlin \"1\"";
@@ -26,7 +26,7 @@ Presence presenceOf(const std::string& id, char key = 'a') {
 }
 
 TEST(ServerListTest, IsWhatAClientReads) {
-  const Presence server = presenceOf("a");
+  const Presence server = listedServer("a");
   const auto read = readServerList(serverListText({server}));
   ASSERT_TRUE(read && read->size() == 1) << serverListText({server});
   const FoundServer found = read->sorted().front();
@@ -48,13 +48,13 @@ TEST(ServerListTest, AnEmptyOneIsAListToo) {
 }
 
 TEST(ServerListTest, ServersThatLetNobodyInOrAreNowhereAreLeftOut) {
-  Presence closed = presenceOf("a");
+  Presence closed = listedServer("a");
   closed.is_open = false;
-  Presence nowhere = presenceOf("b");
+  Presence nowhere = listedServer("b");
   nowhere.host.clear();
-  Presence keyless = presenceOf("c");
+  Presence keyless = listedServer("c");
   keyless.key.clear();
-  const auto read = readServerList(serverListText({closed, nowhere, keyless, presenceOf("d")}));
+  const auto read = readServerList(serverListText({closed, nowhere, keyless, listedServer("d")}));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->size(), 1u);
 }
@@ -62,7 +62,7 @@ TEST(ServerListTest, ServersThatLetNobodyInOrAreNowhereAreLeftOut) {
 TEST(ServerListTest, OfTooManyThoseWithRoomAreListedAndTheFileIsOneThatAClientTakes) {
   std::vector<Presence> servers;
   for (int i = 0; i < 4096; ++i) {
-    Presence server = presenceOf("s" + std::to_string(i));
+    Presence server = listedServer("s" + std::to_string(i));
     server.name = server.game = std::string(Presence::kMaxName, '"');
     for (int c = 0; c < 63; ++c) server.name.replace(static_cast<std::size_t>(c), 1, "\"");
     server.host = std::string(60, 'h') + "." + std::string(60, 'o') + "." + std::to_string(i) + ".example";
