@@ -110,7 +110,9 @@ TEST_F(Resume, ASessionThatTheClientHasGivenUpIsGoneOnWith) {
   const std::uint32_t id = ann.player();
   ASSERT_TRUE(losesItsStream(ann));
   valve->down = valve->up = false;
-  ann.connection().update(Clock::now() + ClientSession::kDetachedTimeout + std::chrono::seconds(10));
+  const Clock::time_point later = Clock::now() + ClientSession::kDetachedTimeout + std::chrono::seconds(10);
+  for (Clock::time_point now = Clock::now(); now < later; now += std::chrono::milliseconds(100))
+    ann.connection().update(now);
   EXPECT_EQ(ann.session().state(), ClientSession::State::kLost);
   valve->down = valve->up = true;
   proxy->setOpen(true);

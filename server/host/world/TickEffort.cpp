@@ -21,7 +21,8 @@ char stateOf(pid_t process) {
 
 // Who waits for a disk, or for memory that was paged out, would run.
 ProcessLook::Doing doingOf(char state) {
-  if (state == 'T' || state == 't') return ProcessLook::kStopped;
+  if (state == 't') return ProcessLook::kDebugged;
+  if (state == 'T') return ProcessLook::kStopped;
   return state == 'S' ? ProcessLook::kWaits : ProcessLook::kRuns;
 }
 
@@ -45,11 +46,9 @@ void TickEffort::count(Nanos passed, const std::optional<ProcessLook>& look) {
   }
   const Nanos computed = m_cpu ? std::clamp(look->cpu - *m_cpu, Nanos(0), passed) : Nanos(0);
   m_cpu = look->cpu;
-  if (look->doing == ProcessLook::kStopped) {
-    m_stopped += passed;
-    return;
-  }
-  m_stopped = Nanos(0);
+  const bool is_stopped = look->doing == ProcessLook::kStopped || look->doing == ProcessLook::kDebugged;
+  m_stopped = is_stopped ? m_stopped + passed : Nanos(0);
+  if (look->doing == ProcessLook::kDebugged) return;
   m_counted += look->doing == ProcessLook::kWaits ? passed : std::max(computed, passed / kStarvedPart);
 }
 

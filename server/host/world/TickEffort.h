@@ -1,8 +1,9 @@
 // How long a world has kept a tick waiting by what it does itself: the measure of a game that hangs.
 //
-// On a machine under load a process that would run does not get to; one that a debugger or a signal has
-// stopped does nothing at all. Neither is the game's fault, and neither counts: only what it computes, and
-// the time that it waits for something of its own.
+// On a machine under load a process that would run does not get to; one in a debugger does nothing at all.
+// Neither is the game's fault, and neither counts: only what it computes, and the time that it waits for
+// something of its own. One that a signal has stopped has longer, but not for ever: it may have sent that
+// signal itself.
 #pragma once
 
 #include <sys/types.h>
@@ -14,7 +15,12 @@ namespace naiad {
 
 /// What a process is doing, as the kernel says.
 struct ProcessLook {
-  enum Doing { kRuns, kWaits, kStopped } doing = kRuns;
+  enum Doing {
+    kRuns,      ///< it computes, would do so, or waits for a disk
+    kWaits,     ///< for something that it asked for: a time, a lock, bytes
+    kStopped,   ///< by a signal
+    kDebugged,  ///< stopped by a debugger, which a world in its sandbox cannot be its own
+  } doing = kRuns;
   std::chrono::nanoseconds cpu{0};  ///< of all its threads, since its start
 };
 
@@ -27,9 +33,9 @@ class TickEffort {
   using Nanos = std::chrono::nanoseconds;
 
   /// Ticks that end sooner are not looked into: all of it counts.
-  static constexpr Nanos kUnseen = std::chrono::milliseconds(100);
-  /// Of the time in which a process would run and does not get to, so much counts: one part in ten. It would
-  /// be waited for without end else.
+  static constexpr Nanos kUnseen = std::chrono::milliseconds(50);
+  /// Of the time in which a process would run and does not get to, or is stopped, so much counts: one part in
+  /// ten. It would be waited for without end else.
   static constexpr int kStarvedPart = 10;
 
   /// Another tick.
@@ -47,7 +53,7 @@ class TickEffort {
   }
   /// What counts.
   Nanos counted() const { return m_counted; }
-  /// In which it was stopped.
+  /// For how long it has been stopped.
   Nanos stopped() const { return m_stopped; }
 
  private:

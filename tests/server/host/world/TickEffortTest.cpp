@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/ptrace.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <ctime>
 
 #include "host/world/TickEffort.h"
 
@@ -41,10 +40,15 @@ TEST_F(TickEffortTest, AMachineUnderLoadGivesAGameMoreTime) {
   EXPECT_GT(run(57'000ms, Doing::kRuns, 0), 5s) << "but not for ever";
 }
 
-TEST_F(TickEffortTest, AStoppedGameIsWaitedFor) {
+TEST_F(TickEffortTest, AGameThatHasStoppedItselfIsNotWaitedForForEver) {
+  EXPECT_LT(run(5s, Doing::kStopped, 0), 1s);
+  EXPECT_GT(run(55s, Doing::kStopped, 0), 5s);
+}
+
+TEST_F(TickEffortTest, AGameInADebuggerIsWaitedFor) {
   run(300ms, Doing::kRuns, 100);
   const auto before = effort.counted();
-  EXPECT_EQ(run(3600s, Doing::kStopped, 0), before);
+  EXPECT_EQ(run(3600s, Doing::kDebugged, 0), before);
   EXPECT_EQ(effort.stopped(), 3600s);
   run(100ms, Doing::kRuns, 100);
   EXPECT_EQ(effort.stopped(), 0s) << "it goes on";
@@ -58,7 +62,7 @@ TEST_F(TickEffortTest, WhereTheKernelSaysNothingAllCounts) {
 TEST_F(TickEffortTest, ShortTicksAreNotLookedInto) {
   bool looked = false;
   for (int i = 0; i < 3; ++i) {
-    effort.add(33ms, [&looked] {
+    effort.add(16ms, [&looked] {
       looked = true;
       return std::optional<ProcessLook>();
     });
@@ -82,11 +86,11 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
   pid_t process() const { return m_process; }
-  bool comesTo(Doing doing) const {
-    const std::time_t end = std::time(nullptr) + 60;
-    while (std::time(nullptr) < end) {
+  bool comesTo(Doing doing, std::chrono::seconds patience = 60s) const {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    do {
       if (const auto look = lookAtProcess(m_process); look && look->doing == doing) return true;
-    }
+    } while (std::chrono::steady_clock::now() < end);
     return false;
   }
 
@@ -102,10 +106,19 @@ TEST(LookAtProcess, SaysWhetherItRunsWaitsOrIsStopped) {
   kill(runs.process(), SIGSTOP);
   EXPECT_TRUE(runs.comesTo(Doing::kStopped));
   const auto before = lookAtProcess(runs.process());
+  EXPECT_FALSE(runs.comesTo(Doing::kDebugged, 0s));
   kill(runs.process(), SIGCONT);
   EXPECT_TRUE(runs.comesTo(Doing::kRuns));
-  const std::time_t end = std::time(nullptr) + 60;
-  while (lookAtProcess(runs.process())->cpu <= before->cpu) ASSERT_LT(std::time(nullptr), end);
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (lookAtProcess(runs.process())->cpu <= before->cpu) ASSERT_LT(std::chrono::steady_clock::now(), end);
+}
+
+TEST(LookAtProcess, KnowsADebuggerFromASignal) {
+  const Child debugged([] {
+    ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+    raise(SIGUSR1);
+  });
+  EXPECT_TRUE(debugged.comesTo(Doing::kDebugged));
 }
 
 TEST(LookAtProcess, HasNothingOfOneThatIsNotThere) {

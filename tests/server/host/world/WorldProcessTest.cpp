@@ -177,7 +177,7 @@ TEST_F(WorldProcessTest, AnAnswerIsATick) {
 
 class HangingWorldTest : public WorldProcessTest {
  protected:
-  static constexpr std::chrono::milliseconds kHangTime{100};
+  static constexpr std::chrono::milliseconds kHangTime{150};
   /// Answer one turn, and do this in the next.
   static WorldProgram hangs(const std::string& how) {
     WorldProgram program = shell(isReady() + takesTurn() + answers() + takesTurn() + how);
@@ -192,7 +192,7 @@ TEST_F(HangingWorldTest, AnEndlessLoopIsSaidAndThenEnded) {
   EXPECT_GE(std::chrono::steady_clock::now() - began, kHangTime * (WorldProcess::kPatience - 1));
   EXPECT_EQ(end.why, WorldEnd::kHung);
   EXPECT_EQ(warnings, (std::vector<std::string>{
-                          "the game has not finished tick 2 for 0.1 s: it hangs, and all players wait"}));
+                          "the game has not finished tick 2 for 0.15 s: it hangs, and all players wait"}));
 }
 
 TEST_F(HangingWorldTest, SoIsOneThatWaitsForWhatNeverComes) {
@@ -201,7 +201,7 @@ TEST_F(HangingWorldTest, SoIsOneThatWaitsForWhatNeverComes) {
 }
 
 TEST_F(HangingWorldTest, ASlowTickIsSaidAndMayEnd) {
-  const WorldEnd end = play(hangs("sleep 0.25; " + answers() + "exit 0"));
+  const WorldEnd end = play(hangs("sleep 0.3; " + answers() + "exit 0"));
   EXPECT_EQ(end.why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
   EXPECT_EQ(warnings.size(), 1u);
@@ -214,14 +214,15 @@ TEST_F(HangingWorldTest, TheFirstTickMayTakeLong) {
   EXPECT_EQ(ticks, 1);
 }
 
-/// Three times as long as one that hangs would live.
-TEST_F(HangingWorldTest, OneThatADebuggerHasStoppedIsWaitedFor) {
-  const std::string goes_on = "(sleep 1.5; kill -CONT $$) & ";
+/// For longer than one that hangs would live.
+TEST_F(HangingWorldTest, OneThatASignalHasStoppedIsSaidAndHasLonger) {
+  const std::string goes_on = "(sleep 1.2; kill -CONT $$) & ";
   const WorldEnd end = play(hangs(goes_on + "kill -STOP $$; " + answers() + "exit 0"));
   EXPECT_EQ(end.why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
-  EXPECT_EQ(warnings, (std::vector<std::string>{
-                          "the game is stopped in tick 2, by a debugger or a signal, and all players wait"}));
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.front(),
+            "the game is stopped in tick 2, by a debugger or a signal, and all players wait");
 }
 
 }  // namespace
