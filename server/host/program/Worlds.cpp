@@ -180,7 +180,7 @@ std::shared_ptr<const WorldLauncher> launchAgain(const HostOptions& options, con
   environment.insert(environment.end(), variables.begin(), variables.end());
   return std::make_shared<const WorldLauncher>(WorldProgram{program, moduleArguments(options, module),
                                                             std::move(environment), folder, made.sandbox,
-                                                            repeatPreload()});
+                                                            repeatPreload(), hangTime(options)});
 }
 
 Preview previewWorld(const WorldLauncher& launcher, const LogLine& print) {

@@ -222,9 +222,9 @@ TEST_F(JournalFileTest, ARoundThatIsBeingPlayedIsLeftAlone) {
 }
 
 TEST_F(JournalFileTest, MemoryOfARoundThatHasNoFileIsFreedByTheNextServerOfItsFolder) {
-  const auto uuid = [](std::uint8_t first) {
-    return std::array<std::uint8_t, 16>{first, static_cast<std::uint8_t>(getpid()),
-                                        static_cast<std::uint8_t>(getpid() >> 8), 4};
+  const auto uuid = [self = getpid()](std::uint8_t first) {
+    return std::array<std::uint8_t, 16>{first, static_cast<std::uint8_t>(self),
+                                        static_cast<std::uint8_t>(self >> 8), 4};
   };
   const auto pathOf = [](const auto& round) { return "/dev/shm/naiad-" + uuidText(round); };
   const pid_t child = fork();
