@@ -17,8 +17,9 @@ namespace {
 constexpr std::int32_t kColours = 64;
 constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 // In thicknesses of the thinner body.
-constexpr double kMaxPush = 0.2;  // per tick: the greatest speed at which overlap is undone
-constexpr double kLinger = 0.01;  // a larger gap ends a contact
+constexpr double kMaxPush = 0.2;      // per tick: the greatest speed at which overlap is undone
+constexpr double kSlowMargin = 0.12;  // what moves by less throws nothing off its path
+constexpr double kLinger = 0.01;      // a larger gap ends a contact
 constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
 constexpr std::size_t kFetched = 8;     // contacts ahead
 constexpr std::size_t kCacheLine = 64;  // bytes
@@ -211,7 +212,13 @@ bool SubstepWorld::mayMeet(Pair& pair) {
   SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
   const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
   if (!is_met || (!isMovable(a) && !isMovable(b))) return false;
-  if (a.is_busy && b.is_busy) return true;  // they mostly do
+  if (a.is_busy && b.is_busy) {  // they mostly do; how near they are is not asked
+    const bool are_slow = a.margin <= kSlowMargin * a.thickness && b.margin <= kSlowMargin * b.thickness;
+    const double by = are_slow ? 0 : kStir * calmMargin(a, b);
+    stir(a, by);
+    stir(b, by);
+    return true;
+  }
   const Vec2 offset = b.body.place - a.body.place;
   const double gap = gapOf(a, b, offset);
   if (gap > a.margin + b.margin) return false;
