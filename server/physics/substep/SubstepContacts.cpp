@@ -212,14 +212,15 @@ bool SubstepWorld::mayMeet(Pair& pair) {
   SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
   const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
   if (!is_met || (!isMovable(a) && !isMovable(b))) return false;
-  if (a.is_busy && b.is_busy) {  // they mostly do; how near they are is not asked
+  const Vec2 offset = b.body.place - a.body.place;
+  if (a.is_busy && b.is_busy) {  // they mostly do
+    if (gapBetween(a.box, b.box, offset) > a.margin + b.margin) return false;
     const bool are_slow = a.margin <= kSlowMargin * a.thickness && b.margin <= kSlowMargin * b.thickness;
     const double by = are_slow ? 0 : kStir * calmMargin(a, b);
     stir(a, by);
     stir(b, by);
     return true;
   }
-  const Vec2 offset = b.body.place - a.body.place;
   const double gap = gapOf(a, b, offset);
   if (gap > a.margin + b.margin) return false;
   // However they turn, they stay within their circles.
