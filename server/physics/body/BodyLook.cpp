@@ -15,11 +15,6 @@ namespace {
 
 constexpr double kTurnInRadians = 6.283185307179586;
 
-bool isSame(const ConvexShape& a, const ConvexShape& b) {
-  return a.count == b.count && a.radius == b.radius &&
-         std::equal(a.vertices.begin(), a.vertices.begin() + a.count, b.vertices.begin());
-}
-
 /// The Object's box as a shape about its position.
 std::vector<ConvexShape> shapeOf(const df::FixedBox& box, double aspect) {
   const double width = df::toCells(box.size.x), height = df::toCells(box.size.y) * aspect;
@@ -47,7 +42,7 @@ void BodyLook::restyle(FrameStyle style) {
 bool BodyLook::isUpToDate(const BodyForm& form, const df::FixedBox& box, double aspect) const {
   if (!m_made || aspect != m_aspect) return false;
   if (form.shapes.empty() && !(box == m_box)) return false;
-  return std::equal(form.shapes.begin(), form.shapes.end(), m_shapes.begin(), m_shapes.end(), isSame);
+  return std::equal(form.shapes.begin(), form.shapes.end(), m_shapes.begin(), m_shapes.end(), isEqual);
 }
 
 void BodyLook::update(const BodyForm& form, const df::FixedBox& box, double aspect, std::uint32_t tick) {

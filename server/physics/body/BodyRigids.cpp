@@ -51,20 +51,20 @@ void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& st
   const bool is_box = form.shapes.empty();
   const std::uint32_t version = state.is_hard ? form.version + 1 : 0;
   if (proxy.id >= 0 && proxy.version == version && (!is_box || proxy.box == box)) return;
-  m_shapes.clear();
-  if (state.is_hard && !is_box) m_shapes = form.shapes;
+  std::span<const ConvexShape> shapes;
+  ConvexShape made;
+  if (state.is_hard && !is_box) shapes = form.shapes;
   if (state.is_hard && is_box) {
     const Vec2 half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
     const Vec2 centre = table.metric.fromCells(Vector::fromFixed(box.corner)) + half;
-    ConvexShape made;
-    if (makeBox(half.x, half.y, centre, {}, 0, made) == ShapeStatus::kOk) m_shapes.push_back(made);
+    if (makeBox(half.x, half.y, centre, {}, 0, made) == ShapeStatus::kOk) shapes = {&made, 1};
   }
   proxy.version = version;
   proxy.box = box;
   if (proxy.id < 0) {
-    proxy.id = m_world.addInOrder(state.order, body, m_shapes);
+    proxy.id = m_world.addInOrder(state.order, body, shapes);
   } else {
-    m_world.setShapes(proxy.id, m_shapes);
+    m_world.setShapes(proxy.id, shapes);
   }
 }
 

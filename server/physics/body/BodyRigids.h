@@ -86,7 +86,6 @@ class BodyRigids {
   BodyObstacles m_obstacles;
   std::vector<FixedBox> m_obstacle_boxes;  // by id
   BodySurroundings m_surroundings;
-  std::vector<naiad::physics::ConvexShape> m_shapes;
   int m_count = 0;
   bool m_may_sleep = true;
 };

@@ -190,6 +190,15 @@ ShapeStatus makeHull(std::span<const Vec2> points, double radius, ConvexShape& s
   return makePolygon({hull.data(), count}, radius, shape);
 }
 
+bool isEqual(const ConvexShape& a, const ConvexShape& b) {
+  const auto count = static_cast<std::ptrdiff_t>(a.count);
+  const auto areEqual = [&](const auto& one, const auto& other) {
+    return std::equal(one.begin(), one.begin() + count, other.begin());
+  };
+  return a.count == b.count && a.radius == b.radius && areEqual(a.vertices, b.vertices) &&
+         areEqual(a.normals, b.normals);
+}
+
 ConvexShape moved(const ConvexShape& shape, Rotation rotation, Vec2 by) {
   ConvexShape result = shape;
   result.reach = 0;
@@ -211,7 +220,19 @@ void turn(const ConvexShape& shape, Rotation rotation, TurnedShape& turned) {
   }
 }
 
-Bounds boundsOf(const TurnedShape& shape) {
+void turn(const ConvexShape& shape, Rotation rotation, std::span<Vec2> corners) {
+  const std::size_t count = at(shape.count);
+  for (std::size_t i = 0; i < count; ++i) {
+    corners[i] = rotation * shape.vertices[i];
+    corners[count + i] = rotation * shape.normals[i];
+  }
+}
+
+TurnedView turnedView(const ConvexShape& shape, std::span<const Vec2> corners) {
+  return {shape.count, shape.radius, shape.reach, corners.data(), corners.data() + shape.count};
+}
+
+Bounds boundsOf(const TurnedView& shape) {
   Bounds bounds = {shape.vertices[0], shape.vertices[0]};
   for (int i = 1; i < shape.count; ++i) {
     const Vec2 v = shape.vertices[at(i)];

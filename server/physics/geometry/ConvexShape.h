@@ -56,19 +56,37 @@ ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape
 /// hull.
 ShapeStatus makeHull(std::span<const Vec2> points, double radius, ConvexShape& shape);
 
+/// Have they the same points and normals, in the same order, and the same radius?
+bool isEqual(const ConvexShape& a, const ConvexShape& b);
+
 /// The same shape elsewhere on its body: turned about the origin, then moved. The caller sees to the limits.
 ConvexShape moved(const ConvexShape& shape, Rotation rotation, Vec2 by);
 
-/// The shape in the axes of the world, still relative to the body's origin: what pairs are tested with. Made
-/// once per body and step. Only the first `count` entries are written.
+/// A shape in the axes of the world, still relative to the body's origin: what pairs are tested with. Points
+/// to what its maker keeps.
+struct TurnedView {
+  std::int32_t count;
+  double radius;
+  double reach;
+  const Vec2* vertices;
+  const Vec2* normals;
+};
+
+/// The same with corners of its own. Made once per body and step. Only the first `count` entries are written.
 struct TurnedShape {
   std::int32_t count;
   double radius;
   double reach;
   std::array<Vec2, kMaxVertices> vertices;
   std::array<Vec2, kMaxVertices> normals;
+
+  operator TurnedView() const { return {count, radius, reach, vertices.data(), normals.data()}; }
 };
 void turn(const ConvexShape& shape, Rotation rotation, TurnedShape& turned);
+/// Into `corners`, of which there are two for each point: first the points, then the normals.
+void turn(const ConvexShape& shape, Rotation rotation, std::span<Vec2> corners);
+/// What the latter has made.
+TurnedView turnedView(const ConvexShape& shape, std::span<const Vec2> corners);
 
 /// The least half width, rounding included: what passes it by more is on its other side.
 double thicknessOf(const ConvexShape& shape);
@@ -78,7 +96,7 @@ struct Bounds {
   Vec2 lower;
   Vec2 upper;
 };
-Bounds boundsOf(const TurnedShape& shape);
+Bounds boundsOf(const TurnedView& shape);
 
 constexpr int following(int index, int count) {
   return index + 1 < count ? index + 1 : 0;

@@ -45,7 +45,7 @@ struct Manifold {
 /// there is a point; if not, of `manifold` only the count is written. `prefers_faces`: two polygons whose
 /// nearest points are corners, yet of which one has an edge in front of the other's, get the two points of
 /// these edges; which corner is the nearest one may be another one before they meet.
-bool collide(const TurnedShape& a, const TurnedShape& b, Vec2 offset, double speculative, ReferenceFace kept,
+bool collide(const TurnedView& a, const TurnedView& b, Vec2 offset, double speculative, ReferenceFace kept,
              Manifold& manifold, bool prefers_faces = false);
 
 /// For a pair that is tested once: turns the shapes first.

@@ -44,7 +44,7 @@ Nearest pointToEdge(Vec2 point, std::int32_t index, Vec2 from, Vec2 to, std::int
 }
 
 // The distance between one edge of each, by their four ends.
-Nearest betweenEdges(const TurnedShape& a, std::int32_t edge_a, const TurnedShape& b, std::int32_t edge_b,
+Nearest betweenEdges(const TurnedView& a, std::int32_t edge_a, const TurnedView& b, std::int32_t edge_b,
                      Vec2 offset) {
   const std::int32_t next_a = following(edge_a, a.count), next_b = following(edge_b, b.count);
   const Vec2 a1 = a.vertices[at(edge_a)], a2 = a.vertices[at(next_a)];
@@ -56,14 +56,14 @@ Nearest betweenEdges(const TurnedShape& a, std::int32_t edge_a, const TurnedShap
   return best;
 }
 
-Separation fromFace(const FaceSeparation& face, const TurnedShape& owner, bool of_a) {
+Separation fromFace(const FaceSeparation& face, const TurnedView& owner, bool of_a) {
   const Vec2 n = owner.normals[at(face.edge)];
   if (of_a) return {face.distance, n, Feature::kFaceA, face.edge, face.support};
   return {face.distance, -n, Feature::kFaceB, face.support, face.edge};
 }
 
 // A capsule's only edge has two sides.
-FaceSeparation facing(const TurnedShape& shape, std::int32_t edge, const TurnedShape& other, Vec2 offset) {
+FaceSeparation facing(const TurnedView& shape, std::int32_t edge, const TurnedView& other, Vec2 offset) {
   if (shape.count > 2) return faceSeparation(shape, edge, other, offset);
   return bestFace(shape, other, offset, std::numeric_limits<double>::infinity());
 }
@@ -77,46 +77,61 @@ Separation fromVertices(Vec2 apart, std::int32_t index_a, std::int32_t index_b) 
 
 }  // namespace
 
-FaceSeparation faceSeparation(const TurnedShape& shape, std::int32_t edge, const TurnedShape& other,
+namespace {
+
+// How near the other shape comes along a normal, and, in faceSeparation(), which of its corners does.
+double leastAlong(Vec2 n, const Vec2* p_corners, std::int32_t count) {
+  double least = dot(n, p_corners[0]);
+  for (std::int32_t j = 1; j < count; ++j) {
+    const double s = dot(n, p_corners[j]);
+    least = s < least ? s : least;
+  }
+  return least;
+}
+
+}  // namespace
+
+FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const TurnedView& other,
                               Vec2 offset) {
   const Vec2 n = shape.normals[at(edge)];
-  double least = dot(n, other.vertices[0]);
+  const Vec2* const p_corners = other.vertices;
+  const std::int32_t count = other.count;
+  double least = dot(n, p_corners[0]);
   std::int32_t support = 0;
-  for (std::int32_t j = 1; j < other.count; ++j) {
-    const double s = dot(n, other.vertices[at(j)]);
+  for (std::int32_t j = 1; j < count; ++j) {
+    const double s = dot(n, p_corners[j]);
     support = s < least ? j : support;
     least = s < least ? s : least;
   }
   return {dot(n, offset) + (least - dot(n, shape.vertices[at(edge)])), edge, support};
 }
 
-FaceSeparation bestFace(const TurnedShape& shape, const TurnedShape& other, Vec2 offset, double enough) {
-  if (shape.count == 1) return {};
+FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 offset, double enough) {
+  const std::int32_t edges = shape.count;
+  if (edges == 1) return {};
   // Which corner it is costs more than how far; it is asked for the best edge alone.
+  const Vec2 *const p_normals = shape.normals, *const p_vertices = shape.vertices;
+  const Vec2* const p_corners = other.vertices;
+  const std::int32_t corners = other.count;
   double most = -std::numeric_limits<double>::infinity();
   std::int32_t best = 0;
-  for (std::int32_t i = 0; i < shape.count; ++i) {
-    const Vec2 n = shape.normals[at(i)];
-    double least = dot(n, other.vertices[0]);
-    for (std::int32_t j = 1; j < other.count; ++j) {
-      const double s = dot(n, other.vertices[at(j)]);
-      least = s < least ? s : least;
-    }
-    const double distance = dot(n, offset) + (least - dot(n, shape.vertices[at(i)]));
+  for (std::int32_t i = 0; i < edges; ++i) {
+    const Vec2 n = p_normals[i];
+    const double distance = dot(n, offset) + (leastAlong(n, p_corners, corners) - dot(n, p_vertices[i]));
     if (distance > most) most = distance, best = i;
     if (distance > enough) break;
   }
-  if (other.count == 1) return {most, best, 0};
+  if (corners == 1) return {most, best, 0};
   return faceSeparation(shape, best, other, offset);
 }
 
-Separation separationFrom(const TurnedShape& a, const TurnedShape& b, Vec2 offset,
-                          const FaceSeparation& face_a, const FaceSeparation& face_b) {
+Separation separationFrom(const TurnedView& a, const TurnedView& b, Vec2 offset, const FaceSeparation& face_a,
+                          const FaceSeparation& face_b) {
   if (a.count == 1 && b.count == 1) return fromVertices(offset + (b.vertices[0] - a.vertices[0]), 0, 0);
   const bool of_a = face_a.distance >= face_b.distance;
   const FaceSeparation& face = of_a ? face_a : face_b;
-  const TurnedShape& owner = of_a ? a : b;
-  const TurnedShape& other = of_a ? b : a;
+  const TurnedView& owner = of_a ? a : b;
+  const TurnedView& other = of_a ? b : a;
   const Vec2 to_other = of_a ? offset : -offset;
   // Polygons that overlap have no corners that are nearest. Two capsules' cores have no area to overlap with;
   // if they cross, the best edge has the other's nearest end in front of it.
@@ -147,7 +162,7 @@ Separation separationFrom(const TurnedShape& a, const TurnedShape& b, Vec2 offse
   return fromVertices(apart, best.index_a, best.index_b);
 }
 
-Separation separation(const TurnedShape& a, const TurnedShape& b, Vec2 offset, double enough) {
+Separation separation(const TurnedView& a, const TurnedView& b, Vec2 offset, double enough) {
   const FaceSeparation face_a = bestFace(a, b, offset, enough);
   if (face_a.distance > enough) return fromFace(face_a, a, true);
   const FaceSeparation face_b = bestFace(b, a, -offset, enough);

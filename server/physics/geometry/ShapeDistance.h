@@ -31,19 +31,19 @@ struct FaceSeparation {
 
 /// One edge of `shape` against all of `other`, whose origin is `offset` from the shape's. The supports are
 /// compared before the offset between the bodies is added, so that equal sizes cancel exactly.
-FaceSeparation faceSeparation(const TurnedShape& shape, std::int32_t edge, const TurnedShape& other,
+FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const TurnedView& other,
                               Vec2 offset);
 /// The best one; ends early with one beyond `enough`. Nothing (−∞) for a shape without edges.
-FaceSeparation bestFace(const TurnedShape& shape, const TurnedShape& other, Vec2 offset, double enough);
+FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 offset, double enough);
 
 /// `offset`: from A's origin to B's. Exact but for rounding, by separating axes and, where the nearest
 /// features are both corners, by the distance between edges that these axes single out. No iteration. Once it
 /// is clear that the distance exceeds `enough` the result may be any lower bound above it, with its axis.
-Separation separation(const TurnedShape& a, const TurnedShape& b, Vec2 offset,
+Separation separation(const TurnedView& a, const TurnedView& b, Vec2 offset,
                       double enough = std::numeric_limits<double>::infinity());
 
 /// The same with `face_a` and `face_b` already known.
-Separation separationFrom(const TurnedShape& a, const TurnedShape& b, Vec2 offset,
-                          const FaceSeparation& face_a, const FaceSeparation& face_b);
+Separation separationFrom(const TurnedView& a, const TurnedView& b, Vec2 offset, const FaceSeparation& face_a,
+                          const FaceSeparation& face_b);
 
 }  // namespace naiad::physics

@@ -17,13 +17,26 @@ namespace {
 constexpr std::int32_t kColours = 64;
 constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 // In thicknesses of the thinner body.
-constexpr double kMaxPush = 0.2;  // per tick: the greatest speed at which overlap is undone
-constexpr double kLinger = 0.01;  // a larger gap ends a contact
+constexpr double kMaxPush = 0.2;      // per tick: the greatest speed at which overlap is undone
+constexpr double kSlowMargin = 0.12;  // what moves by less throws nothing off its path
+constexpr double kLinger = 0.01;      // a larger gap ends a contact
 constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
 constexpr std::size_t kFetched = 8;     // contacts ahead
 constexpr std::size_t kCacheLine = 64;  // bytes
+constexpr std::size_t kFetchedOfBody = 5 * kCacheLine;
 // In what acceleration adds to a speed in a tick: slower impacts do not bounce.
 constexpr float kRest = 2;
+constexpr double kEverywhere = 1e300;  // metric cells
+constexpr double kLarge = 4;           // times the size of another body
+// Of the speed at which two bodies meet: by how much the speed of either may change. What bounces off
+// something heavy leaves as fast as it came.
+constexpr double kStir = 2;
+
+// They are at least so far apart.
+double gapBetween(const Bounds& a, const Bounds& b, Vec2 offset) {
+  return std::max(std::max(offset.x + b.lower.x - a.upper.x, a.lower.x - b.upper.x - offset.x),
+                  std::max(offset.y + b.lower.y - a.upper.y, a.lower.y - b.upper.y - offset.y));
+}
 
 }  // namespace
 
@@ -114,10 +127,10 @@ void SubstepWorld::updatePairs() {
 }
 
 // Brings the gaps up to date, if the bodies have hardly moved against each other since they were found.
-bool SubstepWorld::keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset) {
+bool SubstepWorld::keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset,
+                                 double margin) {
   const double most = kKept * std::min(a.thickness, b.thickness);
-  if (a.margin + b.margin > memory.margin + most || memory.version_a != a.version ||
-      memory.version_b != b.version)
+  if (margin > memory.margin + most || memory.version_a != a.version || memory.version_b != b.version)
     return false;
   const Vec2 moved = offset - memory.offset;
   const auto turnSince = [](Rotation before, Rotation now) { return before.c * now.s - before.s * now.c; };
@@ -136,13 +149,13 @@ bool SubstepWorld::keepsManifold(Memory& memory, const SubstepBody& a, const Sub
 // Do the two shapes touch, or nearly? Their contact is made if there is none yet, or freed.
 bool SubstepWorld::findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
                                 std::int32_t shape_b, Vec2 offset) {
-  if (memory >= 0 && keepsManifold(m_memory[at(memory)], a, b, offset)) return true;
-  const double margin = a.margin + b.margin;
+  const double margin = marginOf(a, b);
+  if (memory >= 0 && keepsManifold(m_memory[at(memory)], a, b, offset, margin)) return true;
   const ReferenceFace kept = memory >= 0 ? m_memory[at(memory)].manifold.reference : ReferenceFace{};
   Manifold manifold;
   turnShapes(a);
   turnShapes(b);
-  if (!collide(a.turned[at(shape_a)], b.turned[at(shape_b)], offset, margin, kept, manifold, true)) {
+  if (!collide(turnedShape(a, shape_a), turnedShape(b, shape_b), offset, margin, kept, manifold, true)) {
     if (memory >= 0) freeMemory(memory);
     return false;
   }
@@ -158,16 +171,110 @@ bool SubstepWorld::findManifold(std::int32_t& memory, SubstepBody& a, SubstepBod
   return true;
 }
 
-void SubstepWorld::updatePair(std::int32_t index) {
-  Pair& pair = m_pairs[at(index)];
+// A long body that lies aslant is far from most of what its box holds: the faces of its shapes say more.
+double SubstepWorld::gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset) {
+  const double gap = gapBetween(a.box, b.box, offset);
+  const bool is_a_large = a.reach > kLarge * b.reach;
+  if (!is_a_large && b.reach <= kLarge * a.reach) return gap;
+  SubstepBody& large = is_a_large ? a : b;
+  const Vec2 to_small = is_a_large ? offset : -offset;
+  turnShapes(large);
+  double nearest = kEverywhere;
+  const std::vector<ConvexShape>& shapes = m_forms[large.form].shapes;
+  for (std::int32_t k = 0; k < static_cast<std::int32_t>(shapes.size()); ++k) {
+    const TurnedView shape = turnedShape(large, k);
+    double most = gap;
+    for (std::size_t i = 0; i < at(shape.count) && shape.count > 2; ++i) {
+      most = std::max(most, dot(shape.normals[i], to_small - shape.vertices[i]) - shape.radius -
+                                (is_a_large ? b : a).reach);
+    }
+    nearest = std::min(nearest, most);
+  }
+  return nearest;
+}
+
+// How far around two bodies their contacts are searched for.
+double SubstepWorld::marginOf(const SubstepBody& a, const SubstepBody& b) const {
+  const double full = a.margin + b.margin;
+  if (a.is_busy && b.is_busy) return full;
+  return std::min(full, calmMargin(a, b) + m_stirs[at(a.state)] + m_stirs[at(b.state)]);
+}
+
+void SubstepWorld::stir(const SubstepBody& b, double by) {
+  if (b.state == 0 || !isMovable(b)) return;
+  double& own = m_stirs[at(rootOf(b.state))];
+  m_has_stirred = m_has_stirred || own < by;
+  own = std::max(own, by);
+}
+
+// May they meet in this step? If they do as soon as one is pushed, that is put off.
+bool SubstepWorld::mayMeet(Pair& pair) {
   SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
   const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
-  if (pair.is_seen || !is_met || (!isMovable(a) && !isMovable(b))) return;
+  if (!is_met || (!isMovable(a) && !isMovable(b))) return false;
+  const Vec2 offset = b.body.place - a.body.place;
+  if (a.is_busy && b.is_busy) {  // they mostly do
+    if (gapBetween(a.box, b.box, offset) > a.margin + b.margin) return false;
+    const bool are_slow = a.margin <= kSlowMargin * a.thickness && b.margin <= kSlowMargin * b.thickness;
+    const double by = are_slow ? 0 : kStir * calmMargin(a, b);
+    stir(a, by);
+    stir(b, by);
+    return true;
+  }
+  const double gap = gapOf(a, b, offset);
+  if (gap > a.margin + b.margin) return false;
+  // However they turn, they stay within their circles.
+  const double rolled = calmMargin(a, b), straight = rolled - a.roll - b.roll;
+  const double nearer = std::min(rolled - gap, straight + a.reach + b.reach - length(offset));
+  if (nearer < 0) {
+    m_calm.push_back({nearer, static_cast<std::int32_t>(&pair - m_pairs.data())});
+    return false;
+  }
+  const double by = std::max({stirOf(a), stirOf(b), kStir * rolled});
+  unite(a, b);
+  stir(a, by);
+  stir(b, by);
+  return true;
+}
+
+// Bodies that fall or fly together do not meet, however fast they are. What may meet something on its own
+// path may come off it, as far as the speed at which they meet says, and with it all that it touches; that is
+// how far around its path further ones are searched for, and then around the paths of those.
+void SubstepWorld::choosePairs() {
+  m_calm.clear();
+  m_stirs.assign(m_states.size(), 0);
+  standAlone();
+  for (Pair& pair : m_pairs) pair.is_examined = !pair.is_jointed && mayMeet(pair);
+  m_joints.visitWorking([&](int a, int b) {
+    if (a >= 0) stir(m_bodies[at(a)], kEverywhere);
+    stir(m_bodies[at(b)], kEverywhere);
+  });
+  for (m_has_stirred = !m_calm.empty(); std::exchange(m_has_stirred, false);) {
+    for (const Calm& calm : m_calm) {
+      const SubstepBody &a = m_bodies[at(m_pairs[at(calm.pair)].a)],
+                        &b = m_bodies[at(m_pairs[at(calm.pair)].b)];
+      stir(b, stirOf(a) + calm.nearer);
+      stir(a, stirOf(b) + calm.nearer);
+    }
+  }
+  for (std::size_t i = 1; i < m_stirs.size(); ++i) m_stirs[i] = m_stirs[at(rootOf(static_cast<int>(i)))];
+  for (const Calm& calm : m_calm) {
+    Pair& pair = m_pairs[at(calm.pair)];
+    const double by = m_stirs[at(m_bodies[at(pair.a)].state)] + m_stirs[at(m_bodies[at(pair.b)].state)];
+    pair.is_examined = calm.nearer + by >= 0;
+  }
+}
+
+void SubstepWorld::updatePair(std::int32_t index) {
+  Pair& pair = m_pairs[at(index)];
+  if (pair.is_seen) return;
+  if (!pair.is_examined && pair.first < 0 && !pair.is_touching) return;
+  SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
+  const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
+  if (!is_met || (!isMovable(a) && !isMovable(b))) return;
   pair.is_seen = true;
   const Vec2 offset = b.body.place - a.body.place;
-  const double margin = a.margin + b.margin;
-  const double reach = a.reach + b.reach + margin;
-  if (pair.is_jointed || lengthSquared(offset) > reach * reach) {
+  if (!pair.is_examined) {
     endPair(pair);
     dropMemory(pair);
     return;
@@ -176,8 +283,10 @@ void SubstepWorld::updatePair(std::int32_t index) {
   bool is_near = false;
   std::int32_t old = pair.first, last = -1;
   pair.first = -1;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(a.turned.size()); ++i) {
-    for (std::int32_t j = 0; j < static_cast<std::int32_t>(b.turned.size()); ++j) {
+  const auto shapes_a = static_cast<std::int32_t>(m_forms[a.form].shapes.size());
+  const auto shapes_b = static_cast<std::int32_t>(m_forms[b.form].shapes.size());
+  for (std::int32_t i = 0; i < shapes_a; ++i) {
+    for (std::int32_t j = 0; j < shapes_b; ++j) {
       std::int32_t memory = -1;
       if (old >= 0 && m_memory[at(old)].shape_a == i && m_memory[at(old)].shape_b == j) {
         memory = old;
@@ -237,6 +346,7 @@ void SubstepWorld::updateContacts() {
   reserveFor(m_memory, m_pairs.size());
   bool is_sorted = !m_is_shuffled;
   for (std::size_t first = 0;;) {
+    choosePairs();
     for (std::int32_t i = 0; i < pairs; ++i) updatePair(i);
     if (!wakeTouched(first)) break;
     first = m_contacts.size();
@@ -305,8 +415,10 @@ void SubstepWorld::fetch(const Contact& contact) const {
     }
   };
   fetchAll(m_memory[at(contact.memory)].manifold);
-  fetchAll(m_bodies[at(contact.a)]);
-  fetchAll(m_bodies[at(contact.b)]);
+  for (const std::int32_t id : {contact.a, contact.b}) {
+    const auto* p_body = reinterpret_cast<const char*>(&m_bodies[at(id)]);
+    for (std::size_t i = 0; i < kFetchedOfBody; i += kCacheLine) __builtin_prefetch(p_body + i);
+  }
 }
 
 void SubstepWorld::fillRows() {
@@ -336,7 +448,7 @@ void SubstepWorld::fillRows() {
     row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
     row.is_held = !isMovable(a) || !isMovable(b);
     const auto gain = [&](const SubstepBody& of) {
-      return of.state > 0 ? std::fabs(of.kick_x) + std::fabs(of.kick_y) : 0.0f;
+      return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
     };
     row.rest = kRest * static_cast<float>(m_options.substeps) * std::max(gain(a), gain(b));
     contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse);
@@ -357,6 +469,7 @@ void SubstepWorld::storeContacts() {
     if (impulse.first < 0) continue;
     Pair& pair = m_pairs[at(contact.pair)];
     pair.is_pushing = true;
+    m_bodies[at(pair.a)].pushed_at = m_bodies[at(pair.b)].pushed_at = m_counters.ticks;
     if (pair.event >= 0) m_events[at(pair.event)].impulse += double{impulse.total};
     if (pair.is_touching) continue;
     pair.is_touching = true;

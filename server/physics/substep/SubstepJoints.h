@@ -31,6 +31,14 @@ class SubstepJoints {
   void solve(std::span<SubstepState> states, bool is_soft);
   /// Writes forces; returns how many broke.
   int end();
+  /// visit(a, b) for every joint that is not broken; a is −1 for a mouse.
+  template <class Visit>
+  void visitWorking(Visit visit) const {
+    for (const Entry& entry : m_entries) {
+      if (!entry.exists || entry.joint.is_broken) continue;
+      visit(entry.joint.kind == JointKind::kMouse ? -1 : entry.joint.a, entry.joint.b);
+    }
+  }
   /// visit(a, b) for every joint of this step; a is −1 for a mouse.
   template <class Visit>
   void visitLinks(Visit visit) const {

@@ -29,11 +29,16 @@ void SubstepWorld::unite(const SubstepBody& a, const SubstepBody& b) {
   }
 }
 
+// Each is a group of its own.
+void SubstepWorld::standAlone() {
+  m_parent.resize(m_states.size());
+  for (std::size_t i = 0; i < m_parent.size(); ++i) m_parent[i] = static_cast<std::int32_t>(i);
+}
+
 // Groups are what joints and contacts that push connect; what cannot move holds them, or drives them if it
 // goes its own way.
 void SubstepWorld::findGroups() {
-  m_parent.resize(m_states.size());
-  for (std::size_t i = 0; i < m_parent.size(); ++i) m_parent[i] = static_cast<std::int32_t>(i);
+  standAlone();
   const auto forEachHold = [&](auto visit) {
     for (const Contact& c : m_contacts) {
       if (m_pairs[at(c.pair)].is_pushing) visit(m_bodies[at(c.a)], m_bodies[at(c.b)]);
@@ -86,8 +91,9 @@ void SubstepWorld::sleep() {
       continue;
     }
     b.is_asleep = true;
-    b.body.velocity = {};
-    b.body.spin = 0;
+    b.body.velocity = b.drift = {};
+    b.body.spin = b.roll = 0;
+    b.is_busy = true;
     b.ring = id;
     if (group.first >= 0) {
       std::swap(b.ring, m_bodies[at(group.first)].ring);

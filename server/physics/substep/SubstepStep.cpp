@@ -15,12 +15,14 @@ constexpr double kFarthest = 1e9;  // metric cells in a step: the limit of timeO
 constexpr double kMaxTurn = 40;    // rad in a step that are swept: bounds the iterations of timeOfImpact()
 // In thicknesses of a body.
 constexpr double kSlack = 0.02;       // least margin of the search for contacts
+constexpr double kSlow = 0.1;         // in a step: contacts are searched for as far as it and others may get
 constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched: its centre passes nothing
 constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
 constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
 
 constexpr double kAhead = 1;  // … and further in the direction in which it goes, at most
 constexpr double kTicksAhead = 2;
+constexpr double kNeverKept = kAhead + 2 * kBoundsSlack;  // at that speed it leaves its bounds in any case
 
 // How far turning moves a corner in this step.
 double rollOf(const SubstepBody& b) {
@@ -80,40 +82,49 @@ void SubstepWorld::begin(int id) {
   b.colours = b.held_colours = 0;
   b.inverse_mass = inverseOf(body.inverse_mass);
   b.inverse_inertia = inverseOf(body.inverse_inertia);
-  b.kick_x = static_cast<float>(m_h * acceleration.x);
-  b.kick_y = static_cast<float>(m_h * acceleration.y);
-  b.spin_kick = static_cast<float>(m_h * spin_gain);
+  b.kick = {static_cast<float>(m_h * acceleration.x), static_cast<float>(m_h * acceleration.y),
+            static_cast<float>(m_h * spin_gain)};
+  m_kicks.push_back(b.kick);
   if (b.proxy < 0) return;
-  b.margin = marginOf(b);
-  const Bounds bounds = boundsNow(b);
-  m_broad.move(b.proxy, gridBounds(body.place, bounds, b.margin), wideBounds(b, bounds));
+  forecast(b);
+  boundNow(b);
+  m_broad.move(b.proxy, gridBounds(body.place, b.box, b.margin), wideBounds(b));
 }
 
-double SubstepWorld::marginOf(const SubstepBody& b) {
+// How far it gets on its own.
+void SubstepWorld::forecast(SubstepBody& b) const {
   const double angle = std::fabs(b.body.spin) + std::fabs(spinGainOf(b.body));
-  const double movement =
-      length(b.body.velocity + 0.5 * accelerationOf(b.body)) + std::min(angle, 2.0) * b.reach;
-  return std::min(movement, b.thickness) + kSlack * b.thickness;
+  b.drift = b.body.velocity + 0.5 * accelerationOf(b.body);
+  b.roll = std::min(angle, 2.0) * b.reach;
+  const double movement = length(b.drift) + b.roll;
+  b.margin = std::min(movement, b.thickness) + kSlack * b.thickness;
+  b.is_busy = !isMovable(b) || movement <= kSlow * b.thickness || b.pushed_at + 1 == m_counters.ticks;
+}
+
+// Two bodies whose gap is wider do not meet, unless something pushes one of them.
+double SubstepWorld::calmMargin(const SubstepBody& a, const SubstepBody& b) {
+  return length(b.drift - a.drift) + a.roll + b.roll + kSlack * (a.thickness + b.thickness);
 }
 
 // Room for the moves of the next steps.
-GridBounds SubstepWorld::wideBounds(const SubstepBody& b, const Bounds& bounds) {
+GridBounds SubstepWorld::wideBounds(const SubstepBody& b) {
   const double most = kAhead * b.thickness;
+  const double speed = std::max(std::fabs(b.body.velocity.x), std::fabs(b.body.velocity.y));
+  if (speed > kNeverKept * b.thickness) return gridBounds(b.body.place, b.box, b.margin);
   const Vec2 ahead = {std::clamp(kTicksAhead * b.body.velocity.x, -most, most),
                       std::clamp(kTicksAhead * b.body.velocity.y, -most, most)};
-  const Bounds swept = {bounds.lower + Vec2{std::min(ahead.x, 0.0), std::min(ahead.y, 0.0)},
-                        bounds.upper + Vec2{std::max(ahead.x, 0.0), std::max(ahead.y, 0.0)}};
+  const Bounds swept = {b.box.lower + Vec2{std::min(ahead.x, 0.0), std::min(ahead.y, 0.0)},
+                        b.box.upper + Vec2{std::max(ahead.x, 0.0), std::max(ahead.y, 0.0)}};
   return gridBounds(b.body.place, swept, b.margin + kBoundsSlack * b.thickness);
 }
 
 // The rotation by the half angle's tangent: of length one for any angle.
 void SubstepWorld::moveStates() {
-  for (const std::int32_t id : m_active) {
-    SubstepBody& b = m_bodies[at(id)];
-    SubstepState& s = m_states[at(b.state)];
+  for (std::size_t i = 1; i < m_states.size(); ++i) {
+    SubstepState& s = m_states[i];
     s.x += m_h * s.vx, s.y += m_h * s.vy;
     const float angle = m_h * s.spin;
-    b.turn += double{angle};
+    m_turns[i] += double{angle};
     const float square = 0.25f * angle * angle;
     const float by = 1 / (1 + square);
     const float cosine = (1 - square) * by, sine = angle * by;
@@ -130,6 +141,7 @@ void SubstepWorld::stepOnce() {
   wakeChanged();
   listActive();
   m_states.assign(1, {});
+  m_kicks.assign(1, {});
   for (const std::int32_t id : m_active) begin(id);
   std::erase_if(m_active, [&](int id) { return m_bodies[at(id)].is_frozen; });
   updatePairs();
@@ -138,12 +150,13 @@ void SubstepWorld::stepOnce() {
   chooseColours();
   fillRows();
   float time = 0;
+  m_turns.assign(m_states.size(), 0);
   m_joints.place(m_states, time);
   for (int i = 0; i < m_options.substeps; ++i) {
-    for (const std::int32_t id : m_active) {
-      const SubstepBody& b = m_bodies[at(id)];
-      SubstepState& s = m_states[at(b.state)];
-      s.vx += b.kick_x, s.vy += b.kick_y, s.spin += b.spin_kick;
+    for (std::size_t state = 1; state < m_states.size(); ++state) {
+      SubstepState& s = m_states[state];
+      const SubstepKick& kick = m_kicks[state];
+      s.vx += kick.x, s.vy += kick.y, s.spin += kick.spin;
     }
     m_joints.warmStart(m_states);
     m_rows.warmStart(m_states);
@@ -156,6 +169,7 @@ void SubstepWorld::stepOnce() {
     m_rows.solve(m_states, m_h, time, false);
   }
   m_rows.bounce(m_states);
+  for (const std::int32_t id : m_active) m_bodies[at(id)].turn = m_turns[at(m_bodies[at(id)].state)];
   finish();
 }
 
@@ -189,23 +203,22 @@ void SubstepWorld::stopFast() {
   m_fast.clear();
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
-    if (b.proxy >= 0 && isFast(b)) m_fast.push_back(id);
+    if (b.proxy >= 0 && isFast(b)) m_fast.push_back({movedBy(b), rollOf(b), b.thickness, id});
   }
   if (m_fast.empty()) return;
   m_paths.clear();
   m_path_ids.clear();
-  const Place& origin = m_bodies[at(m_fast[0])].body.place;
-  for (const std::int32_t id : m_fast) {  // so that they find one another
-    SubstepBody& b = m_bodies[at(id)];
-    b.is_fast = true;
+  m_fastness.assign(m_bodies.size(), Fastness::kSlow);
+  const Place& origin = m_bodies[at(m_fast[0].id)].body.place;
+  for (const Fast& fast : m_fast) {  // so that they find one another
+    m_fastness[at(fast.id)] = Fastness::kFast;
     m_path_ids.push_back(static_cast<int>(m_paths.size()));
-    m_paths.push_back(relativeTo(origin, sweptBounds(b)));
+    m_paths.push_back(relativeTo(origin, sweptBounds(m_bodies[at(fast.id)])));
   }
   m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()));
   for (std::size_t i = 0; i < m_fast.size(); ++i) {
-    if (isMovable(m_bodies[at(m_fast[i])])) stop(m_fast[i], m_paths[i]);
+    if (isMovable(m_bodies[at(m_fast[i].id)])) stop(m_fast[i], m_paths[i]);
   }
-  for (const std::int32_t id : m_fast) m_bodies[at(id)].is_fast = false;
 }
 
 GridBounds SubstepWorld::sweptBounds(const SubstepBody& b) const {
@@ -222,17 +235,27 @@ bool SubstepWorld::areDeep(const SubstepBody& a, const SubstepBody& b) const {
   return isMovable(a) && isMovable(b) && lengthSquared(b.body.place - a.body.place) < near * near;
 }
 
-// Two fast ones that meet both stop there.
-void SubstepWorld::stop(int id, const SweptBox& swept) {
-  SubstepBody& b = m_bodies[at(id)];
-  const Vec2 path = movedBy(b);
+// What may be in its way. Of fast bodies that fly together none is.
+void SubstepWorld::findNear(const Fast& fast, const SweptBox& swept) {
   m_near.clear();
-  m_broad.query(sweptBounds(b), [&](std::uint32_t other) {
-    if (!m_bodies[other].is_fast) m_near.push_back(static_cast<std::int32_t>(other));
+  m_broad.query(sweptBounds(m_bodies[at(fast.id)]), [&](std::uint32_t other) {
+    if (m_fastness[other] == Fastness::kSlow) m_near.push_back(static_cast<std::int32_t>(other));
   });
-  m_path_tree.query(swept, [&](int other) {
-    if (m_fast[at(other)] != id) m_near.push_back(m_fast[at(other)]);
+  m_path_tree.query(swept, [&](int number) {
+    const Fast& other = m_fast[at(number)];
+    if (other.id == fast.id) return;
+    const Vec2 its = m_fastness[at(other.id)] == Fastness::kStopped ? Vec2{} : other.path;
+    const double nearer = length(fast.path - its) + fast.roll + other.roll;
+    if (nearer > kMaxPass * std::min(fast.thickness, other.thickness)) m_near.push_back(other.id);
   });
+}
+
+// Two fast ones that meet both stop there.
+void SubstepWorld::stop(const Fast& fast, const SweptBox& swept) {
+  const std::int32_t id = fast.id;
+  SubstepBody& b = m_bodies[at(id)];
+  const Vec2 path = fast.path;
+  findNear(fast, swept);
   const auto motionOf = [&](const SubstepBody& of) -> RigidMotion {
     if (of.state == 0) return {{}, of.body.rotation, 0};
     if (of.part < 1) return {{}, turned(of.body.rotation, of.part * of.turn), 0};  // where it stops
@@ -241,12 +264,13 @@ void SubstepWorld::stop(int id, const SweptBox& swept) {
   const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
   double first = b.part;
   std::int32_t met = -1;
+  const std::span<const ConvexShape> own_shapes = m_forms[b.form].shapes;
   const bool is_thinned = m_broad.isThinned(b.proxy);
   for (const std::int32_t near : m_near) {
     const SubstepBody& other = m_bodies[at(near)];
     const RigidMotion its = motionOf(other);
     const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
-    if (nearer <= b.margin + other.margin + kMaxPass * std::min(b.thickness, other.thickness)) continue;
+    if (nearer <= marginOf(b, other) + kMaxPass * std::min(b.thickness, other.thickness)) continue;
     if ((is_thinned || m_broad.isThinned(other.proxy)) && areDeep(b, other)) continue;
     const auto pair = findPair(id, near);
     const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
@@ -257,9 +281,8 @@ void SubstepWorld::stop(int id, const SweptBox& swept) {
     // pushed may turn, but its middle passes nothing.
     ConvexShape core;
     if (is_pushing && makeCircle(kCore * b.thickness, {}, core) != ShapeStatus::kOk) continue;
-    for (const ConvexShape& own :
-         is_pushing ? std::span<const ConvexShape>(&core, 1) : std::span<const ConvexShape>(b.shapes)) {
-      for (const ConvexShape& that : other.shapes) {
+    for (const ConvexShape& own : is_pushing ? std::span<const ConvexShape>(&core, 1) : own_shapes) {
+      for (const ConvexShape& that : m_forms[other.form].shapes) {
         const TimeOfImpact impact = timeOfImpact(own, motion, that, its, offset);
         if (impact.status == TimeOfImpactStatus::kApart || impact.time > first) continue;
         const bool is_later = impact.time == first && (met < 0 || m_bodies[at(met)].order < other.order);
@@ -271,9 +294,12 @@ void SubstepWorld::stop(int id, const SweptBox& swept) {
   }
   if (first >= b.part) return;
   b.part = first;
+  m_fastness[at(id)] = Fastness::kStopped;
   ++m_counters.stopped;
   SubstepBody& other = m_bodies[at(met)];  // what comes the other way stops, too
-  if (other.state > 0 && isMovable(other) && isFast(other)) other.part = std::min(other.part, first);
+  if (m_fastness[at(met)] == Fastness::kSlow || !isMovable(other)) return;
+  other.part = std::min(other.part, first);
+  m_fastness[at(met)] = Fastness::kStopped;
 }
 
 // Impulses are floats, which the two bodies of a contact do not feel exactly alike. A group that nothing

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "physics/geometry/Reserve.h"
 namespace naiad::physics {
@@ -30,26 +31,23 @@ int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
   }
   SubstepBody& b = m_bodies[at(id)];
   b = {};
+  b.form = m_forms.take(shapes);
   b.body = body;
   b.body.place = body.place + Vec2{};
   b.order = order;
   b.exists = true;
   b.ring = id;
-  b.shapes.assign(shapes.begin(), shapes.end());
   measure(b);
   enter(id);
   return id;
 }
 
 void SubstepWorld::measure(SubstepBody& b) {
+  const SubstepForm& form = m_forms[b.form];
   ++b.version;
-  b.turned.resize(b.shapes.size());
-  b.reach = 0;
-  b.thickness = b.shapes.empty() ? 0 : kLargestShape;
-  for (const ConvexShape& shape : b.shapes) {
-    b.reach = std::max(b.reach, shape.reach + shape.radius);
-    b.thickness = std::min(b.thickness, thicknessOf(shape));
-  }
+  b.turned.resize(form.corners);
+  b.reach = form.reach;
+  b.thickness = form.thickness;
 }
 
 // Its shapes as they are turned now; only if they are needed, and once.
@@ -58,23 +56,34 @@ void SubstepWorld::turnShapes(SubstepBody& b) {
   b.turned_at = b.body.rotation;
   b.turned_version = b.version;
   b.bounds = {{b.reach, b.reach}, {-b.reach, -b.reach}};
-  for (std::size_t i = 0; i < b.shapes.size(); ++i) {
-    turn(b.shapes[i], b.body.rotation, b.turned[i]);
-    const Bounds own = boundsOf(b.turned[i]);
+  std::span<Vec2> corners = b.turned;
+  for (const ConvexShape& shape : m_forms[b.form].shapes) {
+    turn(shape, b.body.rotation, corners);
+    const Bounds own = boundsOf(turnedView(shape, corners));
     b.bounds.lower = {std::min(b.bounds.lower.x, own.lower.x), std::min(b.bounds.lower.y, own.lower.y)};
     b.bounds.upper = {std::max(b.bounds.upper.x, own.upper.x), std::max(b.bounds.upper.y, own.upper.y)};
+    corners = corners.subspan(2 * at(shape.count));
   }
 }
 
+// As turnShapes() made it last.
+TurnedView SubstepWorld::turnedShape(const SubstepBody& b, std::int32_t number) const {
+  const ConvexShape* const p_shapes = m_forms[b.form].shapes.data();
+  const Vec2* p_corners = b.turned.data();
+  for (std::int32_t i = 0; i < number; ++i) p_corners += 2 * p_shapes[i].count;
+  const ConvexShape& shape = p_shapes[number];
+  return {shape.count, shape.radius, shape.reach, p_corners, p_corners + shape.count};
+}
+
 // A body that has hardly turned since its shapes were keeps its bounds, by so much wider.
-Bounds SubstepWorld::boundsNow(SubstepBody& b) {
+void SubstepWorld::boundNow(SubstepBody& b) {
   const Rotation at = b.turned_at, now = b.body.rotation;
   const double roll = std::fabs(at.c * now.s - at.s * now.c) * b.reach;
   const bool is_near =
       b.turned_version == b.version && roll <= kRollKept * b.thickness && at.c * now.c + at.s * now.s > 0;
   if (!is_near) turnShapes(b);
   const double wider = is_near ? 2 * roll : 0;
-  return {b.bounds.lower - Vec2{wider, wider}, b.bounds.upper + Vec2{wider, wider}};
+  b.box = {b.bounds.lower - Vec2{wider, wider}, b.bounds.upper + Vec2{wider, wider}};
 }
 
 // Into the broad phase.
@@ -82,14 +91,15 @@ void SubstepWorld::enter(int id) {
   SubstepBody& b = m_bodies[at(id)];
   b.is_frozen = b.is_asleep = false;
   b.ring = id;
-  b.still = b.margin = 0;
+  b.still = b.margin = b.roll = 0;
+  b.drift = {};
   m_active_changed = true;
   if (!isMovable(b)) markChanged(id);
-  if (b.shapes.empty()) return;
-  const Bounds bounds = boundsNow(b);
+  if (m_forms[b.form].shapes.empty()) return;
+  boundNow(b);
   const bool moves = isMovable(b);
-  if (moves) b.margin = marginOf(b);
-  const GridBounds wide = moves ? wideBounds(b, bounds) : gridBounds(b.body.place, bounds, 0);
+  if (moves) forecast(b);
+  const GridBounds wide = moves ? wideBounds(b) : gridBounds(b.body.place, b.box, 0);
   b.proxy = m_broad.add(static_cast<std::uint32_t>(id), wide, moves, b.order);
 }
 
@@ -118,9 +128,10 @@ void SubstepWorld::freeze(int id) {
 }
 
 bool SubstepWorld::set(int id, const RigidBody& body) {
-  if (!exists(id) || !isSound(body)) return false;
+  if (!exists(id)) return false;
   SubstepBody& b = m_bodies[at(id)];
   if (b.body == body && !b.is_frozen) return true;
+  if (!isSound(body)) return false;
   const bool was_movable = isMovable(b);
   wakeRing(id);
   b.still = 0;
@@ -132,6 +143,13 @@ bool SubstepWorld::set(int id, const RigidBody& body) {
     enter(id);
   } else if (!was_movable) {
     markChanged(id);
+    b.drift = {};
+    b.roll = 0;
+    b.is_busy = true;
+    if (b.proxy >= 0) {
+      boundNow(b);
+      m_broad.set(b.proxy, gridBounds(b.body.place, b.box, 0));
+    }
   }
   return true;
 }
@@ -141,7 +159,7 @@ bool SubstepWorld::setShapes(int id, std::span<const ConvexShape> shapes) {
   wakeRing(id);
   leave(id);
   SubstepBody& b = m_bodies[at(id)];
-  b.shapes.assign(shapes.begin(), shapes.end());
+  m_forms.giveBack(std::exchange(b.form, m_forms.take(shapes)));
   measure(b);
   enter(id);
   return true;
@@ -157,6 +175,7 @@ bool SubstepWorld::remove(int id) {
     if (joint.b == id || (joint.kind != JointKind::kMouse && joint.a == id)) removeJoint(j);
   }
   leave(id);
+  m_forms.giveBack(std::exchange(m_bodies[at(id)].form, -1));
   m_bodies[at(id)].exists = false;
   return true;
 }

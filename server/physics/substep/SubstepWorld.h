@@ -16,6 +16,7 @@
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
 #include "physics/substep/SubstepBody.h"
+#include "physics/substep/SubstepForms.h"
 #include "physics/substep/SubstepJoints.h"
 
 namespace naiad::physics {
@@ -88,10 +89,21 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t a, b;       // the same, by the order of the bodies
     std::int32_t first = -1;
     bool is_touching = false;
-    bool is_pushing = false;  // in the last step
-    bool is_jointed = false;  // a joint keeps them from touching
-    bool is_seen = false;     // in this step
-    std::int32_t event = -1;  // of this step
+    bool is_pushing = false;   // in the last step
+    bool is_jointed = false;   // a joint keeps them from touching
+    bool is_seen = false;      // in this step
+    std::int32_t event = -1;   // of this step
+    bool is_examined = false;  // in this step: they may meet
+  };
+  struct Calm {     // a pair that is near, but does not meet if nothing pushes it
+    double nearer;  // the gap that is left between them then, negative
+    std::int32_t pair;
+  };
+  enum class Fastness : std::uint8_t { kSlow, kFast, kStopped };
+  struct Fast {  // a body that goes farther in this step than contacts were searched for
+    Vec2 path;
+    double roll, thickness;
+    std::int32_t id;
   };
   struct Turn {  // in the order in which contacts are solved for
     std::uint64_t order_a, order_b;
@@ -116,8 +128,9 @@ class SubstepWorld final : public RigidStepper {
 
   // SubstepWorld.cpp
   void measure(SubstepBody& body);
-  static void turnShapes(SubstepBody& body);
-  static Bounds boundsNow(SubstepBody& body);
+  void turnShapes(SubstepBody& body);
+  TurnedView turnedShape(const SubstepBody& body, std::int32_t number) const;
+  void boundNow(SubstepBody& body);
   void enter(int id);
   void leave(int id);
   void freeze(int id);
@@ -135,9 +148,11 @@ class SubstepWorld final : public RigidStepper {
   void stopFast();
   GridBounds sweptBounds(const SubstepBody& body) const;
   bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
-  void stop(int id, const SweptBox& swept);
-  static double marginOf(const SubstepBody& body);
-  static GridBounds wideBounds(const SubstepBody& body, const Bounds& bounds);
+  void findNear(const Fast& fast, const SweptBox& swept);
+  void stop(const Fast& fast, const SweptBox& swept);
+  void forecast(SubstepBody& body) const;
+  static double calmMargin(const SubstepBody& a, const SubstepBody& b);
+  static GridBounds wideBounds(const SubstepBody& body);
   Vec2 movedBy(const SubstepBody& body) const;
 
   // SubstepContacts.cpp
@@ -146,8 +161,15 @@ class SubstepWorld final : public RigidStepper {
   void wakeChanged();
   void updateContacts();
   bool wakeTouched(std::size_t first_contact);
+  bool mayMeet(Pair& pair);
+  double gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset);
+  void stir(const SubstepBody& body, double by);
+  void choosePairs();
+  double stirOf(const SubstepBody& b) { return m_stirs[at(rootOf(b.state))]; }
+  double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);
-  static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset);
+  static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset,
+                            double margin);
   bool findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
                     std::int32_t shape_b, Vec2 offset);
   void sequence(bool is_sorted);
@@ -161,6 +183,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<Pair>::const_iterator findPair(std::int32_t one, std::int32_t other) const;
 
   // SubstepSleep.cpp
+  void standAlone();
   void findGroups();
   int rootOf(int state);
   Group& groupOf(const SubstepBody& b) { return m_groups[at(rootOf(b.state))]; }
@@ -169,14 +192,20 @@ class SubstepWorld final : public RigidStepper {
 
   SubstepOptions m_options;
   std::vector<SubstepBody> m_bodies;
+  SubstepForms m_forms;
   std::vector<std::int32_t> m_free;
   std::vector<std::int32_t> m_active;  // ids of those that move in this step, by order
   std::vector<std::int32_t> m_changed;
   std::vector<std::int32_t> m_near;
-  std::vector<std::int32_t> m_fast;  // in this step
+  std::vector<Fast> m_fast;
+  std::vector<Fastness> m_fastness;  // by id
   std::vector<SweptBox> m_paths;     // of those, in grid units about the first of them
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
+  std::vector<SubstepKick> m_kicks;  // by state
+  std::vector<double> m_turns;       // likewise: rad, since the step began
+  std::vector<Calm> m_calm;
+  std::vector<double> m_stirs;         // by state: how far off its own path a body may come in this step
   std::vector<SubstepState> m_states;  // the first one is of all that does not move
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
@@ -195,6 +224,7 @@ class SubstepWorld final : public RigidStepper {
   float m_h = 0.25f;
   bool m_active_changed = false;
   bool m_joints_changed = false;
+  bool m_has_stirred = false;
   bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of what they lie on
 };
 

@@ -49,7 +49,7 @@ class Noisy : public Body {
 };
 
 constexpr std::uint64_t kHash = 6520666502918001343u;
-constexpr std::uint64_t kFastHash = 971736614138628552u;
+constexpr std::uint64_t kFastHash = 15268844417406069030u;
 
 std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
   World world;

@@ -1,0 +1,86 @@
+// Which pairs a SubstepWorld examines, and whose shapes it does that with.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "tests/server/physics/substep/SubstepScene.h"
+
+namespace naiad::physics::test {
+namespace {
+
+std::vector<int> addCloud(SubstepScene& scene, double speed) {
+  std::vector<int> ids;
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  for (int i = 0; i < 100; ++i) {
+    RigidBody body = movable({1.3 * (i % 10), -5 - 1.3 * (i / 10)}, crate);
+    body.velocity = {0, speed};
+    ids.push_back(scene.add(body, crate));
+  }
+  return ids;
+}
+
+TEST(SubstepSearch, BodiesThatFallTogetherAreNotExamined) {
+  SubstepScene scene(awake());
+  addCloud(scene, 0.9);
+  scene.ticks(20);
+  EXPECT_EQ(scene.world.counters().contacts, 0);
+}
+
+// Those above meet in the same tick the ones that have been stopped by the floor.
+TEST(SubstepSearch, WhatIsStoppedIsFoundByWhatComesAfterIt) {
+  SubstepScene scene(awake());
+  scene.addFloor();
+  addCloud(scene, 0.3);
+  double deepest = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    scene.ticks(1);
+    deepest = std::max(deepest, scene.world.deepest());
+  }
+  EXPECT_GT(scene.world.counters().contacts, 1000);
+  EXPECT_LT(deepest, 0.1);
+}
+
+// One comes from the side and faster than the cloud moves.
+TEST(SubstepSearch, WhatIsHitInFlightHitsTheNext) {
+  SubstepScene scene(awake());
+  const std::vector<int> ids = addCloud(scene, 0.9);
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  RigidBody body = movable({-3, -5}, crate);
+  body.velocity = {0.8, 0.9};
+  body.inverse_mass = 0.01;
+  scene.add(body, crate);
+  double deepest = 0;
+  for (int tick = 0; tick < 30; ++tick) {
+    scene.ticks(1);
+    deepest = std::max(deepest, scene.world.deepest());
+  }
+  EXPECT_LT(deepest, 0.1);
+  EXPECT_GT(scene.world.body(ids[9]).velocity.x, 0.1);  // the last of the row that it ran into
+}
+
+TEST(SubstepSearch, AnImmovableBodyThatWasMovedIsFoundWhereItIs) {
+  SubstepScene scene(awake());
+  const int shelf = scene.add(immovable({100, 5}), boxShape(5, 0.5));
+  const int crate = scene.addCrate({0, 0});
+  scene.ticks(5);
+  ASSERT_TRUE(scene.world.set(shelf, immovable({0, 5})));
+  scene.ticks(60);
+  EXPECT_NEAR(scene.at(crate).y, 4, 0.05);
+}
+
+TEST(SubstepSearch, BodiesOfEqualShapesKeepTheirOwn) {
+  SubstepScene scene(awake());
+  scene.addFloor();
+  const int first = scene.addCrate({0, -0.5}), second = scene.addCrate({5, -0.5});
+  const ConvexShape low = boxShape(0.5, 0.25);
+  ASSERT_TRUE(scene.world.setShapes(first, std::span(&low, 1)));
+  ASSERT_TRUE(scene.world.remove(scene.addCrate({10, -0.5})));
+  scene.ticks(40);
+  EXPECT_NEAR(scene.at(first).y, -0.25, 0.02);
+  EXPECT_NEAR(scene.at(second).y, -0.5, 0.02);
+}
+
+}  // namespace
+}  // namespace naiad::physics::test
