@@ -26,7 +26,8 @@ class TruthRecorder {
 
   /// Before a snapshot of `tick` is applied to `replica`.
   void beforeSnapshot(const Replica& replica, std::uint32_t tick);
-  /// After a snapshot of `tick` was. `complete` says its header; `skips`: may ticks be skipped from here on?
+  /// After a snapshot of `tick` was. `complete`: all that the server has sent is there (WholePicture.h);
+  /// `skips`: may ticks be skipped from here on?
   void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
   /// No further snapshot comes.
   void finish(const Replica& replica);

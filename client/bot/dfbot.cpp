@@ -16,6 +16,7 @@
 
 #include "client/bot/BotPlayer.h"
 #include "client/bot/TruthRecorder.h"
+#include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
 #include "client/session/ExitCode.h"
 #include "client/session/TrustOptions.h"
@@ -73,9 +74,13 @@ class Bot {
         if (!m_first_tick) m_first_tick = tick;
         m_heard_at = Clock::now();
       });
-      session.onAfterSnapshot([this, &session](const naiad::SnapshotHeader& header, const naiad::AckWindow&) {
-        m_recorder.afterSnapshot(header.tick, header.complete, !session.hasDatagrams(Clock::now()));
-      });
+      m_picture = naiad::WholePicture();
+      session.onAfterSnapshot(
+          [this, &session](const naiad::SnapshotHeader& header, const naiad::AckWindow& acks) {
+            const auto before = session.welcome().continuation.value_or(naiad::Continuation());
+            m_picture.addSnapshot(header, acks, before.snapshot);
+            m_recorder.afterSnapshot(header.tick, m_picture.isWhole(), !session.hasDatagrams(Clock::now()));
+          });
     });
     m_connection.start();
   }
@@ -156,6 +161,7 @@ class Bot {
   int m_index;
   naiad::Connection m_connection;
   naiad::TruthRecorder m_recorder;
+  naiad::WholePicture m_picture;
   std::optional<std::uint32_t> m_first_tick;
   int m_sessions = 0;
   Clock::time_point m_joined_at{};

@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "client/bot/BotPlayer.h"
+#include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
 #include "host/journal/OpenRound.h"
 #include "host/program/Journals.h"
 #include "server/replay/PictureReel.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Verify.h"
-#include "tests/support/WholePicture.h"
 
 namespace naiad::test {
 
@@ -68,14 +68,11 @@ class RecoveryClient {
         m_player(seed, 80, 24) {
     m_connection.onSession([this](ClientSession& session) {
       m_whole = WholePicture();
-      m_begun = false;
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
         if (tick != m_whole.tick()) keepPicture(session);
       });
       session.onAfterSnapshot([this, &session](const SnapshotHeader& header, const AckWindow& acks) {
-        const auto& continuation = session.welcome().continuation;
-        if (!std::exchange(m_begun, true) && continuation) m_whole = WholePicture(continuation->snapshot);
-        m_whole.addSnapshot(header, acks);
+        m_whole.addSnapshot(header, acks, session.welcome().continuation.value_or(Continuation()).snapshot);
       });
     });
     m_connection.start();
@@ -125,7 +122,6 @@ class RecoveryClient {
   RandomPlayer m_player;
   Clock::time_point m_next_key;
   WholePicture m_whole;
-  bool m_begun = false;  ///< a snapshot of this session has come
   std::optional<df::Canvas> m_picture;
   std::uint32_t m_picture_tick = 0;
   const ClientSession* m_p_before = nullptr;

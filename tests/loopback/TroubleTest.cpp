@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <fstream>
@@ -285,6 +286,12 @@ TEST_F(Trouble, AWorldThatCrashesLeavesTheSameLines) {
   press(*ann, df::Keyboard::H);
   EXPECT_TRUE(logs(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
       << game->log();
+  EXPECT_TRUE(serve([&] {
+    const auto& chat = ann->session().chat();
+    return std::any_of(chat.begin(), chat.end(), [](const ChatEntry& entry) {
+      return entry.name.empty() && entry.text.find("everything stands still") != std::string::npos;
+    });
+  })) << "its player knows";
   EXPECT_TRUE(logs("the game did not answer any more in tick ")) << game->log();
 }
 

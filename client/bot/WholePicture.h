@@ -10,20 +10,18 @@
 #include "shared/replica/Acks.h"
 #include "shared/replica/SnapshotCodec.h"
 
-namespace naiad::test {
+namespace naiad {
 
 class WholePicture {
  public:
-  /// `before`: number of the newest snapshot that was sent before those to come.
-  explicit WholePicture(std::uint32_t before = 0) : m_before(before) {}
-
-  /// A snapshot was applied; `acks`: what has arrived by now, that one included.
-  void addSnapshot(const SnapshotHeader& header, const AckWindow& acks) {
+  /// A snapshot was applied. `acks`: what has arrived by now, that one included. `before`: number of the
+  /// newest that was sent before this session's.
+  void addSnapshot(const SnapshotHeader& header, const AckWindow& acks, std::uint32_t before = 0) {
     if (header.number == acks.newest) {
       m_complete = header.complete;
       m_tick = header.tick;
     }
-    m_whole = m_complete && hasAll(acks);
+    m_whole = m_complete && hasAll(acks, before);
   }
   bool isWhole() const { return m_whole; }
   /// Of the newest snapshot, by number. Late ones do not change it.
@@ -32,17 +30,16 @@ class WholePicture {
  private:
   /// Those that the window has left count as arrived: the sender took them for lost, and sent what they said
   /// again, before it called a snapshot complete.
-  bool hasAll(const AckWindow& acks) const {
-    const auto between = static_cast<std::int32_t>(acks.newest - m_before) - 1;
+  static bool hasAll(const AckWindow& acks, std::uint32_t before) {
+    const auto between = static_cast<std::int32_t>(acks.newest - before) - 1;
     if (between <= 0) return between == 0;
     const std::uint64_t all = between >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << between) - 1;
     return (acks.mask & all) == all;
   }
 
-  std::uint32_t m_before;
   std::uint32_t m_tick = 0;
   bool m_complete = false;  ///< the newest snapshot
   bool m_whole = false;
 };
 
-}  // namespace naiad::test
+}  // namespace naiad

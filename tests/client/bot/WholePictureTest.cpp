@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "client/bot/WholePicture.h"
+
+namespace naiad {
+namespace {
+
+/// Applies snapshots of one tick each: the numbers, and which of them are complete.
+class WholePictureTest : public testing::Test {
+ protected:
+  bool addSnapshot(std::uint32_t number, bool complete) {
+    acks.addReceived(number);
+    SnapshotHeader header;
+    header.number = number;
+    header.tick = 100 + number;
+    header.complete = complete;
+    picture.addSnapshot(header, acks);
+    return picture.isWhole();
+  }
+  WholePicture picture;
+  AckWindow acks;
+};
+
+TEST_F(WholePictureTest, NeedsACompleteSnapshotAndAllBeforeIt) {
+  EXPECT_FALSE(picture.isWhole());
+  EXPECT_FALSE(addSnapshot(1, false));
+  EXPECT_TRUE(addSnapshot(2, true));
+  EXPECT_FALSE(addSnapshot(4, true)) << "what was in 3 is not there";
+  EXPECT_TRUE(addSnapshot(3, false)) << "now it is, and 4 is complete";
+}
+
+TEST_F(WholePictureTest, ALateSnapshotDoesNotTakeThePictureBack) {
+  addSnapshot(1, true);
+  addSnapshot(5, true);
+  EXPECT_FALSE(addSnapshot(3, true));
+  EXPECT_EQ(picture.tick(), 105u);
+}
+
+TEST_F(WholePictureTest, IsNotWholeBeforeTheFirstSnapshotsHaveCome) {
+  EXPECT_FALSE(addSnapshot(2, true)) << "the world was in 1, on the stream";
+  EXPECT_TRUE(addSnapshot(1, false));
+}
+
+TEST_F(WholePictureTest, LacksWhatIsMissingForAsLongAsItCanBeUnderWay) {
+  addSnapshot(1, true);
+  for (std::uint32_t number = 3; number <= 66; ++number) EXPECT_FALSE(addSnapshot(number, true)) << number;
+  EXPECT_TRUE(addSnapshot(67, true)) << "by then what was in 2 was sent again";
+}
+
+TEST_F(WholePictureTest, OfASessionThatGoesOnNeedsNothingThatWasSentBefore) {
+  acks.addReceived(8);
+  SnapshotHeader header;
+  header.number = 8;
+  header.complete = true;
+  picture.addSnapshot(header, acks, 6);
+  EXPECT_FALSE(picture.isWhole()) << "7 is missing";
+  picture.addSnapshot(header, acks, 7);
+  EXPECT_TRUE(picture.isWhole());
+}
+
+}  // namespace
+}  // namespace naiad
