@@ -55,6 +55,17 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   return message;
 }
 
+// A redirect that is none is a refusal without one.
+std::optional<ServerMessageValue> check(const wire::Refused& wire) {
+  RefusedMessage message{wire.reason() == wire::Refused::BUSY, wire.reason() == wire::Refused::PASSWORD,
+                         safeText(wire.sentence(), kMaxSentenceLength)};
+  const bool may_redirect = wire.reason() == wire::Refused::FULL || wire.reason() == wire::Refused::REDIRECT;
+  if (!may_redirect || wire.redirect().empty()) return message;
+  const auto parsed = JoinLink::parse(wire.redirect());
+  if (const auto* const p_link = std::get_if<JoinLink>(&parsed)) message.redirect = *p_link;
+  return message;
+}
+
 std::optional<ServerMessageValue> check(const wire::PlayerList& wire, std::uint32_t number) {
   if (wire.players_size() > static_cast<int>(kMaxPlayers)) return std::nullopt;
   PlayersMessage message;
@@ -95,9 +106,7 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
     case wire::ServerMessage::kPlayers:
       return check(wire.players(), wire.number());
     case wire::ServerMessage::kRefused:
-      return RefusedMessage{wire.refused().reason() == wire::Refused::BUSY,
-                            wire.refused().reason() == wire::Refused::PASSWORD,
-                            safeText(wire.refused().sentence(), kMaxSentenceLength)};
+      return check(wire.refused());
     case wire::ServerMessage::kGoodbye:
       return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength),
                             std::chrono::seconds(std::min(wire.goodbye().again_seconds(), kMaxAgainSeconds))};

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "shared/net/stream/JoinLink.h"
 #include "shared/values/Color.h"
 
 namespace naiad {
@@ -51,6 +52,7 @@ struct RefusedMessage {
   bool for_now = false;   ///< another attempt in a moment may succeed
   bool password = false;  ///< it was missing or wrong
   std::string sentence;
+  std::optional<JoinLink> redirect = {};  ///< to another server that has a place
 };
 
 struct GoodbyeMessage {

@@ -2,6 +2,7 @@
 // them may be trusted.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/Fingerprint.h"
+#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 
@@ -36,6 +38,15 @@ class StreamOpener {
   /// Why the server behind the newest stream of open() is not trusted, for people; empty if it is. Nothing
   /// may be sent to one that is not.
   virtual std::string whyUntrusted() const = 0;
+  /// How a client goes on to another server.
+  struct Next {
+    std::unique_ptr<StreamOpener> opener;  ///< null: it does not
+    std::chrono::milliseconds wait{0};     ///< before its first attempt
+  };
+  /// To the server of the link, where that of the newest stream has sent the client. Not from there to a
+  /// third one.
+  virtual Next follow(const JoinLink& /*link*/) { return {}; }
+
   /// The newest attempt of open() was hung up on before the server could speak, as where too many come from
   /// one place: another one may do.
   virtual bool wasHungUpOn() const = 0;
