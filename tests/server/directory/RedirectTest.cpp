@@ -41,7 +41,7 @@ class RedirectTest : public testing::Test {
   }
   std::string pins() const { return readSmallFile(home.knownServers(), 10'000).value_or(""); }
   void pin(std::uint16_t port, const Fingerprint& key) const {
-    PeerFacts facts{.key = key};
+    const PeerFacts facts{.key = key, .chain_verifies = false, .chain_problem = {}};
     KnownServers(home.knownServers()).admit("127.0.0.1", port, facts, key);
   }
 
