@@ -189,7 +189,7 @@ void Connection::checkPending() {
 
 void Connection::checkRefusal(const ClientSession& refused) {
   if (refused.isRefusedForNow()) return waitForServer(refused.sentence());
-  if (refused.redirect() && followRedirect(*refused.redirect())) return;
+  if (!refused.redirect().empty() && followRedirect(refused.redirect())) return;
   // The player is asked for a password of the server that they have named, and of no other.
   m_password_refused = refused.isPasswordRefused() && !m_redirected;
   finish(State::kRefused, refused.sentence());
@@ -197,12 +197,12 @@ void Connection::checkRefusal(const ClientSession& refused) {
 
 // Who sends the client there may lie. So the other server gets its name, and nothing that was meant for this
 // one.
-bool Connection::followRedirect(const JoinLink& link) {
+bool Connection::followRedirect(const std::string& link) {
   if (m_state != State::kJoining) return false;
   StreamOpener::Next next = m_opener->follow(link);
   if (!next.opener) return false;
   m_opener = std::move(next.opener);
-  m_address = {link.where.host, link.where.port};
+  m_address = std::move(next.address);
   m_redirected = true;
   m_options.password.clear();
   m_options.resume_token.clear();

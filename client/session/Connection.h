@@ -106,7 +106,7 @@ class Connection {
   void tryLater(Time now);
   void checkPending();
   void checkRefusal(const ClientSession& refused);
-  bool followRedirect(const JoinLink& link);
+  bool followRedirect(const std::string& link);
   void waitForServer(const std::string& sentence);
   void finish(State state, const std::string& sentence);
 

@@ -16,6 +16,7 @@ constexpr std::uint32_t kMaxRttMillis = 99999;
 constexpr std::size_t kMaxTokenLength = 64;
 constexpr std::uint32_t kMaxGraceMillis = 3'600'000;
 constexpr std::uint32_t kMaxAgainSeconds = 600;
+constexpr std::size_t kMaxRedirect = 512;  // bytes of a link
 
 bool isColor(std::uint32_t color) {
   return color < static_cast<std::uint32_t>(df::kColorCount);
@@ -55,14 +56,11 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   return message;
 }
 
-// A redirect that is none is a refusal without one.
 std::optional<ServerMessageValue> check(const wire::Refused& wire) {
   RefusedMessage message{wire.reason() == wire::Refused::BUSY, wire.reason() == wire::Refused::PASSWORD,
                          safeText(wire.sentence(), kMaxSentenceLength)};
   const bool may_redirect = wire.reason() == wire::Refused::FULL || wire.reason() == wire::Refused::REDIRECT;
-  if (!may_redirect || wire.redirect().empty()) return message;
-  const auto parsed = JoinLink::parse(wire.redirect());
-  if (const auto* const p_link = std::get_if<JoinLink>(&parsed)) message.redirect = *p_link;
+  if (may_redirect && wire.redirect().size() <= kMaxRedirect) message.redirect = wire.redirect();
   return message;
 }
 

@@ -13,7 +13,6 @@
 #include <variant>
 #include <vector>
 
-#include "shared/net/stream/JoinLink.h"
 #include "shared/values/Color.h"
 
 namespace naiad {
@@ -52,7 +51,8 @@ struct RefusedMessage {
   bool for_now = false;   ///< another attempt in a moment may succeed
   bool password = false;  ///< it was missing or wrong
   std::string sentence;
-  std::optional<JoinLink> redirect = {};  ///< to another server that has a place
+  /// To another server that has a place: a link (JoinLink.h), as the server wrote it. Empty: none.
+  std::string redirect = {};
 };
 
 struct GoodbyeMessage {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "client/trust/ServerAddress.h"
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/Fingerprint.h"
-#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 
@@ -41,11 +41,12 @@ class StreamOpener {
   /// How a client goes on to another server.
   struct Next {
     std::unique_ptr<StreamOpener> opener;  ///< null: it does not
-    std::chrono::milliseconds wait{0};     ///< before its first attempt
+    ServerAddress address;
+    std::chrono::milliseconds wait{0};  ///< before its first attempt
   };
   /// To the server of the link, where that of the newest stream has sent the client. Not from there to a
   /// third one.
-  virtual Next follow(const JoinLink& /*link*/) { return {}; }
+  virtual Next follow(const std::string& /*link*/) { return {}; }
 
   /// The newest attempt of open() was hung up on before the server could speak, as where too many come from
   /// one place: another one may do.

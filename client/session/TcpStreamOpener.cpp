@@ -3,11 +3,13 @@
 #include <asio/io_context.hpp>
 #include <random>
 #include <utility>
+#include <variant>
 
 #include "client/trust/KnownServers.h"
 #include "shared/net/base/AddressRange.h"
 #include "shared/net/base/AddressReach.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 TcpStreamOpener::TcpStreamOpener(asio::io_context& context, ServerAddress address, ServerTrust trust,
@@ -28,22 +30,25 @@ void TcpStreamOpener::open(Done done) {
           });
 }
 
-StreamOpener::Next TcpStreamOpener::follow(const JoinLink& link) {
+StreamOpener::Next TcpStreamOpener::follow(const std::string& link) {
   const bool may = !m_trust.stays && !m_trust.insecure && !m_visit && m_peer;
-  if (!may || !link.room.empty() || link.where.port < kLeastFollowedPort) return {};
+  const auto parsed = JoinLink::parse(link);
+  const auto* const p_link = std::get_if<JoinLink>(&parsed);
+  if (!may || p_link == nullptr || !p_link->room.empty() || p_link->where.port < kLeastFollowedPort)
+    return {};
   ServerTrust trust;
-  trust.link_key = link.key;
+  trust.link_key = p_link->key;
   trust.known_servers = m_trust.known_servers;
   trust.pins = false;
   trust.stays = true;
-  auto opener = std::make_unique<TcpStreamOpener>(m_context, ServerAddress{link.where.host, link.where.port},
-                                                  std::move(trust), std::nullopt);
+  const ServerAddress address{p_link->where.host, p_link->where.port};
+  auto opener = std::make_unique<TcpStreamOpener>(m_context, address, std::move(trust), std::nullopt);
   const auto is_allowed = [from = *m_peer](const asio::ip::address& to) { return maySendTo(from, to); };
   opener->m_connector.restrict(is_allowed);
   opener->m_second_connector.restrict(is_allowed);
   std::random_device random;
   std::uniform_int_distribution<int> wait(0, static_cast<int>(kMaxFollowWait.count()));
-  return {std::move(opener), std::chrono::milliseconds(wait(random))};
+  return {std::move(opener), address, std::chrono::milliseconds(wait(random))};
 }
 
 void TcpStreamOpener::connect(TcpConnector& connector, Done done) {

@@ -34,7 +34,7 @@ class TcpStreamOpener : public StreamOpener {
   /// Not for a visitor, whose door leads to its own servers; not without encryption, nor from a server to
   /// which another one has sent the client, nor to a port of the system's. Addresses there are never nearer
   /// than this server's.
-  Next follow(const JoinLink& link) override;
+  Next follow(const std::string& link) override;
   bool wasHungUpOn() const override { return m_connector.wasHungUpOn(); }
 
   /// Of servers that are sent many clients at once, as after another one's end.

@@ -131,9 +131,12 @@ TEST_F(DirectoryTest, WhatIsWrongIsASentenceAndACode) {
   };
   expectRefusal({"--help"}, 0, "--list");
   expectRefusal({}, 2, "--bus is wanted");
-  expectRefusal({"--bus", "nats://127.0.0.1:1"}, 2, "--list is wanted");
+  expectRefusal({"--bus", "nats://127.0.0.1:1"}, 2, "--list or --listen is wanted");
   expectRefusal({"--bus", "http://127.0.0.1", "--list", folder / "list"}, 2, "nats://HOST:PORT");
   expectRefusal({"--bsu", "x"}, 2, "--bus");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--listen", "localhost:1"}, 2, "ADDRESS:PORT");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--listen", "192.0.2.1:0", "--identity", folder / "key"}, 4,
+                "192.0.2.1");
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder / "none" / "list"}, 5, "cannot be written");
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder}, 5, "cannot be written");
 }
