@@ -44,8 +44,8 @@ class StreamOpener {
     ServerAddress address;
     std::chrono::milliseconds wait{0};  ///< before its first attempt
   };
-  /// To the server of the link, where that of the newest stream has sent the client. Not from there to a
-  /// third one.
+  /// To the server of the link (JoinLink.h; a stranger's text), where that of the newest stream has sent the
+  /// client. Not from there to a third one.
   virtual Next follow(const std::string& /*link*/) { return {}; }
 
   /// The newest attempt of open() was hung up on before the server could speak, as where too many come from
