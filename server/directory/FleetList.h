@@ -57,7 +57,7 @@ class FleetList {
   const Presence* roomiest(const Wish& wish) const;
   /// Is there a server for such players, be it full or closed?
   bool plays(const Wish& wish) const;
-  /// Those of which three quarters are taken, or which let nobody in.
+  /// Those of which three quarters are taken, or which let no players in.
   std::vector<Presence> crowded() const;
 
   std::vector<Presence> servers() const;

@@ -11,7 +11,9 @@ namespace {
 
 AddressReach reachOfIPv4(const asio::ip::address_v4& address) {
   const std::uint32_t bits = address.to_uint();
-  const auto begins = [bits](std::uint32_t prefix, int length) { return bits >> (32 - length) == prefix >> (32 - length); };
+  const auto begins = [bits](std::uint32_t prefix, int length) {
+    return bits >> (32 - length) == prefix >> (32 - length);
+  };
   if (begins(0xe0000000, 3)) return AddressReach::kNone;  // 224/4 multicast, 240/4 reserved
   if (begins(0x7f000000, 8) || begins(0, 8)) return AddressReach::kSelf;
   const bool is_private = begins(0x0a000000, 8) || begins(0xac100000, 12) || begins(0xc0a80000, 16) ||
@@ -26,7 +28,8 @@ asio::ip::address_v4 carried(const asio::ip::address_v6::bytes_type& bytes, std:
 AddressReach reachOfIPv6(const asio::ip::address_v6& address) {
   constexpr std::array<std::uint8_t, 12> kNat64{0, 0x64, 0xff, 0x9b};
   const auto bytes = address.to_bytes();
-  if (std::equal(kMappedIPv4.begin(), kMappedIPv4.end(), bytes.begin())) return reachOfIPv4(carried(bytes, 12));
+  if (std::equal(kMappedIPv4.begin(), kMappedIPv4.end(), bytes.begin()))
+    return reachOfIPv4(carried(bytes, 12));
   if (std::equal(kNat64.begin(), kNat64.end(), bytes.begin())) return reachOfIPv4(carried(bytes, 12));
   if (bytes[0] == 0x20 && bytes[1] == 0x02) return reachOfIPv4(carried(bytes, 2));
   if (address.is_loopback() || address.is_unspecified()) return AddressReach::kSelf;

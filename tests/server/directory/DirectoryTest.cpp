@@ -91,7 +91,7 @@ TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
   EXPECT_EQ(listed().front().name, "berlin");
   berlin.signal(SIGTERM);
   berlin.wait();
-  EXPECT_TRUE(waitFor([&] { return listed().empty(); })) << "it has said that it lets nobody in";
+  EXPECT_TRUE(waitFor([&] { return listed().empty(); })) << "it has said that it lets no players in";
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0) << directory->printed();
   EXPECT_FALSE(std::filesystem::exists(folder / "servers.json")) << "a list that is not kept up";

@@ -129,7 +129,7 @@ TEST_F(FleetFilesTest, EachServerSaysAndHearsItsOwnAlone) {
     EXPECT_TRUE(waitFor([&] { return nats->log().find(said) != std::string::npos; })) << said << nats->log();
 }
 
-TEST_F(FleetFilesTest, WithoutItsAuthorityOrPasswordNobodyIsOnTheBus) {
+TEST_F(FleetFilesTest, WithoutItsAuthorityOrPasswordTheBusIsClosed) {
   const std::string url = urlIn("servers/tron-1.conf");
   const std::string without = "tls://" + url.substr(url.find('@') + 1);
   const auto stranger = connectBus({without, "", folder / "bus" / "ca.pem"});

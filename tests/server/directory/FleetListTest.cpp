@@ -102,7 +102,7 @@ TEST(FleetListTest, APlaceIsTakenBeforeTheServerHasCountedThePlayer) {
   EXPECT_EQ(chosen(list), "a") << "they did not come";
 }
 
-TEST(FleetListTest, NobodyIsSentWhereTheyWouldNotPlay) {
+TEST(FleetListTest, PlayersAreSentOnlyWhereTheyCanPlay) {
   struct Case {
     const char* why;
     void (*spoil)(Presence&);

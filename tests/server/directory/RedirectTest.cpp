@@ -147,7 +147,7 @@ TEST_F(RedirectTest, AServerThatSendsToItselfIsAskedTwiceAndNoMore) {
   EXPECT_EQ(liar.hellos(), 2u);
 }
 
-TEST_F(RedirectTest, WithNoRedirectAndThroughADoorNobodyIsSentOn) {
+TEST_F(RedirectTest, WithNoRedirectAndThroughADoorPlayersStay) {
   RecordingServer other(home.identity("other"));
   liar.sendTo(other.port(), other.fingerprint());
   ClientSetup stays = home.player("ann");
@@ -198,7 +198,7 @@ TEST_F(RedirectTest, ThePasswordOfTheOtherServerIsNotAskedFor) {
   EXPECT_FALSE(client.connection().isPasswordRefused()) << "it would be typed for the server that was named";
 }
 
-TEST_F(RedirectTest, FromANeighbourNobodyIsSentToTheirOwnMachine) {
+TEST_F(RedirectTest, FromANeighbourPlayersAreNotSentToTheirOwnMachine) {
   std::string address;
   for (const LanNetwork& network : lanNetworks()) {
     if (!network.is_loopback && network.address.is_v4()) address = network.address.to_string();

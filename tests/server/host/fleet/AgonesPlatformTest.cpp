@@ -113,25 +113,6 @@ TEST(AgonesPlatform, TheWatchSaysWhenTheServerIsShutDownAlsoAfterItWasCutAndInPi
   EXPECT_FALSE(platform.takeEnd()) << "once";
 }
 
-TEST(AgonesPlatform, AnAnswerThatIsTooLongIsNoneAndTheServerStaysHealthy) {
-  FakeSidecar sidecar;
-  std::atomic<int> asked = 0;
-  sidecar.start([&](const std::string& request) {
-    if (request == "GET /gameserver" && asked++ < 2)
-      return std::pair<int, std::string>{200, std::string(std::size_t{1} << 20, ' ') + kServer};
-    return well(request);
-  });
-  AgonesPlatform platform(sidecar.port());
-  platform.notifyReady();
-  const Ticks ticks(platform);
-  ASSERT_TRUE(sidecar.waitFor("GET /gameserver", 2));
-  EXPECT_FALSE(platform.address());
-  ASSERT_TRUE(sidecar.waitFor("GET /gameserver", 3)) << "it is asked again";
-  EXPECT_TRUE(sidecar.waitFor("POST /health {}"));
-  while (!platform.address()) std::this_thread::yield();
-  EXPECT_EQ(platform.counters().failures, 2u);
-}
-
 TEST(AgonesPlatform, AWatchWithoutLinesIsHungUpOn) {
   FakeSidecar sidecar;
   sidecar.start(well);

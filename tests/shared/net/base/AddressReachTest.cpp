@@ -28,7 +28,7 @@ TEST(AddressReachTest, Neighbours) {
              "fc00::1", "fdff::1", "fe80::1", "::ffff:10.0.0.1", "64:ff9b::a00:1", "2002:c0a8:101::1"});
 }
 
-TEST(AddressReachTest, EverybodysAndNobodys) {
+TEST(AddressReachTest, PublicOnesAndNone) {
   expectAll(AddressReach::kPublic, {"192.0.2.7", "9.255.255.255", "11.0.0.0", "172.15.0.1", "172.32.0.1",
                                     "192.167.1.1", "100.63.0.1", "100.128.0.1", "126.0.0.1", "128.0.0.1",
                                     "2001:db8::7", "::ffff:192.0.2.7", "2002:c000:207::"});
