@@ -26,7 +26,7 @@ bool FleetList::put(const std::string& subject, std::string_view payload, Time n
   Entry& entry = m_servers[presence->id];
   entry.presence = *std::move(presence);
   entry.heard = now;
-  entry.sent_before = std::exchange(entry.sent, 0);
+  entry.sent = {0, entry.sent[0], entry.sent[1]};
   return is_new;
 }
 
@@ -75,7 +75,7 @@ const Presence* FleetList::choose(const Wish& wish) {
     if (fits(entry, wish) && (p_best == nullptr || isBetter(entry, *p_best))) p_best = &entry;
   }
   if (p_best == nullptr) return nullptr;
-  ++p_best->sent;
+  ++p_best->sent[0];
   return &p_best->presence;
 }
 

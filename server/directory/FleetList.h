@@ -4,6 +4,7 @@
 // its subject has, and ends by itself.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -68,9 +69,9 @@ class FleetList {
   struct Entry {
     Presence presence;
     Time heard{};
-    std::uint32_t sent = 0;         ///< players, since it was heard
-    std::uint32_t sent_before = 0;  ///< between the two times before: they may still be on their way
-    std::uint32_t taken() const { return presence.players + sent + sent_before; }
+    /// Players: since it was heard, and in the intervals before, for they may still be on their way.
+    std::array<std::uint32_t, 3> sent{};
+    std::uint32_t taken() const { return presence.players + sent[0] + sent[1] + sent[2]; }
   };
   static bool isOfKind(const Entry& entry, const Wish& wish);
   static bool fits(const Entry& entry, const Wish& wish);
