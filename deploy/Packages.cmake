@@ -12,11 +12,11 @@ set(triplet ${CMAKE_LIBRARY_ARCHITECTURE})
 
 # Units, users, settings.
 set(systemd ${CMAKE_CURRENT_SOURCE_DIR}/systemd)
-install(FILES ${systemd}/dfserver@.service ${systemd}/dfserver@.socket ${systemd}/dfweb.service
+install(FILES ${systemd}/dfserver@.service ${systemd}/dfserver@.socket ${systemd}/dfweb.service ${systemd}/dfdir.service
   DESTINATION /lib/systemd/system COMPONENT server)
 install(FILES ${systemd}/sysusers.conf DESTINATION lib/sysusers.d RENAME naiad-server.conf COMPONENT server)
 install(FILES ${systemd}/tmpfiles.conf DESTINATION lib/tmpfiles.d RENAME naiad-server.conf COMPONENT server)
-install(FILES ${pages}/default.conf ${systemd}/dfweb.env DESTINATION /etc/naiad COMPONENT server)
+install(FILES ${pages}/default.conf ${systemd}/dfweb.env ${systemd}/dfdir.env DESTINATION /etc/naiad COMPONENT server)
 
 # Changelog, licence, and what lintian is told.
 set(changelog ${pages}/changelog.Debian.gz)
@@ -61,7 +61,7 @@ set(CPACK_DEBIAN_SERVER_PACKAGE_SECTION net)
 set(CPACK_DEBIAN_SERVER_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_SERVER_PACKAGE_DEPENDS
   "libdragonfly0 (= ${version}), systemd | systemd-standalone-sysusers | systemd-sysusers, systemd | systemd-standalone-tmpfiles | systemd-tmpfiles")
-set(CPACK_DEBIAN_SERVER_PACKAGE_SUGGESTS "naiad-client, openssh-server")
+set(CPACK_DEBIAN_SERVER_PACKAGE_SUGGESTS "naiad-client, nats-server, openssh-server, openssl")
 set(CPACK_DEBIAN_SERVER_DESCRIPTION "server for networked Dragonfly games
 Naiad makes text games for the Dragonfly engine playable over a network.
 The server runs the game and shows it to players in terminals and browsers.

@@ -99,9 +99,10 @@ void Connection::attemptFailed(const std::string& sentence) {
   retryLater(now);
 }
 
-/// The last attempt was ended in its handshake, and not too many before it.
+/// The last attempt was ended in its handshake, and not too many before it. The same for one to a server to
+/// which the client was sent: it was there a moment ago.
 bool Connection::isHungUpOn(Time now) {
-  if (!m_opener->wasHungUpOn()) return false;
+  if (!m_opener->wasHungUpOn() && !m_redirected) return false;
   m_hung_up_at = std::min(m_hung_up_at, now);
   return now - m_hung_up_at < kHungUpPatience;
 }
@@ -185,11 +186,39 @@ void Connection::checkPending() {
   }
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
-  if (over->isRefusedForNow()) return waitForServer(over->sentence());
-  m_password_refused = over->isPasswordRefused();
-  if (over->state() == S::kRefused) return finish(State::kRefused, over->sentence());
+  if (over->state() == S::kRefused) return checkRefusal(*over);
   if (over->state() == S::kEnded) return finish(State::kEnded, over->sentence());
   attemptFailed(over->sentence());
+}
+
+void Connection::checkRefusal(const ClientSession& refused) {
+  if (refused.isRefusedForNow()) return waitForServer(refused.sentence());
+  if (!refused.redirect().empty() && followRedirect(refused.redirect())) return;
+  // The player is asked for a password of the server that they have named, and of no other.
+  m_password_refused = refused.isPasswordRefused() && !m_redirected;
+  finish(State::kRefused, refused.sentence());
+}
+
+// Who sends the client there may lie. So the other server gets its name, and nothing that was meant for this
+// one.
+bool Connection::followRedirect(const std::string& link) {
+  if (m_state != State::kJoining) return false;
+  StreamOpener::Next next = m_opener->follow(link);
+  if (!next.opener) return false;
+  m_opener = std::move(next.opener);
+  m_address = std::move(next.address);
+  m_redirected = true;
+  m_options.password.clear();
+  m_options.resume_token.clear();
+  m_options.fresh = false;
+  m_p_tokens = nullptr;
+  m_key.reset();
+  m_put_off = m_busy = false;
+  m_hung_up_at = Time::max();
+  m_backoff = kFirstBackoff;
+  m_next_attempt = Clock::now() + next.wait;
+  ++m_revision;
+  return true;
 }
 
 // The server is busy, or this client has come back too often: the next attempt may do.

@@ -3,6 +3,7 @@
 //   kJoining --picture--> kJoined --lost--> kSearching --picture--> kJoined
 //   kJoining --no answer; hung up on for 4 s--> kUnreachable
 //   kJoining --Refused (BUSY)--> kJoining --60 s of that--> kRefused
+//   kJoining --Refused, and sent to another server--> kJoining, there (StreamOpener::follow(): once)
 //   any --Refused--> kRefused
 //   any --Goodbye--> kEnded
 //   kJoined --Goodbye of a server that restarts--> kSearching
@@ -88,7 +89,10 @@ class Connection {
   /// The state can change, or a new session can replace session(), only in update() and in the opener's
   /// callbacks; this counts both.
   std::uint64_t revision() const { return m_revision; }
+  /// Of the server: where the first one has sent the client, from then on.
   const ServerAddress& address() const { return m_address; }
+  /// It was sent there by the server that was asked for.
+  bool isRedirected() const { return m_redirected; }
 
  private:
   void attempt();
@@ -101,6 +105,8 @@ class Connection {
   void retryLater(Time now);
   void tryLater(Time now);
   void checkPending();
+  void checkRefusal(const ClientSession& refused);
+  bool followRedirect(const std::string& link);
   void waitForServer(const std::string& sentence);
   void finish(State state, const std::string& sentence);
 
@@ -126,6 +132,7 @@ class Connection {
   std::chrono::seconds m_give_up{kGiveUp};
   bool m_put_off = false;
   bool m_password_refused = false;
+  bool m_redirected = false;
   std::uint64_t m_revision = 0;
 };
 

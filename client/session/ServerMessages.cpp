@@ -16,6 +16,7 @@ constexpr std::uint32_t kMaxRttMillis = 99999;
 constexpr std::size_t kMaxTokenLength = 64;
 constexpr std::uint32_t kMaxGraceMillis = 3'600'000;
 constexpr std::uint32_t kMaxAgainSeconds = 600;
+constexpr std::size_t kMaxRedirect = 512;  // bytes of a link
 
 bool isColor(std::uint32_t color) {
   return color < static_cast<std::uint32_t>(df::kColorCount);
@@ -52,6 +53,14 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   message.view_height = static_cast<int>(wire.view_height());
   message.color = static_cast<df::Color>(wire.color());
   for (const std::string& line : wire.help()) message.help.push_back(safeText(line, kMaxHelpLength));
+  return message;
+}
+
+std::optional<ServerMessageValue> check(const wire::Refused& wire) {
+  RefusedMessage message{wire.reason() == wire::Refused::BUSY, wire.reason() == wire::Refused::PASSWORD,
+                         safeText(wire.sentence(), kMaxSentenceLength)};
+  const bool may_redirect = wire.reason() == wire::Refused::FULL || wire.reason() == wire::Refused::REDIRECT;
+  if (may_redirect && wire.redirect().size() <= kMaxRedirect) message.redirect = wire.redirect();
   return message;
 }
 
@@ -95,9 +104,7 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
     case wire::ServerMessage::kPlayers:
       return check(wire.players(), wire.number());
     case wire::ServerMessage::kRefused:
-      return RefusedMessage{wire.refused().reason() == wire::Refused::BUSY,
-                            wire.refused().reason() == wire::Refused::PASSWORD,
-                            safeText(wire.refused().sentence(), kMaxSentenceLength)};
+      return check(wire.refused());
     case wire::ServerMessage::kGoodbye:
       return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength),
                             std::chrono::seconds(std::min(wire.goodbye().again_seconds(), kMaxAgainSeconds))};

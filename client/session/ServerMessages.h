@@ -51,6 +51,8 @@ struct RefusedMessage {
   bool for_now = false;   ///< another attempt in a moment may succeed
   bool password = false;  ///< it was missing or wrong
   std::string sentence;
+  /// To another server that has a place: a link (JoinLink.h), as the server wrote it. Empty: none.
+  std::string redirect = {};
 };
 
 struct GoodbyeMessage {

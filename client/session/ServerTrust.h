@@ -15,6 +15,8 @@ struct ServerTrust {
   std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player gave it
   std::optional<ShortKey> link_key;        ///< the key of the link that the player followed
   std::filesystem::path known_servers;     ///< pins; empty: the user's file
+  bool pins = true;                        ///< a server that is trusted is pinned
+  bool stays = false;                      ///< does not go to another server, where this one sends the client
   /// The server is reached through this gateway, which is trusted in its place; the rest is not used.
   std::optional<GatewayAddress> gateway;
 };

@@ -2,11 +2,13 @@
 // them may be trusted.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "client/trust/ServerAddress.h"
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/Fingerprint.h"
 
@@ -36,6 +38,16 @@ class StreamOpener {
   /// Why the server behind the newest stream of open() is not trusted, for people; empty if it is. Nothing
   /// may be sent to one that is not.
   virtual std::string whyUntrusted() const = 0;
+  /// How a client goes on to another server.
+  struct Next {
+    std::unique_ptr<StreamOpener> opener;  ///< null: it does not
+    ServerAddress address;
+    std::chrono::milliseconds wait{0};  ///< before its first attempt
+  };
+  /// To the server of the link (JoinLink.h; a stranger's text), where that of the newest stream has sent the
+  /// client. Not from there to a third one.
+  virtual Next follow(const std::string& /*link*/) { return {}; }
+
   /// The newest attempt of open() was hung up on before the server could speak, as where too many come from
   /// one place: another one may do.
   virtual bool wasHungUpOn() const = 0;

@@ -1,20 +1,55 @@
 #include "client/session/TcpStreamOpener.h"
 
 #include <asio/io_context.hpp>
+#include <random>
 #include <utility>
+#include <variant>
 
 #include "client/trust/KnownServers.h"
+#include "shared/net/base/AddressRange.h"
+#include "shared/net/base/AddressReach.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 TcpStreamOpener::TcpStreamOpener(asio::io_context& context, ServerAddress address, ServerTrust trust,
                                  std::optional<Visit> visit)
     : m_address(std::move(address)),
       m_trust(std::move(trust)),
+      m_context(context),
       m_visit(std::move(visit)),
       m_connector(context, TcpOptions{.receive_limit = kMaxServerFrame},
                   m_trust.insecure ? nullptr : TlsContext::forClient()),
       m_second_connector(context, TcpOptions{.receive_limit = kMaxServerFrame}, TlsContext::forClient()) {}
+
+void TcpStreamOpener::open(Done done) {
+  connect(m_connector,
+          [this, done = std::move(done)](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
+            if (channel) m_peer = endpointAddress(channel->peerAddress());
+            done(std::move(channel), error);
+          });
+}
+
+StreamOpener::Next TcpStreamOpener::follow(const std::string& link) {
+  const bool may = !m_trust.stays && !m_trust.insecure && !m_visit && m_peer;
+  const auto parsed = JoinLink::parse(link);
+  const auto* const p_link = std::get_if<JoinLink>(&parsed);
+  if (!may || p_link == nullptr || !p_link->room.empty() || p_link->where.port < kLeastFollowedPort)
+    return {};
+  ServerTrust trust;
+  trust.link_key = p_link->key;
+  trust.known_servers = m_trust.known_servers;
+  trust.pins = false;
+  trust.stays = true;
+  const ServerAddress address{p_link->where.host, p_link->where.port};
+  auto opener = std::make_unique<TcpStreamOpener>(m_context, address, std::move(trust), std::nullopt);
+  const auto is_allowed = [from = *m_peer](const asio::ip::address& to) { return maySendTo(from, to); };
+  opener->m_connector.restrict(is_allowed);
+  opener->m_second_connector.restrict(is_allowed);
+  std::random_device random;
+  std::uniform_int_distribution<int> wait(0, static_cast<int>(kMaxFollowWait.count()));
+  return {std::move(opener), address, std::chrono::milliseconds(wait(random))};
+}
 
 void TcpStreamOpener::connect(TcpConnector& connector, Done done) {
   if (!m_visit) return connector.connect(m_address.host, m_address.port, kConnectTimeout, std::move(done));
@@ -37,8 +72,10 @@ std::string TcpStreamOpener::whyUntrusted() const {
   try {
     const KnownServers known(m_trust.known_servers.empty() ? KnownServers::defaultPath()
                                                            : m_trust.known_servers);
-    const Verdict verdict = known.admit(m_address.host, m_address.port, *m_connector.peerFacts(),
-                                        m_trust.fingerprint, m_trust.link_key);
+    const PeerFacts& facts = *m_connector.peerFacts();
+    const auto judgement = m_trust.pins ? &KnownServers::admit : &KnownServers::judge;
+    const Verdict verdict =
+        (known.*judgement)(m_address.host, m_address.port, facts, m_trust.fingerprint, m_trust.link_key);
     return verdict.accepted() ? std::string() : verdict.sentence;
   } catch (const KnownServersError& error) {
     return error.what();

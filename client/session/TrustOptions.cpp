@@ -85,6 +85,9 @@ std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, Sessi
        "sent where a "
        "link leads)",
        "NAIAD_PASSWORD"},
+      {"--no-redirect", &trust.stays,
+       "Do not go to another server, where this one sends you: a directory does, and a server that is full",
+       "NAIAD_NO_REDIRECT"},
       {"--insecure", &trust.insecure, "Without encryption, to a server on this machine (for tests)",
        "NAIAD_INSECURE"}};
   const std::vector<Option> doors = {

@@ -76,11 +76,14 @@ void ClientApp::join() {
   });
   m_connection.start();
   bool said = false;
+  bool said_redirect = false;
   std::string refusal;
   while (!m_leaving && m_connection.state() == Connection::State::kJoining) {
     m_context.run_one_for(kHousekeeping);
     const Time now = Clock::now();
     m_connection.update(now);
+    if (m_connection.isRedirected() && !std::exchange(said_redirect, true))
+      std::fprintf(stderr, "dfclient: You are sent on to %s.\n", m_connection.address().text().c_str());
     if (m_connection.isPutOff() && m_connection.sentence() != refusal) {
       refusal = m_connection.sentence();
       std::fprintf(stderr, "dfclient: %s (Trying again; Ctrl-C ends.)\n", refusal.c_str());

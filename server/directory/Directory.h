@@ -1,10 +1,14 @@
-// The directory of a fleet: listens on the bus to servers that say they are there, and writes a list of them
-// for the web (ServerList.h).
+// The directory of a fleet: listens on the bus to servers that say they are there, writes a list of them for
+// the web (ServerList.h), sends players to them (Lobby.h), and says to those that fill up where there is room
+// (SendOn.h).
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "server/directory/DirectorySettings.h"
+#include "shared/net/stream/Fingerprint.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
@@ -12,18 +16,23 @@ namespace naiad {
 /// All of it happens in run(), on the thread that calls it.
 class Directory {
  public:
-  /// Throws std::runtime_error if the list cannot be written. The bus has no complaint (busComplaint()).
+  /// Throws std::runtime_error if the list cannot be written, ListenError, and TlsError for the lobby's key.
+  /// The bus has no complaint (busComplaint()).
   Directory(DirectorySettings settings, LogLine log);
   ~Directory();
   Directory(const Directory&) = delete;
   Directory& operator=(const Directory&) = delete;
 
-  /// SIGINT and SIGTERM stop it; SIGHUP opens the log again. A second one of the first two has its usual
-  /// effect.
+  /// SIGINT and SIGTERM stop it; SIGHUP opens the log again, and reads the lobby's key. A
+  /// second one of the first two has its usual effect.
   void heedSignals();
   /// Serve until a signal comes, or stop().
   void run();
   void stop();
+
+  /// Of the lobby; nothing without one.
+  std::optional<std::uint16_t> port() const;
+  std::optional<Fingerprint> fingerprint() const;
 
  private:
   struct Loop;

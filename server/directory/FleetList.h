@@ -4,6 +4,7 @@
 // its subject has, and ends by itself.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -52,6 +53,14 @@ class FleetList {
   /// the player. Null: there is none.
   const Presence* choose(const Wish& wish);
 
+  /// The same for the players of a server that is about to be full: the one with most places, and none is
+  /// taken.
+  const Presence* roomiest(const Wish& wish) const;
+  /// Is there a server for such players, be it full or closed?
+  bool plays(const Wish& wish) const;
+  /// Those of which three quarters are taken, or which let no players in.
+  std::vector<Presence> crowded() const;
+
   std::vector<Presence> servers() const;
   std::size_t size() const { return m_servers.size(); }
   const FleetCounters& counters() const { return m_counters; }
@@ -60,11 +69,13 @@ class FleetList {
   struct Entry {
     Presence presence;
     Time heard{};
-    std::uint32_t sent = 0;         ///< players, since it was heard
-    std::uint32_t sent_before = 0;  ///< between the two times before: they may still be on their way
-    std::uint32_t taken() const { return presence.players + sent + sent_before; }
+    /// Players: since it was heard, and in the intervals before, for they may still be on their way.
+    std::array<std::uint32_t, 3> sent{};
+    std::uint32_t taken() const { return presence.players + sent[0] + sent[1] + sent[2]; }
   };
+  static bool isOfKind(const Entry& entry, const Wish& wish);
   static bool fits(const Entry& entry, const Wish& wish);
+  static bool isCalm(const Entry& entry);
   static bool isBetter(const Entry& a, const Entry& b);
 
   std::map<std::string, Entry> m_servers;

@@ -1,18 +1,25 @@
-// dfdir: the directory of a fleet. It hears on the bus which servers there are, and writes the list of them.
+// dfdir: the directory of a fleet. It hears on the bus which servers there are, writes the list of them, and
+// sends players to them.
+#include <asio/ip/address.hpp>
+#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "server/directory/Directory.h"
+#include "shared/net/base/SafeFile.h"
+#include "shared/net/stream/JoinLink.h"
 #include "shared/options/Options.h"
 #include "shared/program/BrokenPipes.h"
+#include "shared/program/OpenFiles.h"
 #include "shared/values/Version.h"
 
 namespace {
 
-enum ExitCode { kUsage = 2, kFile = 5 };
+enum ExitCode { kUsage = 2, kCannotListen = 4, kFile = 5 };
 
 constexpr const char* kHelp =
     "Servers say on the bus that they are there (dfserver --bus). One that says nothing for 6 s is left out; "
@@ -20,12 +27,43 @@ constexpr const char* kHelp =
     "bus itself is gone the list stays as it is, for 10 minutes. SIGHUP opens the log again; SIGTERM and "
     "SIGINT end it,\n"
     "and remove the list.\n\n"
-    "Exit codes: 2 wrong usage; 5 a file cannot be written.\n";
+    "With --listen it is a lobby: dfclient joins it as any server, and is sent to one that has a place "
+    "(--game NAME: for\n"
+    "that game). It has a key as servers have.\n\n"
+    "Exit codes: 2 wrong usage; 4 it cannot listen; 5 a file cannot be read or written.\n";
+
+/// Half-open connections, guests and its own.
+constexpr std::size_t kOpenFiles = 4096;
 
 struct CommandLine {
   naiad::DirectorySettings settings;
+  std::string link_host;
+  int max_per_address = 64;
+  std::string port_file;
   std::string log_file;
 };
+
+/// ADDRESS:PORT into the settings of the lobby.
+std::string storeListen(const std::string& text, naiad::DirectorySettings& settings) {
+  const std::size_t colon = text.rfind(':');
+  const auto where =
+      colon != std::string::npos ? naiad::LinkHost::parse(text.substr(0, colon)) : std::nullopt;
+  std::error_code error;
+  if (where) asio::ip::make_address(where->host, error);
+  int port = -1;
+  const char* const p_end = text.data() + text.size();
+  const auto read = where ? std::from_chars(text.data() + colon + 1, p_end, port) : std::from_chars_result{};
+  const bool good =
+      where && !error && read.ptr == p_end && port >= 0 && port <= 65'535 && colon + 1 < text.size();
+  if (!good) return "ADDRESS:PORT is wanted, like 0.0.0.0:9875 or [::]:9875; port 0 is any free one";
+  settings.lobby = naiad::LobbySettings{.address = where->host, .port = static_cast<std::uint16_t>(port)};
+  return "";
+}
+
+std::string storeLinkHost(const std::string& text, std::string& host) {
+  host = text;
+  return naiad::LinkHost::parse(text) ? "" : "HOST or HOST:PORT is wanted";
+}
 
 std::vector<naiad::Option> optionsOf(CommandLine& line) {
   naiad::DirectorySettings& settings = line.settings;
@@ -51,6 +89,35 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .target = &settings.list,
        .help = "Write the list of servers to this file, for a web server and dfclient --list-url",
        .type = "FILE"},
+      {.name = "--listen",
+       .target =
+           naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
+       .help = "Where players connect to be sent to a server; without it, nowhere",
+       .type = "ADDRESS:PORT"},
+      {.name = "--link-host",
+       .target =
+           naiad::StoreText([&line](const std::string& text) { return storeLinkHost(text, line.link_host); }),
+       .help = "Host, and port if another one leads here, of the link that is printed for players",
+       .type = "HOST[:PORT]"},
+      {.name = "--identity",
+       .target = &settings.identity,
+       .help =
+           "Folder of the lobby's key, made there if there is none (default: naiad in your configuration)",
+       .type = "DIR"},
+      {.name = "--certificate",
+       .target = &settings.certificate,
+       .help = "Certificate of the lobby (PEM), in place of that folder",
+       .type = "FILE"},
+      {.name = "--key", .target = &settings.key, .help = "Its private key (PEM)", .type = "FILE"},
+      {.name = "--max-per-address",
+       .target = &line.max_per_address,
+       .help = "Players who may come at once from one IPv4 address or IPv6 network (/64)",
+       .range = naiad::OptionRange{1, 20'000},
+       .shows_default = true},
+      {.name = "--port-file",
+       .target = &line.port_file,
+       .help = "Write the port number to this file once listening",
+       .type = "FILE"},
       {.name = "--log-file",
        .target = &line.log_file,
        .help = "Append log lines to this file instead of stderr",
@@ -60,16 +127,41 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
 /// What is missing or does not go together; nothing if all is well.
 std::string problemOf(const naiad::DirectorySettings& settings) {
   if (settings.bus.url.empty()) return "--bus is wanted: the NATS server of the fleet";
-  if (settings.list.empty()) return "--list is wanted: where the list is to be written";
+  if (settings.list.empty() && !settings.lobby)
+    return "--list or --listen is wanted: a file for the list, or where players come to be sent on";
+  if (settings.certificate.empty() != settings.key.empty())
+    return "--certificate and --key are wanted together";
   return naiad::busComplaint(settings.bus);
 }
 
-void serve(const CommandLine& line) {
+/// Also printed, for who starts it.
+std::string lobbyLink(const CommandLine& line, const naiad::Directory& directory) {
+  const bool is_any = line.settings.lobby->address == "::" || line.settings.lobby->address == "0.0.0.0";
+  const std::string given = !line.link_host.empty() ? line.link_host : is_any ? "127.0.0.1" : "";
+  naiad::LinkHost where{line.settings.lobby->address, *directory.port()};
+  if (!given.empty()) where = *naiad::LinkHost::parse(given, *directory.port());
+  return naiad::JoinLink{where, "", naiad::ShortKey::of(*directory.fingerprint())}.text();
+}
+
+void announce(const CommandLine& line, const naiad::Directory& directory, const naiad::LogLine& log) {
+  if (!line.settings.list.empty()) log("the list of servers is " + line.settings.list);
+  if (!directory.port()) return;
+  if (!line.port_file.empty()) naiad::publishFile(line.port_file, std::to_string(*directory.port()) + "\n");
+  const std::string link = lobbyLink(line, directory);
+  std::printf("Players join:  dfclient '%s'\n", link.c_str());
+  std::fflush(stdout);
+  log("players are sent on from " + link);
+}
+
+void serve(CommandLine& line) {
   const auto lines = std::make_shared<naiad::LineLog>(line.log_file);
   const naiad::LogLine log = [lines](const naiad::LogEvent& event) { (*lines)(event); };
+  if (line.settings.lobby) line.settings.lobby->max_per_address = line.max_per_address;
+  naiad::allowOpenFiles(kOpenFiles);
   naiad::Directory directory(line.settings, log);
   directory.heedSignals();
-  log(std::string("dfdir ") + naiad::kVersion + " writes " + line.settings.list);
+  log(std::string("dfdir ") + naiad::kVersion);
+  announce(line, directory, log);
   directory.run();
 }
 
@@ -87,13 +179,19 @@ int start(int argc, char** argv) {
   return 0;
 }
 
+int fail(ExitCode code, const char* p_what) {
+  std::fprintf(stderr, "dfdir: %s\n", p_what);
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
     return start(argc, argv);
+  } catch (const naiad::ListenError& error) {
+    return fail(kCannotListen, error.what());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "dfdir: %s\n", error.what());
-    return kFile;
+    return fail(kFile, error.what());
   }
 }

@@ -39,4 +39,8 @@ std::string resultSubject(std::string_view id) {
   return "naiad.results." + std::string(id);
 }
 
+std::string sendOnSubject(std::string_view id) {
+  return "naiad.sendon." + std::string(id);
+}
+
 }  // namespace naiad

@@ -15,8 +15,9 @@ bool isServerId(std::string_view text);
 /// The same made of any text: others become '-'. "server" if nothing is left.
 std::string serverIdOf(std::string_view text);
 
-/// "naiad.presence.ID", "naiad.results.ID".
+/// "naiad.presence.ID", "naiad.results.ID", "naiad.sendon.ID".
 std::string presenceSubject(std::string_view id);
 std::string resultSubject(std::string_view id);
+std::string sendOnSubject(std::string_view id);
 
 }  // namespace naiad

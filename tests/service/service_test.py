@@ -244,13 +244,13 @@ class ServiceTest(unittest.TestCase):
                 text = re.sub(r"^Documentation=.*\n", "", file.read(), flags=re.M)
             with open(self.file(name), "w", encoding="utf-8") as file:
                 file.write(text.replace("/usr/bin/df", os.path.join(BUILD, "bin", "df")))
-        for name in ("dfserver@.service", "dfserver@.socket", "dfweb.service"):
+        for name in ("dfserver@.service", "dfserver@.socket", "dfweb.service", "dfdir.service"):
             found = self.analyze("verify", self.file(name))
             said = [line for line in found.stderr.splitlines() if self.folder in line or name.split(".")[0] in line]
             self.assertEqual((found.returncode, said), (0, []), found.stderr)
 
     def test_units_are_hardened(self):
-        for name in ("dfserver@.service", "dfweb.service"):
+        for name in ("dfserver@.service", "dfweb.service", "dfdir.service"):
             said = self.analyze("security", "--offline=true", os.path.join(UNITS, name)).stdout
             exposure = re.search(r"Overall exposure level for .*: ([0-9.]+)", said)
             self.assertTrue(exposure, said)

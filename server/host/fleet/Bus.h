@@ -36,7 +36,7 @@ class Bus {
  public:
   /// Waiting for the bus, at most.
   static constexpr std::size_t kMaxKept = 4096;
-  static constexpr std::size_t kMaxFleeting = 64;
+  static constexpr std::size_t kMaxFleeting = 1024;
 
   virtual ~Bus() = default;
 

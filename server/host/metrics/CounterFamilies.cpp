@@ -72,6 +72,7 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
     {&C::refused_elsewhere, "naiad_refusals_total", R"(reason="elsewhere")", ""},
     {&C::turned_away, "naiad_refusals_total", R"(reason="crowded")", ""},
     {&C::login_timeouts, "naiad_refusals_total", R"(reason="late")", ""},
+    {&C::sent_on, "naiad_sent_on_total", "", "Clients that were sent to another server, which has places."},
     {&C::malformed_frames, "naiad_malformed_total", R"(kind="frame")",
      "Frames and messages that no client sends; each ended its connection."},
     {&C::malformed_messages, "naiad_malformed_total", R"(kind="message")", ""},

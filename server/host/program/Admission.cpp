@@ -353,15 +353,14 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
 bool Admission::checkLimits(Session& session) {
   if (!m_setup.is_open()) {
     ++m_counters.refused_closing;
-    session.refuse(wire::Refused::FULL, "The server is closing and lets no new players in.");
+    refuseFull(session, "The server is closing and lets no new players in.");
     return false;
   }
   const int max_players = m_setup.options.max_players;
   const int max_per_address = m_setup.options.max_per_address;
   if (m_setup.sessions.playing() >= static_cast<std::size_t>(max_players)) {
     ++m_counters.refused_full;
-    session.refuse(wire::Refused::FULL,
-                   "The server is full (" + std::to_string(max_players) + " players). Try again later.");
+    refuseFull(session, "The server is full (" + std::to_string(max_players) + " players). Try again later.");
     return false;
   }
   // A player whose connection broke counts: their place is kept, and an address must not collect such places.
@@ -372,6 +371,15 @@ bool Admission::checkLimits(Session& session) {
     return false;
   }
   return true;
+}
+
+// Another server of the fleet may have a place.
+void Admission::refuseFull(Session& session, const std::string& sentence) {
+  const std::string link = m_setup.send_on ? m_setup.send_on() : "";
+  if (link.empty()) return session.refuse(wire::Refused::FULL, sentence);
+  ++m_counters.sent_on;
+  session.refuse(wire::Refused::FULL, safeText(sentence + " There is a place at " + link, kMaxSentenceLength),
+                 link);
 }
 
 // Null: the session was refused. A client that leaves and joins again has fresh allowances each time, so how

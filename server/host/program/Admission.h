@@ -48,6 +48,8 @@ class Admission {
     std::function<bool()> is_open = [] { return true; };
     /// A session without a stream, waiting for its client. Null: there are none.
     std::function<Session&(const wire::Welcome& welcome)> restore_session = {};
+    /// A link to another server that has places; empty: none is known. Null: there are no others.
+    std::function<std::string()> send_on = {};
   };
 
   /// `executor` runs what is left of a judgement once a password has been checked.
@@ -102,6 +104,7 @@ class Admission {
   wire::Welcome welcomeOf(std::uint32_t player, const std::string& name, df::Color color) const;
   void admitPlayer(Session& session, const wire::Hello& hello);
   bool checkLimits(Session& session);
+  void refuseFull(Session& session, const std::string& sentence);
   Room* roomFor(Session& session);
   void refuseBusy(Session& session, const std::string& sentence);
   std::string freeName(const std::string& wanted) const;

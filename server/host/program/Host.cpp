@@ -99,7 +99,8 @@ Host::Host(HostOptions options, std::string game, Log log)
                      Session& session = m_sessions.addDetached(Clock::now());
                      session.restore(welcome, sessionEvents());
                      return session;
-                   }},
+                   },
+                   [this] { return m_fleet.linkToOther(Clock::now()); }},
                   m_io.get_executor()),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
       m_commands({{m_options, m_sessions, m_admission, m_counters, m_network, m_scores, adminControls()},

@@ -64,7 +64,9 @@ std::string fleetComplaint(const HostOptions& options) {
 HostFleet::HostFleet(Setup setup) : m_setup(std::move(setup)), m_platform(makePlatform(m_setup.options)) {
   if (m_setup.options.bus.empty()) return;
   m_id = busId(m_setup.options, m_setup.network.port());
-  m_bus = connectBus(busSettings(m_setup.options));
+  BusSettings settings = busSettings(m_setup.options);
+  settings.subjects = {sendOnSubject(m_id)};
+  m_bus = connectBus(settings);
 }
 
 HostFleet::~HostFleet() = default;
@@ -83,7 +85,24 @@ void HostFleet::tick(Clock::time_point now) {
     m_present = now;
     m_bus->publish({presenceSubject(m_id), presence().payload()});
   }
+  hearDirectory(now);
   takeNews();
+}
+
+// What is no good says nothing, and what was good before ends by itself.
+void HostFleet::hearDirectory(Clock::time_point now) {
+  if (!m_bus) return;
+  for (const BusMessage& message : m_bus->takeMessages()) {
+    auto other = SendOn::parse(message.payload);
+    if (!other || other->to == m_id) continue;
+    m_other = *std::move(other);
+    m_other_heard = now;
+  }
+}
+
+std::string HostFleet::linkToOther(Clock::time_point now) const {
+  const bool holds = m_other && now - m_other_heard < 3 * SendOn::kInterval;
+  return holds ? m_other->link.text() : "";
 }
 
 void HostFleet::sayPlayers() {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "host/fleet/Bus.h"
@@ -16,6 +17,7 @@
 #include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
 #include "shared/fleet/Presence.h"
+#include "shared/fleet/SendOn.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
@@ -48,6 +50,8 @@ class HostFleet {
   void noteReloading(Clock::time_point now) { m_platform->notifyReloading(now); }
   /// Once a tick, at its end.
   void tick(Clock::time_point now);
+  /// A link to another server of the fleet that has places, as the directory says; empty: none is known.
+  std::string linkToOther(Clock::time_point now) const;
   /// A row that is about to be written. None twice.
   void noteScore(const ScoreRow& row);
   /// The server is about to end: players' goodbyes come next.
@@ -60,6 +64,7 @@ class HostFleet {
  private:
   void sayPlayers();
   Presence presence() const;
+  void hearDirectory(Clock::time_point now);
   void takeNews();
 
   Setup m_setup;
@@ -68,6 +73,8 @@ class HostFleet {
   std::string m_id;            ///< on the bus
   Clock::time_point m_said{};  ///< players, to the platform
   Clock::time_point m_present{};
+  std::optional<SendOn> m_other;  ///< the newest that the directory has said
+  Clock::time_point m_other_heard{};
 };
 
 /// What is wrong with the options of platform and bus; empty if nothing is.

@@ -28,6 +28,7 @@ std::string Counters::summary() const {
       {"resumes_deferred", resumes_deferred},
       {"seconds_deferred", seconds_deferred},
       {"refused_elsewhere", refused_elsewhere},
+      {"sent_on", sent_on},
       {"unknown_tokens", unknown_tokens},
       {"kept_overflows", kept_overflows},
       {"chat_left_out", chat_left_out},

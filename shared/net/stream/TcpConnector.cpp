@@ -102,9 +102,17 @@ void TcpConnector::Attempt::onResolved(const std::error_code& error,
 }
 
 void TcpConnector::Attempt::take(const std::vector<tcp::endpoint>& addresses) {
+  const auto& is_allowed = connector.is_allowed_;
+  bool is_restricted = false;
   for (const tcp::endpoint& endpoint : addresses) {
-    if (connector.tls_ || isLoopback(endpoint.address())) endpoints.push_back(endpoint);
+    if (is_allowed && !is_allowed(endpoint.address())) {
+      is_restricted = true;
+    } else if (connector.tls_ || isLoopback(endpoint.address())) {
+      endpoints.push_back(endpoint);
+    }
   }
+  if (endpoints.empty() && is_restricted)
+    return fail(target() + " is nearer to you than the server that sent you there: that is not followed.");
   if (endpoints.empty()) {
     const std::string address = addresses.empty() ? "no address" : addresses.front().address().to_string();
     fail((address == host ? host : host + " (" + address + ")") +

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shared/net/base/Channel.h"
@@ -55,6 +56,12 @@ class TcpConnector {
   void connectFor(const asio::ip::tcp::endpoint& visitor, const std::string& socket, const std::string& host,
                   std::uint16_t port, std::chrono::milliseconds timeout, Done done);
 
+  /// From now on only addresses are connected to of which `is_allowed` says so; a host that has none is as
+  /// one that cannot be reached. Empty: all.
+  void restrict(std::function<bool(const asio::ip::address& address)> is_allowed) {
+    is_allowed_ = std::move(is_allowed);
+  }
+
   /// About the server behind the newest channel given out: set from before `done` is called until the next
   /// connect() or cancel(). Nothing without TLS.
   const std::optional<PeerFacts>& peerFacts() const { return peer_facts_; }
@@ -75,6 +82,7 @@ class TcpConnector {
   std::shared_ptr<Attempt> attempt_;
   std::optional<PeerFacts> peer_facts_;
   bool was_hung_up_on_ = false;
+  std::function<bool(const asio::ip::address& address)> is_allowed_;
 
   std::shared_ptr<Attempt> begin(const std::string& host, Done done);
 };

@@ -91,7 +91,7 @@ TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
   EXPECT_EQ(listed().front().name, "berlin");
   berlin.signal(SIGTERM);
   berlin.wait();
-  EXPECT_TRUE(waitFor([&] { return listed().empty(); })) << "it has said that it lets nobody in";
+  EXPECT_TRUE(waitFor([&] { return listed().empty(); })) << "it has said that it lets no players in";
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0) << directory->printed();
   EXPECT_FALSE(std::filesystem::exists(folder / "servers.json")) << "a list that is not kept up";
@@ -131,9 +131,12 @@ TEST_F(DirectoryTest, WhatIsWrongIsASentenceAndACode) {
   };
   expectRefusal({"--help"}, 0, "--list");
   expectRefusal({}, 2, "--bus is wanted");
-  expectRefusal({"--bus", "nats://127.0.0.1:1"}, 2, "--list is wanted");
+  expectRefusal({"--bus", "nats://127.0.0.1:1"}, 2, "--list or --listen is wanted");
   expectRefusal({"--bus", "http://127.0.0.1", "--list", folder / "list"}, 2, "nats://HOST:PORT");
   expectRefusal({"--bsu", "x"}, 2, "--bus");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--listen", "localhost:1"}, 2, "ADDRESS:PORT");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--listen", "192.0.2.1:0", "--identity", folder / "key"}, 4,
+                "192.0.2.1");
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder / "none" / "list"}, 5, "cannot be written");
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder}, 5, "cannot be written");
 }

@@ -99,10 +99,12 @@ TEST(FleetListTest, APlaceIsTakenBeforeTheServerHasCountedThePlayer) {
   put(list, presenceOf("a", 1, 4), kStart + 2s);
   EXPECT_EQ(chosen(list), "") << "the others may be on their way";
   put(list, presenceOf("a", 1, 4), kStart + 4s);
+  EXPECT_EQ(chosen(list), "") << "on a busy machine";
+  put(list, presenceOf("a", 1, 4), kStart + 6s);
   EXPECT_EQ(chosen(list), "a") << "they did not come";
 }
 
-TEST(FleetListTest, NobodyIsSentWhereTheyWouldNotPlay) {
+TEST(FleetListTest, PlayersAreSentOnlyWhereTheyCanPlay) {
   struct Case {
     const char* why;
     void (*spoil)(Presence&);

@@ -47,7 +47,7 @@ TEST(ServerListTest, AnEmptyOneIsAListToo) {
   EXPECT_EQ(read->size(), 0u);
 }
 
-TEST(ServerListTest, ServersThatLetNobodyInOrAreNowhereAreLeftOut) {
+TEST(ServerListTest, ServersThatAreClosedOrNowhereAreLeftOut) {
   Presence closed = listedServer("a");
   closed.is_open = false;
   Presence nowhere = listedServer("b");

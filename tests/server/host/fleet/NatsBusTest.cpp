@@ -33,10 +33,10 @@ TEST(BusQueue, TheOldestGoAndOfPresenceTheNewestIsEnough) {
   ASSERT_TRUE(queue.hasFleeting());
   EXPECT_EQ(queue.takeFleeting().payload, "99");
   EXPECT_FALSE(queue.hasFleeting());
-  for (int i = 0; i < 100; ++i) queue.push({"naiad.presence." + std::to_string(i), ""});
-  EXPECT_EQ(queue.dropped(), 100 - Bus::kMaxFleeting);
+  for (int i = 0; i < 2000; ++i) queue.push({"naiad.presence." + std::to_string(i), ""});
+  EXPECT_EQ(queue.dropped(), 2000 - Bus::kMaxFleeting);
   for (int i = 0; i < 5000; ++i) queue.push(kept(i));
-  EXPECT_EQ(queue.dropped(), 100 - Bus::kMaxFleeting + 5000 - Bus::kMaxKept);
+  EXPECT_EQ(queue.dropped(), 2000 - Bus::kMaxFleeting + 5000 - Bus::kMaxKept);
   EXPECT_EQ(queue.firstKept().id, kept(5000 - Bus::kMaxKept).id);
   queue.dropKept("round-0-0");
   EXPECT_EQ(queue.firstKept().id, kept(5000 - Bus::kMaxKept).id) << "it was dropped while it was on its way";

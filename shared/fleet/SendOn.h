@@ -1,0 +1,29 @@
+// What a directory says to a server that is full, or nearly so: where it may send players on.
+//
+//   naiad.sendon.ID  {"v":1,"to":"paris-9876","link":"naiad://192.0.2.8:9876#…26 characters…"}
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "shared/net/stream/JoinLink.h"
+
+namespace naiad {
+
+struct SendOn {
+  /// Said so often while it holds; after three times that without a word it does not.
+  static constexpr std::chrono::seconds kInterval{2};
+
+  std::string to;  ///< the other server (ServerId.h)
+  JoinLink link;   ///< to it
+
+  std::string payload() const;
+  /// Nothing for what no directory writes.
+  static std::optional<SendOn> parse(std::string_view payload);
+
+  friend bool operator==(const SendOn&, const SendOn&) = default;
+};
+
+}  // namespace naiad

@@ -1,0 +1,112 @@
+#include "Bots.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <variant>
+
+#include "shared/net/stream/JoinLink.h"
+
+namespace bench {
+
+namespace {
+
+constexpr std::chrono::milliseconds kTurn{5};
+constexpr std::chrono::milliseconds kBetweenKeys{200};
+
+naiad::SessionOptions optionsOf(int number) {
+  naiad::SessionOptions options;
+  options.name = "bot" + std::to_string(number);
+  options.program = "naiad_fleet";
+  options.columns = 80;
+  options.rows = 24;
+  return options;
+}
+
+}  // namespace
+
+Bot::Bot(asio::io_context& context, const naiad::ServerAddress& directory, const naiad::ServerTrust& trust,
+         int number)
+    : m_connection(context, directory, optionsOf(number), true, trust),
+      m_keys(static_cast<std::uint64_t>(number), 80, 24) {
+  m_connection.start();
+}
+
+void Bot::update(Time now) {
+  m_connection.update(now);
+  if (m_redirected_at == Time() && m_connection.isRedirected()) m_redirected_at = now;
+  const bool playing = isPlaying();
+  if (m_was_playing && !playing) {
+    ++m_losses;
+    m_lost = true;
+  }
+  if (!m_was_playing && playing) {
+    if (m_redirect.count() == 0 && m_redirected_at != Time())
+      m_redirect = std::chrono::duration_cast<std::chrono::milliseconds>(now - m_redirected_at);
+    if (m_killed_at != Time() && m_lost) m_back_at = now;
+  }
+  m_was_playing = playing;
+  if (!playing || now < m_next_key) return;
+  m_next_key = now + kBetweenKeys;
+  for (const naiad::BotAction& action : m_keys.tick()) {
+    if (const auto* const p_key = std::get_if<naiad::KeyAction>(&action))
+      m_connection.session()->sendKey(p_key->key, p_key->action, now);
+  }
+}
+
+void Bot::noteKill(Time now) {
+  m_killed_at = now;
+  m_back_at = {};
+  m_lost = false;
+  m_before = player();
+}
+
+Bots::Bots(const std::string& link, const std::filesystem::path& known_servers, int count) : m_count(count) {
+  const auto parsed = naiad::JoinLink::parse(link);
+  const auto* const p_link = std::get_if<naiad::JoinLink>(&parsed);
+  if (p_link == nullptr) throw std::runtime_error("the directory has no link: " + link);
+  m_directory = {p_link->where.host, p_link->where.port};
+  m_trust.link_key = p_link->key;
+  m_trust.known_servers = known_servers;
+}
+
+bool Bots::serveUntil(const std::function<bool()>& holds, std::chrono::milliseconds most) {
+  const auto end = Bot::Clock::now() + most;
+  while (!holds()) {
+    if (Bot::Clock::now() > end) return false;
+    m_context.restart();
+    m_context.run_for(kTurn);
+    const auto now = Bot::Clock::now();
+    for (const auto& bot : m_bots) bot->update(now);
+  }
+  return true;
+}
+
+bool Bots::joinAll(int at_once, std::chrono::seconds most) {
+  const auto end = Bot::Clock::now() + most;
+  while (playing() < static_cast<std::size_t>(m_count)) {
+    if (Bot::Clock::now() > end) return false;
+    const std::size_t waiting = m_bots.size() - playing();
+    for (auto i = waiting; i < static_cast<std::size_t>(at_once) && static_cast<int>(m_bots.size()) < m_count;
+         ++i)
+      m_bots.push_back(
+          std::make_unique<Bot>(m_context, m_directory, m_trust, static_cast<int>(m_bots.size()) + 1));
+    serveUntil([] { return false; }, kTurn);
+    const auto over =
+        std::find_if(m_bots.begin(), m_bots.end(), [](const auto& bot) { return bot->isOver(); });
+    if (over != m_bots.end()) throw std::runtime_error("a player cannot join: " + (*over)->sentence());
+  }
+  return true;
+}
+
+std::size_t Bots::playing() const {
+  return static_cast<std::size_t>(
+      std::count_if(m_bots.begin(), m_bots.end(), [](const auto& bot) { return bot->isPlaying(); }));
+}
+
+void Bots::leaveAll() {
+  for (const auto& bot : m_bots) bot->leave();
+  m_context.restart();
+  m_context.run_for(std::chrono::seconds(2));
+}
+
+}  // namespace bench

@@ -1,0 +1,171 @@
+#include "Fleet.h"
+
+#include <signal.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+#include <thread>
+
+namespace bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kNats = "/usr/sbin/nats-server";
+constexpr std::chrono::seconds kPatience{60};
+
+std::string textOf(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void await(const std::string& what, const fs::path& folder, const std::function<bool()>& holds) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > end)
+      throw std::runtime_error(what + " does not start: " + folder.string());
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+std::uint16_t portIn(const fs::path& path) {
+  return static_cast<std::uint16_t>(std::atoi(textOf(path).c_str()));
+}
+
+std::uint64_t counter(const std::string& log, const std::string& name) {
+  const std::size_t at = log.rfind(" " + name + "=");
+  return at == std::string::npos ? 0 : std::strtoull(log.c_str() + at + name.size() + 2, nullptr, 10);
+}
+
+}  // namespace
+
+Fleet::Fleet(const FleetSetup& setup) : m_setup(setup) {
+  std::string name = fs::temp_directory_path() / "naiad-fleet-XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
+  m_folder = name;
+  startBus();
+  startDirectory();
+  for (int i = 0; i < setup.servers; ++i) {
+    m_servers.push_back({m_folder / ("server" + std::to_string(i + 1)), 0, {}});
+    fs::create_directories(m_servers.back().folder);
+    startServer(m_servers.size() - 1);
+  }
+  for (Server& server : m_servers) {
+    await("dfserver", server.folder, [&] { return (server.port = portIn(server.folder / "port")) != 0; });
+  }
+  const auto listed = [this] {
+    const std::string list = textOf(m_folder / "servers.json");
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = list.find("\"link\"", at)) != std::string::npos; ++at) ++count;
+    return count == m_servers.size();
+  };
+  await("a server on the bus", m_folder, listed);
+}
+
+Fleet::~Fleet() {
+  m_servers.clear();
+  m_directory.reset();
+  m_bus.reset();
+  std::error_code error;
+  if (::getenv("NAIAD_FLEET_KEEP") == nullptr) fs::remove_all(m_folder, error);
+}
+
+void Fleet::startBus() {
+  const fs::path ports = m_folder / "bus";
+  fs::remove_all(ports);
+  fs::create_directories(ports);
+  const std::string port = m_bus_port == 0 ? "-1" : std::to_string(m_bus_port);
+  m_bus.reset();
+  m_bus.emplace(std::vector<std::string>{kNats, "-a", "127.0.0.1", "-p", port, "--ports_file_dir", ports},
+                m_folder / "bus.log");
+  await("nats-server", ports, [&] {
+    for (const auto& entry : fs::directory_iterator(ports)) {
+      const std::string text = textOf(entry.path());
+      const std::size_t at = text.find("127.0.0.1:");
+      if (at == std::string::npos || text.find('"', at) == std::string::npos) continue;
+      m_bus_port = static_cast<std::uint16_t>(std::atoi(text.c_str() + at + 10));
+      return true;
+    }
+    return false;
+  });
+}
+
+void Fleet::startDirectory() {
+  m_directory.emplace(
+      std::vector<std::string>{"dfdir", "--bus", busUrl(), "--list", m_folder / "servers.json", "--listen",
+                               "127.0.0.1:0", "--identity", m_folder / "directory", "--port-file",
+                               m_folder / "directory.port", "--max-per-address",
+                               std::to_string(m_setup.bots)},
+      m_folder / "directory.log");
+  await("dfdir", m_folder, [this] { return (m_directory_port = portIn(m_folder / "directory.port")) != 0; });
+}
+
+std::string Fleet::link() const {
+  const std::string log = textOf(m_folder / "directory.log");
+  const std::size_t begin = log.find("naiad://");
+  return log.substr(begin, log.find('\'', begin) - begin);
+}
+
+void Fleet::startServer(std::size_t number) {
+  Server& server = m_servers.at(number);
+  const std::string name = server.folder.filename();
+  const std::string places = std::to_string(m_setup.max_players);
+  server.process.reset();
+  server.process.emplace(std::vector<std::string>{"dfserver",
+                                                  "--game",
+                                                  m_setup.game,
+                                                  "--address",
+                                                  "127.0.0.1",
+                                                  "--port",
+                                                  std::to_string(server.port),
+                                                  "--identity",
+                                                  server.folder / "identity",
+                                                  "--state",
+                                                  server.folder,
+                                                  "--journal",
+                                                  server.folder / "rounds",
+                                                  "--control",
+                                                  "off",
+                                                  "--lan",
+                                                  "off",
+                                                  "--max-players",
+                                                  places,
+                                                  "--max-per-address",
+                                                  places,
+                                                  "--link-host",
+                                                  "127.0.0.1",
+                                                  "--bus",
+                                                  busUrl(),
+                                                  "--bus-id",
+                                                  name,
+                                                  "--server-name",
+                                                  name,
+                                                  "--frame-time",
+                                                  std::to_string(1'000'000 / m_setup.hz),
+                                                  "--port-file",
+                                                  server.folder / "port"},
+                         server.folder / "log");
+}
+
+void Fleet::end() {
+  for (Server& server : m_servers) server.process->signal(SIGINT);
+  for (Server& server : m_servers) server.process->end();
+  m_directory->end();
+}
+
+Fleet::Ticks Fleet::ticks() const {
+  Ticks ticks;
+  for (const Server& server : m_servers) {
+    const std::string log = textOf(server.folder / "log");
+    ticks.all += counter(log, "ticks");
+    ticks.late += counter(log, "late_ticks");
+  }
+  return ticks;
+}
+
+}  // namespace bench

@@ -1,0 +1,70 @@
+// A fleet on this machine: nats-server, dfdir and dfservers, each with a folder of its own.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Process.h"
+
+namespace bench {
+
+struct FleetSetup {
+  int servers = 10;
+  int max_players = 128;  ///< of each
+  int bots = 1000;
+  int hz = 30;
+  std::string game = "hello";
+};
+
+class Fleet {
+ public:
+  /// Throws std::runtime_error if a part does not start.
+  explicit Fleet(const FleetSetup& setup);
+  ~Fleet();
+  Fleet(const Fleet&) = delete;
+  Fleet& operator=(const Fleet&) = delete;
+
+  std::uint16_t directoryPort() const { return m_directory_port; }
+  /// The link to the directory.
+  std::string link() const;
+  std::size_t size() const { return m_servers.size(); }
+  std::uint16_t port(std::size_t server) const { return m_servers.at(server).port; }
+  /// SIGKILL; start() later.
+  void killServer(std::size_t server) { m_servers.at(server).process->kill(); }
+  void startServer(std::size_t server);
+  void killBus() { m_bus->kill(); }
+  void startBus();
+  /// SIGTERM to all; the servers' last lines have their ticks.
+  void end();
+  /// Of the servers since each began last: call after end().
+  struct Ticks {
+    std::uint64_t all = 0;
+    std::uint64_t late = 0;
+  };
+  Ticks ticks() const;
+  /// What the directory and the servers logged, for who looks for a mistake.
+  std::filesystem::path folder() const { return m_folder; }
+
+ private:
+  struct Server {
+    std::filesystem::path folder;
+    std::uint16_t port = 0;
+    std::optional<Process> process;
+  };
+  std::string busUrl() const { return "nats://127.0.0.1:" + std::to_string(m_bus_port); }
+  void startDirectory();
+
+  FleetSetup m_setup;
+  std::filesystem::path m_folder;
+  std::uint16_t m_bus_port = 0;
+  std::uint16_t m_directory_port = 0;
+  std::optional<Process> m_bus;
+  std::optional<Process> m_directory;
+  std::vector<Server> m_servers;
+};
+
+}  // namespace bench

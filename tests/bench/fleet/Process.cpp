@@ -1,0 +1,58 @@
+#include "Process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <utility>
+
+namespace bench {
+
+Process::Process(std::vector<std::string> words, std::filesystem::path output) {
+  if (words.front().find('/') == std::string::npos) words.front() = NAIAD_BINARY_DIR "/" + words.front();
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  m_child = ::fork();
+  if (m_child != 0) return;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int file = ::open(output.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  ::dup2(file, STDOUT_FILENO);
+  ::dup2(file, STDERR_FILENO);
+  ::execv(pointers[0], pointers.data());
+  ::_exit(127);
+}
+
+Process::~Process() {
+  kill();
+}
+
+Process::Process(Process&& other) noexcept : m_child(std::exchange(other.m_child, -1)) {}
+
+bool Process::isRunning() {
+  if (m_child > 0 && ::waitpid(m_child, nullptr, WNOHANG) != 0) m_child = -1;
+  return m_child > 0;
+}
+
+void Process::signal(int number) const {
+  if (m_child > 0) ::kill(m_child, number);
+}
+
+void Process::kill() {
+  signal(SIGKILL);
+  wait();
+}
+
+void Process::end() {
+  signal(SIGTERM);
+  wait();
+}
+
+void Process::wait() {
+  if (m_child > 0) ::waitpid(m_child, nullptr, 0);
+  m_child = -1;
+}
+
+}  // namespace bench

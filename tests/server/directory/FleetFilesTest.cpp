@@ -1,0 +1,156 @@
+// What deploy/fleet/make-fleet makes: a bus with TLS on which each may say and hear its own, tried with the
+// real nats-server, a real directory and a real server.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "RunningProgram.h"
+#include "host/fleet/Bus.h"
+#include "shared/fleet/Presence.h"
+#include "shared/fleet/SendOn.h"
+#include "shared/fleet/ServerId.h"
+#include "tests/loopback/GameProgram.h"
+#include "tests/server/host/fleet/NatsServer.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+std::string textOf(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// NatsServer has a store of its own.
+std::string withoutStore(std::string conf) {
+  const std::size_t begin = conf.find("jetstream {");
+  return conf.erase(begin, conf.find("}\n", begin) + 2 - begin);
+}
+
+class FleetFilesTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!busComplaint({"nats://127.0.0.1:1", "", ""}).empty()) GTEST_SKIP() << "built without libnats";
+    if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
+    char name[] = "/tmp/naiad-fleet-XXXXXX";
+    ASSERT_NE(::mkdtemp(name), nullptr);
+    folder = fs::path(name) / "fleet";
+    ASSERT_EQ(make("127.0.0.1 tron=2 maze=1"), 0);
+    nats = std::make_unique<NatsServer>(withoutStore(textOf(folder / "bus" / "nats.conf")));
+    ASSERT_TRUE(nats->start()) << nats->log();
+  }
+  ~FleetFilesTest() override {
+    std::error_code error;
+    if (!folder.empty()) fs::remove_all(folder.parent_path(), error);
+  }
+  int make(const std::string& words) const {
+    const std::string command =
+        NAIAD_SOURCE_DIR "/deploy/fleet/make-fleet " + folder.string() + " " + words + " >/dev/null 2>&1";
+    return WEXITSTATUS(::system(command.c_str()));
+  }
+  /// The address of the bus in a file, at the port that it has in this test.
+  std::string urlIn(const fs::path& file) const {
+    const std::string text = textOf(folder / file);
+    const std::size_t begin = text.find("tls://");
+    std::string url = text.substr(begin, text.find('\n', begin) - begin);
+    const std::string here = nats->url();
+    return url.substr(0, url.rfind(':')) + here.substr(here.rfind(':'));
+  }
+  std::unique_ptr<Bus> connect(const fs::path& file, std::vector<std::string> subjects = {}) const {
+    return connectBus({urlIn(file), "", folder / "bus" / "ca.pem", std::move(subjects)});
+  }
+  static bool waitFor(const std::function<bool()>& holds) {
+    const auto end = std::chrono::steady_clock::now() + RunningProgram::kPatience;
+    while (!holds()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(5ms);
+    }
+    return true;
+  }
+
+  fs::path folder;
+  std::unique_ptr<NatsServer> nats;
+};
+
+TEST_F(FleetFilesTest, SecretsAreTheOwnersAlone) {
+  for (const fs::path& file :
+       {folder / "bus" / "nats.conf", folder / "bus" / "key.pem", folder / "bus" / "reader.password",
+        folder / "servers" / "tron-1.conf", folder / "directory" / "dfdir.env"}) {
+    struct stat facts {};
+    ASSERT_EQ(::stat(file.c_str(), &facts), 0) << file;
+    EXPECT_EQ(facts.st_mode & 077, 0u) << file;
+  }
+  EXPECT_FALSE(fs::exists(folder / "bus" / "ca.key")) << "the key of the authority is not kept";
+  EXPECT_EQ(
+      textOf(folder / "bus" / "nats.conf").find(textOf(folder / "bus" / "reader.password").substr(0, 32)),
+      std::string::npos)
+      << "passwords are hashed";
+  EXPECT_EQ(make("127.0.0.1 tron=2"), 1) << "it is there already";
+}
+
+TEST_F(FleetFilesTest, EachServerSaysAndHearsItsOwnAlone) {
+  const auto directory = connect("directory/dfdir.env", {"naiad.presence.*"});
+  const auto tron = connect("servers/tron-1.conf", {sendOnSubject("tron-1"), sendOnSubject("maze-1")});
+  ASSERT_TRUE(waitFor([&] { return directory->isConnected() && tron->isConnected(); }))
+      << directory->takeNews() << nats->log();
+  std::vector<BusMessage> heard;
+  EXPECT_TRUE(waitFor([&] {
+    tron->publish({presenceSubject("maze-1"), "a lie"});
+    tron->publish({sendOnSubject("tron-2"), "a lie"});
+    tron->publish({presenceSubject("tron-1"), "here"});
+    for (BusMessage& one : directory->takeMessages()) heard.push_back(std::move(one));
+    return !heard.empty();
+  }));
+  for (const BusMessage& one : heard) EXPECT_EQ(one.subject, presenceSubject("tron-1"));
+  heard.clear();
+  EXPECT_TRUE(waitFor([&] {
+    directory->publish({presenceSubject("tron-2"), "a lie"});
+    directory->publish({sendOnSubject("maze-1"), "for another"});
+    directory->publish({sendOnSubject("tron-1"), "for it"});
+    for (BusMessage& one : tron->takeMessages()) heard.push_back(std::move(one));
+    return !heard.empty();
+  }));
+  for (const BusMessage& one : heard) EXPECT_EQ(one.subject, sendOnSubject("tron-1"));
+  for (const char* said : {"Publish Violation", "Subscription Violation"})
+    EXPECT_TRUE(waitFor([&] { return nats->log().find(said) != std::string::npos; })) << said << nats->log();
+}
+
+TEST_F(FleetFilesTest, WithoutItsAuthorityOrPasswordTheBusIsClosed) {
+  const std::string url = urlIn("servers/tron-1.conf");
+  const std::string without = "tls://" + url.substr(url.find('@') + 1);
+  const auto stranger = connectBus({without, "", folder / "bus" / "ca.pem"});
+  const auto trusting = connectBus({url, "", ""});  // the authorities of the system
+  const auto plain = connectBus({"nats" + url.substr(3), "", ""});
+  for (const auto* const p_bus : {&stranger, &trusting, &plain}) {
+    EXPECT_TRUE(waitFor([&] { return (*p_bus)->counters().failures > 0; }));
+    EXPECT_FALSE((*p_bus)->isConnected());
+  }
+}
+
+TEST_F(FleetFilesTest, TheDirectoryListsTheServerOfAFile) {
+  GameProgram server("dfserver", {{"NAIAD_BUS", urlIn("servers/maze-1.conf")}, {"NAIAD_GAME", "maze"}},
+                     {"--config", folder / "servers" / "maze-1.conf"});
+  ASSERT_NE(server.port(), 0) << server.log();
+  RunningProgram directory({"dfdir", "--bus", urlIn("directory/dfdir.env"), "--bus-ca",
+                            folder / "bus" / "ca.pem", "--list", folder / "servers.json"});
+  EXPECT_TRUE(directory.prints("maze-1 is there")) << directory.printed() << server.log() << nats->log();
+  EXPECT_TRUE(
+      waitFor([&] { return textOf(folder / "servers.json").find("\"maze-1\"") != std::string::npos; }));
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,225 @@
+// Clients that are sent to another server: what they do there, and what a server that lies cannot make them
+// do.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "LyingServer.h"
+#include "client/session/TcpStreamOpener.h"
+#include "client/trust/KnownServers.h"
+#include "host/auth/PasswordHash.h"
+#include "shared/net/base/SafeFile.h"
+#include "shared/net/lan/LanNetworks.h"
+#include "tests/loopback/BusyWorld.h"
+#include "tests/loopback/Home.h"
+#include "tests/loopback/RecordingServer.h"
+#include "tests/loopback/TestServer.h"
+
+namespace naiad::test {
+namespace {
+
+using State = Connection::State;
+
+class RedirectTest : public testing::Test {
+ protected:
+  static std::function<void(df::World&)> world() {
+    return [](df::World& world) { populateBusyWorld(world, 5); };
+  }
+  bool serve(TestClient& client, const std::function<bool()>& done) {
+    return serveUntil(context, {&client}, done);
+  }
+  /// The sentence that it ends with; empty if it was let in.
+  std::string refusal(TestClient& client) {
+    EXPECT_TRUE(serve(client, [&] { return client.joined() || client.connection().isOver(); }));
+    return client.joined() ? std::string() : client.connection().sentence();
+  }
+  std::string refusal(const ClientSetup& setup) {
+    TestClient client(context, liar.port(), setup);
+    return refusal(client);
+  }
+  std::string pins() const { return readSmallFile(home.knownServers(), 10'000).value_or(""); }
+  void pin(std::uint16_t port, const Fingerprint& key) const {
+    const PeerFacts facts{.key = key, .chain_verifies = false, .chain_problem = {}};
+    KnownServers(home.knownServers()).admit("127.0.0.1", port, facts, key);
+  }
+
+  Home home;
+  asio::io_context context;
+  LyingServer liar{context, home.identity("liar")};
+};
+
+TEST_F(RedirectTest, AClientThatIsSentOnPlaysThere) {
+  TestServer server(world(), home.server());
+  liar.sendTo(server.port(), *server.fingerprint());
+  TestClient client(context, liar.port(), home.player("ann"));
+  EXPECT_EQ(refusal(client), "");
+  EXPECT_TRUE(client.connection().isRedirected());
+  EXPECT_EQ(client.connection().address().port, server.port());
+  EXPECT_EQ(client.session().welcome().name, "ann");
+  EXPECT_TRUE(serve(client, [&] { return client.session().hasDatagrams(std::chrono::steady_clock::now()); }))
+      << "datagrams, too";
+}
+
+TEST_F(RedirectTest, AServerThatIsFullSendsOn) {
+  TestServer roomy(world(), home.server("roomy"));
+  liar.answer(wire::Refused::FULL, "The server is full.",
+              LyingServer::linkTo("127.0.0.1", roomy.port(), *roomy.fingerprint()));
+  EXPECT_EQ(refusal(home.player("ann")), "");
+}
+
+TEST_F(RedirectTest, TheOtherServerGetsANameAndNeitherPasswordNorToken) {
+  RecordingServer thief(home.identity("thief"));
+  liar.sendTo(thief.port(), thief.fingerprint());
+  ClientSetup setup = home.player("ann");
+  setup.options.password = "xyzzy-secret";
+  setup.options.resume_token = "a-token-of-old";
+  setup.sessions = home.sessions();
+  TestClient client(context, liar.port(), setup);
+  ASSERT_TRUE(serve(client, [&] { return !thief.heard().empty(); }));
+  EXPECT_EQ(liar.hello().password(), "xyzzy-secret") << "it was meant for this one";
+  const std::string heard = thief.heard();
+  EXPECT_NE(heard.find("ann"), std::string::npos);
+  EXPECT_EQ(heard.find("xyzzy"), std::string::npos);
+  EXPECT_EQ(heard.find("token"), std::string::npos);
+}
+
+TEST_F(RedirectTest, NoTokenOfThatServerIsSentThereEither) {
+  TestServer server(world(), home.server());
+  ClientSetup setup = home.player("ann");
+  setup.sessions = home.sessions();
+  {
+    TestClient before(context, server.port(), setup);
+    ASSERT_EQ(refusal(before), "");
+  }
+  liar.sendTo(server.port(), *server.fingerprint());
+  TestClient client(context, liar.port(), setup);
+  ASSERT_EQ(refusal(client), "");
+  EXPECT_EQ(client.session().welcome().name, "ann2") << "another player than the one who was killed";
+  EXPECT_EQ(server.counters().resumed, 0u);
+}
+
+TEST_F(RedirectTest, AServerWithAnotherKeyThanItWasSaidToHaveHearsNothing) {
+  RecordingServer other(home.identity("other"));
+  liar.sendTo(other.port(), liar.key());
+  TestClient client(context, liar.port(), home.player("ann"));
+  EXPECT_NE(refusal(client).find("link"), std::string::npos) << client.connection().sentence();
+  EXPECT_EQ(client.connection().state(), State::kRefused);
+  EXPECT_EQ(other.heard(), "");
+}
+
+TEST_F(RedirectTest, APinnedKeyIsNotReplaced) {
+  RecordingServer impostor(home.identity("impostor"));
+  pin(impostor.port(), liar.key());
+  const std::string before = pins();
+  liar.sendTo(impostor.port(), impostor.fingerprint());
+  TestClient client(context, liar.port(), home.player("ann"));
+  EXPECT_NE(refusal(client), "");
+  EXPECT_EQ(impostor.heard(), "");
+  EXPECT_NE(before.find(std::to_string(impostor.port())), std::string::npos);
+  EXPECT_NE(pins().find(before.substr(0, before.find('\n'))), std::string::npos);
+  EXPECT_EQ(pins().find(impostor.fingerprint().text()), std::string::npos);
+}
+
+TEST_F(RedirectTest, TheServerThereIsNotPinned) {
+  TestServer server(world(), home.server());
+  liar.sendTo(server.port(), *server.fingerprint());
+  ASSERT_EQ(refusal(home.player("ann")), "");
+  EXPECT_EQ(pins().find(server.fingerprint()->text()), std::string::npos) << "a stranger has named the key";
+  EXPECT_NE(pins().find(liar.key().text()), std::string::npos);
+}
+
+TEST_F(RedirectTest, OneServerSendsOnAndTheNextDoesNot) {
+  LyingServer second(context, home.identity("second"));
+  RecordingServer third(home.identity("third"));
+  liar.sendTo(second.port(), second.key());
+  second.sendTo(third.port(), third.fingerprint());
+  TestClient client(context, liar.port(), home.player("ann"));
+  EXPECT_EQ(refusal(client), "Go on.");
+  EXPECT_EQ(second.hellos(), 1u);
+  EXPECT_EQ(third.heard(), "");
+}
+
+TEST_F(RedirectTest, AServerThatSendsToItselfIsAskedTwiceAndNoMore) {
+  liar.sendTo(liar.port(), liar.key());
+  EXPECT_EQ(refusal(home.player("ann")), "Go on.");
+  EXPECT_EQ(liar.hellos(), 2u);
+}
+
+TEST_F(RedirectTest, WithNoRedirectAndThroughADoorPlayersStay) {
+  RecordingServer other(home.identity("other"));
+  liar.sendTo(other.port(), other.fingerprint());
+  ClientSetup stays = home.player("ann");
+  stays.trust.stays = true;
+  EXPECT_EQ(refusal(stays), "Go on.");
+  TcpStreamOpener visitor(context, ServerAddress{"127.0.0.1", liar.port()}, {}, Visit{"socket", {}});
+  const std::string link = LyingServer::linkTo("127.0.0.1", other.port(), other.fingerprint());
+  EXPECT_EQ(visitor.follow(link).opener, nullptr) << "through a door";
+  EXPECT_EQ(other.heard(), "");
+}
+
+TEST_F(RedirectTest, OtherLinksThanToAServerAreASentence) {
+  RecordingServer other(home.identity("other"));
+  const std::string key = ShortKey::of(other.fingerprint()).text();
+  const std::string port = std::to_string(other.port());
+  const std::string cases[] = {"naiad://127.0.0.1:80#" + key,
+                               "naiad://127.0.0.1:" + port,
+                               "naiad://127.0.0.1:" + port + "#" + key.substr(1),
+                               "naiad://127.0.0.1:" + port + "/room#" + key,
+                               "naiad://ann@127.0.0.1:" + port + "#" + key,
+                               "naiad://-oProxyCommand=x:" + port + "#" + key,
+                               "http://127.0.0.1:" + port + "#" + key,
+                               std::string(10'000, 'x')};
+  for (const std::string& link : cases) {
+    liar.answer(wire::Refused::REDIRECT, "Go on.", link);
+    EXPECT_EQ(refusal(home.player("ann")), "Go on.") << link;
+  }
+  EXPECT_EQ(other.heard(), "");
+}
+
+TEST_F(RedirectTest, OnlyARefusalForWantOfAPlaceSendsOn) {
+  RecordingServer other(home.identity("other"));
+  const std::string link = LyingServer::linkTo("127.0.0.1", other.port(), other.fingerprint());
+  for (const auto reason : {wire::Refused::PASSWORD, wire::Refused::VERSION, wire::Refused::GAME}) {
+    liar.answer(reason, "No.", link);
+    EXPECT_EQ(refusal(home.player("ann")), "No.");
+  }
+  EXPECT_EQ(other.heard(), "");
+}
+
+TEST_F(RedirectTest, ThePasswordOfTheOtherServerIsNotAskedFor) {
+  HostOptions options = home.server();
+  options.password = PasswordHash::of("xyzzy", {.memory_kib = 64, .passes = 1}).text();
+  TestServer server(world(), options);
+  liar.sendTo(server.port(), *server.fingerprint());
+  TestClient client(context, liar.port(), home.player("ann"));
+  EXPECT_EQ(refusal(client), "This server wants a password.");
+  EXPECT_FALSE(client.connection().isPasswordRefused()) << "it would be typed for the server that was named";
+}
+
+TEST_F(RedirectTest, FromANeighbourPlayersAreNotSentToTheirOwnMachine) {
+  std::string address;
+  for (const LanNetwork& network : lanNetworks()) {
+    if (!network.is_loopback && network.address.is_v4()) address = network.address.to_string();
+  }
+  if (address.empty()) GTEST_SKIP() << "this machine is in no network";
+  RecordingServer local(home.identity("local"));
+  LyingServer neighbour(context, home.identity("neighbour"), address);
+  neighbour.sendTo(local.port(), local.fingerprint());
+  const ClientSetup setup = home.player("ann");
+  Connection client(context, ServerAddress{address, neighbour.port()}, setup.options, true, setup.trust);
+  client.start();
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!client.isOver() && std::chrono::steady_clock::now() < end) {
+    context.restart();
+    context.run_one_for(std::chrono::milliseconds(5));
+    client.update(std::chrono::steady_clock::now());
+  }
+  EXPECT_EQ(neighbour.hellos(), 1u);
+  EXPECT_NE(client.sentence().find("nearer to you"), std::string::npos) << client.sentence();
+  EXPECT_EQ(local.heard(), "");
+}
+
+}  // namespace
+}  // namespace naiad::test
