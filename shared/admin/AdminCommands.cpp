@@ -22,6 +22,7 @@ std::vector<AdminCommand> tableOfCommands() {
        {{"command", Kind::kWord, false, "Name of a command"}}},
       {"commands", Level::kPlayer, Place::kChat, "As help", {}},
       {"who", Level::kPlayer, Place::kBoth, "List the players", {}, true},
+      {"rooms", Level::kPlayer, Place::kBoth, "List the rooms of the server, and how many play in each", {}, true},
       {"tell",
        Level::kPlayer,
        Place::kBoth,

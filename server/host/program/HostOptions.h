@@ -20,6 +20,7 @@ inline constexpr int kMaxServerPlayers = 20'000;
 
 struct HostOptions {
   std::string game = "saucershoot";  ///< name of a shipped game, or path of a module
+  std::string rooms;                 ///< NAME=GAME[,KEY=VALUE…] with blanks between (RoomList.h); empty: none
   std::string address = "::";        ///< numeric address to listen on; "::" is all of them, IPv4 too
   int port = kDefaultPort;           ///< 0: any free port
   int max_players = 64;
@@ -38,6 +39,7 @@ struct HostOptions {
   bool no_journal = false;     ///< not even so
   std::string recover = "on";  ///< go on with the round of a server that was killed: "on" or "off"
   std::string world_environment;  ///< names of variables that they get, too, with commas between
+  double room_sleep = 60;         ///< seconds without players after which a room sleeps
   bool insecure = false;          ///< plain TCP, loopback only, no datagrams: for tests
   std::string certificate;        ///< PEM file; with `key`. Empty: a key of its own, made on the first start
   std::string key;                ///< PEM file

@@ -30,6 +30,7 @@ struct WorldProgram {
   std::string directory;
   Sandbox sandbox;
   std::string preload = {};  ///< for LD_PRELOAD of worlds that are to be repeatable (Repeatable.h)
+  int nice = 0;              ///< added to that of this process, for the world and its keeper
 };
 
 struct StartedWorld {

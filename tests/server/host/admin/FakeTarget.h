@@ -69,6 +69,7 @@ class FakeTarget : public AdminTarget {
   AdminAnswer set(const std::string& option, const std::string& value) override {
     return note("set " + option + "=" + value);
   }
+  std::vector<AdminRow> rooms() const override { return named_rooms; }
   AdminRow settings() const override { return {{"grace", std::string("60")}}; }
 
  private:
