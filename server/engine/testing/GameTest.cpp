@@ -158,6 +158,18 @@ void GameTest::keepScore(const std::string& table, const std::string& name, std:
       {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
 }
 
+void GameTest::keepRoom(const GameRoom& room) {
+  m_p_game->world().inputs().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
+}
+
+std::string GameTest::sentTo(std::uint32_t player) const {
+  const std::uint32_t wanted = player != 0 ? player : m_p_game->first();
+  for (const SentPlayer& sent : m_p_game->world().extras().rooms.sent()) {
+    if (sent.player == wanted) return sent.room;
+  }
+  return {};
+}
+
 void GameTest::press(Keyboard::Key key, std::uint32_t player) {
   down(key, player);
   up(key, player);

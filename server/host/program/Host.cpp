@@ -122,6 +122,7 @@ Host::Host(HostOptions options, std::string game, Log log)
                       [this](Room& room, const std::vector<KeptSession>& sessions) {
                         m_admission.restoreSessions(room, sessions);
                       });
+  m_rooms.watchSent([this](Session& session, const std::string& room) { m_room_moves.askByGame(session, room); });
   m_rooms.watchClosed(
       [this](const Room& room, const std::string& sentence) { m_room_moves.leadAway(room, sentence); });
   openMetrics();

@@ -17,6 +17,16 @@ using Time = RoomSleep::Time;
 /// A game that fails as soon as it begins is not begun again before.
 constexpr std::chrono::seconds kClosedTime{30};
 
+constexpr std::uint32_t kRoomsEvery = 15;  ///< ticks between two looks at what games know of rooms
+
+df::GameRoom gameRoomOf(const Room& room) {
+  return {.name = room.plan()->name,
+          .game = room.plan()->game.substr(0, df::GameRooms::kMaxGame),
+          .players = static_cast<int>(room.countPlaying()),
+          .max_players = room.plan()->max_players,
+          .is_asleep = room.isAsleep()};
+}
+
 Time presentTime() {
   return std::chrono::steady_clock::now();
 }
@@ -30,6 +40,7 @@ void Rooms::openNamed() {
     room.setPlan(plan);
     room.sleep().asleep = true;
     room.port().checkProcess(tickNumber());
+    m_game_rooms.push_back(gameRoomOf(room));
   }
   std::string problem;
   if (!wake(firstRoom(), problem)) m_log("the first room cannot begin: " + problem);
@@ -75,6 +86,42 @@ void Rooms::leaveRoom(const Session& session) {
   leave(session);
   removeSession(session);
 }
+
+// ---- what games know of rooms -----------------------------------------------------------------------------
+
+void Rooms::passRooms(Room& room) const {
+  for (std::size_t i = 0; i < m_game_rooms.size(); ++i) {
+    df::GameRoom known = m_game_rooms[i];
+    known.is_this_one = m_rooms[i].get() == &room;
+    room.port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = std::move(known)});
+  }
+}
+
+// To all worlds, and only what has changed: half a second is soon enough for a sign on a door.
+void Rooms::publishRooms() {
+  if (tickNumber() % kRoomsEvery != 0) return;
+  m_game_rooms.resize(m_rooms.size());
+  for (std::size_t i = 0; i < m_rooms.size(); ++i) {
+    df::GameRoom present = gameRoomOf(*m_rooms[i]);
+    if (present == m_game_rooms[i]) continue;
+    m_game_rooms[i] = present;
+    for (const auto& room : m_rooms) {
+      if (room->isAsleep()) continue;
+      present.is_this_one = room == m_rooms[i];
+      room->port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = present});
+    }
+  }
+}
+
+// A world may be a stranger's program: it sends its own players alone.
+void Rooms::passSent(Room& room) {
+  for (const df::SentPlayer& sent : room.port().takeSent()) {
+    Session* const p_session = room.find(sent.player);
+    if (p_session != nullptr && m_on_sent) m_on_sent(*p_session, sent.room);
+  }
+}
+
+// ---- sleep ------------------------------------------------------------------------------------------------
 
 // A world that ends takes time, which the room does not wait for.
 void Rooms::putToSleep(Room& room) {

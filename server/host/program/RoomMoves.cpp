@@ -17,6 +17,10 @@ void RoomMoves::ask(const Session& session, const std::string& room) {
   m_wishes.push_back({session.id(), room.substr(0, kMaxRoomName + 1)});
 }
 
+void RoomMoves::askByGame(Session& session, const std::string& room) {
+  session.admitRoomRequest() ? ask(session, room) : static_cast<void>(++m_setup.counters.room_requests_dropped);
+}
+
 void RoomMoves::leadAway(const Room& room, const std::string& sentence) {
   if (&room == &m_setup.rooms.firstRoom()) return room.dismiss(sentence);
   room.say(sentence);

@@ -29,6 +29,8 @@ class RoomMoves {
 
   /// In the next update(). Of several for a session, the last one holds.
   void ask(const Session& session, const std::string& room);
+  /// The same, by its game, which may ask as often as it likes.
+  void askByGame(Session& session, const std::string& room);
   /// This room has no world any more: its players go to the first room, or out.
   void leadAway(const Room& room, const std::string& sentence);
   /// Once a tick, outside of any session's callback.

@@ -66,6 +66,7 @@ void Rooms::watchWorld(Room& room) {
   room.port().setOnTick([this, &room] { endTick(room); });
   room.port().checkProcess(tickNumber());
   passScores(room);
+  if (isNamed()) passRooms(room);
 }
 
 // Inputs like any other: before all others of its first tick. A round that goes on has had them.
@@ -193,6 +194,7 @@ const std::vector<ListedPlayer>& Rooms::players() {
 
 void Rooms::beginTicks() {
   noteScores();
+  if (isNamed()) publishRooms();
   m_in_begin = true;
   for (const auto& room : m_rooms) {
     if (room->port().recovering() || room->isAsleep()) continue;
@@ -211,6 +213,7 @@ void Rooms::endTick(Room& room) {
   dismissLeavers(room);
   publish(room);
   keepScores(room);
+  if (isNamed()) passSent(room);
   if (!m_in_begin) m_on_late_tick();
 }
 

@@ -46,6 +46,10 @@ class Rooms {
   void watchClosed(std::function<void(Room& room, const std::string& sentence)> on_closed) {
     m_on_closed = std::move(on_closed);
   }
+  /// The game of a room that has a name sends this player of it to another one.
+  void watchSent(std::function<void(Session& session, const std::string& room)> on_sent) {
+    m_on_sent = std::move(on_sent);
+  }
   /// A room's world is one that players were in: `on_round` a new one, after another; `on_sessions` that of a
   /// server that was killed, with the sessions that its players had. Before open().
   void watchRounds(std::function<void(Room&)> on_round,
@@ -155,6 +159,9 @@ class Rooms {
   void checkSleep();
   void checkEnding();
   void putToSleep(Room& room);
+  void publishRooms();
+  void passRooms(Room& room) const;
+  void passSent(Room& room);
   void closeRoom(Room& room, const std::string& sentence);
   ScoreKeeper* scoresOf(const Room& room) const;
   std::vector<ScoreKeeper*> allScores() const;
@@ -178,8 +185,10 @@ class Rooms {
   StageClock& m_stages;
   NewWorld m_new_world;  ///< empty: the world of this process, or m_plans
   std::vector<RoomPlan> m_plans;
+  std::vector<df::GameRoom> m_game_rooms;  ///< what worlds were passed last, by room
   std::vector<std::unique_ptr<WorldPort>> m_ending;  ///< worlds of rooms that were put to sleep
   std::function<void(Room&, const std::string&)> m_on_closed;
+  std::function<void(Session&, const std::string&)> m_on_sent;
   std::function<void(Room&)> m_on_round;
   std::function<void(Room&, const std::vector<KeptSession>&)> m_on_sessions;
   std::vector<std::unique_ptr<Room>> m_rooms;

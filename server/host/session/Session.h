@@ -115,6 +115,8 @@ class Session {
   bool hasSecondStream() const { return m_streams.hasSecond(); }
   /// How often the client may ask for the list of rooms, or for another room.
   static constexpr BucketRate kRoomRate{.per_second = 2, .burst = 4};
+  /// May the client, or its game, ask once more? If not, nothing changes.
+  bool admitRoomRequest() { return m_room_requests.takeToken(kRoomRate, now()); }
   /// Can the client be led to another room?
   bool knowsRooms() const { return m_knows_rooms; }
   /// The session, which has a stream, goes on in another room's world, as this welcome says: its client hears of it

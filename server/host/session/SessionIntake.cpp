@@ -93,7 +93,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
 
 // Of a server without rooms, a client that knows them may ask all the same.
 void Session::takeRoomRequest(const wire::ClientMessage& message) {
-  if (!m_knows_rooms || !m_room_requests.takeToken(kRoomRate, now())) {
+  if (!m_knows_rooms || !admitRoomRequest()) {
     ++m_counters.room_requests_dropped;
   } else if (!message.has_enter()) {
     if (m_events.on_list_rooms) m_events.on_list_rooms(*this);

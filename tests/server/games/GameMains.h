@@ -9,6 +9,7 @@ int bullethell_main();
 int chase_main();
 int hello_main();
 int lander_main();
+int lobby_main();
 int maze_main();
 int platformer_main();
 int sandbox_main();
@@ -24,6 +25,7 @@ inline const std::map<std::string, int (*)()>& gameMains() {
                                                            {"chase", chase_main},
                                                            {"hello", hello_main},
                                                            {"lander", lander_main},
+                                                           {"lobby", lobby_main},
                                                            {"maze", maze_main},
                                                            {"platformer", platformer_main},
                                                            {"sandbox", sandbox_main},

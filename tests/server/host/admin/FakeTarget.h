@@ -17,6 +17,7 @@ class FakeTarget : public AdminTarget {
  public:
   std::vector<AdminPlayer> all;
   std::vector<std::string> done;  ///< in order
+  std::vector<AdminRow> named_rooms;
   std::optional<PasswordHash> password;
 
   AdminPlayer& add(const std::string& name, const std::string& address = "192.0.2.1:50000") {
