@@ -14,10 +14,11 @@ ReceivedWorld::Result ReceivedWorld::applySnapshot(std::string_view bytes, Time 
   if (result != Result::kApplied && result != Result::kShown) return result;
   if (result == Result::kShown) m_table_known = m_control_known = 0;
   m_acks.addReceived(m_header.number);
+  const bool of_this_world = !m_moving;  // or their ticks may be those of another
   noteClock(result, now);
   if (m_header.has_input) {
     const auto input = inputs.removeUpTo(m_header.input);
-    if (input) m_input_ticks.noteTaken(input->tick, m_header.input_tick);
+    if (input && of_this_world) m_input_ticks.noteTaken(input->tick, m_header.input_tick);
   }
   applyControls();
   return result;
@@ -34,6 +35,7 @@ void ReceivedWorld::noteClock(Result result, Time now) {
   if (m_moving && result == Result::kShown) {
     m_clock = DisplayClock(m_tick);
     m_clock.setDelay(oneWayDelay());
+    m_prediction.reset();
   }
   m_moving = false;
   m_clock.noteSnapshot(m_header.tick, now);

@@ -55,7 +55,7 @@ struct EnteredMessage {
   std::string game;
   int view_width = 80;
   int view_height = 24;
-  std::vector<std::string> help;
+  std::vector<std::string> help = {};
   std::uint32_t tick_now = 0;    ///< the world's tick, about now
   std::uint8_t world_epoch = 0;  ///< of the snapshots to come, 0 … 3
 };

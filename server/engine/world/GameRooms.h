@@ -20,12 +20,12 @@
 namespace df {
 
 struct GameRoom {
-  std::string name;         ///< for GameRooms::send()
-  std::string game;         ///< that is played there
-  int players = 0;          ///< that are there
-  int max_players = 0;      ///< that find place
-  bool is_asleep = false;   ///< it has had no players for a while, and begins with the next one
-  bool is_this_one = false; ///< this world is in it
+  std::string name = {};     ///< for GameRooms::send()
+  std::string game = {};     ///< that is played there
+  int players = 0;           ///< that are there
+  int max_players = 0;       ///< that find place
+  bool is_asleep = false;    ///< it has had no players for a while, and begins with the next one
+  bool is_this_one = false;  ///< this world is in it
   friend bool operator==(const GameRoom&, const GameRoom&) = default;
 };
 

@@ -431,11 +431,12 @@ void Admission::refuseRoom(Session& session, const RoomDoor::Refusal& refusal) {
 // The player is another one there: an id is used once in a world.
 std::string Admission::moveSession(Session& session, const std::string& room, bool led) {
   if (!m_setup.rooms.isNamed()) return "This server has no rooms.";
+  if (room.empty()) return "A room has a name.";
   if (session.isDetached() && !led) return "Your connection is broken.";
   if (!session.knowsRooms()) return "Your client is too old to go to another room: join it by HOST/" + room + ".";
   RoomDoor::Refusal refusal;
   Room* const p_to = m_door.findRoom(room, "", refusal);
-  if (p_to == nullptr || room.empty()) return safeText(refusal.sentence, kMaxChatLength);
+  if (p_to == nullptr) return safeText(refusal.sentence, kMaxChatLength);
   const AddressPrefix prefix = prefixOf(session);
   if (!led && !m_door.takeMove(prefix, session.now())) return "Too many have changed rooms. Try again in a moment.";
   if (const auto closed = m_door.open(*p_to, prefix, session.now())) return closed->sentence;

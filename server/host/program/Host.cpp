@@ -117,7 +117,7 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
   m_rooms.setScores(m_scores);
-  m_scores.setObserver([this](const ScoreRow& row) { m_fleet.noteScore(row); });
+  m_scores.setObserver([this](const ScoreRow& row) { m_fleet.noteScore(row, m_admission.game()); });
   m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
                       [this](Room& room, const std::vector<KeptSession>& sessions) {
                         m_admission.restoreSessions(room, sessions);

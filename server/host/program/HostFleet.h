@@ -49,7 +49,7 @@ class HostFleet {
   /// Once a tick, at its end.
   void tick(Clock::time_point now);
   /// A row that is about to be written. None twice.
-  void noteScore(const ScoreRow& row);
+  void noteScore(const ScoreRow& row, const std::string& game);
   /// The server is about to end: players' goodbyes come next.
   void noteStopping();
   /// After them.

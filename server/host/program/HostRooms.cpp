@@ -20,7 +20,7 @@ ScoreKeeper& Host::scoresOf(const std::string& game) {
   auto& p_scores = m_room_scores[game];
   if (p_scores == nullptr) {
     p_scores = std::make_unique<ScoreKeeper>(m_options.state, game);
-    p_scores->setObserver([this](const ScoreRow& row) { m_fleet.noteScore(row); });
+    p_scores->setObserver([this, game](const ScoreRow& row) { m_fleet.noteScore(row, game); });
   }
   return *p_scores;
 }

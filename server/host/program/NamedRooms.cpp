@@ -33,6 +33,15 @@ Time presentTime() {
 
 }  // namespace
 
+void Rooms::setNamed(std::vector<RoomPlan> plans) {
+  m_plans = std::move(plans);
+  std::set<ScoreKeeper*> all;
+  for (const RoomPlan& plan : m_plans) {
+    if (plan.p_scores != nullptr) all.insert(plan.p_scores);
+  }
+  m_all_scores.assign(all.begin(), all.end());
+}
+
 void Rooms::openNamed() {
   for (const RoomPlan& plan : m_plans) {
     Room& room = *m_rooms.emplace_back(
@@ -83,6 +92,7 @@ bool Rooms::wake(Room& room, std::string& problem) {
 }
 
 void Rooms::leaveRoom(const Session& session) {
+  if (Room* const p_room = roomOf(session)) p_room->stopSounds(session);
   leave(session);
   removeSession(session);
 }
@@ -167,14 +177,6 @@ void Rooms::closeRoom(Room& room, const std::string& sentence) {
 
 ScoreKeeper* Rooms::scoresOf(const Room& room) const {
   return room.plan() != nullptr ? room.plan()->p_scores : m_p_scores;
-}
-
-std::vector<ScoreKeeper*> Rooms::allScores() const {
-  std::set<ScoreKeeper*> all;
-  for (const RoomPlan& plan : m_plans) all.insert(plan.p_scores);
-  if (!isNamed()) all.insert(m_p_scores);
-  all.erase(nullptr);
-  return {all.begin(), all.end()};
 }
 
 }  // namespace naiad

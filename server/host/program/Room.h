@@ -57,6 +57,8 @@ class Room {
   void add(Session& session);
   /// The session, if it is one of this room's, is about to be destroyed.
   void remove(const Session& session);
+  /// The session, which plays here, is about to go to another room: its client is not to go on with this one's music.
+  void stopSounds(const Session& session) { m_sound_news.stopFor(session.player(), soundSender()); }
   bool has(const Session& session) const;
   /// Null if the player does not play here.
   Session* find(std::uint32_t player) const;

@@ -18,7 +18,7 @@ class RoomDoor {
 
   enum class Why { kUnknown, kGame, kFull, kForNow };
   struct Refusal {
-    Why why;
+    Why why = Why::kUnknown;
     std::string sentence;  ///< for the player
     std::string log;       ///< what the server's log is to have beside it; empty: nothing
   };

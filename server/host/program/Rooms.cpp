@@ -95,7 +95,7 @@ void Rooms::keepScores(Room& room) {
 
 void Rooms::noteScores() {
   ScoreCounters sum;
-  for (ScoreKeeper* const p_scores : allScores()) {
+  for (ScoreKeeper* const p_scores : m_all_scores) {
     const ScoreCounters counters = p_scores->counters();
     sum.added += counters.added;
     sum.refused += counters.refused;
@@ -110,7 +110,7 @@ void Rooms::noteScores() {
 }
 
 void Rooms::finishScores() {
-  for (ScoreKeeper* const p_scores : allScores()) p_scores->finish();
+  for (ScoreKeeper* const p_scores : m_all_scores) p_scores->finish();
   noteScores();
 }
 

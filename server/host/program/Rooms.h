@@ -41,7 +41,7 @@ class Rooms {
   /// Play in such worlds, not in the one that open() is given. Before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
   /// Have such rooms, instead of the one that open() makes. They begin asleep, but for the first. Before open().
-  void setNamed(std::vector<RoomPlan> plans) { m_plans = std::move(plans); }
+  void setNamed(std::vector<RoomPlan> plans);
   /// The game of a room that has a name cannot go on: its players have to leave.
   void watchClosed(std::function<void(Room& room, const std::string& sentence)> on_closed) {
     m_on_closed = std::move(on_closed);
@@ -61,7 +61,10 @@ class Rooms {
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
 
   /// Tables of scores for all worlds; outlives the Rooms. Before open().
-  void setScores(ScoreKeeper& scores) { m_p_scores = &scores; }
+  void setScores(ScoreKeeper& scores) {
+    m_p_scores = &scores;
+    m_all_scores = {&scores};
+  }
   /// Wait until the last ones are on disk. No world ticks after this.
   void finishScores();
 
@@ -164,7 +167,6 @@ class Rooms {
   void passSent(Room& room);
   void closeRoom(Room& room, const std::string& sentence);
   ScoreKeeper* scoresOf(const Room& room) const;
-  std::vector<ScoreKeeper*> allScores() const;
   void passScores(Room& room) const;
   void keepScores(Room& room);
   void noteScores();
@@ -196,6 +198,7 @@ class Rooms {
   std::optional<TruthWriter> m_truth;
   AuditTurns m_audit;
   ScoreKeeper* m_p_scores = nullptr;  ///< null: nothing is kept
+  std::vector<ScoreKeeper*> m_all_scores;  ///< each once
   bool m_ends_with_last = false;
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round

@@ -258,8 +258,8 @@ void Session::beginWorld() {
 void Session::enterRoom(const wire::Welcome& welcome) {
   *m_welcome = welcome;
   m_player = welcome.player();
-  beginWorld();
-  m_delivery.renewTransport(now());
+  if (const auto dropped = m_inputs.clear()) m_delivery.noteInput(*dropped, m_delivery.tick());
+  m_delivery.restart(now());
   wire::ServerMessage message;
   wire::Entered& entered = *message.mutable_entered();
   entered.set_player(welcome.player());
