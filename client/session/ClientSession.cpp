@@ -25,7 +25,8 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
   if (m_state != State::kGreeting) return reject("a second welcome");
   if (message.room.empty() && !m_link.options().room.empty()) {
     sendLeave();
-    return finish(State::kRefused, "This server has no rooms, so none is called \"" + m_link.options().room + "\".");
+    return finish(State::kRefused,
+                  "This server has no rooms, so none is called \"" + m_link.options().room + "\".");
   }
   m_welcome = std::move(message);
   const bool fresh = m_link.options().fresh;

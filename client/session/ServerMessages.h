@@ -129,9 +129,9 @@ struct PongMessage {
   std::uint32_t received = 0;  ///< newest of the client's reliable frames that arrived
 };
 
-using ServerMessageValue = std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage,
-                                        PlayersMessage, ChatMessage, SoundsMessage, PongMessage,
-                                        EnteredMessage, RoomsMessage>;
+using ServerMessageValue =
+    std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage, PlayersMessage, ChatMessage,
+                 SoundsMessage, PongMessage, EnteredMessage, RoomsMessage>;
 
 /// The message in a frame; nothing if it is not one that this version of the protocol allows.
 std::optional<ServerMessageValue> readServerMessage(std::string_view frame);

@@ -60,11 +60,11 @@ class ClientControls {
  public:
   /// What the program must do about a key; panels and chat line change here.
   enum class Result {
-    kGame,     ///< the key is the game's
-    kHandled,  ///< the client's own: what is drawn may have changed
-    kOpened,   ///< a chat line was opened: release the game's keys, switch the terminal to text
-    kClosed,   ///< the chat line was closed without text
-    kSay,      ///< the chat line was closed with Return: send takeChat()
+    kGame,       ///< the key is the game's
+    kHandled,    ///< the client's own: what is drawn may have changed
+    kOpened,     ///< a chat line was opened: release the game's keys, switch the terminal to text
+    kClosed,     ///< the chat line was closed without text
+    kSay,        ///< the chat line was closed with Return: send takeChat()
     kEnterRoom,  ///< the list of rooms was closed with Return: enter that of line roomChoice()
     kLeave,
     kSuspend,

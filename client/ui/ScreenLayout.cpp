@@ -243,8 +243,9 @@ void drawPlayers(Picture& picture, const ScreenModel& model, ShownControls& show
 
 std::string roomText(const RoomLine& room, const std::string& own) {
   char text[160];
-  std::snprintf(text, sizeof text, "%c %-16s %-16s %4u/%-4u %s", room.name == own ? '*' : ' ', room.name.c_str(),
-                room.game.c_str(), room.players, room.max_players, room.asleep ? "asleep" : "");
+  std::snprintf(text, sizeof text, "%c %-16s %-16s %4u/%-4u %s", room.name == own ? '*' : ' ',
+                room.name.c_str(), room.game.c_str(), room.players, room.max_players,
+                room.asleep ? "asleep" : "");
   return text;
 }
 

@@ -21,7 +21,8 @@ const Suite s_suite("rooms", "players of rooms notice nothing of others that bur
                       Line line("rooms");
                       for (std::string word; words >> word;) {
                         const std::size_t equals = word.find('=');
-                        if (equals != std::string::npos) line.add(word.substr(0, equals), word.substr(equals + 1));
+                        if (equals != std::string::npos)
+                          line.add(word.substr(0, equals), word.substr(equals + 1));
                       }
                       line.addZero("failed", finished.code != 0 ? 1 : 0);
                     });

@@ -1,5 +1,6 @@
-// Rooms of one server (--room), each with a game in a process of its own (rooms/game.cpp): joining them by name,
-// going from one to another, sleep, and what the failure of one is to the others. Real processes and sockets.
+// Rooms of one server (--room), each with a game in a process of its own (rooms/game.cpp): joining them by
+// name, going from one to another, sleep, and what the failure of one is to the others. Real processes and
+// sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -36,8 +37,7 @@ std::optional<int> numberAfter(const std::string& text, const std::string& label
   int number = 0;
   if (at == std::string::npos) return std::nullopt;
   const char* p_begin = text.data() + at + label.size();
-  const bool is_number =
-      std::from_chars(p_begin, text.data() + text.size(), number).ec == std::errc();
+  const bool is_number = std::from_chars(p_begin, text.data() + text.size(), number).ec == std::errc();
   return is_number ? std::optional(number) : std::nullopt;
 }
 
@@ -95,9 +95,8 @@ class NamedRooms : public testing::Test {
   }
   static bool heard(TestClient& client, const std::string& part) {
     const auto& chat = client.session().chat();
-    return std::any_of(chat.begin(), chat.end(), [&](const ChatEntry& entry) {
-      return entry.text.find(part) != std::string::npos;
-    });
+    return std::any_of(chat.begin(), chat.end(),
+                       [&](const ChatEntry& entry) { return entry.text.find(part) != std::string::npos; });
   }
   const RoomLine* roomInList(TestClient& client, const std::string& name) {
     client.session().refreshRooms(Clock::now());
@@ -156,7 +155,8 @@ TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
   press(*ann, df::Keyboard::X);
   ASSERT_TRUE(serve([&] { return shown(*ann).keys == 1; }));
   ann->session().enterRoom("two");
-  const auto took = timeUntil(context, {ann.get(), bob.get()}, [&] { return shown(*ann).process == process; });
+  const auto took =
+      timeUntil(context, {ann.get(), bob.get()}, [&] { return shown(*ann).process == process; });
   ASSERT_TRUE(took) << server->log();
   EXPECT_LE(*took, std::chrono::milliseconds(300));
   EXPECT_EQ(&ann->session(), p_session);
@@ -206,8 +206,10 @@ TEST_F(NamedRooms, RoomSleepsWithoutPlayersAndWakes) {
   ASSERT_TRUE(serve([&] { return roomInList(*ann, "two")->asleep; }));
   EXPECT_TRUE(serve([&] { return kill(process, 0) != 0; })) << "its process has ended";
   ann->session().enterRoom("two");
-  EXPECT_TRUE(serve([&] { return shown(*ann).process > 0 && shown(*ann).process != process &&
-                                 ann->session().welcome().room == "two" && shown(*ann).keys == 0; }));
+  EXPECT_TRUE(serve([&] {
+    return shown(*ann).process > 0 && shown(*ann).process != process &&
+           ann->session().welcome().room == "two" && shown(*ann).keys == 0;
+  }));
   EXPECT_EQ(server->log().find("crashed"), std::string::npos);
 }
 

@@ -18,8 +18,8 @@ class World;
 
 class InputQueue {
  public:
-  /// kScore and kRoom are the host's own: a row that was kept of an earlier round (HighScores.h), and what is so
-  /// of a room of the server (GameRooms.h). They are there at once, and send no event.
+  /// kScore and kRoom are the host's own: a row that was kept of an earlier round (HighScores.h), and what is
+  /// so of a room of the server (GameRooms.h). They are there at once, and send no event.
   enum Kind { kJoin, kLeave, kKey, kMouse, kScore, kRoom };
   /// One input; of the fields below `player`, those of its kind.
   struct Input {

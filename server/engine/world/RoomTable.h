@@ -18,8 +18,8 @@ struct SentPlayer {
 
 class RoomTable {
  public:
-  /// The room is so from now on; one that was not there before is behind the others. Nothing happens if it is no
-  /// room, or one too many.
+  /// The room is so from now on; one that was not there before is behind the others. Nothing happens if it is
+  /// no room, or one too many.
   void keep(GameRoom room);
   const std::vector<GameRoom>& rooms() const { return m_rooms; }
   /// False: there is no such room to send to, or too many were sent in this tick.

@@ -19,8 +19,8 @@ constexpr int kHeight = 24;
 constexpr int kDoorsInRow = 4;
 constexpr int kDoorWidth = kWidth / kDoorsInRow;
 constexpr int kDoorHeight = 5;
-constexpr int kFirstDoor = 6;   // row
-constexpr int kPatience = 60;   // ticks until a door that did not open is tried again
+constexpr int kFirstDoor = 6;                  // row
+constexpr int kPatience = 60;                  // ticks until a door that did not open is tried again
 constexpr std::size_t kSign = kDoorWidth - 2;  // characters
 
 struct Door : Object {
@@ -96,15 +96,14 @@ struct Porter : Object {
     for (const auto& type : {JOIN_EVENT, LEAVE_EVENT, STEP_EVENT}) registerInterest(type);
   }
   int eventHandler(const Event* p_e) override {
-    if (auto* p_join = dynamic_cast<const EventJoin*>(p_e)) new Walker(*WM.getPlayer(p_join->getPlayer()), floor());
+    if (auto* p_join = dynamic_cast<const EventJoin*>(p_e))
+      new Walker(*WM.getPlayer(p_join->getPlayer()), floor());
     if (auto* p_leave = dynamic_cast<const EventLeave*>(p_e))
       WM.markForDelete(WM.getPlayer(p_leave->getPlayer())->getObject());
     if (p_e->getType() == STEP_EVENT) build();
     return 1;
   }
-  int height() const {
-    return std::max(kHeight, kFirstDoor + kDoorHeight * ((doors - 1) / kDoorsInRow) + 3);
-  }
+  int height() const { return std::max(kHeight, kFirstDoor + kDoorHeight * ((doors - 1) / kDoorsInRow) + 3); }
   Box floor() const { return Box(Vector(1, 2), kWidth - 3, height() - 4); }
   void build() {
     const std::vector<GameRoom>& rooms = GameRooms().getRooms();
@@ -115,7 +114,8 @@ struct Porter : Object {
   }
   int draw() override {
     DM.drawString(Vector(kWidth / 2, 0), "Walk into a door to play", CENTER_JUSTIFIED, CYAN);
-    if (doors == 0) DM.drawString(Vector(kWidth / 2, 12), "This server has no other rooms.", CENTER_JUSTIFIED, RED);
+    if (doors == 0)
+      DM.drawString(Vector(kWidth / 2, 12), "This server has no other rooms.", CENTER_JUSTIFIED, RED);
     return 0;
   }
 };
@@ -124,7 +124,8 @@ struct Porter : Object {
 
 int main() {
   GM.startUp();
-  GM.setHelp({"Lobby: the doors lead to the games of this server.", "", "arrows or WASD   walk; into a door: play there",
+  GM.setHelp({"Lobby: the doors lead to the games of this server.", "",
+              "arrows or WASD   walk; into a door: play there",
               "Ctrl-] r         list of rooms, from anywhere"});
   new Porter;
   GM.run();

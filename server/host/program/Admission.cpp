@@ -433,12 +433,14 @@ std::string Admission::moveSession(Session& session, const std::string& room, bo
   if (!m_setup.rooms.isNamed()) return "This server has no rooms.";
   if (room.empty()) return "A room has a name.";
   if (session.isDetached() && !led) return "Your connection is broken.";
-  if (!session.knowsRooms()) return "Your client is too old to go to another room: join it by HOST/" + room + ".";
+  if (!session.knowsRooms())
+    return "Your client is too old to go to another room: join it by HOST/" + room + ".";
   RoomDoor::Refusal refusal;
   Room* const p_to = m_door.findRoom(room, "", refusal);
   if (p_to == nullptr) return safeText(refusal.sentence, kMaxChatLength);
   const AddressPrefix prefix = prefixOf(session);
-  if (!led && !m_door.takeMove(prefix, session.now())) return "Too many have changed rooms. Try again in a moment.";
+  if (!led && !m_door.takeMove(prefix, session.now()))
+    return "Too many have changed rooms. Try again in a moment.";
   if (const auto closed = m_door.open(*p_to, prefix, session.now())) return closed->sentence;
   if (Room* const p_from = m_setup.rooms.roomOf(session))
     p_from->port().noteSession({.player = session.player(), .over = true});

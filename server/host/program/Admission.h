@@ -73,8 +73,8 @@ class Admission {
   void noteSessions(const Room& room) const;
   /// The session has changed: its world's journal is to have it, before the client knows.
   void noteSession(const Session& session) const;
-  /// The session, which plays, goes on in the room of this name, if it can; else return why not, for its player.
-  /// `led`: by the server, so that it does not count.
+  /// The session, which plays, goes on in the room of this name, if it can; else return why not, for its
+  /// player. `led`: by the server, so that it does not count.
   std::string moveSession(Session& session, const std::string& room, bool led);
   /// The session is over: its token is void.
   void forgetSession(const Session& session);

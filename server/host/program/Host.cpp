@@ -106,13 +106,14 @@ Host::Host(HostOptions options, std::string game, Log log)
                       m_client_log.logNews(address, std::move(event), m_network.now());
                     }}),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
-      m_commands({{m_options, m_sessions, m_rooms, m_admission, m_counters, m_network, m_scores, adminControls()},
-                  m_bans,
-                  m_admin_worker,
-                  m_feed,
-                  m_client_log,
-                  m_log},
-                 m_io),
+      m_commands(
+          {{m_options, m_sessions, m_rooms, m_admission, m_counters, m_network, m_scores, adminControls()},
+           m_bans,
+           m_admin_worker,
+           m_feed,
+           m_client_log,
+           m_log},
+          m_io),
       m_fleet(fleetSetup()),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
@@ -122,7 +123,8 @@ Host::Host(HostOptions options, std::string game, Log log)
                       [this](Room& room, const std::vector<KeptSession>& sessions) {
                         m_admission.restoreSessions(room, sessions);
                       });
-  m_rooms.watchSent([this](Session& session, const std::string& room) { m_room_moves.askByGame(session, room); });
+  m_rooms.watchSent(
+      [this](Session& session, const std::string& room) { m_room_moves.askByGame(session, room); });
   m_rooms.watchClosed(
       [this](const Room& room, const std::string& sentence) { m_room_moves.leadAway(room, sentence); });
   openMetrics();
@@ -290,7 +292,8 @@ void Host::endWhenEmpty(double seconds) {
 }
 
 void Host::end(Ending::Plan plan) {
-  if (plan.at_round_end && (m_rooms.isPrivate() || m_rooms.isNamed())) plan.at_round_end = !(plan.when_empty = true);
+  if (plan.at_round_end && (m_rooms.isPrivate() || m_rooms.isNamed()))
+    plan.at_round_end = !(plan.when_empty = true);
   m_rooms.setLastRound(plan.at_round_end);
   m_ending.setPlan(std::move(plan), Clock::now());
   if (m_metrics && !m_ending.isOpen()) m_metrics->beginDrain(true);

@@ -40,7 +40,8 @@ std::vector<Row> tableOf(HostOptions& o) {
        UsedBy::kServer},
       {{.name = "--room",
         .target = &o.rooms,
-        .help = "NAME=GAME[,KEY=VALUE…]: a room in which this game is played, beside others; give it once for each room "
+        .help = "NAME=GAME[,KEY=VALUE…]: a room in which this game is played, beside others; give it once "
+                "for each room "
                 "(in the environment: with blanks between). Players begin in the first one, or join by "
                 "HOST/NAME. The keys are max-players, world-memory, seed and players, as the options",
         .environment = "NAIAD_ROOM",
@@ -48,7 +49,8 @@ std::vector<Row> tableOf(HostOptions& o) {
        UsedBy::kServer},
       {{.name = "--room-sleep",
         .target = &o.room_sleep,
-        .help = "Seconds without players after which a room ends its round and its process; the next player wakes it",
+        .help = "Seconds without players after which a room ends its round and its process; the next player "
+                "wakes it",
         .environment = "NAIAD_ROOM_SLEEP",
         .range = OptionRange{0, 1e6}},
        UsedBy::kServer},
@@ -291,7 +293,7 @@ void warnOfUnknownVariables(const std::vector<Row>& rows, HostOptions& options) 
 }
 
 constexpr const char* kLoopback = "127.0.0.1";
-constexpr int kMinFrameMicros = 1000;        // clients believe no shorter one
+constexpr int kMinFrameMicros = 1000;  // clients believe no shorter one
 
 const char* const kExitCodes =
     "Exit codes:\n"

@@ -20,9 +20,9 @@ inline constexpr int kMaxServerPlayers = 20'000;
 
 struct HostOptions {
   std::string game = "saucershoot";  ///< name of a shipped game, or path of a module
-  std::string rooms;                 ///< NAME=GAME[,KEY=VALUE…] with blanks between (RoomList.h); empty: none
-  std::string address = "::";        ///< numeric address to listen on; "::" is all of them, IPv4 too
-  int port = kDefaultPort;           ///< 0: any free port
+  std::string rooms;           ///< NAME=GAME[,KEY=VALUE…] with blanks between (RoomList.h); empty: none
+  std::string address = "::";  ///< numeric address to listen on; "::" is all of them, IPv4 too
+  int port = kDefaultPort;     ///< 0: any free port
   int max_players = 64;
   int max_per_address = 64;          ///< players from one IPv4 address or IPv6 /64, detached ones too
   std::string name = "naiad";        ///< shown in the clients' status line

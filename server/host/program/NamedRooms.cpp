@@ -168,8 +168,8 @@ void Rooms::checkEnding() {
 
 // The other rooms go on. Its players are led away in the next tick.
 void Rooms::closeRoom(Room& room, const std::string& sentence) {
-  m_log("the room " + room.plan()->name + " is closed for " + std::to_string(kClosedTime.count()) + " s: " +
-        sentence);
+  m_log("the room " + room.plan()->name + " is closed for " + std::to_string(kClosedTime.count()) +
+        " s: " + sentence);
   putToSleep(room);
   room.sleep().closed_until = presentTime() + kClosedTime;
   if (m_on_closed) m_on_closed(room, sentence);

@@ -57,7 +57,8 @@ class Room {
   void add(Session& session);
   /// The session, if it is one of this room's, is about to be destroyed.
   void remove(const Session& session);
-  /// The session, which plays here, is about to go to another room: its client is not to go on with this one's music.
+  /// The session, which plays here, is about to go to another room: its client is not to go on with this
+  /// one's music.
   void stopSounds(const Session& session) { m_sound_news.stopFor(session.player(), soundSender()); }
   bool has(const Session& session) const;
   /// Null if the player does not play here.
@@ -115,7 +116,8 @@ class Room {
 
   /// The world has ended. Return how many short rounds there have been in a row.
   int countShortRounds(bool is_short) { return m_short_rounds = is_short ? m_short_rounds + 1 : 0; }
-  /// Go on with another world: all players join it, and are sent it from the beginning. Return the one before.
+  /// Go on with another world: all players join it, and are sent it from the beginning. Return the one
+  /// before.
   std::unique_ptr<WorldPort> changeWorld(std::unique_ptr<WorldPort> port);
 
  private:

@@ -26,8 +26,9 @@ Room* RoomDoor::findRoom(const std::string& name, const std::string& game, Refus
     if (p_found == nullptr) {
       refusal = {Why::kUnknown, unknownRoom(name, m_rooms.roomNames()), ""};
     } else if (!game.empty() && p_found->plan()->game != game) {
-      refusal = {Why::kGame,
-                 named(*p_found) + " plays \"" + p_found->plan()->game + "\", not \"" + safeName(game) + "\".", ""};
+      refusal = {
+          Why::kGame,
+          named(*p_found) + " plays \"" + p_found->plan()->game + "\", not \"" + safeName(game) + "\".", ""};
       p_found = nullptr;
     }
     return p_found;
@@ -46,10 +47,10 @@ Room* RoomDoor::findRoom(const std::string& name, const std::string& game, Refus
 
 std::optional<RoomDoor::Refusal> RoomDoor::open(Room& room, const AddressPrefix& prefix, Time now) {
   if (isFull(room)) {
-    return Refusal{Why::kFull,
-                   named(room) + " is full (" + std::to_string(room.plan()->max_players) +
-                       " players). Try again later.",
-                   ""};
+    return Refusal{
+        Why::kFull,
+        named(room) + " is full (" + std::to_string(room.plan()->max_players) + " players). Try again later.",
+        ""};
   }
   if (!room.isAsleep()) return std::nullopt;
   if (now < room.sleep().closed_until)

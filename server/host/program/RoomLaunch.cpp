@@ -41,15 +41,16 @@ void warnOfTicks(const std::vector<LaunchedRoom>& rooms, const HostOptions& opti
     const int wanted = room.plan.ready.frame_millis;
     const int given = rooms.front().plan.ready.frame_millis;
     if (wanted == given) continue;
-    log({LogEvent::Level::kWarning, "warning: the game in the room " + room.plan.name + " asks for ticks of " +
-                                        std::to_string(wanted) + " ms; those of this server take " +
-                                        std::to_string(given) + " ms, as in its first room"});
+    log({LogEvent::Level::kWarning,
+         "warning: the game in the room " + room.plan.name + " asks for ticks of " + std::to_string(wanted) +
+             " ms; those of this server take " + std::to_string(given) + " ms, as in its first room"});
   }
 }
 
 }  // namespace
 
-std::vector<LaunchedRoom> launchRooms(const HostOptions& options, const std::string& config, const LogLine& log,
+std::vector<LaunchedRoom> launchRooms(const HostOptions& options, const std::string& config,
+                                      const LogLine& log,
                                       const std::function<LogLine(const std::string& room)>& print) {
   const std::vector<RoomOptions> rooms = roomsOf(options);
   const LogLine log_once = onceOnly(log);
@@ -57,7 +58,8 @@ std::vector<LaunchedRoom> launchRooms(const HostOptions& options, const std::str
   for (const RoomOptions& room : rooms) {
     auto& launcher = launchers[kindOf(room)];
     if (launcher != nullptr) continue;
-    launcher = launchModule(optionsOf(options, room), GameModule::find(room.game).string(), config, log_once, kNice);
+    launcher =
+        launchModule(optionsOf(options, room), GameModule::find(room.game).string(), config, log_once, kNice);
   }
   std::map<std::string, WorldReady> seen;
   std::vector<LaunchedRoom> launched;

@@ -18,7 +18,8 @@ void RoomMoves::ask(const Session& session, const std::string& room) {
 }
 
 void RoomMoves::askByGame(Session& session, const std::string& room) {
-  session.admitRoomRequest() ? ask(session, room) : static_cast<void>(++m_setup.counters.room_requests_dropped);
+  session.admitRoomRequest() ? ask(session, room)
+                             : static_cast<void>(++m_setup.counters.room_requests_dropped);
 }
 
 void RoomMoves::leadAway(const Room& room, const std::string& sentence) {
@@ -42,10 +43,9 @@ void RoomMoves::grant(const Wish& wish) {
   const std::string refusal = m_setup.admission.moveSession(*p_session, wish.room, !wish.or_goodbye.empty());
   if (!refusal.empty()) return refuse(*p_session, wish, refusal);
   ++m_setup.counters.room_moves;
-  m_setup.log_client(p_session->address(),
-                     {"moved",
-                      inQuotes(p_session->name()) + " goes to the room " + wish.room,
-                      {{"player", p_session->name()}, {"room", wish.room}}});
+  m_setup.log_client(p_session->address(), {"moved",
+                                            inQuotes(p_session->name()) + " goes to the room " + wish.room,
+                                            {{"player", p_session->name()}, {"room", wish.room}}});
 }
 
 void RoomMoves::refuse(Session& session, const Wish& wish, const std::string& sentence) {

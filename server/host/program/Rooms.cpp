@@ -89,8 +89,7 @@ void Rooms::passScores(Room& room) const {
 
 void Rooms::keepScores(Room& room) {
   const std::vector<df::AddedScore> added = room.port().takeScores();
-  if (ScoreKeeper* const p_scores = scoresOf(room))
-    p_scores->add(room.round().id, added, room.round().file);
+  if (ScoreKeeper* const p_scores = scoresOf(room)) p_scores->add(room.round().id, added, room.round().file);
 }
 
 void Rooms::noteScores() {
@@ -294,7 +293,8 @@ void Rooms::noteUpgrade(const Room& room, const WorldEnd& end) {
 // soon as it begins: it would do so for ever.
 void Rooms::endRound(Room& room, const WorldEnd& end) {
   if (end.why == WorldEnd::kForeign) return noteUpgrade(room, end);
-  m_log("the round is over" + inRoom(room) + ": the game " + end.text + (end.when.empty() ? "" : " " + end.when));
+  m_log("the round is over" + inRoom(room) + ": the game " + end.text +
+        (end.when.empty() ? "" : " " + end.when));
   for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
   if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
   countEnd(end.why);
@@ -345,9 +345,8 @@ void Rooms::closeWorlds() {
     room->port().close();
     room->port().checkProcess(tickNumber());
   }
-  std::erase_if(m_rooms, [this](const auto& room) {
-    return !hasWorlds() || room->isAsleep() || room->port().end();
-  });
+  std::erase_if(m_rooms,
+                [this](const auto& room) { return !hasWorlds() || room->isAsleep() || room->port().end(); });
   checkEnding();
 }
 

@@ -1,5 +1,5 @@
-// The rooms of a host: one for all players, one for each, or those that have names, and the rounds that are played in them
-// (docs/rounds.md).
+// The rooms of a host: one for all players, one for each, or those that have names, and the rounds that are
+// played in them (docs/rounds.md).
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,8 @@ class Rooms {
 
   /// Play in such worlds, not in the one that open() is given. Before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
-  /// Have such rooms, instead of the one that open() makes. They begin asleep, but for the first. Before open().
+  /// Have such rooms, instead of the one that open() makes. They begin asleep, but for the first. Before
+  /// open().
   void setNamed(std::vector<RoomPlan> plans);
   /// The game of a room that has a name cannot go on: its players have to leave.
   void watchClosed(std::function<void(Room& room, const std::string& sentence)> on_closed) {
@@ -187,7 +188,7 @@ class Rooms {
   StageClock& m_stages;
   NewWorld m_new_world;  ///< empty: the world of this process, or m_plans
   std::vector<RoomPlan> m_plans;
-  std::vector<df::GameRoom> m_game_rooms;  ///< what worlds were passed last, by room
+  std::vector<df::GameRoom> m_game_rooms;            ///< what worlds were passed last, by room
   std::vector<std::unique_ptr<WorldPort>> m_ending;  ///< worlds of rooms that were put to sleep
   std::function<void(Room&, const std::string&)> m_on_closed;
   std::function<void(Session&, const std::string&)> m_on_sent;
@@ -197,7 +198,7 @@ class Rooms {
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
   AuditTurns m_audit;
-  ScoreKeeper* m_p_scores = nullptr;  ///< null: nothing is kept
+  ScoreKeeper* m_p_scores = nullptr;       ///< null: nothing is kept
   std::vector<ScoreKeeper*> m_all_scores;  ///< each once
   bool m_ends_with_last = false;
   bool m_in_begin = false;

@@ -213,8 +213,8 @@ int serveRooms(Start& start, naiad::LineLog& lines) {
   host.setRooms(std::move(rooms));
   watchReloads(start, host, lines);
   announce(options, host);
-  log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) + " rooms on " +
-      host.address());
+  log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) +
+      " rooms on " + host.address());
   df::World& world = df::World::current();
   setUp(world, launched.front().plan.ready);
   host.run(world);

@@ -253,8 +253,8 @@ void Session::beginWorld() {
   m_delivery.reset();
 }
 
-// On the stream at once, which snapshots take, too, until datagrams have proved to pass again: none of the new
-// world comes before.
+// On the stream at once, which snapshots take, too, until datagrams have proved to pass again: none of the
+// new world comes before.
 void Session::enterRoom(const wire::Welcome& welcome) {
   *m_welcome = welcome;
   m_player = welcome.player();

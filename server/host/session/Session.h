@@ -119,8 +119,8 @@ class Session {
   bool admitRoomRequest() { return m_room_requests.takeToken(kRoomRate, now()); }
   /// Can the client be led to another room?
   bool knowsRooms() const { return m_knows_rooms; }
-  /// The session, which has a stream, goes on in another room's world, as this welcome says: its client hears of it
-  /// before it is sent that world from the beginning.
+  /// The session, which has a stream, goes on in another room's world, as this welcome says: its client hears
+  /// of it before it is sent that world from the beginning.
   void enterRoom(const wire::Welcome& welcome);
   /// Another world begins: the client forgets what it knows, and its inputs to the one before are dropped.
   void beginWorld();

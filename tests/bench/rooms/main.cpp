@@ -1,6 +1,6 @@
-// Plays in sixteen rooms of four games while one of them burns a core, one crashes and one hangs, again and again,
-// and measures what the players of the others notice; and how long it takes to go from room to room. deploy/bench
-// rooms runs it.
+// Plays in sixteen rooms of four games while one of them burns a core, one crashes and one hangs, again and
+// again, and measures what the players of the others notice; and how long it takes to go from room to room.
+// deploy/bench rooms runs it.
 //
 //   naiad_rooms SECONDS   one line
 #include <algorithm>
@@ -42,17 +42,22 @@ bool isBad(int number) {
 /// A player, and when the ticks of their world come.
 class Player {
  public:
-  Player(asio::io_context& context, std::uint16_t port, naiad::test::ClientSetup setup, const std::string& room)
-      : m_connection(context, naiad::ServerAddress{"127.0.0.1", port}, inRoom(setup, room), true, setup.trust) {
+  Player(asio::io_context& context, std::uint16_t port, naiad::test::ClientSetup setup,
+         const std::string& room)
+      : m_connection(context, naiad::ServerAddress{"127.0.0.1", port}, inRoom(setup, room), true,
+                     setup.trust) {
     m_connection.onSession([this](ClientSession& session) {
-      session.onAfterSnapshot(
-          [this](const naiad::SnapshotHeader& header, const naiad::AckWindow&) { note(header, Clock::now()); });
+      session.onAfterSnapshot([this](const naiad::SnapshotHeader& header, const naiad::AckWindow&) {
+        note(header, Clock::now());
+      });
     });
     m_connection.start();
   }
 
   void update(Clock::time_point now) { m_connection.update(now); }
-  bool plays() { return m_connection.session() != nullptr && m_connection.state() == Connection::State::kJoined; }
+  bool plays() {
+    return m_connection.session() != nullptr && m_connection.state() == Connection::State::kJoined;
+  }
   ClientSession& session() { return *m_connection.session(); }
   void press(df::Keyboard::Key key) {
     session().sendKey(key, df::KEY_PRESSED, Clock::now());
@@ -67,8 +72,8 @@ class Player {
   bool isComplete() const { return m_complete; }
   std::uint8_t epoch() const { return m_epoch; }
 
-  /// Milliseconds from a tick's snapshot to that of the next tick, as far as the time for ticks between, which
-  /// changed nothing, is taken off.
+  /// Milliseconds from a tick's snapshot to that of the next tick, as far as the time for ticks between,
+  /// which changed nothing, is taken off.
   std::vector<double> gaps;
 
  private:
@@ -100,7 +105,8 @@ class Player {
 double percentile(std::vector<double> values, double part) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(part * static_cast<double>(values.size())))];
+  return values[std::min(values.size() - 1,
+                         static_cast<std::size_t>(part * static_cast<double>(values.size())))];
 }
 
 class Run {
@@ -117,7 +123,8 @@ class Run {
   /// False: it could not be measured.
   bool measure(std::chrono::seconds time) {
     if (!serveUntil(Clock::now() + kPatience, [&] {
-          return std::all_of(m_players.begin(), m_players.end(), [](auto& player) { return player->plays(); });
+          return std::all_of(m_players.begin(), m_players.end(),
+                             [](auto& player) { return player->plays(); });
         }))
       return false;
     serveUntil(Clock::now() + kWarmUp, [] { return false; });
@@ -157,10 +164,11 @@ class Run {
     const double frames = worst_p99 / Millis(kTick).count();
     std::printf(
         "rooms rooms=%d games=4 ticks=%zu gap_p50_ms=%.1f gap_p99_ms=%.1f worst_room_p99_ms=%.1f "
-        "worst_room_p99_frames=%.2f gap_max_ms=%.1f moves=%zu move_p50_ms=%.1f move_p99_ms=%.1f crashed=%d hung=%d\n",
-        kRooms, gaps.size(), percentile(gaps, 0.5), percentile(gaps, 0.99), worst_p99, frames, percentile(gaps, 1),
-        m_moves.size(), percentile(m_moves, 0.5), percentile(m_moves, 0.99), count(log, "crashed (SIGABRT)"),
-        count(log, "did not answer"));
+        "worst_room_p99_frames=%.2f gap_max_ms=%.1f moves=%zu move_p50_ms=%.1f move_p99_ms=%.1f crashed=%d "
+        "hung=%d\n",
+        kRooms, gaps.size(), percentile(gaps, 0.5), percentile(gaps, 0.99), worst_p99, frames,
+        percentile(gaps, 1), m_moves.size(), percentile(m_moves, 0.5), percentile(m_moves, 0.99),
+        count(log, "crashed (SIGABRT)"), count(log, "did not answer"));
     return frames <= 2 && !m_moves.empty() && percentile(m_moves, 0.99) <= 300 ? 0 : 1;
   }
 
@@ -186,8 +194,8 @@ class Run {
   }
   /// Something moves in each room; what is to fail does, as soon as it has come back.
   void playOn() {
-    constexpr df::Keyboard::Key kKeys[] = {df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW, df::Keyboard::UPARROW,
-                                           df::Keyboard::DOWNARROW};
+    constexpr df::Keyboard::Key kKeys[] = {df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW,
+                                           df::Keyboard::UPARROW, df::Keyboard::DOWNARROW};
     for (int i = 0; i < kRooms; ++i) {
       if (m_players[i]->plays() && !isBad(i)) m_players[i]->press(kKeys[m_random.below(4)]);
     }

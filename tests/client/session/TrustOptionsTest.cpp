@@ -52,8 +52,8 @@ TEST(TrustOptions, ARoomIsTheBeginningOfTheSession) {
   }
   EXPECT_EQ(Resolved("[::1]:9877/a-b.c_d").session.room, "a-b.c_d");
   EXPECT_EQ(Resolved("game.example").session.room, "");
-  for (const char* text : {"game.example/", "game.example/a/b", "game.example/-x", "game.example/x y",
-                           "game.example/\033[2J"}) {
+  for (const char* text :
+       {"game.example/", "game.example/a/b", "game.example/-x", "game.example/x y", "game.example/\033[2J"}) {
     const std::string problem = Resolved(text).problem;
     EXPECT_NE(problem.find("is no name of a room"), std::string::npos) << text;
     for (const char c : problem) EXPECT_GE(static_cast<unsigned char>(c), ' ');

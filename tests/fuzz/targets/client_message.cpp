@@ -37,7 +37,10 @@ class Play {
                      [](Session&, const std::string& text) {
                        REQUIRE(!text.empty() && text.size() <= 4 * kMaxChatLength);
                      },
-                     [this](Session&) { REQUIRE(++m_gone == 1); }, [this] { return m_now; }, {}, [](Session&) {},
+                     [this](Session&) { REQUIRE(++m_gone == 1); },
+                     [this] { return m_now; },
+                     {},
+                     [](Session&) {},
                      [this](Session&, const std::string& room) {
                        REQUIRE(room.size() <= kMaxClientFrame);
                        m_moves = true;

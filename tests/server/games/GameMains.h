@@ -20,17 +20,13 @@ namespace naiad {
 
 /// By name.
 inline const std::map<std::string, int (*)()>& gameMains() {
-  static const std::map<std::string, int (*)()> s_mains = {{"breakout", breakout_main},
-                                                           {"bullethell", bullethell_main},
-                                                           {"chase", chase_main},
-                                                           {"hello", hello_main},
-                                                           {"lander", lander_main},
-                                                           {"lobby", lobby_main},
-                                                           {"maze", maze_main},
-                                                           {"platformer", platformer_main},
-                                                           {"sandbox", sandbox_main},
-                                                           {"saucershoot", saucershoot_main},
-                                                           {"tron", tron_main}};
+  static const std::map<std::string, int (*)()> s_mains = {
+      {"breakout", breakout_main}, {"bullethell", bullethell_main},
+      {"chase", chase_main},       {"hello", hello_main},
+      {"lander", lander_main},     {"lobby", lobby_main},
+      {"maze", maze_main},         {"platformer", platformer_main},
+      {"sandbox", sandbox_main},   {"saucershoot", saucershoot_main},
+      {"tron", tron_main}};
   return s_mains;
 }
 

@@ -36,9 +36,10 @@ std::string walkTo(World& world, std::uint32_t player, int door) {
   for (int i = 0; i < 200; ++i) {
     const Vector at = world.getPlayer(player)->getObject()->getPosition();
     const bool is_above = at.x() == goal.x();
-    tap(world, player, is_above            ? Keyboard::DOWNARROW
-                       : at.x() < goal.x() ? Keyboard::RIGHTARROW
-                                           : Keyboard::LEFTARROW);
+    tap(world, player,
+        is_above            ? Keyboard::DOWNARROW
+        : at.x() < goal.x() ? Keyboard::RIGHTARROW
+                            : Keyboard::LEFTARROW);
     world.tick();
     if (const std::string room = sentTo(world, player); !room.empty()) return room;
     tick(world, 2);

@@ -1,9 +1,8 @@
-#include "engine/world/GameRooms.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "engine/world/GameRooms.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 
@@ -12,7 +11,9 @@ namespace {
 
 class GameRoomsTest : public testing::Test {
  protected:
-  void SetUp() override { world.setLogSink([](const std::string&) {}); }
+  void SetUp() override {
+    world.setLogSink([](const std::string&) {});
+  }
   void keep(const GameRoom& room) {
     world.inputs().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
   }

@@ -113,10 +113,11 @@ std::string complaintOf(const std::vector<const char*>& rooms) {
 TEST(HostOptions, RoomsAreReadInTheirOrder) {
   const Games games;
   HostOptions options;
-  ASSERT_EQ(parse({"--room", "first=hello", "--room", "Second_2=tron,max-players=3,players=first,world-memory=512",
-                   "--max-players", "40", "--room-sleep", "2.5"},
-                  options),
-            CommandLine::kRun);
+  ASSERT_EQ(
+      parse({"--room", "first=hello", "--room", "Second_2=tron,max-players=3,players=first,world-memory=512",
+             "--max-players", "40", "--room-sleep", "2.5"},
+            options),
+      CommandLine::kRun);
   const std::vector<RoomOptions> rooms = roomsOf(options);
   ASSERT_EQ(rooms.size(), 2u);
   EXPECT_EQ(rooms[0].name, "first");
@@ -141,7 +142,8 @@ TEST(HostOptions, ARoomThatMakesNoSenseIsNamedWithTheNearestThatDoes) {
     EXPECT_NE(said.find("is no name of a room: 1 to 32 of"), std::string::npos) << said;
     EXPECT_EQ(said.find('\033'), std::string::npos);
   }
-  EXPECT_EQ(complaintOf({"a=hello", "b=tron", "A=hello"}), "dfserver: --room A: there are two rooms of this name");
+  EXPECT_EQ(complaintOf({"a=hello", "b=tron", "A=hello"}),
+            "dfserver: --room A: there are two rooms of this name");
   EXPECT_EQ(complaintOf({"a=helo"}), "dfserver: --room a: there is no game \"helo\"; did you mean hello?");
   EXPECT_EQ(complaintOf({"a=zzzzzz"}),
             "dfserver: --room a: there is no game \"zzzzzz\"; --list-games prints those that there are");
@@ -163,9 +165,10 @@ TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
   HostOptions options;
   EXPECT_EQ(parse({"--room", "a=hello", "--players", "private"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--room", "a=hello", "--on-game-over", "exit"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--journal", "/tmp"},
-                  options),
-            CommandLine::kUsageError);
+  EXPECT_EQ(
+      parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--journal", "/tmp"},
+            options),
+      CommandLine::kUsageError);
   EXPECT_EQ(parse({"--no-journal"}, options), CommandLine::kRun);
 }
 

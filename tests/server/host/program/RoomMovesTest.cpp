@@ -88,19 +88,18 @@ class RoomMovesTest : public testing::Test {
   }
   Client& connect(const wire::Hello& hello) {
     Client& client = clients.emplace_back();
-    sessions.add(
-        std::make_unique<test::FakeChannel>(client),
-        {[this](Session& session, const wire::Hello& said) { admission.judgeHello(session, said); },
-         [](Session&, const std::string&) {},
-         [this](Session& session) {
-           admission.forgetSession(session);
-           rooms.leave(session);
-         },
-         [this] { return now; },
-         {},
-         [this](Session& session) { moves.sendList(session); },
-         [this](Session& session, const std::string& room) { moves.ask(session, room); }},
-        now);
+    sessions.add(std::make_unique<test::FakeChannel>(client),
+                 {[this](Session& session, const wire::Hello& said) { admission.judgeHello(session, said); },
+                  [](Session&, const std::string&) {},
+                  [this](Session& session) {
+                    admission.forgetSession(session);
+                    rooms.leave(session);
+                  },
+                  [this] { return now; },
+                  {},
+                  [this](Session& session) { moves.sendList(session); },
+                  [this](Session& session, const std::string& room) { moves.ask(session, room); }},
+                 now);
     client.greet(hello);
     return client;
   }
@@ -240,7 +239,8 @@ TEST_F(RoomMovesTest, RequestsBeyondTwoASecondAreDropped) {
   list.mutable_list_rooms();
   for (int i = 0; i < 100; ++i) ann.receive(list);
   const auto lists = [&] {
-    return std::count_if(ann.sent.begin(), ann.sent.end(), [](const auto& message) { return message.has_rooms(); });
+    return std::count_if(ann.sent.begin(), ann.sent.end(),
+                         [](const auto& message) { return message.has_rooms(); });
   };
   EXPECT_EQ(lists(), 4);
   EXPECT_EQ(counters.room_requests_dropped, 96u);
@@ -279,7 +279,8 @@ TEST_F(RoomMovesTest, AClientOfBeforeRoomsStaysWhereItJoinedAndIsSentNothingOfTh
 TEST_F(RoomMovesTest, AGameSendsItsOwnPlayersAlone) {
   Client& ann = join("ann", "lobby");
   Client& bob = join("bob", "quiet");
-  ports["lobby"]->sent = {{sessionOf(bob).player(), "arcade"}, {4711, "arcade"}, {sessionOf(ann).player(), "quiet"}};
+  ports["lobby"]->sent = {
+      {sessionOf(bob).player(), "arcade"}, {4711, "arcade"}, {sessionOf(ann).player(), "quiet"}};
   tick();
   tick();
   EXPECT_EQ(roomOf(ann), "quiet");
@@ -292,8 +293,8 @@ TEST_F(RoomMovesTest, AGameThatSendsWithoutEndFloodsNoPlayer) {
     ports["lobby"]->sent.assign(64, {sessionOf(ann).player(), "nowhere"});
     tick();
   }
-  const auto lines = std::count_if(ann.sent.begin(), ann.sent.end(),
-                                   [](const auto& message) { return message.has_chat(); });
+  const auto lines =
+      std::count_if(ann.sent.begin(), ann.sent.end(), [](const auto& message) { return message.has_chat(); });
   EXPECT_LE(lines, 12) << "in 3.3 s";
   EXPECT_GE(lines, 4);
 }
@@ -328,7 +329,8 @@ TEST_F(RoomMovesTest, AnAddressWakesFourRoomsAtOnceAndThenOneInASecond) {
   RoomDoor door(many, 64);
   const auto prefix = AddressPrefix::ofEndpoint("192.0.2.1:1").value_or(AddressPrefix());
   int woken = 0;
-  for (int i = 1; i < 20; ++i) woken += door.open(*many.findRoom("room-" + std::to_string(i)), prefix, now) ? 0 : 1;
+  for (int i = 1; i < 20; ++i)
+    woken += door.open(*many.findRoom("room-" + std::to_string(i)), prefix, now) ? 0 : 1;
   EXPECT_EQ(woken, 4);
   EXPECT_FALSE(door.open(many.firstRoom(), prefix, now)) << "what is awake is open to all";
   EXPECT_FALSE(door.open(*many.findRoom("room-19"), prefix, now + 2s));

@@ -300,8 +300,8 @@ TEST(WorldMessages, TurnsCrossWhole) {
     EXPECT_TRUE(a.kind == b.kind && a.player == b.player && a.name == b.name && a.color == b.color &&
                 a.key == b.key && a.key_action == b.key_action && a.button == b.button &&
                 a.mouse_action == b.mouse_action && a.x == b.x && a.y == b.y && a.table == b.table &&
-                a.points == b.points && a.room == b.room && a.seen.known == b.seen.known && a.seen.base == b.seen.base &&
-                a.seen.drawn == b.seen.drawn)
+                a.points == b.points && a.room == b.room && a.seen.known == b.seen.known &&
+                a.seen.base == b.seen.base && a.seen.drawn == b.seen.drawn)
         << i;
   }
 }
