@@ -31,16 +31,11 @@ function wasi(memory) {
   };
 }
 
-/**
- * Start the module. `page` has open(stream), send(stream, Uint8Array), unsent(stream), close(stream), keep(text)
- * and sound(label, action, flags). Returns the client.
- */
-export async function loadClient(source, page) {
-  let exports = null;
-  const memory = () => exports.memory;
+/** What the module calls, by the names that it imports. `memory()` is the module's; `page` as for loadClient(). */
+export function hostFunctions(page, memory) {
   const bytes = (from, size) => new Uint8Array(memory().buffer, from, size);
   const text = (from, size) => decoder.decode(bytes(from, size));
-  const imports = {
+  return {
     page: {
       open: page.open,
       // A copy: the socket sends it later, when the module's memory has changed.
@@ -54,6 +49,18 @@ export async function loadClient(source, page) {
     // Asio would open a socket to learn the name of a network interface. There are none.
     env: {emscripten_notify_memory_growth() {}, __syscall_socket: () => -1},
   };
+}
+
+/**
+ * Start the module. `page` has open(stream), send(stream, Uint8Array), unsent(stream), close(stream), keep(text)
+ * and sound(label, action, flags). Returns the client.
+ */
+export async function loadClient(source, page) {
+  let exports = null;
+  const memory = () => exports.memory;
+  const bytes = (from, size) => new Uint8Array(memory().buffer, from, size);
+  const text = (from, size) => decoder.decode(bytes(from, size));
+  const imports = hostFunctions(page, memory);
   const {instance} = source instanceof Response && WebAssembly.instantiateStreaming
     ? await WebAssembly.instantiateStreaming(source, imports)
     : await WebAssembly.instantiate(source instanceof Response ? await source.arrayBuffer() : source, imports);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLibrary = "libdragonfly-repeat.so";
+constexpr const char* kLibrary = "dragonfly/libdragonfly-repeat.so";  // beside libdragonfly.so
 constexpr std::uintmax_t kMaxHashed = std::uintmax_t{64} << 20;
 
 /// The folder that this code's library was loaded from.

@@ -10,6 +10,7 @@
 #include "SoftScene.h"
 #include "physics/numerics/ConjugateGradients.h"
 #include "physics/soft/SoftElastic.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad::physics {
 namespace {
@@ -94,7 +95,7 @@ TEST(SoftWide, OnlyWhatCostsTooMuchDirectlyIsWide) {
 }
 
 TEST(SoftWide, HangsByTwoCornersWithoutStretching) {
-  constexpr int kThreads = 100;
+  constexpr int kThreads = naiad::test::kSanitized ? 40 : 100;  // a sanitizer takes minutes for all
   SoftBody sheet = makeSheet(kThreads, 0.4);
   pinCorners(sheet, kThreads);
   SoftWorld world;
