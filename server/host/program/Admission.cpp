@@ -115,6 +115,11 @@ bool Admission::checkHello(Session& session, const wire::Hello& hello) {
                    "This server plays \"" + m_setup.game + "\", not \"" + cleanName(hello.game()) + "\".");
     return false;
   }
+  if (!hello.room().empty() && !m_setup.rooms.isNamed()) {
+    ++m_counters.refused_room;
+    session.refuse(wire::Refused::GAME, "This server has no rooms: join it without a name of one.");
+    return false;
+  }
   return true;
 }
 
