@@ -115,9 +115,10 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
     if (!parsed)
       return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT][/ROOM] is wanted.";
     address = *parsed;
-    if (slash < server.text.size()) session.room = server.text.substr(slash + 1);
-    if (slash < server.text.size() && !isRoomName(session.room))
-      return quoted(session.room) + " is no name of a room: " + kRoomNameRule + ".";
+    const std::string room = server.text.substr(std::min(slash + 1, server.text.size()));
+    if (slash < server.text.size() && !isRoomName(room))
+      return quoted(room) + " is no name of a room: " + kRoomNameRule + ".";
+    session.room = room;
     return server.list_key ? followList(*server.list_key, trust) : "";
   }
   const auto parsed = JoinLink::parse(server.text);

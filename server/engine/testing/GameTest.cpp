@@ -15,6 +15,7 @@
 #include "engine/world/InputQueue.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
 
 namespace df {
 

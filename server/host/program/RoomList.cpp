@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxShown = 80;  ///< characters of what was typed, in a sentence
 
-std::string quoted(const std::string& text) {
+std::string asTyped(const std::string& text) {
   return "\"" + safeText(text, kMaxShown) + "\"";
 }
 
@@ -55,7 +55,7 @@ void storeSetting(RoomOptions& room, const std::string& text, const std::string&
     if (equals == std::string::npos) throw OptionError(place + ": " + key + "=VALUE is wanted");
     return storeValue(option, text.substr(equals + 1), place + ": " + key);
   }
-  throw OptionError(place + ": a room has no setting " + quoted(key) + meant(key, settingNames()));
+  throw OptionError(place + ": a room has no setting " + asTyped(key) + meant(key, settingNames()));
 }
 
 /// NAME=GAME[,KEY=VALUE…]. Throws OptionError.
@@ -63,7 +63,7 @@ RoomOptions readRoom(const std::string& text, const HostOptions& options) {
   const std::vector<std::string> parts = split(text, ',');
   const std::size_t equals = parts.empty() ? std::string::npos : parts.front().find('=');
   if (equals == std::string::npos)
-    throw OptionError("--room " + quoted(text) + ": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
+    throw OptionError("--room " + asTyped(text) + ": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
   RoomOptions room{.name = parts.front().substr(0, equals),
                    .game = parts.front().substr(equals + 1),
                    .max_players = options.max_players,
@@ -71,7 +71,7 @@ RoomOptions readRoom(const std::string& text, const HostOptions& options) {
                    .seed = options.seed,
                    .players = options.players};
   if (!isRoomName(room.name))
-    throw OptionError("--room: " + quoted(room.name) + " is no name of a room: " + kRoomNameRule);
+    throw OptionError("--room: " + asTyped(room.name) + " is no name of a room: " + kRoomNameRule);
   const std::string place = "--room " + room.name;
   if (room.game.empty()) throw OptionError(place + ": a game is wanted behind the =");
   for (std::size_t i = 1; i < parts.size(); ++i) storeSetting(room, parts[i], place);
@@ -97,11 +97,11 @@ std::string gameComplaint(const RoomOptions& room) {
     const auto module = GameModule::find(room.game);
     std::error_code error;
     if (std::filesystem::is_regular_file(module, error)) return {};
-    return "--room " + room.name + ": there is no file " + quoted(module.string());
+    return "--room " + room.name + ": there is no file " + asTyped(module.string());
   } catch (const GameError&) {
     const std::vector<std::string> games = GameModule::available();
     const std::string near = nearestName(room.game, games);
-    return "--room " + room.name + ": there is no game " + quoted(room.game) +
+    return "--room " + room.name + ": there is no game " + asTyped(room.game) +
            (near.empty() ? "; --list-games prints those that there are" : "; did you mean " + near + "?");
   }
 }
@@ -157,7 +157,7 @@ HostOptions optionsOf(const HostOptions& options, const RoomOptions& room) {
 
 std::string unknownRoom(const std::string& typed, const std::vector<std::string>& names) {
   const std::string near = nearestName(typed, names);
-  std::string sentence = "There is no room " + quoted(typed);
+  std::string sentence = "There is no room " + asTyped(typed);
   if (!near.empty()) return sentence + "; did you mean \"" + near + "\"?";
   sentence += ". There are: ";
   for (std::size_t i = 0; i < names.size(); ++i) {
