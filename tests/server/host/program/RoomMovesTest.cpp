@@ -255,13 +255,13 @@ TEST_F(RoomMovesTest, TheListHasAllRooms) {
   list.mutable_list_rooms();
   ann.receive(list);
   ASSERT_TRUE(ann.sent.back().has_rooms());
-  const wire::RoomList& rooms = ann.sent.back().rooms();
-  ASSERT_EQ(rooms.rooms_size(), 3);
-  EXPECT_EQ(rooms.rooms(0).name(), "lobby");
-  EXPECT_FALSE(rooms.rooms(0).asleep());
-  EXPECT_TRUE(rooms.rooms(1).asleep());
-  EXPECT_EQ(rooms.rooms(2).players(), 1u);
-  EXPECT_EQ(rooms.rooms(2).max_players(), 8u);
+  const wire::RoomList& sent = ann.sent.back().rooms();
+  ASSERT_EQ(sent.rooms_size(), 3);
+  EXPECT_EQ(sent.rooms(0).name(), "lobby");
+  EXPECT_FALSE(sent.rooms(0).asleep());
+  EXPECT_TRUE(sent.rooms(1).asleep());
+  EXPECT_EQ(sent.rooms(2).players(), 1u);
+  EXPECT_EQ(sent.rooms(2).max_players(), 8u);
 }
 
 // It would take the message for that of a broken server.
@@ -300,9 +300,9 @@ TEST_F(RoomMovesTest, AGameThatSendsWithoutEndFloodsNoPlayer) {
 }
 
 TEST_F(RoomMovesTest, GamesKnowTheRoomsAndHearWhenTheyChange) {
-  const auto known = [&](const std::string& world, const std::string& name) {
+  const auto known = [&](const std::string& where, const std::string& name) {
     df::GameRoom last;
-    for (const auto& input : ports[world]->inputs) {
+    for (const auto& input : ports[where]->inputs) {
       if (input.kind == df::InputQueue::kRoom && input.room.name == name) last = input.room;
     }
     return last;
