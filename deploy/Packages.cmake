@@ -68,7 +68,8 @@ The server runs the game and shows it to players in terminals and browsers.
 
 This package has the server (dfserver), the gateway and page for browsers
 (dfweb), what an ssh door runs (dfdoor), a player of recorded rounds
-(dfreplay), ten games, and units for systemd.")
+(dfreplay), the directory of a fleet (dfdir), ten games, and units for
+systemd.")
 set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA ${debian}/naiad-server/postinst ${debian}/naiad-server/prerm
   ${debian}/naiad-server/postrm ${debian}/naiad-server/conffiles)
 

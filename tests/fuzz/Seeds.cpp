@@ -124,6 +124,13 @@ void busPayloads(Folder folder) {
       R"("address":"192.0.2.7","ports":[{"name":"default","port":7012}]}})";
   folder.add("\2" + server);
   folder.add("\3{\"result\":" + server + "}");
+  presence.max_players = 16;
+  std::string heard = "\4";
+  for (const std::string id : {"berlin-9876", "paris-9876"}) {
+    presence.id = id;
+    heard += "naiad.presence." + id + " " + presence.payload() + "\n";
+  }
+  folder.add(heard);
 }
 
 void webRequests(Folder folder) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace naiad {
 
@@ -20,12 +21,15 @@ struct BusCounters {
   std::uint64_t dropped = 0;      ///< the oldest of too many that waited
   std::uint64_t failures = 0;     ///< tried again
   std::uint64_t connections = 0;  ///< more than one: the bus was lost and came back
+  std::uint64_t received = 0;     ///< of the subjects asked for
+  std::uint64_t ignored = 0;      ///< of these: too long, or of too many subjects
 };
 
 struct BusSettings {
   std::string url;          ///< nats://HOST:PORT or tls://HOST:PORT
   std::string credentials;  ///< file of a user's token and seed; empty: none
   std::string authorities;  ///< file of certificates (PEM) that the bus's is signed with; empty: the system's
+  std::vector<std::string> subjects = {};  ///< to listen to; "naiad.presence.*" are all with one word there
 };
 
 class Bus {
@@ -39,6 +43,8 @@ class Bus {
   /// Never waits. Any thread.
   virtual void publish(BusMessage message) = 0;
   virtual bool isConnected() const = 0;
+  /// What came since the last call, of each subject the newest (BusInbox.h). It is as others wrote it.
+  virtual std::vector<BusMessage> takeMessages() = 0;
   /// Wait until what is kept has arrived, at most so long.
   virtual void finish(std::chrono::milliseconds patience) = 0;
   virtual BusCounters counters() const = 0;

@@ -12,7 +12,9 @@
 #include <string_view>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "host/fleet/BusInbox.h"
 #include "host/fleet/BusQueue.h"
 
 namespace naiad {
@@ -47,6 +49,10 @@ constexpr std::chrono::milliseconds kLook{250};  ///< whether the connection sti
 constexpr int kTimeoutMillis = 2000;             ///< to connect, and for an answer
 constexpr int kPingMillis = 2000;
 constexpr int kMaxPings = 2;
+/// Of a subscription, in the library; it drops what is more.
+constexpr int kMaxPending = 8192;
+constexpr int kMaxPendingBytes = 8 << 20;
+constexpr int kReceivedAtOnce = 512;  ///< before something is sent
 
 template <class T, void (*Destroy)(T*)>
 struct NatsDeleter {
@@ -55,6 +61,9 @@ struct NatsDeleter {
 using Options = std::unique_ptr<natsOptions, NatsDeleter<natsOptions, natsOptions_Destroy>>;
 using Connection = std::unique_ptr<natsConnection, NatsDeleter<natsConnection, natsConnection_Destroy>>;
 using JetStream = std::unique_ptr<jsCtx, NatsDeleter<jsCtx, jsCtx_Destroy>>;
+using Subscription =
+    std::unique_ptr<natsSubscription, NatsDeleter<natsSubscription, natsSubscription_Destroy>>;
+using Message = std::unique_ptr<natsMsg, NatsDeleter<natsMsg, natsMsg_Destroy>>;
 
 /// The library would keep what it could not send, and try again by itself: this does so, in bounded memory.
 Options optionsOf(const BusSettings& settings) {
@@ -107,6 +116,10 @@ class NatsBus : public Bus {
     const std::lock_guard lock(m_mutex);
     return m_connected;
   }
+  std::vector<BusMessage> takeMessages() override {
+    const std::lock_guard lock(m_mutex);
+    return m_inbox.takeAll();
+  }
   void finish(std::chrono::milliseconds patience) override {
     std::unique_lock lock(m_mutex);
     m_sent.wait_for(lock, patience,
@@ -116,6 +129,8 @@ class NatsBus : public Bus {
     const std::lock_guard lock(m_mutex);
     BusCounters counters = m_counters;
     counters.dropped = m_queue.dropped();
+    counters.received = m_inbox.received();
+    counters.ignored = m_inbox.ignored();
     return counters;
   }
   std::string takeNews() override {
@@ -164,8 +179,10 @@ class NatsBus : public Bus {
     jsCtx* p_made = nullptr;
     natsConnection_JetStream(&p_made, &connection, nullptr);
     const JetStream stream(p_made);
+    const std::vector<Subscription> subscriptions = subscribe(connection);
     auto not_before = std::chrono::steady_clock::now();
     while (!m_stopping && natsConnection_Status(&connection) == NATS_CONN_STATUS_CONNECTED) {
+      receive(subscriptions);
       const bool may_keep = stream && m_queue.hasKept() && std::chrono::steady_clock::now() >= not_before;
       if (m_queue.hasFleeting()) {
         const BusMessage message = m_queue.takeFleeting();
@@ -189,6 +206,34 @@ class NatsBus : public Bus {
     }
   }
 
+  /// One that is refused by the bus's permissions shows in the log of the bus.
+  std::vector<Subscription> subscribe(natsConnection& connection) const {
+    std::vector<Subscription> made;
+    for (const std::string& subject : m_settings.subjects) {
+      natsSubscription* p_made = nullptr;
+      if (natsConnection_SubscribeSync(&p_made, &connection, subject.c_str()) != NATS_OK) continue;
+      natsSubscription_SetPendingLimits(p_made, kMaxPending, kMaxPendingBytes);
+      made.emplace_back(p_made);
+    }
+    return made;
+  }
+
+  /// What is there. Called with the lock.
+  void receive(const std::vector<Subscription>& subscriptions) {
+    for (const Subscription& subscription : subscriptions) {
+      for (int i = 0; i < kReceivedAtOnce; ++i) {
+        natsMsg* p_taken = nullptr;
+        const natsStatus status = natsSubscription_NextMsg(&p_taken, subscription.get(), 0);
+        const Message message(p_taken);
+        if (status == NATS_SLOW_CONSUMER) continue;  // some were dropped: said once, before the next
+        if (status != NATS_OK) break;
+        m_inbox.put(
+            natsMsg_GetSubject(p_taken),
+            std::string(natsMsg_GetData(p_taken), static_cast<std::size_t>(natsMsg_GetDataLength(p_taken))));
+      }
+    }
+  }
+
   /// JetStream has stored it, or had it already.
   static bool keep(jsCtx& stream, const BusMessage& message) {
     jsPubOptions options;
@@ -205,6 +250,7 @@ class NatsBus : public Bus {
   std::condition_variable m_wake;
   std::condition_variable m_sent;
   BusQueue m_queue;
+  BusInbox m_inbox;
   bool m_connected = false;
   bool m_stopping = false;
   BusCounters m_counters;

@@ -1,13 +1,18 @@
 // What comes from the bus, and from a sidecar: read within its bounds, or refused; and written out again it
 // is the same.
 //
-//   input   0 a presence, 1 a result, 2 the sidecar's answer, 3 a line of its watch (1) | the text
+//   input   0 a presence, 1 a result, 2 the sidecar's answer, 3 a line of its watch,
+//           4 what a directory hears, a line "SUBJECT PAYLOAD" each (1) | the text
 #include <algorithm>
+#include <chrono>
 #include <string>
+#include <string_view>
 
 #include "Require.h"
 #include "Script.h"
 #include "host/fleet/GameServerFacts.h"
+#include "server/directory/FleetList.h"
+#include "server/directory/ServerList.h"
 #include "shared/fleet/BusFields.h"
 #include "shared/fleet/GameResult.h"
 #include "shared/fleet/Presence.h"
@@ -51,6 +56,42 @@ void requireFacts(const std::string& text, bool is_line) {
   }
 }
 
+/// Whatever servers say: those that are there have said so themselves, and no player is sent where none can
+/// play.
+void requireList(FleetList& list) {
+  for (const Presence& one : list.servers()) REQUIRE(Presence::parse(one.payload()) == one);
+  const std::string text = serverListText(list.servers());
+  REQUIRE(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+  for (int i = 0; i < 3; ++i) {
+    const Presence* p_chosen = list.choose({"", 4});
+    if (p_chosen == nullptr) break;
+    REQUIRE(p_chosen->is_open && !p_chosen->asks_password && p_chosen->players < p_chosen->max_players);
+    REQUIRE(p_chosen->port >= kLeastFleetPort && p_chosen->protocol == 4 && !linkOf(*p_chosen).empty());
+  }
+}
+
+void requireDirectory(std::string_view text) {
+  FleetList list;
+  FleetList::Time now{};
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    const std::size_t blank = std::min(line.find(' '), line.size());
+    const std::string subject(line.substr(0, blank));
+    const std::size_t before = list.size();
+    const bool is_new = list.put(subject, line.substr(std::min(blank + 1, line.size())), now);
+    REQUIRE(list.size() == before + (is_new ? 1 : 0));
+    if (is_new)
+      REQUIRE(std::ranges::any_of(list.servers(),
+                                  [&](const Presence& one) { return presenceSubject(one.id) == subject; }));
+    now += std::chrono::seconds(1);
+    const std::size_t there = list.size();
+    REQUIRE(list.removeSilent(now).size() == there - list.size());
+  }
+  REQUIRE(list.size() <= 6);
+  requireList(list);
+}
+
 }  // namespace
 }  // namespace naiad::fuzz
 
@@ -58,15 +99,18 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace naiad::fuzz;
   if (size == 0) return 0;
   const std::string text(reinterpret_cast<const char*>(data + 1), size - 1);
-  switch (data[0] % 4) {
+  switch (data[0] % 5) {
     case 0:
       requirePresence(text);
       break;
     case 1:
       requireResult(text);
       break;
+    case 4:
+      requireDirectory(text);
+      break;
     default:
-      requireFacts(text, data[0] % 4 == 3);
+      requireFacts(text, data[0] % 5 == 3);
   }
   return 0;
 }

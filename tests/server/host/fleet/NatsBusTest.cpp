@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "host/fleet/Bus.h"
+#include "host/fleet/BusInbox.h"
 #include "host/fleet/BusQueue.h"
 
 #ifdef NAIAD_NATS
@@ -13,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "NatsServer.h"
 
@@ -40,6 +42,32 @@ TEST(BusQueue, TheOldestGoAndOfPresenceTheNewestIsEnough) {
   EXPECT_EQ(queue.firstKept().id, kept(5000 - Bus::kMaxKept).id) << "it was dropped while it was on its way";
   queue.dropKept(queue.firstKept().id);
   EXPECT_EQ(queue.firstKept().id, kept(5001 - Bus::kMaxKept).id);
+}
+
+TEST(BusInbox, KeepsTheNewestOfEachSubjectAndNothingThatIsTooLong) {
+  BusInbox inbox;
+  for (int i = 0; i < 1000; ++i) inbox.put("naiad.presence.loud", std::to_string(i));
+  inbox.put("naiad.presence.quiet", "here");
+  inbox.put("naiad.presence.long", std::string(kMaxBusPayload + 1, 'x'));
+  inbox.put(std::string(BusInbox::kMaxSubject + 1, 'x'), "");
+  const std::vector<BusMessage> taken = inbox.takeAll();
+  ASSERT_EQ(taken.size(), 2u);
+  EXPECT_EQ(taken[0].payload, "999");
+  EXPECT_EQ(taken[1].payload, "here");
+  EXPECT_TRUE(inbox.takeAll().empty());
+  EXPECT_EQ(inbox.received(), 1003u);
+  EXPECT_EQ(inbox.ignored(), 2u);
+}
+
+TEST(BusInbox, SubjectsWithoutEndCrowdOutNoneThatIsThere) {
+  BusInbox inbox;
+  inbox.put("honest", "old");
+  for (std::size_t i = 0; i < 2 * BusInbox::kMaxSubjects; ++i) inbox.put(std::to_string(i), "");
+  inbox.put("honest", "new");
+  EXPECT_EQ(inbox.ignored(), BusInbox::kMaxSubjects + 1);
+  const std::vector<BusMessage> taken = inbox.takeAll();
+  EXPECT_EQ(taken.size(), BusInbox::kMaxSubjects);
+  EXPECT_EQ(taken.back().payload, "new");
 }
 
 TEST(BusSettings, WhatIsNoAddressIsSaidBeforeTheStart) {
@@ -176,6 +204,32 @@ TEST_F(NatsBusTest, WhatWasPublishedWhileTheBusWasGoneArrivesOnceItIsBackAndTooM
   EXPECT_TRUE(waitFor([&] { return bus->counters().published == 1 + Bus::kMaxKept; }));
   EXPECT_EQ(bus->counters().connections, 2u);
   EXPECT_EQ(Listener(server.url()).results(), 1 + Bus::kMaxKept);
+}
+
+TEST_F(NatsBusTest, WhatOthersSayUnderItsSubjectsIsHeardAlsoOnceTheBusIsBack) {
+  test::NatsServer server;
+  ASSERT_TRUE(server.start()) << server.log();
+  const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}});
+  const auto mouth = connect(server.url());
+  for (const std::string text : {"here", "back"}) {
+    ASSERT_TRUE(waitFor([&] { return ear->isConnected() && mouth->isConnected(); }));
+    std::vector<BusMessage> heard;
+    // It may be connected a moment before it listens.
+    EXPECT_TRUE(waitFor([&] {
+      mouth->publish({"naiad.other.a", "none of its"});
+      mouth->publish({"naiad.presence.a", text});
+      heard = ear->takeMessages();
+      return !heard.empty();
+    }));
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0].subject, "naiad.presence.a");
+    EXPECT_EQ(heard[0].payload, text);
+    if (text == "back") break;
+    server.kill();
+    ASSERT_TRUE(waitFor([&] { return !ear->isConnected() && !mouth->isConnected(); }));
+    ear->takeMessages();
+    ASSERT_TRUE(server.start()) << server.log();
+  }
 }
 
 TEST_F(NatsBusTest, AServerMayPublishItsOwnPresenceAlone) {

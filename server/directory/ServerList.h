@@ -1,0 +1,23 @@
+// A list of servers for the web, as dfclient --list-url reads it: an array of what dfserver --status-file
+// writes.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "shared/fleet/Presence.h"
+
+namespace naiad {
+
+/// Servers in a list; with all of them it stays below the 1 MiB that a client takes.
+inline constexpr std::size_t kMaxListedServers = 500;
+
+/// The link to a server; empty if it is not known where it is, or which key it has.
+std::string linkOf(const Presence& server);
+
+/// A JSON array (RFC 8259), one object to a line, ASCII: the servers that let players in and have a link. If
+/// there are too many, those with most free places.
+std::string serverListText(std::vector<Presence> servers);
+
+}  // namespace naiad

@@ -1,0 +1,142 @@
+// dfdir as it is run: the real program, the real nats-server, real dfservers.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "RunningProgram.h"
+#include "client/lan/ServerListJson.h"
+#include "host/fleet/Bus.h"
+#include "shared/fleet/Presence.h"
+#include "shared/fleet/ServerId.h"
+#include "tests/loopback/GameProgram.h"
+#include "tests/server/host/fleet/NatsServer.h"
+
+namespace naiad::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class DirectoryTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!busComplaint({"nats://127.0.0.1:1", "", ""}).empty()) GTEST_SKIP() << "built without libnats";
+    if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
+    char name[] = "/tmp/naiad-directory-XXXXXX";
+    ASSERT_NE(::mkdtemp(name), nullptr);
+    folder = name;
+  }
+  ~DirectoryTest() override {
+    std::error_code error;
+    if (!folder.empty()) std::filesystem::remove_all(folder, error);
+  }
+  std::string listText() const {
+    std::ifstream file(folder / "servers.json");
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  std::vector<FoundServer> listed() const {
+    const auto read = readServerList(listText());
+    return read ? read->sorted() : std::vector<FoundServer>();
+  }
+  static bool waitFor(const std::function<bool()>& holds) {
+    const auto end = std::chrono::steady_clock::now() + RunningProgram::kPatience;
+    while (!holds()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(10ms);
+    }
+    return true;
+  }
+  std::unique_ptr<RunningProgram> startDirectory(const NatsServer& bus) const {
+    return std::make_unique<RunningProgram>(
+        std::vector<std::string>{"dfdir", "--bus", bus.url(), "--list", folder / "servers.json"});
+  }
+  static std::map<std::string, std::string> serverOf(const NatsServer& bus, const std::string& id) {
+    return {{"NAIAD_GAME", "hello"},
+            {"NAIAD_BUS", bus.url()},
+            {"NAIAD_BUS_ID", id},
+            {"NAIAD_SERVER_NAME", id},
+            {"NAIAD_LINK_HOST", "127.0.0.1"}};
+  }
+
+  std::filesystem::path folder;
+};
+
+TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
+  NatsServer bus;
+  ASSERT_TRUE(bus.start()) << bus.log();
+  const auto directory = startDirectory(bus);
+  GameProgram berlin("dfserver", serverOf(bus, "berlin"));
+  auto paris = std::make_unique<GameProgram>("dfserver", serverOf(bus, "paris"));
+  ASSERT_NE(berlin.port(), 0) << berlin.log();
+  ASSERT_TRUE(waitFor([&] { return listed().size() == 2; })) << listText() << directory->printed();
+  const FoundServer first = listed().front();
+  EXPECT_EQ(first.name, "berlin");
+  EXPECT_EQ(first.game, "hello");
+  EXPECT_EQ(first.where.host, "127.0.0.1");
+  EXPECT_EQ(first.where.port, berlin.port());
+  EXPECT_NE(berlin.log().find(first.key.text()), std::string::npos) << "the link that dfserver prints";
+  paris->signal(SIGKILL);
+  paris.reset();
+  EXPECT_TRUE(waitFor([&] { return listed().size() == 1; })) << listText();
+  EXPECT_EQ(listed().front().name, "berlin");
+  berlin.signal(SIGTERM);
+  berlin.wait();
+  EXPECT_TRUE(waitFor([&] { return listed().empty(); })) << "it has said that it lets nobody in";
+  directory->signal(SIGTERM);
+  EXPECT_EQ(directory->finish(), 0) << directory->printed();
+  EXPECT_FALSE(std::filesystem::exists(folder / "servers.json")) << "a list that is not kept up";
+  EXPECT_NE(directory->printed().find("counters: heard="), std::string::npos) << directory->printed();
+}
+
+TEST_F(DirectoryTest, HostilePayloadsAreCountedAndCostNothing) {
+  NatsServer bus("max_payload: 100KB");
+  ASSERT_TRUE(bus.start()) << bus.log();
+  const auto directory = startDirectory(bus);
+  ASSERT_TRUE(directory->prints("the bus is connected"));
+  const auto liar = connectBus({bus.url(), "", ""});
+  Presence presence;
+  presence.id = "honest";
+  presence.host = "127.0.0.1";
+  presence.port = 9876;
+  presence.key = std::string(64, 'a');
+  presence.protocol = 4;
+  presence.max_players = 4;
+  liar->publish({presenceSubject("x1"), std::string(50'000, '[')});
+  liar->publish({presenceSubject("x2"), "{\"v\":1}"});
+  liar->publish({presenceSubject("x3"), presence.payload()});
+  liar->publish({presenceSubject("honest"), presence.payload()});
+  EXPECT_TRUE(waitFor([&] { return listed().size() == 1; })) << listText();
+  directory->signal(SIGTERM);
+  EXPECT_EQ(directory->finish(), 0);
+  for (const char* count : {" heard=1", " unreadable=1", " foreign=1", " bus_received=4", " bus_ignored=1"})
+    EXPECT_NE(directory->printed().find(count), std::string::npos) << count << directory->printed();
+}
+
+TEST_F(DirectoryTest, WhatIsWrongIsASentenceAndACode) {
+  const auto expectRefusal = [](std::vector<std::string> words, int code, const std::string& text) {
+    words.insert(words.begin(), "dfdir");
+    RunningProgram program(words);
+    EXPECT_EQ(program.finish(), code) << text;
+    EXPECT_NE(program.printed().find(text), std::string::npos) << program.printed();
+  };
+  expectRefusal({"--help"}, 0, "--list");
+  expectRefusal({}, 2, "--bus is wanted");
+  expectRefusal({"--bus", "nats://127.0.0.1:1"}, 2, "--list is wanted");
+  expectRefusal({"--bus", "http://127.0.0.1", "--list", folder / "list"}, 2, "nats://HOST:PORT");
+  expectRefusal({"--bsu", "x"}, 2, "--bus");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder / "none" / "list"}, 5, "cannot be written");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder}, 5, "cannot be written");
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,27 @@
+// A bus of a test's own: what is said on it, and whether it is there.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/fleet/Bus.h"
+
+namespace naiad::test {
+
+class FakeBus : public Bus {
+ public:
+  void publish(BusMessage message) override { published.push_back(std::move(message)); }
+  bool isConnected() const override { return connected; }
+  std::vector<BusMessage> takeMessages() override { return std::exchange(heard, {}); }
+  void finish(std::chrono::milliseconds /*patience*/) override {}
+  BusCounters counters() const override { return {}; }
+  std::string takeNews() override { return std::exchange(news, ""); }
+
+  std::vector<BusMessage> published;
+  std::vector<BusMessage> heard;
+  std::string news;
+  bool connected = true;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,83 @@
+// The list of a directory, as a client reads it.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "client/lan/ListDownload.h"
+#include "client/lan/ServerListJson.h"
+#include "server/directory/ServerList.h"
+
+namespace naiad {
+namespace {
+
+Presence listedServer(const std::string& id, char key = 'a') {
+  Presence presence;
+  presence.id = id;
+  presence.name = "B\xc3\xa9rlin \"1\"";
+  presence.game = "tron";
+  presence.host = "2001:db8::7";
+  presence.port = 9877;
+  presence.key = std::string(64, key);
+  presence.protocol = 4;
+  presence.players = 3;
+  presence.max_players = 16;
+  presence.asks_password = true;
+  return presence;
+}
+
+TEST(ServerListTest, IsWhatAClientReads) {
+  const Presence server = listedServer("a");
+  const auto read = readServerList(serverListText({server}));
+  ASSERT_TRUE(read && read->size() == 1) << serverListText({server});
+  const FoundServer found = read->sorted().front();
+  EXPECT_EQ(found.name, server.name);
+  EXPECT_EQ(found.game, "tron");
+  EXPECT_EQ(found.where.host, "2001:db8::7");
+  EXPECT_EQ(found.where.port, 9877);
+  EXPECT_EQ(found.key, ShortKey::of(*Fingerprint::parse(server.key)));
+  EXPECT_EQ(found.protocol, 4u);
+  EXPECT_EQ(found.players, 3);
+  EXPECT_EQ(found.max_players, 16);
+  EXPECT_TRUE(found.asks_password);
+}
+
+TEST(ServerListTest, AnEmptyOneIsAListToo) {
+  const auto read = readServerList(serverListText({}));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->size(), 0u);
+}
+
+TEST(ServerListTest, ServersThatLetNobodyInOrAreNowhereAreLeftOut) {
+  Presence closed = listedServer("a");
+  closed.is_open = false;
+  Presence nowhere = listedServer("b");
+  nowhere.host.clear();
+  Presence keyless = listedServer("c");
+  keyless.key.clear();
+  const auto read = readServerList(serverListText({closed, nowhere, keyless, listedServer("d")}));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->size(), 1u);
+}
+
+TEST(ServerListTest, OfTooManyThoseWithRoomAreListedAndTheFileIsOneThatAClientTakes) {
+  std::vector<Presence> servers;
+  for (int i = 0; i < 4096; ++i) {
+    Presence server = listedServer("s" + std::to_string(i));
+    server.name = server.game = std::string(Presence::kMaxName, '"');
+    for (int c = 0; c < 63; ++c) server.name.replace(static_cast<std::size_t>(c), 1, "\"");
+    server.host = std::string(60, 'h') + "." + std::string(60, 'o') + "." + std::to_string(i) + ".example";
+    server.max_players = i % 100 == 0 ? 1000 : 3;
+    servers.push_back(server);
+  }
+  const std::string text = serverListText(servers);
+  EXPECT_LE(text.size(), kMaxListBytes);
+  std::size_t rows = 0;
+  std::size_t roomy = 0;
+  for (std::size_t at = 0; (at = text.find("\"link\"", at)) != std::string::npos; ++at) ++rows;
+  for (std::size_t at = 0; (at = text.find("\"max_players\": 1000", at)) != std::string::npos; ++at) ++roomy;
+  EXPECT_EQ(rows, kMaxListedServers);
+  EXPECT_EQ(roomy, 41u);
+}
+
+}  // namespace
+}  // namespace naiad
