@@ -213,7 +213,7 @@ TEST_F(NamedRooms, RoomSleepsWithoutPlayersAndWakes) {
   EXPECT_EQ(server->log().find("crashed"), std::string::npos);
 }
 
-/// What a room's game does is nothing to the players of another: they see every tick.
+/// What a room's game does is nothing to the players of another: their ticks go on.
 class Isolation : public NamedRooms {
  protected:
   /// `key` in the room "bad". `done`: enough has happened there.
@@ -229,9 +229,11 @@ class Isolation : public NamedRooms {
     press(*bob, key);
     ASSERT_TRUE(serve([&] { return done(*bob); })) << server->log();
     const auto passed = std::chrono::duration<double>(Clock::now() - began).count();
-    const int expected = static_cast<int>(passed / 0.005 * 0.5);  // a busy machine is no failure
-    EXPECT_TRUE(serve([&] { return shown(*ann).ticks - first >= expected; }));
-    EXPECT_GE(shown(*cid).ticks - other, expected * 9 / 10);
+    // Far from all, for the machine may be busy; a world that waited for the bad one would have had hardly
+    // any.
+    const int least = static_cast<int>(passed / 0.005 * 0.15);
+    EXPECT_GE(shown(*ann).ticks - first, least) << passed;
+    EXPECT_GE(shown(*cid).ticks - other, least) << passed;
     EXPECT_EQ(shown(*ann).process, process);
     EXPECT_TRUE(bob->joined()) << "and they may be in the next round of theirs";
   }

@@ -426,14 +426,6 @@ CommandLine printConfig(const Printing& printing, const std::vector<Option>& all
   return CommandLine::kDone;
 }
 
-/// With rooms there is no other game, and a round of theirs is followed by the next one.
-void useRooms(HostOptions& options) {
-  const std::vector<RoomOptions> rooms = roomsOf(options);
-  if (rooms.empty()) return;
-  options.game = rooms.front().game;
-  options.on_game_over = "restart";
-}
-
 void keepHome(HostOptions& options) {
   if (options.insecure && options.address == HostOptions().address) options.address = kLoopback;
 }

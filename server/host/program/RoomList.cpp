@@ -143,6 +143,13 @@ std::string roomsComplaint(const HostOptions& options) {
   return conflict(options);
 }
 
+void useRooms(HostOptions& options) {
+  const std::vector<RoomOptions> rooms = roomsOf(options);
+  if (rooms.empty()) return;
+  options.game = rooms.front().game;
+  options.on_game_over = "restart";
+}
+
 HostOptions optionsOf(const HostOptions& options, const RoomOptions& room) {
   HostOptions own = options;
   own.rooms.clear();

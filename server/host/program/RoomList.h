@@ -28,6 +28,10 @@ std::vector<RoomOptions> roomsOf(const HostOptions& options);
 /// their games.
 std::string roomsComplaint(const HostOptions& options);
 
+/// With rooms there is no other game, and a round of theirs is followed by the next one: the options say so
+/// from now on.
+void useRooms(HostOptions& options);
+
 /// The options of a server that has this room alone: for its worlds.
 HostOptions optionsOf(const HostOptions& options, const RoomOptions& room);
 
