@@ -61,12 +61,16 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
                  }});
 }
 
-// A token is sent only to the server that gave it.
+// A token is sent only to the server that gave it. A session that was given up here may go on there: a server
+// that executes a long round again, for example, gives its players time from when it has done so.
 void Connection::chooseToken(SessionOptions& options) const {
   if (m_session && m_session->isDetached()) {
     if (m_token_key != m_key) return;
     options.resume_token = m_token;
     options.received = m_session->receivedFrames();
+  } else if (m_session && m_session->state() == ClientSession::State::kLost && m_token_key == m_key) {
+    options.resume_token = m_token;
+    options.fresh = !m_token.empty();
   } else if (!m_session && m_p_tokens != nullptr && m_key && options.resume_token.empty()) {
     options.resume_token = m_p_tokens->tokenFor(*m_key);
     options.fresh = !options.resume_token.empty();

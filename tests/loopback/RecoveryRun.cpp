@@ -17,6 +17,7 @@
 #include "server/replay/PictureReel.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Verify.h"
+#include "tests/support/WholePicture.h"
 
 namespace naiad::test {
 
@@ -59,19 +60,22 @@ constexpr const char* kGoesOn = "the round goes on after ";
 
 }  // namespace
 
-/// Plays at random, and remembers the newest picture that the server called complete.
+/// Plays at random, and remembers the newest picture that has all that the server sent.
 class RecoveryClient {
  public:
   RecoveryClient(asio::io_context& context, std::uint16_t port, const ClientSetup& setup, std::uint64_t seed)
       : m_connection(context, ServerAddress{"127.0.0.1", port}, setup.options, true, setup.trust),
         m_player(seed, 80, 24) {
     m_connection.onSession([this](ClientSession& session) {
+      m_whole = WholePicture();
+      m_begun = false;
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
-        if (m_is_complete && tick != m_newest) keep(session);
+        if (tick != m_whole.tick()) keepPicture(session);
       });
-      session.onAfterSnapshot([this](const SnapshotHeader& header, const AckWindow&) {
-        m_newest = header.tick;
-        m_is_complete = header.complete;
+      session.onAfterSnapshot([this, &session](const SnapshotHeader& header, const AckWindow& acks) {
+        const auto& continuation = session.welcome().continuation;
+        if (!std::exchange(m_begun, true) && continuation) m_whole = WholePicture(continuation->snapshot);
+        m_whole.addSnapshot(header, acks);
       });
     });
     m_connection.start();
@@ -97,27 +101,31 @@ class RecoveryClient {
   const std::string& sentence() const { return m_connection.sentence(); }
   const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
   const ClientSession* session() { return m_connection.session(); }
-  std::uint32_t newestTick() const { return m_newest; }
+  std::uint32_t newestTick() const { return m_whole.tick(); }
+  /// It has had one since freezePicture().
+  bool hasPicture() const { return m_picture.has_value() || m_whole.isWhole(); }
   /// The last one before freezePicture().
   const std::optional<df::Canvas>& picture() const { return m_frozen; }
   std::uint32_t pictureTick() const { return m_frozen_tick; }
   void freezePicture() {
+    if (const ClientSession* p_session = session()) keepPicture(*p_session);
     m_frozen = std::exchange(m_picture, std::nullopt);
     m_frozen_tick = m_picture_tick;
-    m_is_complete = false;
+    m_whole = WholePicture();
   }
 
  private:
-  void keep(ClientSession& session) {
-    m_picture = session.replica().render(m_newest);
-    m_picture_tick = m_newest;
+  void keepPicture(const ClientSession& session) {
+    if (!m_whole.isWhole()) return;
+    m_picture = session.replica().render(m_whole.tick());
+    m_picture_tick = m_whole.tick();
   }
 
   Connection m_connection;
   RandomPlayer m_player;
   Clock::time_point m_next_key;
-  std::uint32_t m_newest = 0;
-  bool m_is_complete = false;
+  WholePicture m_whole;
+  bool m_begun = false;  ///< a snapshot of this session has come
   std::optional<df::Canvas> m_picture;
   std::uint32_t m_picture_tick = 0;
   const ClientSession* m_p_before = nullptr;
@@ -181,6 +189,16 @@ void RecoveryRun::play(std::chrono::milliseconds time) {
     m_context.restart();
     m_context.run_one_for(std::chrono::milliseconds(5));
   }
+}
+
+bool RecoveryRun::playUntilPictured() {
+  const auto end = Clock::now() + kPatience;
+  const auto has_picture = [](const auto& client) { return client->hasPicture(); };
+  while (!std::all_of(m_clients.begin(), m_clients.end(), has_picture)) {
+    if (Clock::now() > end) return false;
+    play(std::chrono::milliseconds(5));
+  }
+  return true;
 }
 
 std::filesystem::path RecoveryRun::round() const {
@@ -315,7 +333,11 @@ void RecoveryRun::compare(KillResult& result) {
       }
     }
   }
-  if (result.wrong_cells > 0) result.problem = std::to_string(result.wrong_cells) + " wrong cells";
+  if (result.wrong_cells == 0) return;
+  result.problem = std::to_string(result.wrong_cells) + " wrong cells; executed again, " +
+                   (reel.firstDifference() == 0
+                        ? "the round is as it was recorded"
+                        : "tick " + std::to_string(reel.firstDifference()) + " is not as it was recorded");
 }
 
 bool RecoveryRun::verify(std::string& said) {

@@ -22,7 +22,7 @@ struct KillResult {
   int players = 0;
   int returned = 0;              ///< of them, as the same player
   std::uint32_t ticks_lost = 0;  ///< that a client had seen, and the round that goes on had not
-  std::uint64_t cells = 0;       ///< compared: of the last picture that each client had
+  std::uint64_t cells = 0;       ///< compared: of the last picture that each client had whole
   std::uint64_t wrong_cells = 0;
   std::chrono::milliseconds took{0};  ///< from the kill to the last client's new picture
   std::string problem;                ///< the first, in words
@@ -41,6 +41,8 @@ class RecoveryRun {
 
   /// Let them play for so long.
   void play(std::chrono::milliseconds time);
+  /// Let them play until each of them has had a picture that can be compared. False: they never have.
+  bool playUntilPictured();
   /// Kill the server, start it again, and wait until all are back.
   KillResult kill();
   /// The same, but the next server is killed as well, so much later: while it executes the round again, or at

@@ -103,6 +103,28 @@ TEST_F(Resume, ABrokenStreamIsReplacedUnnoticed) {
   EXPECT_EQ(proxy->count(), 4);
 }
 
+TEST_F(Resume, ASessionThatTheClientHasGivenUpIsGoneOnWith) {
+  start(home.server());
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(settle(ann));
+  const std::uint32_t id = ann.player();
+  ASSERT_TRUE(losesItsStream(ann));
+  valve->down = valve->up = false;
+  const Clock::time_point later = Clock::now() + ClientSession::kDetachedTimeout + std::chrono::seconds(10);
+  for (Clock::time_point now = Clock::now(); now < later; now += std::chrono::milliseconds(100))
+    ann.connection().update(now);
+  EXPECT_EQ(ann.session().state(), ClientSession::State::kLost);
+  valve->down = valve->up = true;
+  proxy->setOpen(true);
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  EXPECT_EQ(ann.player(), id);
+  EXPECT_TRUE(settle(ann));
+  EXPECT_TRUE(keyWorks(ann));
+  EXPECT_EQ(server->counters().joined, 1u);
+  EXPECT_EQ(census.joins, 1);
+  EXPECT_EQ(census.leaves, 0);
+}
+
 TEST_F(Resume, DatagramsGoOnWhileThereIsNoStream) {
   start(home.server());
   TestClient ann(context, proxy->port(), player("ann"));

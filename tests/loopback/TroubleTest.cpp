@@ -194,7 +194,7 @@ TEST_F(Trouble, AGameThatHangsIsReportedAndTheFirstSignalEndsItInOrder) {
   auto ann = join("ann");
   press(*ann, df::Keyboard::H);
   ASSERT_TRUE(logs("the game has not finished tick ")) << game->log();
-  EXPECT_TRUE(logs(" for 2 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
+  EXPECT_TRUE(logs(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
       << game->log();
   game->signal(SIGTERM);
   EXPECT_TRUE(isDismissed(*ann)) << ann->connection().sentence();
@@ -283,7 +283,7 @@ TEST_F(Trouble, AWorldThatCrashesLeavesTheSameLines) {
   EXPECT_TRUE(logs(" to see where: run the game by itself in a debugger")) << game->log();
   EXPECT_TRUE(ticks(*ann)) << "the next round";
   press(*ann, df::Keyboard::H);
-  EXPECT_TRUE(logs(" for 2 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
+  EXPECT_TRUE(logs(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
       << game->log();
   EXPECT_TRUE(logs("the game did not answer any more in tick ")) << game->log();
 }

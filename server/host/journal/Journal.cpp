@@ -15,9 +15,9 @@ constexpr const char* kOverflow = "the disk is too slow";
 }  // namespace
 
 Journal::Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, DfrFacts facts, std::size_t ring,
-                 bool shared, std::optional<JournalPlace> goes_on)
+                 bool shared, std::optional<JournalPlace> goes_on, std::uint64_t folder)
     : m_header(header),
-      m_ring(ring, header.uuid, shared, goes_on ? goes_on->position : 0),
+      m_ring(ring, header.uuid, shared, goes_on ? goes_on->position : 0, folder),
       m_facts(std::move(facts)),
       m_sink(std::move(sink)),
       m_packer(goes_on ? std::move(goes_on->packer) : DfrTurnPacker()),

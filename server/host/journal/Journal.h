@@ -19,9 +19,10 @@ namespace naiad {
 class Journal {
  public:
   /// `facts`: what is known before the world begins. `ring`: bytes of records that may wait for the disk.
-  /// `goes_on`: the file has all that comes before. Throws std::system_error if there is no memory.
+  /// `goes_on`: the file has all that comes before. `folder`: of the file, for the ring (TurnRing.h). Throws
+  /// std::system_error if there is no memory.
   Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, DfrFacts facts, std::size_t ring,
-          bool shared, std::optional<JournalPlace> goes_on = std::nullopt);
+          bool shared, std::optional<JournalPlace> goes_on = std::nullopt, std::uint64_t folder = 0);
 
   const DfrHeader& header() const { return m_header; }
   const TurnRing& ring() const { return m_ring; }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "host/journal/DfrReader.h"
 #include "host/journal/DfrWriter.h"
@@ -54,14 +55,15 @@ std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) 
 
 std::vector<std::string> salvageRounds(const std::string& folder) {
   std::vector<std::string> said;
+  std::set<std::string> rounds;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     std::error_code ignored;
     const fs::path& path = entry.path();
-    if (path.extension() != ".dfr" || !entry.is_regular_file(ignored) ||
-        entry.file_size(ignored) > kMaxSalvaged)
-      continue;
+    if (path.extension() != ".dfr" || !entry.is_regular_file(ignored)) continue;
     const auto header = headerOf(path);
+    if (header) rounds.insert(uuidText(header->uuid));
+    if (entry.file_size(ignored) > kMaxSalvaged) continue;
     const auto ring = header ? LeftRing::find(header->uuid) : std::nullopt;
     if (!ring) continue;
     const auto added = complete(path, *ring);
@@ -70,6 +72,7 @@ std::vector<std::string> salvageRounds(const std::string& folder) {
     said.push_back("the server was killed in the round " + path.string() +
                    ", which has all of its turns now");
   }
+  removeStrayRings(ringFolder(folder), rounds);
   return said;
 }
 

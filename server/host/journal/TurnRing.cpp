@@ -8,18 +8,24 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <system_error>
+
+#include "shared/values/FastHash.h"
 
 namespace naiad {
 
 namespace {
 
-constexpr char kRingMagic[9] = "NAIADRG1";
+constexpr char kRingMagic[9] = "NAIADRG2";
 constexpr std::uint64_t kMaxRing = std::uint64_t{64} << 20;
 
+constexpr const char* kRings = "/dev/shm";
+constexpr std::string_view kRingName = "naiad-";
+
 std::string ringPath(const std::array<std::uint8_t, 16>& uuid) {
-  return "/dev/shm/naiad-" + uuidText(uuid);
+  return std::string(kRings) + "/" + std::string(kRingName) + uuidText(uuid);
 }
 
 std::string readAll(int file) {
@@ -48,7 +54,7 @@ std::string uuidText(const std::array<std::uint8_t, 16>& uuid) {
 }
 
 TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
-                   std::uint64_t position)
+                   std::uint64_t position, std::uint64_t folder)
     : m_capacity(capacity) {
   if (!shared || !mapShared(uuid)) {
     void* p_memory =
@@ -59,6 +65,7 @@ TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uui
   }
   std::memcpy(m_p_head->magic, kRingMagic, sizeof m_p_head->magic);
   std::copy(uuid.begin(), uuid.end(), m_p_head->uuid);
+  m_p_head->folder = folder;
   m_p_head->capacity = m_capacity;
   m_p_head->stored = position;
   m_p_head->released = position;
@@ -146,6 +153,34 @@ std::optional<std::string> LeftRing::bytesFrom(std::uint64_t position) const {
   const auto at = static_cast<std::size_t>(position % head.capacity);
   const std::size_t first = std::min(count, ring.size() - at);
   return std::string(ring.substr(at, first)).append(ring.substr(0, count - first));
+}
+
+std::uint64_t ringFolder(const std::string& folder) {
+  FastHash hash;
+  hash.bytes(folder);
+  return hash.value() | 1;  // 0 is unknown
+}
+
+// One that is being made is not locked yet, and has no magic yet.
+std::size_t removeStrayRings(std::uint64_t folder, const std::set<std::string>& kept) {
+  std::size_t removed = 0;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(kRings, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kRingName) || kept.contains(name.substr(kRingName.size()))) continue;
+    const int file = open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) continue;
+    alignas(TurnRing::Head) char bytes[sizeof(TurnRing::Head)];
+    struct stat facts {};
+    const auto* p_head = reinterpret_cast<const TurnRing::Head*>(bytes);
+    const bool stray = fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == getuid() &&
+                       pread(file, bytes, sizeof bytes, 0) == sizeof bytes &&
+                       std::memcmp(p_head->magic, kRingMagic, sizeof p_head->magic) == 0 &&
+                       p_head->folder == folder && flock(file, LOCK_EX | LOCK_NB) == 0;
+    if (stray && unlink(entry.path().c_str()) == 0) ++removed;
+    close(file);
+  }
+  return removed;
 }
 
 void LeftRing::remove() const {

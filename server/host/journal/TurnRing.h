@@ -4,15 +4,17 @@
 // and releases it when it is on the disk. A process that is killed leaves the ring behind, under the round's
 // name: with the file it has everything.
 //
-//   ring   magic (8) | uuid (16) | capacity (8) | bytes stored (8) | bytes released (8) | bytes
+//   ring   magic (8) | uuid (16) | folder (8) | capacity (8) | bytes stored (8) | bytes released (8) | bytes
 //
-// The two counts are positions in the stream of records, as TURN chunks have them (Dfr.h).
+// The folder is that of the round's file, as a hash: a ring without a file is removed by the next server
+// there. The two counts are positions in the stream of records, as TURN chunks have them (Dfr.h).
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -22,9 +24,10 @@ class TurnRing {
  public:
   /// In memory of this process alone, or, with a name, in /dev/shm. If that cannot be, in this process's
   /// after all: isShared() says so.
-  /// `position`: of the first byte, in the stream of records.
+  /// `position`: of the first byte, in the stream of records. `folder`: ringFolder() of the file's; 0:
+  /// unknown.
   TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
-           std::uint64_t position = 0);
+           std::uint64_t position = 0, std::uint64_t folder = 0);
   /// The shared memory is removed.
   ~TurnRing();
   TurnRing(const TurnRing&) = delete;
@@ -50,6 +53,7 @@ class TurnRing {
   struct Head {
     char magic[8];
     std::uint8_t uuid[16];
+    std::uint64_t folder;
     std::uint64_t capacity;
     std::atomic<std::uint64_t> stored;
     std::atomic<std::uint64_t> released;
@@ -57,6 +61,7 @@ class TurnRing {
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
   friend class LeftRing;
+  friend std::size_t removeStrayRings(std::uint64_t, const std::set<std::string>&);
   bool mapShared(const std::array<std::uint8_t, 16>& uuid);
   char* bytes() const { return reinterpret_cast<char*>(m_p_head + 1); }
 
@@ -85,6 +90,13 @@ class LeftRing {
   std::string m_path;
   std::string m_bytes;  ///< head and all
 };
+
+/// By what a ring names the folder of its file.
+std::uint64_t ringFolder(const std::string& folder);
+
+/// Remove the rings of this folder whose processes have ended and whose rounds, by uuid, are not among
+/// `kept`: a server was killed before its file was there, or the file was removed. Return how many.
+std::size_t removeStrayRings(std::uint64_t folder, const std::set<std::string>& kept);
 
 /// "0123…": 32 hexadecimal digits.
 std::string uuidText(const std::array<std::uint8_t, 16>& uuid);

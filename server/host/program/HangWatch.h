@@ -13,7 +13,7 @@ class HangWatch {
   using Time = std::chrono::steady_clock::time_point;
 
   /// After this time in one tick the game counts as hanging.
-  static constexpr std::chrono::seconds kHang{2};
+  static constexpr std::chrono::seconds kHang{1};
   /// A server that is to end waits so long for a tick, and so long after the signal.
   static constexpr std::chrono::seconds kTickBeforeEnd{3};
   static constexpr std::chrono::seconds kSignalBeforeEnd{1};

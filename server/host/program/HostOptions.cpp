@@ -102,24 +102,26 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--world-memory", &o.world_memory,
         "MiB of addresses that a game in a process of its own may have; 0: no limit", "NAIAD_WORLD_MEMORY",
         OptionRange{0, 1 << 20}}},
+      {{"--hang-time", &o.hang_time,
+        "Seconds of one tick after which a game in a process of its own hangs: the log says what it does, "
+        "and "
+        "after five times that it is ended. Neither a machine under load nor a debugger makes it hang",
+        "NAIAD_HANG_TIME", OptionRange{0.1, 600}}},
       {{"--world-environment", &o.world_environment,
         "Names of variables, with commas between, that games in processes of their own find in their "
         "environment, beside the usual ones",
         "NAIAD_WORLD_ENVIRONMENT"}},
       {{"--journal", &o.journal,
         "Write each round down in a file of this directory, as it is played, in little space: dfreplay plays "
-        "it "
-        "and executes it again. The game then runs in a process of its own, with clocks and random devices "
-        "that "
-        "can be repeated",
+        "it and executes it again. The game then runs in a process of its own, with clocks and random "
+        "devices that can be repeated",
         "NAIAD_JOURNAL"}},
       {{"--no-journal", &o.no_journal, "Write no round down, whatever environment or file say",
         "NAIAD_NO_JOURNAL"}},
       {{"--recover",
         &o.recover,
         "When this server was killed in a round that --journal has: on = the round is executed again, and "
-        "its "
-        "players go on with it; off = another one begins",
+        "its players go on with it; off = another one begins",
         "NAIAD_RECOVER",
         {},
         {"on", "off"}}},

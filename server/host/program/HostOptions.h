@@ -38,6 +38,7 @@ struct HostOptions {
   std::string journal;         ///< directory where each round is written down; empty: none is
   bool no_journal = false;     ///< not even so
   std::string recover = "on";  ///< go on with the round of a server that was killed: "on" or "off"
+  double hang_time = 1;  ///< seconds of one tick of a world in a process of its own; then the game hangs
   std::string world_environment;  ///< names of variables that they get, too, with commas between
   double room_sleep = 60;         ///< seconds without players after which a room sleeps
   bool insecure = false;          ///< plain TCP, loopback only, no datagrams: for tests

@@ -272,7 +272,7 @@ std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
       spellDfrMeta({{kFactAttempts, std::to_string(attempts + 1) + " " + std::to_string(round.turns())}}));
   sink->sync();
   return std::make_shared<Journal>(std::move(sink), round.header(), DfrFacts(), m_ring, true,
-                                   round.takePlace());
+                                   round.takePlace(), ringFolder(m_folder));
 }
 
 std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
@@ -348,8 +348,8 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
   const std::string path = pathOf(header);
   JournaledWorld::Book book = makeBook(path, *world);
   try {
-    book.journal =
-        std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring, true);
+    book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring,
+                                             true, std::nullopt, ringFolder(m_folder));
   } catch (const std::system_error& error) {
     m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
     return world;

@@ -247,7 +247,10 @@ void Rooms::checkWorlds() {
     room->port().checkProcess(tickNumber());
     if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
       m_on_sessions(*room, *sessions);
-    if (const auto warning = room->port().takeWarning()) m_log(*warning);
+    if (const auto warning = room->port().takeWarning()) {
+      m_log({LogEvent::Level::kWarning, *warning});
+      room->say("The game takes long over something: everything stands still.");
+    }
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }

@@ -1,5 +1,6 @@
 #include "host/program/Worlds.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -44,6 +45,10 @@ std::string gameSettings() {
   return p_named != nullptr ? p_named : "df-config.txt";
 }
 
+std::chrono::milliseconds hangTime(const HostOptions& options) {
+  return std::chrono::milliseconds(std::llround(options.hang_time * 1000));
+}
+
 std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const GamePlace& place,
                                             std::vector<std::string> arguments, const LogLine& log,
                                             int nice = 0) {
@@ -51,7 +56,7 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
   auto launcher = std::make_shared<const WorldLauncher>(
       WorldProgram{kThisProgram, std::move(arguments),
                    wantsJournal(options) ? makeFixedEnvironment(options) : makeWorldEnvironment(options),
-                   firstDirectory(), made.sandbox, repeatPreload(), nice});
+                   firstDirectory(), made.sandbox, repeatPreload(), hangTime(options), nice});
   if (!made.sandbox.on) {
     log("games in processes of their own have no sandbox: they can do what this user can");
     return launcher;
@@ -176,7 +181,7 @@ std::shared_ptr<const WorldLauncher> launchAgain(const HostOptions& options, con
   environment.insert(environment.end(), variables.begin(), variables.end());
   return std::make_shared<const WorldLauncher>(WorldProgram{program, moduleArguments(options, module),
                                                             std::move(environment), folder, made.sandbox,
-                                                            repeatPreload()});
+                                                            repeatPreload(), hangTime(options)});
 }
 
 Preview previewWorld(const WorldLauncher& launcher, const LogLine& print) {

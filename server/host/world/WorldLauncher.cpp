@@ -104,7 +104,7 @@ bool receive(int from, Message& message) {
 
 }  // namespace
 
-WorldLauncher::WorldLauncher(WorldProgram program) {
+WorldLauncher::WorldLauncher(WorldProgram program) : m_hang_time(program.hang_time) {
   auto [ours, theirs] = socketPair(SOCK_SEQPACKET, "the launcher of worlds");
   m_process = fork();
   require(m_process >= 0, "the launcher of worlds");
@@ -132,7 +132,7 @@ StartedWorld WorldLauncher::start(const WorldOrder& order) const {
   Descriptor page = sharedPage(kWhat);
   require(sendOrder(m_socket, order, {their_world.get(), their_keeper.get(), their_output.get(), page.get()}),
           kWhat);
-  return {our_world.release(), our_keeper.release(), our_output.release(), page.release()};
+  return {our_world.release(), our_keeper.release(), our_output.release(), page.release(), m_hang_time};
 }
 
 }  // namespace naiad

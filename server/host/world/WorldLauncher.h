@@ -13,6 +13,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct WorldProgram {
   std::string directory;
   Sandbox sandbox;
   std::string preload = {};  ///< for LD_PRELOAD of worlds that are to be repeatable (Repeatable.h)
+  std::chrono::milliseconds hang_time{1000};  ///< of one tick; then the game hangs (WorldProcess.h)
   int nice = 0;              ///< added to that of this process, for the world and its keeper
 };
 
@@ -38,6 +40,7 @@ struct StartedWorld {
   int keeper = -1;  ///< of the keeper's; the caller's to close, which ends the world
   int output = -1;  ///< what it prints, for an OutputRelay; the caller's to close
   int page = -1;    ///< memory that it shares with us, an ActivityPage; the caller's to close
+  std::chrono::milliseconds hang_time{1000};  ///< as its WorldProgram has it
 };
 
 /// The world's program is executed, or cannot be.
@@ -71,6 +74,7 @@ class WorldLauncher {
   int m_socket = -1;
   pid_t m_process = -1;
   SandboxSupport m_support;
+  std::chrono::milliseconds m_hang_time;
 };
 
 }  // namespace naiad

@@ -12,6 +12,7 @@
 #include <asio/buffer.hpp>
 #include <asio/read.hpp>
 #include <asio/write.hpp>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -37,6 +38,13 @@ std::string nameOf(int signal) {
   return p_name != nullptr ? "SIG" + std::string(p_name) : std::to_string(signal);
 }
 
+/// "1", "0.25".
+std::string secondsText(std::chrono::nanoseconds time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", std::chrono::duration<double>(time).count());
+  return text;
+}
+
 /// Ours to read alone. Null if there is none.
 const df::ActivityPage* mapPage(int file) {
   if (file < 0) return nullptr;
@@ -58,6 +66,7 @@ WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, 
       m_keeper(started.keeper),
       m_output(started.output, std::move(print)),
       m_p_page(mapPage(started.page)),
+      m_hang_time(started.hang_time),
       m_checked_at(Clock::now()) {
   readHead();
 }
@@ -92,6 +101,7 @@ void WorldProcess::readKeeper(int patience_millis) {
     const auto start = takeFromKeeper<KeeperStart>(patience_millis);
     if (!start) return;
     m_started = true;
+    m_process = start->process;
     if (start->error != 0) {
       m_failure = WorldEnd{WorldEnd::kCrashed,
                            "could not be started: " + std::generic_category().message(start->error)};
@@ -126,7 +136,8 @@ void WorldProcess::tick(bool watched, bool truth) {
   if (!writeTurn(std::exchange(m_turn, {}), m_out)) return fail(WorldEnd::kBroken, "was asked too much");
   m_state = State::kTicking;
   m_waited = {};
-  m_warned = false;
+  m_effort.restart();
+  m_warned = m_stop_noted = false;
   // A failure shows when the answer is read.
   asio::async_write(m_socket, asio::buffer(m_out), [](const asio::error_code&, std::size_t) {});
 }
@@ -229,11 +240,12 @@ void WorldProcess::fail(WorldEnd::Why why, const std::string& text) {
 }
 
 std::chrono::nanoseconds WorldProcess::patience() const {
+  const std::chrono::nanoseconds most = m_hang_time * kPatience;
   switch (m_state) {
     case State::kStarting:
       return kStartTime;
     case State::kTicking:
-      return kAnswerTime;
+      return isInFirstTick() ? std::max<std::chrono::nanoseconds>(most, kStartTime) : most;
     case State::kEnding:
       return kEndTime;
     case State::kReady:
@@ -248,21 +260,38 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   if (m_state == State::kEnded) return;
   const Clock::time_point now = Clock::now();
   m_output.update(now);
-  m_waited += std::min<std::chrono::nanoseconds>(now - m_checked_at, kMaxBetweenChecks);
-  m_checked_at = now;
+  countTime(now);
   if (!m_status) {
     readKeeper(0);
     if (m_status) m_waited = {};
   }
   // Its last frames are read first.
   if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
-  if (m_state == State::kTicking && m_waited > kSlow && !std::exchange(m_warned, true)) {
-    m_warning = "the game has not finished tick " + std::to_string(m_next_tick - 1) + " for " +
-                std::to_string(kSlow.count()) + " s: it hangs, and all players wait" + activity("handles");
-  }
+  warnOfHang();
   if (m_waited <= patience()) return;
   if (m_state == State::kEnding) return kill();
   fail(WorldEnd::kHung, m_state == State::kStarting ? "did not begin" : "did not answer any more");
+}
+
+void WorldProcess::countTime(Clock::time_point now) {
+  const auto passed = std::min<std::chrono::nanoseconds>(now - m_checked_at, kMaxBetweenChecks);
+  m_checked_at = now;
+  if (m_state != State::kTicking) {
+    m_waited += passed;
+    return;
+  }
+  m_effort.add(passed, [this] { return lookAtProcess(m_process); });
+  m_waited = m_effort.counted();
+}
+
+void WorldProcess::warnOfHang() {
+  if (m_state != State::kTicking) return;
+  const std::string tick = "tick " + std::to_string(m_next_tick - 1);
+  if (m_effort.stopped() >= m_hang_time && !std::exchange(m_stop_noted, true))
+    m_warning = "the game is stopped in " + tick + ", by a debugger or a signal, and all players wait";
+  if (m_waited < m_hang_time || std::exchange(m_warned, true)) return;
+  m_warning = "the game has not finished " + tick + " for " + secondsText(m_hang_time) +
+              " s: it hangs, and all players wait" + activity("handles");
 }
 
 void WorldProcess::finish(int status) {

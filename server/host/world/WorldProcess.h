@@ -1,7 +1,8 @@
 // A world in a process of its own, over a Unix socket (WorldMessages.h). The other end is a WorldServer.
 //
 // A world that does not answer in time, or sends a malformed frame, is killed; one that crashes has ended.
-// The host goes on without it.
+// The host goes on without it. Of a tick only that time counts which is the world's own doing (TickEffort.h):
+// a machine under load and a debugger do not make a game hang.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -15,6 +16,7 @@
 
 #include "engine/world/ActivityPage.h"
 #include "host/world/OutputRelay.h"
+#include "host/world/TickEffort.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
 #include "host/world/WorldPort.h"
@@ -28,11 +30,10 @@ class WorldProcess : public WorldPort {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// For an answer; then the game hangs.
-  static constexpr std::chrono::seconds kAnswerTime{5};
-  /// For an answer; then the log says what the game is doing.
-  static constexpr std::chrono::seconds kSlow{2};
-  /// From the start of the process to GM.run().
+  /// So many times StartedWorld::hang_time for an answer, and it is killed: a game may load something once in
+  /// a while. After one time takeWarning() says that it hangs.
+  static constexpr int kPatience = 5;
+  /// From the start of the process to GM.run(), and for the first tick.
   static constexpr std::chrono::seconds kStartTime{30};
   /// From the end of the game to that of its process: what main() does after GM.run().
   static constexpr std::chrono::seconds kEndTime{1};
@@ -101,13 +102,18 @@ class WorldProcess : public WorldPort {
   template <class Message>
   std::optional<Message> takeFromKeeper(int patience_millis);
   std::chrono::nanoseconds patience() const;
+  bool isInFirstTick() const { return m_next_tick == m_later + 2; }
+  void countTime(Clock::time_point now);
+  void warnOfHang();
   void kill();
 
   asio::local::stream_protocol::socket m_socket;
   int m_keeper;  ///< the socket of its keeper
   OutputRelay m_output;
   const df::ActivityPage* m_p_page = nullptr;  ///< null: there is none
-  bool m_started = false;                      ///< as the keeper says
+  const std::chrono::nanoseconds m_hang_time;
+  bool m_started = false;  ///< as the keeper says
+  pid_t m_process = -1;    ///< the same
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
   std::optional<int> m_status;        ///< once it and all that it had started have ended
@@ -115,12 +121,14 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> m_end;
   Clock::time_point m_checked_at;
   std::chrono::nanoseconds m_waited{0};  ///< in this state; time between two checks counts up to a limit
+  TickEffort m_effort;                   ///< of the tick that is under way
   std::uint32_t m_next_tick = 1;
   std::uint32_t m_pictured = 0;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
-  bool m_in_tick = false;  ///< one was sent, and not answered
-  bool m_warned = false;   ///< of this tick
+  bool m_in_tick = false;     ///< one was sent, and not answered
+  bool m_warned = false;      ///< of this tick, that it hangs
+  bool m_stop_noted = false;  ///< of this tick, that it is stopped
   std::optional<std::string> m_warning;
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
   bool m_hashes = false;    ///< the next answer is hashed

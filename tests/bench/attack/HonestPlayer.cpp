@@ -12,15 +12,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kNoRush{250};  // keys after a pause are not made up for
 
-/// Did all of the window's snapshots arrive, from the first one on? What a lost one said may be on its way
-/// again, so that a later one that is complete does not make the picture whole.
-bool hasAll(const naiad::AckWindow& acks) {
-  constexpr std::uint32_t kWindow = 64;
-  const std::uint32_t before = acks.newest - 1;
-  const std::uint64_t all = before >= kWindow ? ~std::uint64_t{0} : (std::uint64_t{1} << before) - 1;
-  return (acks.mask & all) == all;
-}
-
 double millisBetween(HonestPlayer::Time from, HonestPlayer::Time to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
@@ -52,8 +43,8 @@ void HonestPlayer::observe(naiad::ClientSession& session) {
   session.onBeforeSnapshot(
       [this, &session](std::uint32_t tick) { m_recorder.beforeSnapshot(session.replica(), tick); });
   session.onAfterSnapshot([this](const naiad::SnapshotHeader& header, const naiad::AckWindow& acks) {
-    const bool whole = header.complete && header.number == acks.newest && hasAll(acks);
-    m_recorder.afterSnapshot(header.tick, whole, true);
+    m_picture.addSnapshot(header, acks);
+    m_recorder.afterSnapshot(header.tick, m_picture.isWhole(), true);
     if (!naiad::isNewer(header.tick, m_newest)) return;
     const Time now = std::chrono::steady_clock::now();
     if (m_news != Time{}) m_pause_ms = std::max(m_pause_ms, millisBetween(m_news, now));

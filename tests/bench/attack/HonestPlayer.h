@@ -12,6 +12,7 @@
 #include "client/bot/BotPlayer.h"
 #include "client/bot/TruthRecorder.h"
 #include "client/session/Connection.h"
+#include "tests/support/WholePicture.h"
 
 namespace bench::attack {
 
@@ -60,6 +61,7 @@ class HonestPlayer {
   std::unique_ptr<Relay> m_relay;
   std::unique_ptr<naiad::Connection> m_connection;
   naiad::TruthRecorder m_recorder;
+  naiad::test::WholePicture m_picture;
   bool m_observed = false;
   std::uint32_t m_player = 0;  ///< 0: has not joined yet
   bool m_thrown_out = false;

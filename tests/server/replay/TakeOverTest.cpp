@@ -30,6 +30,7 @@ class TakeOverTest : public testing::Test {
     HostOptions options;
     options.journal = rounds.string();
     options.seed = 1;
+    options.hang_time = 0.2;
     launcher = launchAgain(options, module, NAIAD_BINARY_DIR "/dfserver", recorder.folder().string(), {});
     journals = Journals::open(options, GameModule::nameOf(module), module,
                               [this](const LogEvent& event) { log += event.text + "\n"; });

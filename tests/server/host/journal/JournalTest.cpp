@@ -221,6 +221,29 @@ TEST_F(JournalFileTest, ARoundThatIsBeingPlayedIsLeftAlone) {
   EXPECT_EQ(fs::file_size(path), size);
 }
 
+TEST_F(JournalFileTest, MemoryOfARoundThatHasNoFileIsFreedByTheNextServerOfItsFolder) {
+  const auto uuid = [self = getpid()](std::uint8_t first) {
+    return std::array<std::uint8_t, 16>{first, static_cast<std::uint8_t>(self),
+                                        static_cast<std::uint8_t>(self >> 8), 4};
+  };
+  const auto pathOf = [](const auto& round) { return "/dev/shm/naiad-" + uuidText(round); };
+  const pid_t child = fork();
+  if (child == 0) {
+    const TurnRing ring(4096, uuid(1), true, 0, ringFolder(folder.string()));
+    if (!ring.isShared()) _exit(77);
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
+  const TurnRing played(4096, uuid(2), true, 0, ringFolder(folder.string()));
+  salvageRounds((folder / "another").string());
+  EXPECT_TRUE(fs::exists(pathOf(uuid(1)))) << "it may be another server's, which is about to need it";
+  salvageRounds(folder.string());
+  EXPECT_FALSE(fs::exists(pathOf(uuid(1))));
+  EXPECT_TRUE(fs::exists(pathOf(uuid(2)))) << "its process lives";
+}
+
 TEST_F(JournalFileTest, AFolderThatIsNotThereIsAnError) {
   JournalFileSink sink((folder / "none" / "rounds" / "hello.dfr").string());
   EXPECT_THROW(sink.write("x"), std::system_error);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/program/StatusFile.h"
+#include "shared/net/base/Limits.h"
 #include "shared/values/Version.h"
 
 namespace naiad {

@@ -53,6 +53,7 @@ class WorldProcessTest : public testing::Test {
       m_io.restart();
       m_io.run_one_for(std::chrono::milliseconds(5));
       world.checkProcess(1);
+      if (auto warning = world.takeWarning()) warnings.push_back(*std::move(warning));
       if (world.isReady()) world.tick(true, false);
     }
     return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there", 0, {}, {}});
@@ -60,10 +61,13 @@ class WorldProcessTest : public testing::Test {
 
   /// For a script: it is ready; it takes a turn, of 4 + 4 bytes (watched, no truth, no end, no inputs).
   static std::string isReady() { return "printf '" + escape(readyFrame()) + "' >&3; "; }
+  /// It answers: not over, no leavers, no pictures, no view.
+  static std::string answers() { return "printf '\\5\\0\\0\\0\\0\\0\\0\\0\\0' >&3; "; }
   static std::string takesTurn() { return "dd bs=8 count=1 <&3 2>/dev/null >/dev/null; "; }
 
   int ticks = 0;
   std::vector<std::string> printed;
+  std::vector<std::string> warnings;
 
  private:
   asio::io_context m_io;
@@ -79,7 +83,7 @@ TEST_F(WorldProcessTest, OneThatFailsHasCrashed) {
 }
 
 TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
-  const std::string answer = "printf '\\5\\0\\0\\0\\0\\0\\0\\0\\0' >&3; ";
+  const std::string answer = answers();
   const std::string crash = "kill -SEGV $$";
   EXPECT_EQ(play(crash).when, "");
   EXPECT_EQ(play(isReady() + takesTurn() + answer + takesTurn() + crash).when, "in tick 2");
@@ -164,10 +168,61 @@ TEST_F(WorldProcessTest, OneThatFloodsEndsAsEver) {
 }
 
 TEST_F(WorldProcessTest, AnAnswerIsATick) {
-  // Not over, no leavers, no pictures, no view.
-  const std::string answer = takesTurn() + "printf '\\5\\0\\0\\0\\0\\0\\0\\0\\0' >&3; ";
+  const std::string answer = takesTurn() + answers();
   EXPECT_EQ(play(isReady() + answer + answer + "exit 0").why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
+}
+
+// ---- one that hangs ---------------------------------------------------------------------------------------
+
+class HangingWorldTest : public WorldProcessTest {
+ protected:
+  static constexpr std::chrono::milliseconds kHangTime{150};
+  /// Answer one turn, and do this in the next.
+  static WorldProgram hangs(const std::string& how) {
+    WorldProgram program = shell(isReady() + takesTurn() + answers() + takesTurn() + how);
+    program.hang_time = kHangTime;
+    return program;
+  }
+};
+
+TEST_F(HangingWorldTest, AnEndlessLoopIsSaidAndThenEnded) {
+  const auto began = std::chrono::steady_clock::now();
+  const WorldEnd end = play(hangs("while :; do :; done"));
+  EXPECT_GE(std::chrono::steady_clock::now() - began, kHangTime * (WorldProcess::kPatience - 1));
+  EXPECT_EQ(end.why, WorldEnd::kHung);
+  EXPECT_EQ(warnings, (std::vector<std::string>{
+                          "the game has not finished tick 2 for 0.15 s: it hangs, and all players wait"}));
+}
+
+TEST_F(HangingWorldTest, SoIsOneThatWaitsForWhatNeverComes) {
+  EXPECT_EQ(play(hangs("exec sleep 100")).why, WorldEnd::kHung);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
+TEST_F(HangingWorldTest, ASlowTickIsSaidAndMayEnd) {
+  const WorldEnd end = play(hangs("sleep 0.3; " + answers() + "exit 0"));
+  EXPECT_EQ(end.why, WorldEnd::kGameOver);
+  EXPECT_EQ(ticks, 2);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
+TEST_F(HangingWorldTest, TheFirstTickMayTakeLong) {
+  WorldProgram program = shell(isReady() + takesTurn() + "sleep 1; " + answers() + "exit 0");
+  program.hang_time = kHangTime;
+  EXPECT_EQ(play(program).why, WorldEnd::kGameOver);
+  EXPECT_EQ(ticks, 1);
+}
+
+/// For longer than one that hangs would live.
+TEST_F(HangingWorldTest, OneThatASignalHasStoppedIsSaidAndHasLonger) {
+  const std::string goes_on = "(sleep 1.2; kill -CONT $$) & ";
+  const WorldEnd end = play(hangs(goes_on + "kill -STOP $$; " + answers() + "exit 0"));
+  EXPECT_EQ(end.why, WorldEnd::kGameOver);
+  EXPECT_EQ(ticks, 2);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.front(),
+            "the game is stopped in tick 2, by a debugger or a signal, and all players wait");
 }
 
 }  // namespace

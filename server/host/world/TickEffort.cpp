@@ -1,0 +1,55 @@
+#include "host/world/TickEffort.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace naiad {
+
+namespace {
+
+/// The letter of /proc/PID/stat behind the program's name, which may have anything in it.
+char stateOf(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string line;
+  std::getline(file, line);
+  const std::size_t name_end = line.rfind(')');
+  return name_end != std::string::npos && name_end + 2 < line.size() ? line[name_end + 2] : '\0';
+}
+
+// Who waits for a disk, or for memory that was paged out, would run.
+ProcessLook::Doing doingOf(char state) {
+  if (state == 't') return ProcessLook::kDebugged;
+  if (state == 'T') return ProcessLook::kStopped;
+  return state == 'S' ? ProcessLook::kWaits : ProcessLook::kRuns;
+}
+
+}  // namespace
+
+std::optional<ProcessLook> lookAtProcess(pid_t process) {
+  clockid_t clock{};
+  timespec time{};
+  if (process <= 0 || clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0)
+    return std::nullopt;
+  const char state = stateOf(process);
+  if (state == '\0') return std::nullopt;
+  return ProcessLook{doingOf(state),
+                     std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec)};
+}
+
+void TickEffort::count(Nanos passed, const std::optional<ProcessLook>& look) {
+  if (!look) {
+    m_counted += passed;
+    return;
+  }
+  const Nanos computed = m_cpu ? std::clamp(look->cpu - *m_cpu, Nanos(0), passed) : Nanos(0);
+  m_cpu = look->cpu;
+  const bool is_stopped = look->doing == ProcessLook::kStopped || look->doing == ProcessLook::kDebugged;
+  m_stopped = is_stopped ? m_stopped + passed : Nanos(0);
+  if (look->doing == ProcessLook::kDebugged) return;
+  m_counted += look->doing == ProcessLook::kWaits ? passed : std::max(computed, passed / kStarvedPart);
+}
+
+}  // namespace naiad
