@@ -61,6 +61,7 @@ set(naiad_public_headers
   server/engine/world/EventCollision.h
   server/engine/world/EventPath.h
   server/engine/world/EventPlayer.h
+  server/engine/world/GameRooms.h
   server/engine/world/HighScores.h
   server/engine/world/Layer.h
   server/engine/world/Line.h

@@ -23,6 +23,11 @@ void ClientSession::receive(std::string_view frame, Time now) {
 
 void ClientSession::handle(WelcomeMessage&& message, Time now) {
   if (m_state != State::kGreeting) return reject("a second welcome");
+  if (message.room.empty() && !m_link.options().room.empty()) {
+    sendLeave();
+    return finish(State::kRefused,
+                  "This server has no rooms, so none is called \"" + m_link.options().room + "\".");
+  }
   m_welcome = std::move(message);
   const bool fresh = m_link.options().fresh;
   if (!fresh) m_welcome.continuation.reset();
@@ -38,6 +43,8 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
   m_liveness.startStream(now);
   m_timing.noteAttached(now);
   if (!m_welcome.resumed || m_welcome.continuation) openDatagrams(now);
+  const std::string& wanted = m_link.options().room;
+  if (fresh && m_welcome.resumed && !wanted.empty() && wanted != m_welcome.room) enterRoom(wanted);
   update(now);
 }
 
@@ -81,6 +88,24 @@ void ClientSession::handle(const PongMessage& message, Time now) {
   if (m_state != State::kPlaying) return reject("a pong before the welcome");
   m_link.acknowledgeReliable(message.received);
   if (const auto sample = m_liveness.endPing(message.token, now)) m_world.noteRoundTrip(*sample);
+}
+
+void ClientSession::handle(EnteredMessage&& message, Time now) {
+  if (m_state != State::kPlaying) return reject("another room before the welcome");
+  m_inbox.addNotice("You are in the room " + message.room + ", which plays " + message.game + ".", now);
+  m_welcome.player = message.player;
+  m_welcome.room = std::move(message.room);
+  m_welcome.game = std::move(message.game);
+  m_welcome.view_width = message.view_width;
+  m_welcome.view_height = message.view_height;
+  m_welcome.help = std::move(message.help);
+  m_world.enter(message.world_epoch, message.tick_now, now);
+  m_rooms_due = now;
+}
+
+void ClientSession::handle(RoomsMessage&& message, Time) {
+  if (m_state != State::kPlaying) return reject("rooms before the welcome");
+  m_rooms = std::move(message.rooms);
 }
 
 void ClientSession::openDatagrams(Time now) {
@@ -156,6 +181,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   m_welcome.connection_id = welcome.connection_id;
   m_welcome.aead = welcome.aead;
   m_welcome.epoch = welcome.epoch;
+  if (welcome.player != m_welcome.player) takeRoom(welcome);
   m_world.resume(welcome.tick_now);
   m_liveness.noteHeard(now);
   m_liveness.startStream(now);  // its first ping proves to the server that the new token has arrived
@@ -172,6 +198,16 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   ++m_revision;
   sendUpdate(now);
   update(now);
+}
+
+// The stream broke before the message that the player has entered another room.
+void ClientSession::takeRoom(const WelcomeMessage& welcome) {
+  m_welcome.player = welcome.player;
+  m_welcome.room = welcome.room;
+  m_welcome.game = welcome.game;
+  m_welcome.view_width = welcome.view_width;
+  m_welcome.view_height = welcome.view_height;
+  m_welcome.help = welcome.help;
 }
 
 void ClientSession::closed(CloseReason reason) {

@@ -94,6 +94,11 @@ class ClientSession {
   /// waits for the next one.
   void sendChat(const std::string& text);
   void sendResize(int columns, int rows);
+  /// Ask for the list of rooms, every kRoomsEvery. Call while it is shown.
+  void refreshRooms(Time now);
+  static constexpr std::chrono::seconds kRoomsEvery{2};
+  /// Ask to go on in that room; nothing if it is no name of one.
+  void enterRoom(const std::string& room);
   /// Leave on purpose: send a leave message, and close the channel after what is queued.
   void leave();
 
@@ -121,6 +126,8 @@ class ClientSession {
   // What the server says.
   const std::vector<PlayerLine>& players() const { return m_inbox.players(); }
   const std::deque<ChatEntry>& chat() const { return m_inbox.chat().entries(); }
+  /// As of the last refreshRooms(); empty: not known, or the server has none.
+  const std::vector<RoomLine>& rooms() const { return m_rooms; }
   /// Sounds since the last call, oldest first; the newest ReliableInbox::kMaxSounds of them.
   std::vector<SoundLine> takeSounds() { return m_inbox.fetchSounds(); }
   /// Points of this player, from the newest player list.
@@ -163,6 +170,9 @@ class ClientSession {
   void handle(ChatMessage&& message, Time now);
   void handle(SoundsMessage&& message, Time now);
   void handle(const PongMessage& message, Time now);
+  void handle(EnteredMessage&& message, Time now);
+  void handle(RoomsMessage&& message, Time now);
+  void takeRoom(const WelcomeMessage& welcome);
   void reject(const std::string& what);
   void finish(State state, std::string sentence);
   void openDatagrams(Time now);
@@ -187,6 +197,8 @@ class ClientSession {
   ReliableInbox m_inbox{m_counters};
   InputOutbox m_inputs;
   WelcomeMessage m_welcome;
+  std::vector<RoomLine> m_rooms;
+  Time m_rooms_due{};
   State m_state = State::kGreeting;
   bool m_refused_for_now = false;
   bool m_password_refused = false;

@@ -2,6 +2,7 @@
 #include "client/session/ClientSession.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/replica/Limits.h"
 
@@ -91,6 +92,21 @@ void ClientSession::sendChat(const std::string& text) {
 
 void ClientSession::sendResize(int columns, int rows) {
   if (m_state == State::kPlaying) m_link.send(resizeOf(columns, rows));
+}
+
+void ClientSession::refreshRooms(Time now) {
+  if (m_state != State::kPlaying || m_welcome.room.empty() || now < m_rooms_due) return;
+  m_rooms_due = now + kRoomsEvery;
+  wire::ClientMessage message;
+  message.mutable_list_rooms();
+  m_link.send(message);
+}
+
+void ClientSession::enterRoom(const std::string& room) {
+  if (m_state != State::kPlaying || m_welcome.room.empty() || !isRoomName(room)) return;
+  wire::ClientMessage message;
+  message.mutable_enter()->set_room(room);
+  m_link.sendReliable(message);
 }
 
 void ClientSession::leave() {

@@ -39,6 +39,7 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
   const ReliableChannel* p_channel = channel.get();
   m_key = m_opener->key();
   SessionOptions options = m_options;
+  if (m_session && !m_session->welcome().room.empty()) options.room = m_session->welcome().room;
   chooseToken(options);
   m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
   if (m_observer) m_observer(*m_pending);

@@ -14,13 +14,35 @@ ReceivedWorld::Result ReceivedWorld::applySnapshot(std::string_view bytes, Time 
   if (result != Result::kApplied && result != Result::kShown) return result;
   if (result == Result::kShown) m_table_known = m_control_known = 0;
   m_acks.addReceived(m_header.number);
-  m_clock.noteSnapshot(m_header.tick, now);
+  const bool of_this_world = !m_moving;  // or their ticks may be those of another
+  noteClock(result, now);
   if (m_header.has_input) {
     const auto input = inputs.removeUpTo(m_header.input);
-    if (input) m_input_ticks.noteTaken(input->tick, m_header.input_tick);
+    if (input && of_this_world) m_input_ticks.noteTaken(input->tick, m_header.input_tick);
   }
   applyControls();
   return result;
+}
+
+void ReceivedWorld::enter(std::uint8_t epoch, std::uint32_t tick_now, Time now) {
+  m_feed.expectWorld(epoch, tick_now, now);
+  m_moving = m_feed.isChanging();
+}
+
+// Until the other world is shown, its ticks say nothing of the picture.
+void ReceivedWorld::noteClock(Result result, Time now) {
+  if (m_moving && m_feed.isChanging()) return;
+  if (m_moving && result == Result::kShown) {
+    m_clock = DisplayClock(m_tick);
+    m_clock.setDelay(oneWayDelay());
+    m_prediction.reset();
+  }
+  m_moving = false;
+  m_clock.noteSnapshot(m_header.tick, now);
+}
+
+DisplayClock::Duration ReceivedWorld::oneWayDelay() const {
+  return std::chrono::duration_cast<DisplayClock::Duration>(m_input_ticks.shortestRoundTrip() / 2);
 }
 
 void ReceivedWorld::applyControls() {
@@ -42,7 +64,7 @@ std::optional<std::uint64_t> ReceivedWorld::takeChecksum(Time now) {
 
 void ReceivedWorld::noteRoundTrip(InputTickEstimator::Millis sample) {
   m_input_ticks.noteRoundTrip(sample);
-  m_clock.setDelay(std::chrono::duration_cast<DisplayClock::Duration>(m_input_ticks.shortestRoundTrip() / 2));
+  m_clock.setDelay(oneWayDelay());
 }
 
 const Prediction& ReceivedWorld::predict(Time now) {

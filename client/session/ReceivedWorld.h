@@ -29,6 +29,8 @@ class ReceivedWorld {
   /// The session was resumed in tick `tick_now`: this process may have stood still since the last snapshot.
   void resume(std::uint32_t tick_now) { m_feed.noteTick(tick_now); }
 
+  /// The player goes to another world, whose snapshots have this epoch; its tick is about `tick_now`.
+  void enter(std::uint8_t epoch, std::uint32_t tick_now, Time now);
   /// Read and apply a snapshot; `before` is called just before. Its inputs leave `inputs`.
   Result applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
                        const std::function<void(std::uint32_t tick)>& before);
@@ -57,6 +59,8 @@ class ReceivedWorld {
 
  private:
   void applyControls();
+  DisplayClock::Duration oneWayDelay() const;
+  void noteClock(Result result, Time now);
 
   WorldFeed m_feed;
   SnapshotHeader m_header;
@@ -64,6 +68,7 @@ class ReceivedWorld {
   Time m_next_checksum{};
   std::chrono::microseconds m_tick{33333};
   DisplayClock m_clock{m_tick};
+  bool m_moving = false;  ///< another room's world is expected, whose ticks may be before those of this one
   InputTickEstimator m_input_ticks;
   Prediction m_prediction;
   std::uint32_t m_table_known = 0;    ///< snapshot that carried the newest control table applied

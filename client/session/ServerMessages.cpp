@@ -5,6 +5,7 @@
 #include "naiad.pb.h"
 #include "proto/ParseErrors.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/datagram/DatagramKeys.h"
 #include "shared/replica/Limits.h"
@@ -18,6 +19,11 @@ constexpr std::uint32_t kMaxGraceMillis = 3'600'000;
 constexpr std::uint32_t kMaxAgainSeconds = 600;
 constexpr std::size_t kMaxRedirect = 512;  // bytes of a link
 
+bool isViewSize(std::uint32_t width, std::uint32_t height) {
+  return width >= 1 && width <= static_cast<unsigned>(kMaxViewWidth) && height >= 1 &&
+         height <= static_cast<unsigned>(kMaxViewHeight);
+}
+
 bool isColor(std::uint32_t color) {
   return color < static_cast<std::uint32_t>(df::kColorCount);
 }
@@ -25,9 +31,7 @@ bool isColor(std::uint32_t color) {
 std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   WelcomeMessage message;
   const bool good = wire.player() != 0 && wire.tick_micros() >= 1000 && wire.tick_micros() <= 1000000 &&
-                    wire.view_width() >= 1 && wire.view_width() <= static_cast<unsigned>(kMaxViewWidth) &&
-                    wire.view_height() >= 1 && wire.view_height() <= static_cast<unsigned>(kMaxViewHeight) &&
-                    isColor(wire.color());
+                    isViewSize(wire.view_width(), wire.view_height()) && isColor(wire.color());
   if (!good || wire.help_size() > static_cast<int>(kMaxHelpLines)) return std::nullopt;
   message.player = wire.player();
   message.name = safeName(wire.name());
@@ -48,6 +52,7 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
     if (from.world_epoch() > 3) return std::nullopt;
     message.continuation = {from.snapshot(), static_cast<std::uint8_t>(from.world_epoch()), from.input()};
   }
+  message.room = safeText(wire.room(), kMaxRoomName);
   message.tick = std::chrono::microseconds(wire.tick_micros());
   message.view_width = static_cast<int>(wire.view_width());
   message.view_height = static_cast<int>(wire.view_height());
@@ -61,6 +66,32 @@ std::optional<ServerMessageValue> check(const wire::Refused& wire) {
                          safeText(wire.sentence(), kMaxSentenceLength)};
   const bool may_redirect = wire.reason() == wire::Refused::FULL || wire.reason() == wire::Refused::REDIRECT;
   if (may_redirect && wire.redirect().size() <= kMaxRedirect) message.redirect = wire.redirect();
+  return message;
+}
+
+std::optional<ServerMessageValue> check(const wire::Entered& wire) {
+  if (wire.player() == 0 || !isViewSize(wire.view_width(), wire.view_height()) || wire.world_epoch() > 3 ||
+      wire.help_size() > static_cast<int>(kMaxHelpLines) || !isRoomName(wire.room()))
+    return std::nullopt;
+  EnteredMessage message{.player = wire.player(),
+                         .room = wire.room(),
+                         .game = safeText(wire.game(), kMaxProgramLength),
+                         .view_width = static_cast<int>(wire.view_width()),
+                         .view_height = static_cast<int>(wire.view_height()),
+                         .tick_now = wire.tick(),
+                         .world_epoch = static_cast<std::uint8_t>(wire.world_epoch())};
+  for (const std::string& line : wire.help()) message.help.push_back(safeText(line, kMaxHelpLength));
+  return message;
+}
+
+std::optional<ServerMessageValue> check(const wire::RoomList& wire) {
+  if (wire.rooms_size() > static_cast<int>(kMaxRooms)) return std::nullopt;
+  RoomsMessage message;
+  for (const wire::RoomEntry& entry : wire.rooms()) {
+    if (!isRoomName(entry.name())) return std::nullopt;
+    message.rooms.push_back({entry.name(), safeText(entry.game(), kMaxProgramLength), entry.players(),
+                             entry.max_players(), entry.asleep()});
+  }
   return message;
 }
 
@@ -114,6 +145,10 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
       return check(wire.sounds(), wire.number());
     case wire::ServerMessage::kPong:
       return PongMessage{wire.pong().token(), wire.pong().received()};
+    case wire::ServerMessage::kEntered:
+      return check(wire.entered());
+    case wire::ServerMessage::kRooms:
+      return check(wire.rooms());
     case wire::ServerMessage::WHAT_NOT_SET:
       return std::nullopt;
   }

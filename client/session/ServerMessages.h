@@ -45,6 +45,32 @@ struct WelcomeMessage {
   std::optional<Continuation> continuation;  ///< for a process that was not there before
   std::uint32_t received = 0;                ///< for one that was: newest reliable frame received
   bool second_stream = false;                ///< the server takes one; or: this is it
+  std::string room;                          ///< that the player is in; empty: the server has none
+};
+
+/// The session goes on in another room.
+struct EnteredMessage {
+  std::uint32_t player = 0;  ///< this player's id there, never 0
+  std::string room;
+  std::string game;
+  int view_width = 80;
+  int view_height = 24;
+  std::vector<std::string> help = {};
+  std::uint32_t tick_now = 0;    ///< the world's tick, about now
+  std::uint8_t world_epoch = 0;  ///< of the snapshots to come, 0 … 3
+};
+
+struct RoomLine {
+  std::string name;
+  std::string game;
+  std::uint32_t players = 0;
+  std::uint32_t max_players = 0;
+  bool asleep = false;
+  friend bool operator==(const RoomLine&, const RoomLine&) = default;
+};
+
+struct RoomsMessage {
+  std::vector<RoomLine> rooms;
 };
 
 struct RefusedMessage {
@@ -105,8 +131,9 @@ struct PongMessage {
   std::uint32_t received = 0;  ///< newest of the client's reliable frames that arrived
 };
 
-using ServerMessageValue = std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage,
-                                        PlayersMessage, ChatMessage, SoundsMessage, PongMessage>;
+using ServerMessageValue =
+    std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage, PlayersMessage, ChatMessage,
+                 SoundsMessage, PongMessage, EnteredMessage, RoomsMessage>;
 
 /// The message in a frame; nothing if it is not one that this version of the protocol allows.
 std::optional<ServerMessageValue> readServerMessage(std::string_view frame);

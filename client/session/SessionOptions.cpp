@@ -23,6 +23,8 @@ wire::ClientMessage helloOf(const SessionOptions& options) {
   hello.set_protocol(kProtocolVersion);
   hello.set_player_name(safeName(options.name));
   hello.set_game(safeText(options.game, 64));
+  hello.set_room(options.room);
+  hello.set_rooms(true);
   hello.set_program(options.program);
   hello.set_columns(clampedCells(options.columns));
   hello.set_rows(clampedCells(options.rows));

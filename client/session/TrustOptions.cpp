@@ -1,7 +1,9 @@
 #include "client/session/TrustOptions.h"
 
+#include <algorithm>
 #include <variant>
 
+#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/net/stream/VisitorHeader.h"
@@ -19,16 +21,12 @@ bool namesAnotherKey(const ServerTrust& trust, const ShortKey& key) {
   return trust.fingerprint && ShortKey::of(*trust.fingerprint) != key;
 }
 
-std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust& trust) {
+std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust& trust,
+                       SessionOptions& session) {
   if (trust.insecure) return "A link has a key, so --insecure does not go with one.";
   if (namesAnotherKey(trust, link.key))
     return "--fingerprint (or NAIAD_FINGERPRINT) names another key than the link.";
-  if (!link.room.empty()) {
-    JoinLink without = link;
-    without.room.clear();
-    return "The link leads to the room \"" + link.room +
-           "\", but this version has no rooms. To the server itself: " + without.text();
-  }
+  session.room = link.room;
   address = {link.where.host, link.where.port};
   trust.link_key = link.key;
   return {};
@@ -62,8 +60,8 @@ bool ServerChoice::dropsPassword() const {
 Option serverOption(ServerChoice& server) {
   Option option{
       "server", &server.text,
-      "Where the server is: a link (naiad://…), HOST[:PORT] or [::1]:PORT (port 9876 by default), or the "
-      "address of its page for browsers (https://…)",
+      "Where the server is: a link (naiad://…), HOST[:PORT][/ROOM] or [::1]:PORT (port 9876 by default), or "
+      "the address of its page for browsers (https://…)",
       "NAIAD_SERVER"};
   option.type = "SERVER";
   return option;
@@ -115,15 +113,21 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
     return {};
   }
   if (!JoinLink::isMeant(server.text)) {
-    const auto parsed = ServerAddress::parse(server.text);
-    if (!parsed) return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT] is wanted.";
+    const std::size_t slash = std::min(server.text.find('/'), server.text.size());
+    const auto parsed = ServerAddress::parse(server.text.substr(0, slash));
+    if (!parsed)
+      return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT][/ROOM] is wanted.";
     address = *parsed;
+    const std::string room = server.text.substr(std::min(slash + 1, server.text.size()));
+    if (slash < server.text.size() && !isRoomName(room))
+      return quoted(room) + " is no name of a room: " + kRoomNameRule + ".";
+    session.room = room;
     return server.list_key ? followList(*server.list_key, trust) : "";
   }
   const auto parsed = JoinLink::parse(server.text);
   if (const auto* p_problem = std::get_if<LinkProblem>(&parsed))
     return quoted(server.text) + " is no link to a game: " + p_problem->sentence + ".";
-  return followLink(std::get<JoinLink>(parsed), address, trust);
+  return followLink(std::get<JoinLink>(parsed), address, trust, session);
 }
 
 }  // namespace naiad

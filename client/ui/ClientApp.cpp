@@ -60,6 +60,8 @@ ClientApp::Outcome ClientApp::run() {
     takeEvents(m_decoder.flush(now), now);
     m_player.update(now);
     noticeSounds(now);
+    if (m_controls.panel() == Panel::kRooms && m_connection.session() != nullptr)
+      m_connection.session()->refreshRooms(now);
     m_was_idle = isIdle(now);
     m_leaving = m_leaving || m_was_idle;
     m_dirty = m_dirty || m_composer.isStale(now);
@@ -231,6 +233,9 @@ void ClientApp::takeKey(const KeyEvent& event, Time now) {
       [[fallthrough]];
     case ClientControls::Result::kClosed:
       m_guard->queryKitty();
+      break;
+    case ClientControls::Result::kEnterRoom:
+      enterChosenRoom(m_connection.session(), m_controls.roomChoice());
       break;
     case ClientControls::Result::kLeave:
       m_leaving = true;

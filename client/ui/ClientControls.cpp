@@ -39,6 +39,7 @@ ClientControls::Result ClientControls::takeKey(const KeyEvent& event) {
     m_panel = Panel::kNone;
     return Result::kHandled;
   }
+  if (m_panel == Panel::kRooms) return takeRoomKey(event.key);
   if (m_panel != Panel::kNone && takeScrollKey(event.key)) return Result::kHandled;
   return Result::kGame;
 }
@@ -74,6 +75,26 @@ bool ClientControls::takeScrollKey(Key key) {
   return true;
 }
 
+// The game keeps all other keys.
+ClientControls::Result ClientControls::takeRoomKey(Key key) {
+  const int last = std::max(m_shown.rooms - 1, 0);
+  m_room_choice = std::clamp(m_room_choice, 0, last);
+  switch (key) {
+    case UPARROW:
+      m_room_choice = std::max(m_room_choice - 1, 0);
+      break;
+    case DOWNARROW:
+      m_room_choice = std::min(m_room_choice + 1, last);
+      break;
+    case RETURN:
+      m_panel = Panel::kNone;
+      return m_shown.rooms > 0 ? Result::kEnterRoom : Result::kHandled;
+    default:
+      return Result::kGame;
+  }
+  return Result::kHandled;
+}
+
 bool ClientControls::insertPasted(const std::u32string& text) {
   if (!m_chat_open) return false;
   for (const char32_t ch : text) {
@@ -100,6 +121,8 @@ ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
       return toggle(Panel::kHelp);
     case P:
       return toggle(Panel::kPlayers);
+    case R:
+      return toggle(Panel::kRooms);
     case S:
       m_status = m_shown.status ? StatusMode::kNever : StatusMode::kAlways;
       return Result::kHandled;

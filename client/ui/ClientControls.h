@@ -12,7 +12,7 @@
 namespace naiad {
 
 /// What the player has opened over the game.
-enum class Panel : unsigned char { kNone, kPlayers, kHelp };
+enum class Panel : unsigned char { kNone, kPlayers, kHelp, kRooms };
 
 /// The status line: shown where it covers nothing of the game and else for a moment; always; never.
 enum class StatusMode : unsigned char { kAuto, kAlways, kNever };
@@ -22,6 +22,7 @@ inline constexpr const char* kClientKeyHelp[] = {
     "Ctrl-] t   say something to all players (c does the same)",
     "Up, PgUp   in the open chat line: what was said before",
     "Ctrl-] p   list of players",
+    "Ctrl-] r   list of rooms, where the server has some; Return goes to one",
     "Ctrl-] h   this help (? does the same)",
     "Ctrl-] s   status line on or off",
     "Ctrl-] q   leave the game (Ctrl-C does the same)",
@@ -33,6 +34,7 @@ inline constexpr const char* kClientKeyHelp[] = {
 inline constexpr const char* kBrowserKeyHelp[] = {
     "Ctrl-] t   say something to all players",
     "Ctrl-] p   list of players",
+    "Ctrl-] r   list of rooms, where the server has some; Enter goes to one",
     "Ctrl-] h   this help",
     "Ctrl-] s   status line on or off",
     "Ctrl-] q   leave the game",
@@ -51,17 +53,19 @@ struct ShownControls {
   int page = 1;             ///< lines of it that are seen at a time
   int max_chat_scroll = 0;  ///< rows of the chat's history above those shown
   int chat_page = 1;        ///< rows of it that are seen at a time
+  int rooms = 0;            ///< of the open list of rooms
 };
 
 class ClientControls {
  public:
   /// What the program must do about a key; panels and chat line change here.
   enum class Result {
-    kGame,     ///< the key is the game's
-    kHandled,  ///< the client's own: what is drawn may have changed
-    kOpened,   ///< a chat line was opened: release the game's keys, switch the terminal to text
-    kClosed,   ///< the chat line was closed without text
-    kSay,      ///< the chat line was closed with Return: send takeChat()
+    kGame,       ///< the key is the game's
+    kHandled,    ///< the client's own: what is drawn may have changed
+    kOpened,     ///< a chat line was opened: release the game's keys, switch the terminal to text
+    kClosed,     ///< the chat line was closed without text
+    kSay,        ///< the chat line was closed with Return: send takeChat()
+    kEnterRoom,  ///< the list of rooms was closed with Return: enter that of line roomChoice()
     kLeave,
     kSuspend,
   };
@@ -78,6 +82,8 @@ class ClientControls {
   Panel panel() const { return m_panel; }
   /// Lines of the panel that are scrolled out at its top.
   int scroll() const { return m_scroll; }
+  /// The line of the list of rooms that is chosen, from 0.
+  int roomChoice() const { return m_room_choice; }
   /// Rows of the chat that are scrolled out at its bottom.
   int chatScroll() const { return m_chat_scroll; }
   StatusMode status() const { return m_status; }
@@ -93,12 +99,14 @@ class ClientControls {
   Result takeChatKey(const KeyEvent& event);
   Result takeCommand(const KeyEvent& event);
   bool takeScrollKey(df::Keyboard::Key key);
+  Result takeRoomKey(df::Keyboard::Key key);
   bool takeHistoryKey(df::Keyboard::Key key);
   Result toggle(Panel panel);
 
   Panel m_panel = Panel::kNone;
   int m_scroll = 0;
   int m_chat_scroll = 0;
+  int m_room_choice = 0;
   StatusMode m_status = StatusMode::kAuto;
   ShownControls m_shown;
   bool m_prefixed = false;

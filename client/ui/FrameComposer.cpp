@@ -21,6 +21,12 @@ std::int64_t tenthsOfSilence(const ClientSession& session, FrameComposer::Time n
 
 }  // namespace
 
+void enterChosenRoom(ClientSession* p_session, int choice) {
+  if (p_session == nullptr || choice < 0) return;
+  const auto line = static_cast<std::size_t>(choice);
+  if (line < p_session->rooms().size()) p_session->enterRoom(p_session->rooms()[line].name);
+}
+
 FrameComposer::FrameState FrameComposer::currentState(Time now) {
   FrameState state;
   state.connection = m_connection.revision();
@@ -63,7 +69,7 @@ std::vector<ChatEntry> FrameComposer::recentChat(Time now) const {
 }
 
 std::string FrameComposer::banner(Time now) const {
-  if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  h help  s status  q leave";
+  if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  r rooms  h help  s status  q leave";
   ClientSession* session = m_connection.session();
   const bool searching = m_connection.state() == Connection::State::kSearching;
   // A session that goes on by datagrams while it looks for another stream needs no banner.
@@ -105,6 +111,8 @@ ScreenModel FrameComposer::composeFrame(Time now) {
     const std::size_t shown = kHistoryRows + static_cast<std::size_t>(m_controls.chatScroll());
     model.history.assign(chat.end() - static_cast<std::ptrdiff_t>(std::min(shown, chat.size())), chat.end());
     model.players = session->players();
+    model.rooms = session->rooms();
+    model.room = session->welcome().room;
     model.help = session->welcome().help;
     model.chat = recentChat(now);
     model.note = m_composed.note;
@@ -115,6 +123,7 @@ ScreenModel FrameComposer::composeFrame(Time now) {
   model.status_over_game = m_composed.status;
   model.panel = m_controls.panel();
   model.scroll = m_controls.scroll();
+  model.room_choice = m_controls.roomChoice();
   model.chat_scroll = m_controls.chatScroll();
   model.chat_open = m_controls.chatOpen();
   model.chat_text = m_controls.chatText();

@@ -16,6 +16,9 @@
 
 namespace naiad {
 
+/// Ask to go on in the room of that line of the list that the session has (ClientControls::roomChoice()).
+void enterChosenRoom(ClientSession* p_session, int choice);
+
 class FrameComposer {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -187,6 +187,7 @@ struct PanelLines {
   int fixed = 0;  ///< lines at the top that stay
   int count = 0;  ///< of all
   std::function<void(int line, int x, int y, int width)> draw;
+  std::string keys = {};  ///< how to go on; empty: as every panel
 };
 
 /// How to go on, as much of it as fits on the lower edge.
@@ -215,7 +216,8 @@ void drawPanel(Picture& picture, const PanelLines& lines, int scroll, ShownContr
   shown.page = std::max(inside - lines.fixed, 1);
   const int first = std::clamp(scroll, 0, shown.max_scroll);
   for (int i = 0; i < inside; ++i) lines.draw(i < lines.fixed ? i : i + first, x + 2, y + 1 + i, width - 4);
-  const std::string keys = panelKeys(shown.max_scroll > 0, width - 2);
+  const std::string keys =
+      lines.keys.empty() ? panelKeys(shown.max_scroll > 0, width - 2) : std::string(lines.keys);
   picture.write(x + width - 2 - columnCount(keys), y + height - 1, keys, width);
 }
 
@@ -237,6 +239,35 @@ void drawPlayers(Picture& picture, const ScreenModel& model, ShownControls& show
     picture.write(numbers, y, text, room, df::COLOR_DEFAULT, style);
   };
   drawPanel(picture, {"Players", 40, 1, static_cast<int>(sorted.size()) + 1, draw}, model.scroll, shown);
+}
+
+std::string roomText(const RoomLine& room, const std::string& own) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%c %-16s %-16s %4u/%-4u %s", room.name == own ? '*' : ' ',
+                room.name.c_str(), room.game.c_str(), room.players, room.max_players,
+                room.asleep ? "asleep" : "");
+  return text;
+}
+
+void drawRooms(Picture& picture, const ScreenModel& model, ShownControls& shown) {
+  const int count = static_cast<int>(model.rooms.size());
+  shown.rooms = count;
+  const int choice = std::clamp(model.room_choice, 0, std::max(count - 1, 0));
+  const auto draw = [&](int line, int x, int y, int width) {
+    if (count == 0) {
+      picture.write(x, y, model.room.empty() ? "This server has no rooms." : "Asking the server …", width);
+    } else if (line == 0) {
+      picture.write(x, y, "  room             game              players", width);
+    } else {
+      const std::string text = roomText(model.rooms[static_cast<std::size_t>(line - 1)], model.room);
+      const Style style = line - 1 == choice ? Style::kReverse : Style::kPlain;
+      picture.write(x, y, text, width, df::COLOR_DEFAULT, style);
+    }
+  };
+  PanelLines panel{"Rooms", 52, count > 0 ? 1 : 0, count + 1, draw};
+  panel.keys = count > 0 ? " Up, Down  Return enters  Esc " : "";
+  // The chosen line stays in sight.
+  drawPanel(picture, panel, choice + 4 - picture.height(), shown);
 }
 
 void drawHelp(Picture& picture, const ScreenModel& model, ShownControls& shown) {
@@ -297,6 +328,7 @@ ScreenLayout layOut(const ScreenModel& model, int columns, int rows) {
     layout.shown.status = drawStatusOverGame(picture, model);
   }
   if (model.panel == Panel::kPlayers) drawPlayers(picture, model, layout.shown);
+  if (model.panel == Panel::kRooms) drawRooms(picture, model, layout.shown);
   if (model.panel == Panel::kHelp) drawHelp(picture, model, layout.shown);
   drawBanner(picture, model.banner, 0);
   return layout;

@@ -40,6 +40,9 @@ struct ScreenModel {
   df::Color self_color = df::COLOR_DEFAULT;
   std::optional<CellPosition> self_cell;  ///< where to point at the player's own object, in view cells
   std::vector<PlayerLine> players;
+  std::string room;               ///< that the player is in; empty: the server has none
+  std::vector<RoomLine> rooms;    ///< for their list
+  int room_choice = 0;            ///< line of it that is chosen
   std::vector<std::string> help;  ///< the game's own lines
   bool browser = false;           ///< a page shows it, not a terminal
   bool key_releases = false;      ///< the terminal reports when a key goes up

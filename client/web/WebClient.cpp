@@ -64,6 +64,9 @@ void WebClient::takeKey(const KeyEvent& event, Time now) {
     case Result::kSay:
       if (m_connection.session() != nullptr) m_connection.session()->sendChat(m_controls.takeChat());
       break;
+    case Result::kEnterRoom:
+      enterChosenRoom(m_connection.session(), m_controls.roomChoice());
+      break;
     case Result::kLeave:
       m_connection.leave();
       break;
@@ -94,6 +97,7 @@ void WebClient::update(Time now) {
   m_player.update(now);
   ClientSession* session = m_connection.session();
   if (session == nullptr) return;
+  if (m_controls.panel() == Panel::kRooms) session->refreshRooms(now);
   const std::uint32_t self = session->welcome().player;
   for (const SoundLine& sound : session->takeSounds()) {
     m_sounds.addSound(sound, self, now);

@@ -61,6 +61,17 @@ WorldFeed::Result WorldFeed::applySnapshot(std::string_view bytes, Time now, Sna
   return Result::kShown;
 }
 
+// Its first snapshots may have overtaken the message that announces it: then they are kept.
+void WorldFeed::expectWorld(std::uint8_t epoch, std::uint32_t tick, Time now) {
+  if (epoch == m_epoch || (m_next && m_next_epoch == epoch)) return;
+  SnapshotContext near = (m_next ? *m_next : m_replica).newest();
+  near.tick = tick;
+  m_next_epoch = epoch;
+  m_next = Replica::continuing(near);
+  m_reset_at = now;
+  ++m_resets;
+}
+
 void WorldFeed::noteTick(std::uint32_t tick) {
   m_replica.noteTick(tick);
   if (m_next) m_next->noteTick(tick);

@@ -46,6 +46,9 @@ class WorldFeed {
   Result applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
                        const std::function<void(std::uint32_t tick)>& before);
 
+  /// Another world follows, in this epoch, which is in about this tick now: perhaps before that of the
+  /// present one.
+  void expectWorld(std::uint8_t epoch, std::uint32_t tick, Time now);
   /// The server's tick is at least this one: snapshots to come have the low bits of ticks near it.
   void noteTick(std::uint32_t tick);
 

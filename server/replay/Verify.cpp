@@ -133,6 +133,9 @@ void printInput(const WorldInput& input, std::ostream& out) {
       out << " score table=" << safeText(input.table, 100) << " name=\"" << safeText(input.name, 100)
           << "\" points=" << input.points;
       break;
+    case df::InputQueue::kRoom:
+      out << " room=" << safeText(input.room.name, 100) << " players=" << input.room.players;
+      break;
   }
 }
 

@@ -51,6 +51,7 @@ void describe(CLI::App& app, const Option& row, CLI::Option& option) {
   if (!row.excludes.empty()) option.excludes(app.get_option(row.excludes));
   if (!row.default_text.empty()) option.default_str(row.default_text);
   if (row.hidden) option.group("");
+  if (row.joins) option.join(' ');
 }
 
 // ---- errors -----------------------------------------------------------------------------------------------
@@ -152,7 +153,8 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
   const auto value = equals == std::string::npos ? "true" : configValue(trimmed(line.substr(equals + 1)));
   if (!value) throw OptionError(place + ": the quotes do not end, or something stands behind them");
   if (added[static_cast<std::size_t>(found - options.begin())]->count() > 0) return;
-  storeValue(*found, *value, place + ": " + key);
+  const std::string before = found->joins ? currentValue(*found) : "";
+  storeValue(*found, before.empty() ? *value : before + " " + *value, place + ": " + key);
   if (found->p_given != nullptr) *found->p_given = true;
   if (found->p_place != nullptr) *found->p_place = place;
 }

@@ -42,6 +42,7 @@ struct Option {
   bool hidden = false;                 ///< not in --help
   bool is_secret = false;              ///< its value is never printed
   bool is_optional = false;            ///< of an argument: it need not be there
+  bool joins = false;                  ///< of a text: may be given several times, which a blank joins
   bool* p_given = nullptr;             ///< becomes true if the option was given
   bool* p_from_environment = nullptr;  ///< becomes true if the variable gave it
   std::string* p_place = nullptr;      ///< becomes "FILE:LINE" if the file of --config gave it

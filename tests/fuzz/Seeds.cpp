@@ -307,6 +307,24 @@ void serverMessages(Folder folder) {
   *message.mutable_sounds()->add_sounds() = sound;
   message.set_number(4);
   folder.add(message.SerializeAsString());
+  message.clear_number();
+  wire::Entered& entered = *message.mutable_entered();
+  entered.set_player(2);
+  entered.set_room("arcade");
+  entered.set_game("hello");
+  entered.set_view_width(80);
+  entered.set_view_height(24);
+  entered.add_help("Arrows move.");
+  entered.set_tick(1000);
+  entered.set_world_epoch(1);
+  folder.add(message.SerializeAsString());
+  wire::RoomEntry& room = *message.mutable_rooms()->add_rooms();
+  room.set_name("arcade");
+  room.set_game("hello");
+  room.set_players(3);
+  room.set_max_players(8);
+  *message.mutable_rooms()->add_rooms() = room;
+  folder.add(message.SerializeAsString());
 }
 
 constexpr std::size_t kDatagram = 0x2000, kTick = 0x4000, kHello = 0x8000;  // see targets/client_message.cpp
@@ -408,6 +426,12 @@ void clientMessages(Folder folder) {
   add(message, 0xC000);
   message.mutable_resize()->set_columns(80);
   add(message, 0xC000);
+  message.mutable_list_rooms();
+  add(message, 0xC000);
+  message.mutable_enter()->set_room("arcade");
+  message.set_number(1);
+  add(message, 0xC000);
+  message.clear_number();
   message.mutable_leave();
   add(message, 0xC000);
   folder.add(all);
@@ -416,6 +440,12 @@ void clientMessages(Folder folder) {
   hello.set_protocol(kProtocolVersion);
   hello.set_player_name("Ann");
   add(message, 0);
+  hello.set_room("arcade");
+  hello.set_rooms(true);
+  wire::ClientMessage enter;
+  enter.mutable_enter()->set_room("arcade");
+  folder.add(framed(message, 0) + framed(enter, kTick) + framed(enter, kTick) + framed(enter, kTick) +
+             framed(enter, kTick) + framed(enter, kTick) + framed(ClientUpdate(), kTick));
   hello.set_protocol(1);
   add(message, 0x4000);
 }

@@ -15,6 +15,7 @@
 #include "engine/world/InputQueue.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
 
 namespace df {
 
@@ -156,6 +157,18 @@ bool GameTest::isOver() const {
 void GameTest::keepScore(const std::string& table, const std::string& name, std::int64_t points) {
   m_p_game->world().inputs().push(
       {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
+}
+
+void GameTest::keepRoom(const GameRoom& room) {
+  m_p_game->world().inputs().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
+}
+
+std::string GameTest::sentTo(std::uint32_t player) const {
+  const std::uint32_t wanted = player != 0 ? player : m_p_game->first();
+  for (const SentPlayer& sent : m_p_game->world().extras().rooms.sent()) {
+    if (sent.player == wanted) return sent.room;
+  }
+  return {};
 }
 
 void GameTest::press(Keyboard::Key key, std::uint32_t player) {

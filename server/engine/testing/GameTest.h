@@ -33,6 +33,7 @@
 
 #include "Canvas.h"
 #include "Color.h"
+#include "GameRooms.h"
 #include "Keyboard.h"
 
 namespace df {
@@ -79,6 +80,13 @@ class GameTest {
   /// A row of a table, as if a server had kept it: before the first tick, for games that show the best ones
   /// from the start.
   void keepScore(const std::string& table, const std::string& name, std::int64_t points);
+
+  // Rooms (GameRooms.h).
+
+  /// The server has this room, or it is so from now on.
+  void keepRoom(const GameRoom& room);
+  /// Where the game has sent this player in the last tick; empty: nowhere. It stays in this world.
+  std::string sentTo(std::uint32_t player = 0) const;
 
   // Keys and mouse. They are handled in the next tick, in the order of the calls.
 

@@ -23,6 +23,10 @@ std::uint32_t InputQueue::push(Input input) {
     m_world.extras().scores.keep(input.table, input.name, input.points);
     return player;
   }
+  if (input.kind == kRoom) {
+    m_world.extras().rooms.keep(std::move(input.room));
+    return player;
+  }
   if (isPossible(input)) m_inputs.push_back(std::move(input));
   return player;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/world/GameRooms.h"
 #include "engine/world/LagCompensation.h"
 #include "shared/values/Color.h"
 #include "shared/values/Keyboard.h"
@@ -17,9 +18,9 @@ class World;
 
 class InputQueue {
  public:
-  /// kScore is the host's own: a row that was kept of an earlier round (HighScores.h). It is there at once,
-  /// and sends no event.
-  enum Kind { kJoin, kLeave, kKey, kMouse, kScore };
+  /// kScore and kRoom are the host's own: a row that was kept of an earlier round (HighScores.h), and what is
+  /// so of a room of the server (GameRooms.h). They are there at once, and send no event.
+  enum Kind { kJoin, kLeave, kKey, kMouse, kScore, kRoom };
   /// One input; of the fields below `player`, those of its kind.
   struct Input {
     Kind kind;
@@ -35,6 +36,7 @@ class InputQueue {
     int y = 0;
     std::string table = {};  ///< of kScore, with `name` and `points`
     std::int64_t points = 0;
+    GameRoom room = {};
   };
 
   explicit InputQueue(World& world) : m_world(world) {}

@@ -42,6 +42,7 @@ void WorldExtras::beginTick() {
   sounds.clear();
   sounds_lost = 0;
   shake.step(random);
+  rooms.beginTick();
   scores.beginTick(static_cast<std::uint32_t>(world.getStepCount()));
 }
 

@@ -12,6 +12,7 @@
 #include "engine/world/Connections.h"
 #include "engine/world/Random.h"
 #include "engine/world/Resources.h"
+#include "engine/world/RoomTable.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/Settings.h"
 #include "engine/world/Shaking.h"
@@ -62,6 +63,7 @@ struct WorldExtras {
   bool network_said = false;  ///< that there are no sockets
   Connections connections;
   ScoreTables scores;  ///< they stay through reset()
+  RoomTable rooms;     ///< the same
   /// Gets each key, mouse event and leave before the game does, and null before the inputs of a tick. Returns
   /// true if the game is not to get it.
   std::function<bool(const Event*)> input_filter;

@@ -38,6 +38,7 @@ AdminRow rowOf(const AdminPlayer& player, Level level) {
   AdminRow row{{"id", static_cast<std::int64_t>(player.id)},
                {"name", player.name},
                {"ping_ms", static_cast<std::int64_t>(player.rtt_millis)}};
+  if (!player.room.empty()) row.emplace_back("room", player.room);
   if (level == Level::kPlayer) return row;
   row.emplace_back("address", player.address);
   row.emplace_back("played_s", static_cast<std::int64_t>(player.connected.count()));
@@ -141,6 +142,7 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
   if (name == "ping") return AdminAnswer::done("The server answers.");
   if (name == "who") return listPlayers(caller);
   if (name == "status") return {true, "", {}, target.status(), false, {}};
+  if (name == "rooms") return listRooms();
   if (name == "tell") return tell(request, caller);
   if (name == "kick") return kick(request);
   if (name == "mute" || name == "unmute") return mute(request, name == "mute");
@@ -158,6 +160,14 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
 }
 
 // ---- players ----------------------------------------------------------------------------------------------
+
+AdminAnswer AdminConsole::listRooms() const {
+  AdminAnswer answer = AdminAnswer::done("");
+  answer.is_list = true;
+  answer.rows = m_setup.target.rooms();
+  if (answer.rows.empty()) answer.text = "This server has no rooms.";
+  return answer;
+}
 
 AdminAnswer AdminConsole::listPlayers(const AdminCaller& caller) const {
   const std::vector<AdminPlayer> players = m_setup.target.players();

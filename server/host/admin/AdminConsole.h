@@ -47,6 +47,7 @@ class AdminConsole {
   void reload(Done done);
   void scores(const AdminRequest& request, Done done);
   void answerSaved(const std::string& text, const std::string& problem, const Done& done);
+  AdminAnswer listRooms() const;
   AdminAnswer listPlayers(const AdminCaller& caller) const;
   AdminAnswer tell(const AdminRequest& request, const AdminCaller& caller);
   AdminAnswer kick(const AdminRequest& request);

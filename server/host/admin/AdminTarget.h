@@ -26,6 +26,7 @@ struct AdminPlayer {
   bool detached = false;              ///< their connection broke, and they may come back
   bool muted = false;
   bool admin = false;
+  std::string room;  ///< empty: the server has none
 };
 
 /// When a server begins again.
@@ -42,6 +43,8 @@ class AdminTarget {
   /// By id.
   virtual std::vector<AdminPlayer> players() const = 0;
   virtual AdminRow status() const = 0;
+  /// One of each room that has a name.
+  virtual std::vector<AdminRow> rooms() const = 0;
 
   /// Send them the sentence, and end their session: its token is void. Sessions that are gone are left out.
   virtual void endPlayer(std::uint64_t session, const std::string& sentence) = 0;

@@ -101,6 +101,7 @@ void OpenRound::noteInput(const Input& input) {
       break;
     case df::InputQueue::kMouse:
     case df::InputQueue::kScore:
+    case df::InputQueue::kRoom:
       break;
   }
 }

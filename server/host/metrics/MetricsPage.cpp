@@ -59,6 +59,20 @@ void writePlayers(Exposition& out, const MetricsSnapshot& snapshot) {
   out.add(snapshot.losses);
 }
 
+void writeNamedRooms(Exposition& out, const std::vector<MetricsSnapshot::NamedRoom>& rooms) {
+  if (rooms.empty()) return;
+  const auto labels = [](const MetricsSnapshot::NamedRoom& room) {
+    return metricLabel("room", room.name) + "," + metricLabel("game", room.game);
+  };
+  out.begin("naiad_room_players", MetricType::kGauge, "Players, by room.");
+  for (const auto& room : rooms) out.add(labels(room), room.players);
+  out.begin("naiad_room_asleep", MetricType::kGauge, "1 for a room that has no world until a player comes.");
+  for (const auto& room : rooms) out.add(labels(room), std::uint64_t{room.asleep ? 1u : 0u});
+  out.begin("naiad_room_late_ticks_total", MetricType::kCounter,
+            "Ticks that the world of a room missed, since it had not ended the one before.");
+  for (const auto& room : rooms) out.add(labels(room), room.late_ticks);
+}
+
 void writeCpu(Exposition& out, const MetricsSnapshot::Cpu& cpu) {
   out.begin("naiad_thread_cpu_seconds_total", MetricType::kCounter, "CPU time, by thread.");
   out.add(R"(thread="tick")", seconds(cpu.tick));
@@ -75,6 +89,7 @@ std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts&
   if (p_snapshot != nullptr) {
     writeTicks(out, *p_snapshot);
     writePlayers(out, *p_snapshot);
+    writeNamedRooms(out, p_snapshot->named_rooms);
     writeCounters(out, p_snapshot->counters);
     writeCounters(out, p_snapshot->passwords);
     writeCounters(out, p_snapshot->network);

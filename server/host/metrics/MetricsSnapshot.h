@@ -5,6 +5,8 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "host/auth/PasswordCheck.h"
 #include "host/metrics/Histogram.h"
@@ -49,6 +51,15 @@ struct MetricsSnapshot {
   std::uint64_t rooms = 0;
   std::uint64_t objects = 0;  ///< that are published
   double tick_length = 0;     ///< seconds
+  /// A room that has a name.
+  struct NamedRoom {
+    std::string name;
+    std::string game;
+    std::uint64_t players = 0;
+    std::uint64_t late_ticks = 0;
+    bool asleep = false;
+  };
+  std::vector<NamedRoom> named_rooms;
 };
 
 }  // namespace naiad

@@ -67,6 +67,7 @@ Admission::Admission(Setup setup, const asio::any_io_executor& executor)
       m_counters(m_setup.counters),
       m_joins(PrefixRates::joins(m_setup.options.max_per_address)),
       m_new_worlds(PrefixRates::worlds(m_setup.options.max_per_address, m_setup.options.max_players)),
+      m_door(m_setup.rooms, m_setup.options.max_per_address),
       m_executor(executor) {
   const std::string& password = m_setup.options.password;
   if (!password.empty()) changePassword(PasswordHash::fromText(password));
@@ -108,10 +109,15 @@ bool Admission::checkHello(Session& session, const wire::Hello& hello) {
     session.refuse(wire::Refused::VERSION, versionSentence(hello.protocol()));
     return false;
   }
-  if (!hello.game().empty() && hello.game() != m_setup.game) {
+  if (!hello.game().empty() && hello.game() != m_setup.game && !m_setup.rooms.isNamed()) {
     ++m_counters.refused_game;
     session.refuse(wire::Refused::GAME,
                    "This server plays \"" + m_setup.game + "\", not \"" + cleanName(hello.game()) + "\".");
+    return false;
+  }
+  if (!hello.room().empty() && !m_setup.rooms.isNamed()) {
+    ++m_counters.refused_room;
+    session.refuse(wire::Refused::GAME, "This server has no rooms: join it without a name of one.");
     return false;
   }
   return true;
@@ -260,7 +266,7 @@ void Admission::judgeWaiting() {
 void Admission::restoreSessions(Room& room, const std::vector<KeptSession>& sessions) {
   if (!m_setup.restore_session) return;
   for (const KeptSession& kept : sessions) {
-    Session& session = m_setup.restore_session(welcomeOf(kept.player, kept.name, kept.color));
+    Session& session = m_setup.restore_session(welcomeOf(room, kept.player, kept.name, kept.color));
     session.setGrace(graceTime());
     session.standing().setMuted(kept.muted);
     m_tokens.restore(session.id(), {kept.newest, kept.redeemed});
@@ -331,7 +337,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
     ++m_counters.refused_name;
     return session.refuse(wire::Refused::NAME, "A player needs a name of 1 to 16 printable characters.");
   }
-  Room* p_room = roomFor(session);
+  Room* p_room = roomFor(session, hello);
   if (p_room == nullptr) return;
   const std::string name = freeName(wanted);
   wire::Welcome welcome = welcomeTo(*p_room, name);
@@ -384,13 +390,14 @@ void Admission::refuseFull(Session& session, const std::string& sentence) {
 
 // Null: the session was refused. A client that leaves and joins again has fresh allowances each time, so how
 // often it joins is limited for its address.
-Room* Admission::roomFor(Session& session) {
+Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
   const AddressPrefix prefix = prefixOf(session);
   const Session::Clock::time_point now = session.now();
   if (!m_joins.take(prefix, now)) {
     refuseBusy(session, "Too many players have joined from your address. Try again in a moment.");
     return nullptr;
   }
+  if (m_setup.rooms.isNamed()) return namedRoomFor(session, hello);
   if (m_setup.rooms.isPrivate() && !m_new_worlds.take(prefix, now)) {
     refuseBusy(session, "Too many worlds have begun lately. Try again in a moment.");
     return nullptr;
@@ -402,6 +409,65 @@ Room* Admission::roomFor(Session& session) {
     m_setup.log_client(session.address(), {LogEvent::Level::kError, "gets no world: " + problem});
   refuseBusy(session, "The server cannot begin another world. Try again later.");
   return nullptr;
+}
+
+Room* Admission::namedRoomFor(Session& session, const wire::Hello& hello) {
+  RoomDoor::Refusal refusal;
+  Room* p_room = m_door.findRoom(hello.room(), hello.game(), refusal);
+  if (p_room == nullptr) {
+    refuseRoom(session, refusal);
+  } else if (const auto closed = m_door.open(*p_room, prefixOf(session), session.now())) {
+    refuseRoom(session, *closed);
+    p_room = nullptr;
+  }
+  return p_room;
+}
+
+void Admission::refuseRoom(Session& session, const RoomDoor::Refusal& refusal) {
+  if (!refusal.log.empty())
+    m_setup.log_client(session.address(), {LogEvent::Level::kError, "gets no world: " + refusal.log});
+  switch (refusal.why) {
+    case RoomDoor::Why::kUnknown:
+      ++m_counters.refused_room;
+      return session.refuse(wire::Refused::GAME, safeText(refusal.sentence, kMaxSentenceLength));
+    case RoomDoor::Why::kGame:
+      ++m_counters.refused_game;
+      return session.refuse(wire::Refused::GAME, refusal.sentence);
+    case RoomDoor::Why::kFull:
+      ++m_counters.refused_full;
+      return session.refuse(wire::Refused::FULL, refusal.sentence);
+    case RoomDoor::Why::kForNow:
+      return refuseBusy(session, refusal.sentence);
+  }
+}
+
+// The player is another one there: an id is used once in a world.
+std::string Admission::moveSession(Session& session, const std::string& room, bool led) {
+  if (!m_setup.rooms.isNamed()) return "This server has no rooms.";
+  if (room.empty()) return "A room has a name.";
+  if (session.isDetached() && !led) return "Your connection is broken.";
+  if (!session.knowsRooms())
+    return "Your client is too old to go to another room: join it by HOST/" + room + ".";
+  RoomDoor::Refusal refusal;
+  Room* const p_to = m_door.findRoom(room, "", refusal);
+  if (p_to == nullptr) return safeText(refusal.sentence, kMaxChatLength);
+  const AddressPrefix prefix = prefixOf(session);
+  if (!led && !m_door.takeMove(prefix, session.now()))
+    return "Too many have changed rooms. Try again in a moment.";
+  if (const auto closed = m_door.open(*p_to, prefix, session.now())) return closed->sentence;
+  if (Room* const p_from = m_setup.rooms.roomOf(session))
+    p_from->port().noteSession({.player = session.player(), .over = true});
+  m_setup.rooms.leaveRoom(session);
+  const auto color = static_cast<df::Color>(session.welcomed().color());
+  wire::Welcome welcome = session.welcomed();
+  const std::uint32_t player = p_to->join(m_next_player, session.name(), color);
+  m_next_player = player + 1;
+  welcome.set_player(player);
+  describeRoom(*p_to, welcome);
+  session.enterRoom(welcome);
+  m_setup.rooms.add(*p_to, session);
+  noteSession(session);
+  return {};
 }
 
 void Admission::refuseBusy(Session& session, const std::string& sentence) {
@@ -420,8 +486,7 @@ wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
   const df::Color color = colorOf(m_counters.joined++);
   const std::uint32_t player = room.join(m_next_player, name, color);
   m_next_player = player + 1;
-  wire::Welcome welcome = welcomeOf(player, name, color);
-  welcome.set_tick(room.tick());
+  wire::Welcome welcome = welcomeOf(room, player, name, color);
   return welcome;
 }
 
@@ -430,24 +495,36 @@ std::chrono::milliseconds Admission::graceTime() const {
       std::chrono::duration<double>(m_setup.options.grace));
 }
 
-wire::Welcome Admission::welcomeOf(std::uint32_t player, const std::string& name, df::Color color) const {
-  const TickLength tick = TickLength::fromMicros(m_setup.options.frame_micros);
-  wire::Welcome welcome;
-  welcome.set_player(player);
-  welcome.set_name(name);
-  welcome.set_game(m_setup.game);
-  welcome.set_tick_micros(static_cast<std::uint32_t>(tick.times(1) / std::chrono::microseconds(1)));
-  welcome.set_view_width(static_cast<std::uint32_t>(m_p_world->getWindowWidth()));
-  welcome.set_view_height(static_cast<std::uint32_t>(m_p_world->getWindowHeight()));
-  welcome.set_color(static_cast<std::uint32_t>(color));
-  welcome.set_grace_millis(static_cast<std::uint32_t>(graceTime().count()));
-  welcome.set_second_stream(m_setup.options.grace > 0);
-  welcome.set_server(safeText(m_setup.options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
-  for (const std::string& line : m_p_world->getHelp()) {
+// What it says of the room and its game.
+void Admission::describeRoom(const Room& room, wire::Welcome& welcome) const {
+  const RoomPlan* const p_plan = room.plan();
+  welcome.set_tick(room.tick());
+  welcome.set_game(p_plan != nullptr ? p_plan->game : m_setup.game);
+  welcome.set_room(p_plan != nullptr ? p_plan->name : "");
+  const int width = p_plan != nullptr ? p_plan->ready.window_width : m_p_world->getWindowWidth();
+  const int height = p_plan != nullptr ? p_plan->ready.window_height : m_p_world->getWindowHeight();
+  welcome.set_view_width(static_cast<std::uint32_t>(width));
+  welcome.set_view_height(static_cast<std::uint32_t>(height));
+  welcome.clear_help();
+  for (const std::string& line : p_plan != nullptr ? p_plan->ready.help : m_p_world->getHelp()) {
     if (welcome.help_size() < static_cast<int>(kMaxHelpLines)) {
       welcome.add_help(safeText(line, kMaxHelpLength));
     }
   }
+}
+
+wire::Welcome Admission::welcomeOf(const Room& room, std::uint32_t player, const std::string& name,
+                                   df::Color color) const {
+  const TickLength tick = TickLength::fromMicros(m_setup.options.frame_micros);
+  wire::Welcome welcome;
+  welcome.set_player(player);
+  welcome.set_name(name);
+  welcome.set_tick_micros(static_cast<std::uint32_t>(tick.times(1) / std::chrono::microseconds(1)));
+  describeRoom(room, welcome);
+  welcome.set_color(static_cast<std::uint32_t>(color));
+  welcome.set_grace_millis(static_cast<std::uint32_t>(graceTime().count()));
+  welcome.set_second_stream(m_setup.options.grace > 0);
+  welcome.set_server(safeText(m_setup.options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
   return welcome;
 }
 

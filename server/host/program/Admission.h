@@ -17,6 +17,7 @@
 #include "host/net/PlayerPrefixes.h"
 #include "host/net/SealedChannel.h"
 #include "host/program/HostOptions.h"
+#include "host/program/RoomDoor.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "shared/net/base/PrefixAllowance.h"
@@ -74,6 +75,9 @@ class Admission {
   void noteSessions(const Room& room) const;
   /// The session has changed: its world's journal is to have it, before the client knows.
   void noteSession(const Session& session) const;
+  /// The session, which plays, goes on in the room of this name, if it can; else return why not, for its
+  /// player. `led`: by the server, so that it does not count.
+  std::string moveSession(Session& session, const std::string& room, bool led);
   /// The session is over: its token is void.
   void forgetSession(const Session& session);
   /// Whoever joins from now on needs this password; nothing: none.
@@ -101,11 +105,15 @@ class Admission {
   };
   std::chrono::milliseconds graceTime() const;
   KeptSession keptSession(const Session& session) const;
-  wire::Welcome welcomeOf(std::uint32_t player, const std::string& name, df::Color color) const;
+  wire::Welcome welcomeOf(const Room& room, std::uint32_t player, const std::string& name,
+                          df::Color color) const;
   void admitPlayer(Session& session, const wire::Hello& hello);
   bool checkLimits(Session& session);
   void refuseFull(Session& session, const std::string& sentence);
-  Room* roomFor(Session& session);
+  void describeRoom(const Room& room, wire::Welcome& welcome) const;
+  Room* roomFor(Session& session, const wire::Hello& hello);
+  Room* namedRoomFor(Session& session, const wire::Hello& hello);
+  void refuseRoom(Session& session, const RoomDoor::Refusal& refusal);
   void refuseBusy(Session& session, const std::string& sentence);
   std::string freeName(const std::string& wanted) const;
   wire::Welcome welcomeTo(Room& room, const std::string& name);
@@ -117,6 +125,7 @@ class Admission {
   ResumeTokens m_tokens;
   PrefixAllowance m_joins;
   PrefixAllowance m_new_worlds;
+  RoomDoor m_door;
   asio::any_io_executor m_executor;
   std::unique_ptr<PasswordCheck> m_password;  ///< null: none was needed yet
   bool m_needs_password = false;

@@ -14,6 +14,7 @@ namespace naiad {
 namespace {
 
 constexpr std::uint16_t kSshPort = 22;
+constexpr std::size_t kMaxWebAddress = 300;  // a QR code of more does not fit a terminal
 
 void writeLine(const std::string& path, const char* what, const std::string& line) {
   if (path.empty()) return;
@@ -31,6 +32,12 @@ void addOtherDoors(const HostOptions& options, std::vector<std::string>& lines) 
   if (!options.web_address.empty()) lines.push_back("In a browser: " + options.web_address);
 }
 
+bool isWebAddress(const std::string& text) {
+  const bool begins = text.starts_with("https://") || text.starts_with("http://");
+  return begins && text.size() <= kMaxWebAddress &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
+}
+
 bool isHomeAlone(const std::string& address) {
   std::error_code error;
   const auto parsed = asio::ip::make_address(address, error);
@@ -38,6 +45,18 @@ bool isHomeAlone(const std::string& address) {
 }
 
 }  // namespace
+
+std::string announcementComplaint(const HostOptions& options) {
+  if (!options.link_host.empty() && !LinkHost::parse(options.link_host))
+    return "--link-host: HOST or HOST:PORT is wanted, IPv6 in brackets";
+  if (!options.ssh_door.empty() && !SshDoor::parse(options.ssh_door))
+    return "--ssh-door: USER@HOST or USER@HOST:PORT is wanted";
+  if (!options.web_address.empty() && !isWebAddress(options.web_address))
+    return "--web-address: an address that begins with https:// or http:// is wanted, of 300 characters at "
+           "most";
+  if (options.qr && options.web_address.empty()) return "--qr shows --web-address, which is not given";
+  return {};
+}
 
 std::optional<SshDoor> SshDoor::parse(std::string_view text) {
   const std::size_t at = text.find('@');

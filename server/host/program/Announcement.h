@@ -29,6 +29,9 @@ struct SshDoor {
   std::string command() const;
 };
 
+/// What is wrong with the options that are printed for players; empty if nothing is.
+std::string announcementComplaint(const HostOptions& options);
+
 /// "Join from this machine with: dfclient naiad://…", how from elsewhere, by ssh and on a page as far as the
 /// options name these, and what is listened on.
 std::vector<std::string> howToJoin(const Host& host, const HostOptions& options, const Openness& openness);

@@ -102,23 +102,32 @@ Host::Host(HostOptions options, std::string game, Log log)
                    },
                    [this] { return m_fleet.linkToOther(Clock::now()); }},
                   m_io.get_executor()),
+      m_room_moves({m_sessions, m_rooms, m_admission, m_counters,
+                    [this](const std::string& address, LogEvent event) {
+                      m_client_log.logNews(address, std::move(event), m_network.now());
+                    }}),
       m_chat(PrefixRates::chat(m_options.max_per_address)),
-      m_commands({{m_options, m_sessions, m_admission, m_counters, m_network, m_scores, adminControls()},
-                  m_bans,
-                  m_admin_worker,
-                  m_feed,
-                  m_client_log,
-                  m_log},
-                 m_io),
+      m_commands(
+          {{m_options, m_sessions, m_rooms, m_admission, m_counters, m_network, m_scores, adminControls()},
+           m_bans,
+           m_admin_worker,
+           m_feed,
+           m_client_log,
+           m_log},
+          m_io),
       m_fleet(fleetSetup()),
       m_empty_since(Clock::now()) {
   surviveBrokenPipes();
   m_rooms.setScores(m_scores);
-  m_scores.setObserver([this](const ScoreRow& row) { m_fleet.noteScore(row); });
+  m_scores.setObserver([this](const ScoreRow& row) { m_fleet.noteScore(row, m_admission.game()); });
   m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
                       [this](Room& room, const std::vector<KeptSession>& sessions) {
                         m_admission.restoreSessions(room, sessions);
                       });
+  m_rooms.watchSent(
+      [this](Session& session, const std::string& room) { m_room_moves.askByGame(session, room); });
+  m_rooms.watchClosed(
+      [this](const Room& room, const std::string& sentence) { m_room_moves.leadAway(room, sentence); });
   openMetrics();
   for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
   if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
@@ -226,6 +235,7 @@ std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
 Host::~Host() {
   m_commands.close();
   m_scores.finish();
+  for (const auto& [game, p_scores] : m_room_scores) p_scores->finish();
 }
 
 void Host::setWorlds(NewWorld new_world) {
@@ -283,7 +293,8 @@ void Host::endWhenEmpty(double seconds) {
 }
 
 void Host::end(Ending::Plan plan) {
-  if (plan.at_round_end && m_rooms.isPrivate()) plan.at_round_end = !(plan.when_empty = true);
+  if (plan.at_round_end && (m_rooms.isPrivate() || m_rooms.isNamed()))
+    plan.at_round_end = !(plan.when_empty = true);
   m_rooms.setLastRound(plan.at_round_end);
   m_ending.setPlan(std::move(plan), Clock::now());
   if (m_metrics && !m_ending.isOpen()) m_metrics->beginDrain(true);
@@ -431,6 +442,7 @@ void Host::tick() {
   m_client_log.update(m_tick_began);
   m_rooms.checkWorlds();
   m_admission.judgeWaiting();
+  m_room_moves.update();
   heedUpgrade();
   tickWorlds();
   m_stages.enter(Stage::kNews);
@@ -514,10 +526,13 @@ void Host::sweep() {
 Session::Events Host::sessionEvents() {
   return {[this](Session& session, const wire::Hello& hello) { m_admission.judgeHello(session, hello); },
           [this](Session& session, const std::string& text) { takeChat(session, text); },
-          [this](Session& session) { endSession(session); }, [this] { return m_network.now(); },
+          [this](Session& session) { endSession(session); },
+          [this] { return m_network.now(); },
           [this](Session& session, const std::string& sentence) {
             m_client_log.logRefusal(session.address(), sentence, m_network.now());
-          }};
+          },
+          [this](Session& session) { m_room_moves.sendList(session); },
+          [this](Session& session, const std::string& room) { m_room_moves.ask(session, room); }};
 }
 
 // A command is for the server alone, whatever becomes of it.

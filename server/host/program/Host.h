@@ -8,9 +8,11 @@
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/world/Runner.h"
 #include "host/admin/AdminWorker.h"
@@ -30,6 +32,8 @@
 #include "host/program/Listing.h"
 #include "host/program/PlayerNews.h"
 #include "host/program/Reload.h"
+#include "host/program/RoomMoves.h"
+#include "host/program/RoomPlan.h"
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "host/program/SideLog.h"
@@ -90,6 +94,13 @@ class Host : public df::Runner {
   /// run() hosts such worlds instead of the one that it is given: one after the other, or one for each player
   /// (HostOptions::players). From the one it is given it takes only what welcomes say. Before run().
   void setWorlds(NewWorld new_world);
+  /// A room by name, with what makes its worlds (the plan's own new_world and p_scores are set here).
+  struct NamedRoom {
+    RoomPlan plan;
+    NewWorld new_world;
+  };
+  /// run() hosts these instead. Players begin in the first. Before run().
+  void setRooms(std::vector<NamedRoom> rooms);
 
   /// Tick the world 30 times a second until the game is over, a signal comes or an option says so; then send
   /// the players a goodbye and let what is queued drain. If the game does not return from a tick, and a
@@ -133,6 +144,7 @@ class Host : public df::Runner {
   void openMetrics();
   void beginMetrics();
   Listing::Server listedAs(const std::string& game) const;
+  ScoreKeeper& scoresOf(const std::string& game);
   Session::Events sessionEvents();
   void takeChat(Session& session, const std::string& text);
   void sendChat(const Session& session, const std::string& text);
@@ -179,9 +191,11 @@ class Host : public df::Runner {
   SessionTable m_sessions;
   StageClock m_stages;
   ScoreKeeper m_scores;
+  std::map<std::string, std::unique_ptr<ScoreKeeper>> m_room_scores;  ///< of the other rooms' games
   Rooms m_rooms;
   ClientLog m_client_log;
   Admission m_admission;
+  RoomMoves m_room_moves;
   PrefixAllowance m_chat;
   Watchdog* m_p_watchdog = nullptr;  ///< while it runs
   PlayerNews m_player_news;

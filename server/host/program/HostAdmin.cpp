@@ -37,6 +37,7 @@ AdminPlayer factsOf(const Session& session, Session::Clock::time_point now) {
   player.detached = session.isDetached();
   player.muted = session.standing().isMuted();
   player.admin = session.standing().isAdmin();
+  player.room = session.welcomed().room();
   return player;
 }
 
@@ -92,6 +93,7 @@ AdminRow HostAdmin::status() const {
           {"game", m_setup.admission.game()},
           {"address", m_setup.network.address()},
           {"up_s", number(static_cast<std::uint64_t>(since(m_began, Session::Clock::now()).count()))},
+          {"rooms", number(m_setup.rooms.countAwake())},
           {"players", number(m_setup.sessions.playing())},
           {"connected", number(m_setup.sessions.connected())},
           {"max_players", std::int64_t{m_setup.options.max_players}},
@@ -101,6 +103,21 @@ AdminRow HostAdmin::status() const {
           {"tick_p50_ms", millis(times.quantile(0.5))},
           {"tick_p99_ms", millis(times.quantile(0.99))},
           {"joined", number(counters.joined)}};
+}
+
+std::vector<AdminRow> HostAdmin::rooms() const {
+  std::vector<AdminRow> rows;
+  if (!m_setup.rooms.isNamed()) return rows;
+  m_setup.rooms.forEachRoom([&rows](const Room& room) {
+    rows.push_back({{"room", room.plan()->name},
+                    {"game", room.plan()->game},
+                    {"players", static_cast<std::int64_t>(room.countPlaying())},
+                    {"max_players", std::int64_t{room.plan()->max_players}},
+                    {"asleep", room.isAsleep()},
+                    {"ticks", static_cast<std::int64_t>(room.ticks())},
+                    {"late_ticks", static_cast<std::int64_t>(room.lateTicks())}});
+  });
+  return rows;
 }
 
 Session* HostAdmin::findPlaying(std::uint64_t session) const {

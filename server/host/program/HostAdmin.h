@@ -12,6 +12,7 @@
 #include "host/program/Admission.h"
 #include "host/program/Ending.h"
 #include "host/program/HostOptions.h"
+#include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
@@ -34,6 +35,7 @@ class HostAdmin : public AdminTarget {
   struct Setup {
     const HostOptions& options;
     const SessionTable& sessions;
+    const Rooms& rooms;
     Admission& admission;
     const Counters& counters;
     const NetworkThread& network;
@@ -44,6 +46,7 @@ class HostAdmin : public AdminTarget {
 
   std::vector<AdminPlayer> players() const override;
   AdminRow status() const override;
+  std::vector<AdminRow> rooms() const override;
   void endPlayer(std::uint64_t session, const std::string& sentence) override;
   void say(const std::string& text) override;
   void tell(std::uint64_t session, const std::string& text) override;

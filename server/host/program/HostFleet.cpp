@@ -134,11 +134,11 @@ Presence HostFleet::presence() const {
   return presence;
 }
 
-void HostFleet::noteScore(const ScoreRow& row) {
+void HostFleet::noteScore(const ScoreRow& row, const std::string& game) {
   if (!m_bus) return;
   GameResult result;
   result.server = m_id;
-  result.game = safeText(m_setup.game, Presence::kMaxName);
+  result.game = safeText(game, Presence::kMaxName);
   result.table = row.table;
   result.name = row.name;
   result.points = row.points;

@@ -53,7 +53,7 @@ class HostFleet {
   /// A link to another server of the fleet that has places, as the directory says; empty: none is known.
   std::string linkToOther(Clock::time_point now) const;
   /// A row that is about to be written. None twice.
-  void noteScore(const ScoreRow& row);
+  void noteScore(const ScoreRow& row, const std::string& game);
   /// The server is about to end: players' goodbyes come next.
   void noteStopping();
   /// After them.

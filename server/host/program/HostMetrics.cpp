@@ -79,12 +79,22 @@ void HostMetrics::measure(Clock::time_point now) {
   m_next.network = m_sources.network.latestCounters();
   m_sources.network.askForCounters();  // for the next time
   m_next.stages = m_sources.stages.spent();
-  m_next.rooms = m_sources.rooms.count();
+  m_next.rooms = m_sources.rooms.countAwake();
+  measureRooms();
   m_next.objects = m_sources.rooms.objects();
   measureSessions();
   measureCpu();
   m_pulse.setFull(m_next.connected + m_next.detached >= m_next.max_players);
   m_newest.publish(std::make_unique<const MetricsSnapshot>(m_next));
+}
+
+void HostMetrics::measureRooms() {
+  m_next.named_rooms.clear();
+  if (!m_sources.rooms.isNamed()) return;
+  m_sources.rooms.forEachRoom([this](const Room& room) {
+    m_next.named_rooms.push_back(
+        {room.plan()->name, room.plan()->game, room.countPlaying(), room.lateTicks(), room.isAsleep()});
+  });
 }
 
 void HostMetrics::measureSessions() {

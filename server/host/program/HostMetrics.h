@@ -62,6 +62,7 @@ class HostMetrics {
  private:
   MetricsServer::Answer answer(std::string_view path);
   void measure(Clock::time_point now);
+  void measureRooms();
   void measureSessions();
   void measureCpu();
 

@@ -11,8 +11,8 @@
 #include "host/metrics/MetricsAddress.h"
 #include "host/program/Announcement.h"
 #include "host/program/HostFleet.h"
+#include "host/program/RoomList.h"
 #include "shared/net/base/UserDirectory.h"
-#include "shared/net/stream/JoinLink.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
 #include "shared/options/UnknownVariables.h"
@@ -37,6 +37,22 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--game", &o.game,
         "Game to host: the name of a shipped one (see --list-games) or the path of a module (.so)",
         "NAIAD_GAME"},
+       UsedBy::kServer},
+      {{.name = "--room",
+        .target = &o.rooms,
+        .help = "NAME=GAME[,KEY=VALUE…]: a room in which this game is played, beside others; give it once "
+                "for each room "
+                "(in the environment: with blanks between). Players begin in the first one, or join by "
+                "HOST/NAME. The keys are max-players, world-memory, seed and players, as the options",
+        .environment = "NAIAD_ROOM",
+        .joins = true},
+       UsedBy::kServer},
+      {{.name = "--room-sleep",
+        .target = &o.room_sleep,
+        .help = "Seconds without players after which a room ends its round and its process; the next player "
+                "wakes it",
+        .environment = "NAIAD_ROOM_SLEEP",
+        .range = OptionRange{0, 1e6}},
        UsedBy::kServer},
       {{"--address", &o.address,
         "Numeric address to listen on; :: is every address of this machine, IPv4 too", "NAIAD_ADDRESS"}},
@@ -279,8 +295,7 @@ void warnOfUnknownVariables(const std::vector<Row>& rows, HostOptions& options) 
 }
 
 constexpr const char* kLoopback = "127.0.0.1";
-constexpr std::size_t kMaxWebAddress = 300;  // a QR code of more does not fit a terminal
-constexpr int kMinFrameMicros = 1000;        // clients believe no shorter one
+constexpr int kMinFrameMicros = 1000;  // clients believe no shorter one
 
 const char* const kExitCodes =
     "Exit codes:\n"
@@ -300,26 +315,7 @@ std::string keyOf(const Row& row) {
   return key;
 }
 
-bool isWebAddress(const std::string& text) {
-  const bool begins = text.starts_with("https://") || text.starts_with("http://");
-  return begins && text.size() <= kMaxWebAddress &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
-}
-
-/// The same for what is printed for players.
-std::string printedComplaint(const HostOptions& options) {
-  if (!options.link_host.empty() && !LinkHost::parse(options.link_host))
-    return "--link-host: HOST or HOST:PORT is wanted, IPv6 in brackets";
-  if (!options.ssh_door.empty() && !SshDoor::parse(options.ssh_door))
-    return "--ssh-door: USER@HOST or USER@HOST:PORT is wanted";
-  if (!options.web_address.empty() && !isWebAddress(options.web_address))
-    return "--web-address: an address that begins with https:// or http:// is wanted, of 300 characters at "
-           "most";
-  if (options.qr && options.web_address.empty()) return "--qr shows --web-address, which is not given";
-  return {};
-}
-
-/// The same for where metrics are given out.
+/// What is wrong with where metrics are given out; empty if nothing is.
 std::string metricsComplaint(const HostOptions& options) {
   if (!MetricsHosts::parse(options.metrics_hosts))
     return "--metrics-hosts: names with commas between are wanted";
@@ -343,7 +339,8 @@ std::string complaint(const HostOptions& options) {
   if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
   if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
   if (std::string wrong = fleetComplaint(options); !wrong.empty()) return wrong;
-  return printedComplaint(options);
+  if (std::string wrong = roomsComplaint(options); !wrong.empty()) return wrong;
+  return announcementComplaint(options);
 }
 
 bool isHash(const std::string& password) {
@@ -462,6 +459,7 @@ HostOptions readHostOptions(int argc, const char* const* argv) {
   readOptions(dfserver(), all, argc, argv);
   if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
+  useRooms(options);
   useDefaultFolders(options);
   return options;
 }
@@ -483,6 +481,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
     return CommandLine::kUsageError;
   }
   keepHome(options);
+  useRooms(options);
   useDefaultFolders(options);
   if (!places.password.empty()) warnOfReaders(fileAt(places.password), options);
   if (!places.admin_password.empty())

@@ -20,8 +20,9 @@ inline constexpr int kMaxServerPlayers = 20'000;
 
 struct HostOptions {
   std::string game = "saucershoot";  ///< name of a shipped game, or path of a module
-  std::string address = "::";        ///< numeric address to listen on; "::" is all of them, IPv4 too
-  int port = kDefaultPort;           ///< 0: any free port
+  std::string rooms;           ///< NAME=GAME[,KEY=VALUE…] with blanks between (RoomList.h); empty: none
+  std::string address = "::";  ///< numeric address to listen on; "::" is all of them, IPv4 too
+  int port = kDefaultPort;     ///< 0: any free port
   int max_players = 64;
   int max_per_address = 64;          ///< players from one IPv4 address or IPv6 /64, detached ones too
   std::string name = "naiad";        ///< shown in the clients' status line
@@ -39,6 +40,7 @@ struct HostOptions {
   std::string recover = "on";  ///< go on with the round of a server that was killed: "on" or "off"
   double hang_time = 1;  ///< seconds of one tick of a world in a process of its own; then the game hangs
   std::string world_environment;  ///< names of variables that they get, too, with commas between
+  double room_sleep = 60;         ///< seconds without players after which a room sleeps
   bool insecure = false;          ///< plain TCP, loopback only, no datagrams: for tests
   std::string certificate;        ///< PEM file; with `key`. Empty: a key of its own, made on the first start
   std::string key;                ///< PEM file

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/program/Rooms.h"
+#include "shared/net/base/RoomName.h"
 
 namespace naiad {
 
@@ -17,8 +18,10 @@ constexpr std::size_t kMaxHalfOpen = 2048;
 /// Beside connections: libraries, logs.
 constexpr std::size_t kOtherFiles = 256;
 
-/// A private world has its socket and that of its keeper.
+/// A private world has its socket and that of its keeper; a room's its output, too, twice where one follows
+/// another.
 std::size_t worldFiles(const HostOptions& options) {
+  if (!options.rooms.empty()) return 6 * kMaxRooms;
   return options.players == "private" ? 2 * Rooms::mostWorlds(options) : 0;
 }
 

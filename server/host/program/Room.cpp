@@ -69,6 +69,12 @@ bool Room::isEmpty() const {
   });
 }
 
+std::size_t Room::countPlaying() const {
+  std::size_t count = 0;
+  forEachPlaying([&count](const Session&) { ++count; });
+  return count;
+}
+
 void Room::say(const std::string& text) const {
   const wire::ServerMessage message = line(text);
   forEachPlaying([&message](Session& session) { session.sendKept(message); });
@@ -146,8 +152,8 @@ void Room::sendNotes() const {
   for (const std::string& note : m_p_port->view().notes) say(safeText(note, kMaxChatLength));
 }
 
-void Room::changeWorld(std::unique_ptr<WorldPort> port) {
-  m_p_port = std::move(port);
+std::unique_ptr<WorldPort> Room::changeWorld(std::unique_ptr<WorldPort> port) {
+  std::swap(m_p_port, port);
   m_publisher = Publisher();
   m_sound_news.changeWorld(soundSender());
   m_watched = m_ticking = false;
@@ -156,6 +162,7 @@ void Room::changeWorld(std::unique_ptr<WorldPort> port) {
     session.beginWorld();
     join(session.player(), session.name(), static_cast<df::Color>(session.welcomed().color()));
   });
+  return port;
 }
 
 // ---- whose turn it is -------------------------------------------------------------------------------------

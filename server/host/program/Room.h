@@ -7,12 +7,14 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "host/metrics/StageClock.h"
 #include "host/program/InputTurn.h"
+#include "host/program/RoomPlan.h"
 #include "host/program/SoundNews.h"
 #include "host/session/Session.h"
 #include "host/snapshot/Publisher.h"
@@ -32,6 +34,15 @@ class Room {
   WorldPort& port() { return *m_p_port; }
   const WorldPort& port() const { return *m_p_port; }
 
+  // Its name.
+
+  /// Null: it has none (--room was not given).
+  const RoomPlan* plan() const { return m_plan ? &*m_plan : nullptr; }
+  void setPlan(RoomPlan plan) { m_plan = std::move(plan); }
+  RoomSleep& sleep() { return m_sleep; }
+  const RoomSleep& sleep() const { return m_sleep; }
+  bool isAsleep() const { return m_sleep.asleep; }
+
   // Players.
 
   /// The world's next tick makes a player of this name; add() makes their session one of the room's. Return
@@ -46,10 +57,14 @@ class Room {
   void add(Session& session);
   /// The session, if it is one of this room's, is about to be destroyed.
   void remove(const Session& session);
+  /// The session, which plays here, is about to go to another room: its client is not to go on with this
+  /// one's music.
+  void stopSounds(const Session& session) { m_sound_news.stopFor(session.player(), soundSender()); }
   bool has(const Session& session) const;
   /// Null if the player does not play here.
   Session* find(std::uint32_t player) const;
   bool isEmpty() const;
+  std::size_t countPlaying() const;
   /// Call `visit(session)` for all that play, by player.
   template <class Visit>
   void forEachPlaying(Visit visit) const {
@@ -93,13 +108,17 @@ class Room {
   /// Names the round in the file of scores.
   const RoundName& round() const { return m_round; }
   void setRound(RoundName round) { m_round = std::move(round); }
+  /// A tick of the host began, and the world was not ready for one.
+  void noteLate() { ++m_late_ticks; }
+  std::uint64_t lateTicks() const { return m_late_ticks; }
   /// Ticks of the present world.
   std::uint64_t ticks() const { return m_ticks; }
 
   /// The world has ended. Return how many short rounds there have been in a row.
   int countShortRounds(bool is_short) { return m_short_rounds = is_short ? m_short_rounds + 1 : 0; }
-  /// Go on with another world: all players join it, and are sent it from the beginning.
-  void changeWorld(std::unique_ptr<WorldPort> port);
+  /// Go on with another world: all players join it, and are sent it from the beginning. Return the one
+  /// before.
+  std::unique_ptr<WorldPort> changeWorld(std::unique_ptr<WorldPort> port);
 
  private:
   void passTurn();
@@ -119,7 +138,10 @@ class Room {
   bool m_watched = false;
   bool m_ticking = false;
   std::uint64_t m_ticks = 0;
+  std::uint64_t m_late_ticks = 0;
   RoundName m_round;
+  std::optional<RoomPlan> m_plan;
+  RoomSleep m_sleep;
   int m_short_rounds = 0;
 };
 

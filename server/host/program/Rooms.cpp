@@ -23,6 +23,11 @@ constexpr std::size_t kEndingWorlds = 8;      ///< of players who left, beside o
 constexpr const char* kHowToSeeMore =
     "to see where: run the game by itself in a debugger, as docs/when-it-goes-wrong.md says";
 
+/// For the log: which room; empty if it has no name.
+std::string inRoom(const Room& room) {
+  return room.plan() != nullptr ? " in the room " + room.plan()->name : "";
+}
+
 }  // namespace
 
 Rooms::Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
@@ -41,16 +46,18 @@ Rooms::Rooms(const HostOptions& options, const SessionTable& sessions, Counters&
 }
 
 void Rooms::open(df::World& world) {
-  if (!m_new_world) {
-    openRoom(std::make_unique<WorldInProcess>(world));
+  const bool first_only = m_options.players == "first";
+  if (isNamed()) {
+    openNamed();
+  } else if (!m_new_world) {
+    openRoom(std::make_unique<WorldInProcess>(world), first_only);
   } else if (!isPrivate()) {
-    openRoom(m_new_world());
+    openRoom(m_new_world(), first_only);
   }
 }
 
-Room& Rooms::openRoom(std::unique_ptr<WorldPort> port) {
-  Room& room =
-      *m_rooms.emplace_back(std::make_unique<Room>(std::move(port), m_options.players == "first", m_stages));
+Room& Rooms::openRoom(std::unique_ptr<WorldPort> port, bool first_only) {
+  Room& room = *m_rooms.emplace_back(std::make_unique<Room>(std::move(port), first_only, m_stages));
   watchWorld(room);
   return room;
 }
@@ -59,16 +66,18 @@ void Rooms::watchWorld(Room& room) {
   room.port().setOnTick([this, &room] { endTick(room); });
   room.port().checkProcess(tickNumber());
   passScores(room);
+  if (isNamed()) passRooms(room);
 }
 
 // Inputs like any other: before all others of its first tick. A round that goes on has had them.
 void Rooms::passScores(Room& room) const {
-  if (m_p_scores == nullptr) return;
+  ScoreKeeper* const p_scores = scoresOf(room);
+  if (p_scores == nullptr) return;
   RoundName round = room.port().roundName();
   if (round.id.empty()) round.id = ScoreKeeper::beginRound();
   room.setRound(std::move(round));
   if (room.port().recovering()) return;  // they are in its journal
-  for (const auto& [table, rows] : m_p_scores->tables()) {
+  for (const auto& [table, rows] : p_scores->tables()) {
     for (const df::HighScore& row : rows)
       room.port().addInput({.kind = df::InputQueue::kScore,
                             .player = 0,
@@ -80,23 +89,27 @@ void Rooms::passScores(Room& room) const {
 
 void Rooms::keepScores(Room& room) {
   const std::vector<df::AddedScore> added = room.port().takeScores();
-  if (m_p_scores == nullptr) return;
-  m_p_scores->add(room.round().id, added, room.round().file);
+  if (ScoreKeeper* const p_scores = scoresOf(room)) p_scores->add(room.round().id, added, room.round().file);
 }
 
 void Rooms::noteScores() {
-  if (m_p_scores == nullptr) return;
-  const ScoreCounters counters = m_p_scores->counters();
-  m_counters.scores = counters.added;
-  m_counters.scores_refused = counters.refused;
-  m_counters.scores_written = counters.written;
-  m_counters.scores_dropped = counters.dropped;
-  if (const std::string news = m_p_scores->takeNews(); !news.empty()) m_log(newsEvent(news));
+  ScoreCounters sum;
+  for (ScoreKeeper* const p_scores : m_all_scores) {
+    const ScoreCounters counters = p_scores->counters();
+    sum.added += counters.added;
+    sum.refused += counters.refused;
+    sum.written += counters.written;
+    sum.dropped += counters.dropped;
+    if (const std::string news = p_scores->takeNews(); !news.empty()) m_log(newsEvent(news));
+  }
+  m_counters.scores = sum.added;
+  m_counters.scores_refused = sum.refused;
+  m_counters.scores_written = sum.written;
+  m_counters.scores_dropped = sum.dropped;
 }
 
 void Rooms::finishScores() {
-  if (m_p_scores == nullptr) return;
-  m_p_scores->finish();
+  for (ScoreKeeper* const p_scores : m_all_scores) p_scores->finish();
   noteScores();
 }
 
@@ -114,7 +127,7 @@ Room* Rooms::roomForNewPlayer(std::string& problem) {
     return nullptr;
   }
   try {
-    return &openRoom(m_new_world());
+    return &openRoom(m_new_world(), false);
   } catch (const std::system_error& error) {
     problem = error.what();
     return nullptr;
@@ -180,10 +193,13 @@ const std::vector<ListedPlayer>& Rooms::players() {
 
 void Rooms::beginTicks() {
   noteScores();
+  if (isNamed()) publishRooms();
   m_in_begin = true;
   for (const auto& room : m_rooms) {
-    if (room->port().recovering()) continue;
-    if (!room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) ++m_counters.late_worlds;
+    if (room->port().recovering() || room->isAsleep()) continue;
+    if (room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) continue;
+    ++m_counters.late_worlds;
+    room->noteLate();
   }
   m_in_begin = false;
 }
@@ -196,6 +212,7 @@ void Rooms::endTick(Room& room) {
   dismissLeavers(room);
   publish(room);
   keepScores(room);
+  if (isNamed()) passSent(room);
   if (!m_in_begin) m_on_late_tick();
 }
 
@@ -225,7 +242,7 @@ void Rooms::dismissLeavers(Room& room) {
 // ---- rounds -----------------------------------------------------------------------------------------------
 
 void Rooms::checkWorlds() {
-  if (!m_new_world) return;
+  if (!hasWorlds()) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
     if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
@@ -237,6 +254,7 @@ void Rooms::checkWorlds() {
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
+  if (isNamed()) checkSleep();
   if (!isPrivate()) return;
   std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
 }
@@ -278,7 +296,8 @@ void Rooms::noteUpgrade(const Room& room, const WorldEnd& end) {
 // soon as it begins: it would do so for ever.
 void Rooms::endRound(Room& room, const WorldEnd& end) {
   if (end.why == WorldEnd::kForeign) return noteUpgrade(room, end);
-  m_log("the round is over: the game " + end.text + (end.when.empty() ? "" : " " + end.when));
+  m_log("the round is over" + inRoom(room) + ": the game " + end.text +
+        (end.when.empty() ? "" : " " + end.when));
   for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
   if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
   countEnd(end.why);
@@ -296,6 +315,7 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
   }
   const std::string sentence = failed ? how + "." : "The game is over.";
   if (isPrivate()) return room.dismiss(sentence);
+  if (isNamed()) return closeRoom(room, sentence);
   m_failure = failed ? end.text : std::string();
   m_last_sentence = sentence;
   m_over = true;
@@ -305,7 +325,7 @@ bool Rooms::beginRound(Room& room) {
   const std::uint64_t sent = room.sounds().sent();
   m_audit.noteRound(room, tickNumber());
   try {
-    room.changeWorld(m_new_world());
+    room.changeWorld(newWorld(room));
   } catch (const std::system_error& error) {
     m_log(std::string("there is no next round: ") + error.what());
     return false;
@@ -319,7 +339,7 @@ bool Rooms::beginRound(Room& room) {
 // ---- the end ----------------------------------------------------------------------------------------------
 
 bool Rooms::isOver() const {
-  return m_new_world ? m_over : m_rooms.front()->port().isGameOver();
+  return hasWorlds() ? m_over : m_rooms.front()->port().isGameOver();
 }
 
 void Rooms::closeWorlds() {
@@ -328,7 +348,9 @@ void Rooms::closeWorlds() {
     room->port().close();
     room->port().checkProcess(tickNumber());
   }
-  std::erase_if(m_rooms, [this](const auto& room) { return !m_new_world || room->port().end(); });
+  std::erase_if(m_rooms,
+                [this](const auto& room) { return !hasWorlds() || room->isAsleep() || room->port().end(); });
+  checkEnding();
 }
 
 }  // namespace naiad

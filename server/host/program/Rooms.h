@@ -1,5 +1,5 @@
-// The rooms of a host: one for all players or one for each, and the rounds that are played in them
-// (docs/rounds.md).
+// The rooms of a host: one for all players, one for each, or those that have names, and the rounds that are
+// played in them (docs/rounds.md).
 #pragma once
 
 #include <cstdint>
@@ -40,6 +40,17 @@ class Rooms {
 
   /// Play in such worlds, not in the one that open() is given. Before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
+  /// Have such rooms, instead of the one that open() makes. They begin asleep, but for the first. Before
+  /// open().
+  void setNamed(std::vector<RoomPlan> plans);
+  /// The game of a room that has a name cannot go on: its players have to leave.
+  void watchClosed(std::function<void(Room& room, const std::string& sentence)> on_closed) {
+    m_on_closed = std::move(on_closed);
+  }
+  /// The game of a room that has a name sends this player of it to another one.
+  void watchSent(std::function<void(Session& session, const std::string& room)> on_sent) {
+    m_on_sent = std::move(on_sent);
+  }
   /// A room's world is one that players were in: `on_round` a new one, after another; `on_sessions` that of a
   /// server that was killed, with the sessions that its players had. Before open().
   void watchRounds(std::function<void(Room&)> on_round,
@@ -51,7 +62,10 @@ class Rooms {
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
 
   /// Tables of scores for all worlds; outlives the Rooms. Before open().
-  void setScores(ScoreKeeper& scores) { m_p_scores = &scores; }
+  void setScores(ScoreKeeper& scores) {
+    m_p_scores = &scores;
+    m_all_scores = {&scores};
+  }
   /// Wait until the last ones are on disk. No world ticks after this.
   void finishScores();
 
@@ -67,6 +81,24 @@ class Rooms {
   /// Null: there can be no world for another player, and `problem` says why; it is empty if the worlds are
   /// being closed.
   Room* roomForNewPlayer(std::string& problem);
+  // Rooms that have names.
+
+  bool isNamed() const { return !m_plans.empty(); }
+  /// Null if there is none of this name.
+  Room* findRoom(const std::string& name) const;
+  /// Where players begin.
+  Room& firstRoom() const { return *m_rooms.front(); }
+  std::vector<std::string> roomNames() const;
+  template <class Visit>
+  void forEachRoom(Visit visit) const {
+    for (const auto& room : m_rooms) visit(*room);
+  }
+  /// It has a world from now on. False: it cannot have one, and `problem` says why; it is empty if the worlds
+  /// are being closed.
+  bool wake(Room& room, std::string& problem);
+  /// The session, which plays, leaves its room and the world in it; add() makes it one of another's.
+  void leaveRoom(const Session& session);
+
   /// Null for sessions that do not play.
   Room* roomOf(const Session& session) const;
   /// Null if there is none.
@@ -78,6 +110,8 @@ class Rooms {
   /// The session is about to be destroyed.
   void removeSession(const Session& session);
   std::size_t count() const { return m_rooms.size(); }
+  /// Without those that sleep.
+  std::size_t countAwake() const;
   /// Percent of a round that is being executed again (WorldPort::recovering); nothing: none is.
   std::optional<int> recovering() const;
   /// Objects that are published, in all rooms.
@@ -113,13 +147,27 @@ class Rooms {
   void forgetUpgrade() { m_upgraded = false; }
   /// End all worlds. One in a process of its own takes time: call again until isEmpty().
   void closeWorlds();
-  bool isEmpty() const { return m_rooms.empty(); }
-  void clear() { m_rooms.clear(); }
+  bool isEmpty() const { return m_rooms.empty() && m_ending.empty(); }
+  void clear() {
+    m_rooms.clear();
+    m_ending.clear();
+  }
 
  private:
   std::uint32_t tickNumber() const { return static_cast<std::uint32_t>(m_counters.ticks); }
   bool hasLastPlayer() const { return m_ends_with_last && m_sessions.connected() <= 1; }
-  Room& openRoom(std::unique_ptr<WorldPort> port);
+  bool hasWorlds() const { return m_new_world || isNamed(); }
+  Room& openRoom(std::unique_ptr<WorldPort> port, bool first_only);
+  void openNamed();
+  std::unique_ptr<WorldPort> newWorld(const Room& room) const;
+  void checkSleep();
+  void checkEnding();
+  void putToSleep(Room& room);
+  void publishRooms();
+  void passRooms(Room& room) const;
+  void passSent(Room& room);
+  void closeRoom(Room& room, const std::string& sentence);
+  ScoreKeeper* scoresOf(const Room& room) const;
   void passScores(Room& room) const;
   void keepScores(Room& room);
   void noteScores();
@@ -138,14 +186,20 @@ class Rooms {
   LogLine m_log;
   std::function<void()> m_on_late_tick;
   StageClock& m_stages;
-  NewWorld m_new_world;  ///< empty: the world of this process
+  NewWorld m_new_world;  ///< empty: the world of this process, or m_plans
+  std::vector<RoomPlan> m_plans;
+  std::vector<df::GameRoom> m_game_rooms;            ///< what worlds were passed last, by room
+  std::vector<std::unique_ptr<WorldPort>> m_ending;  ///< worlds of rooms that were put to sleep
+  std::function<void(Room&, const std::string&)> m_on_closed;
+  std::function<void(Session&, const std::string&)> m_on_sent;
   std::function<void(Room&)> m_on_round;
   std::function<void(Room&, const std::vector<KeptSession>&)> m_on_sessions;
   std::vector<std::unique_ptr<Room>> m_rooms;
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
   AuditTurns m_audit;
-  ScoreKeeper* m_p_scores = nullptr;  ///< null: nothing is kept
+  ScoreKeeper* m_p_scores = nullptr;       ///< null: nothing is kept
+  std::vector<ScoreKeeper*> m_all_scores;  ///< each once
   bool m_ends_with_last = false;
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round

@@ -141,10 +141,21 @@ void SoundNews::sendMessage(std::uint32_t player, const wire::ServerMessage& mes
   (send(player, message, lasts) ? m_sent : m_dropped) += count;
 }
 
-void SoundNews::changeWorld(const Send& send) {
+wire::ServerMessage SoundNews::stops() const {
   wire::ServerMessage message;
   for (const df::SoundPlayed& sound : m_lasting)
     addSound(message, {sound.label, df::SoundPlayed::kStop, sound.music, sound.loop, 0});
+  return message;
+}
+
+void SoundNews::stopFor(std::uint32_t player, const Send& send) {
+  const wire::ServerMessage message = stops();
+  if (message.has_sounds()) sendMessage(player, message, true, send);
+  repeat(player);
+}
+
+void SoundNews::changeWorld(const Send& send) {
+  const wire::ServerMessage message = stops();
   if (message.has_sounds()) {
     for (const Listener& listener : m_listeners) sendMessage(listener.player, message, true, send);
   }

@@ -32,6 +32,8 @@ class SoundNews {
   void tick(const df::WorldView& view, const Send& send);
   /// The player's client may have missed what was sent: treat them as new.
   void repeat(std::uint32_t player);
+  /// The player goes to another world: send them a stop for what still lasts.
+  void stopFor(std::uint32_t player, const Send& send);
   /// The world has ended and another one begins: send all players a stop for what still lasts of the old one,
   /// and treat them as new.
   void changeWorld(const Send& send);
@@ -51,6 +53,7 @@ class SoundNews {
   void noteLasting(const df::SoundPlayed& sound);
   Listener addListener(std::uint32_t player, const df::WorldView& view, const Send& send);
   void sendSounds(Listener& listener, bool is_new, std::uint32_t tick, const Send& send);
+  wire::ServerMessage stops() const;
   void sendMessage(std::uint32_t player, const wire::ServerMessage& message, bool lasts, const Send& send);
 
   std::vector<Listener> m_listeners;          ///< by player

@@ -50,12 +50,13 @@ std::chrono::milliseconds hangTime(const HostOptions& options) {
 }
 
 std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const GamePlace& place,
-                                            std::vector<std::string> arguments, const LogLine& log) {
+                                            std::vector<std::string> arguments, const LogLine& log,
+                                            int nice = 0) {
   const WorldSandbox made = makeWorldSandbox(options, place);
   auto launcher = std::make_shared<const WorldLauncher>(
       WorldProgram{kThisProgram, std::move(arguments),
                    wantsJournal(options) ? makeFixedEnvironment(options) : makeWorldEnvironment(options),
-                   firstDirectory(), made.sandbox, repeatPreload(), hangTime(options)});
+                   firstDirectory(), made.sandbox, repeatPreload(), hangTime(options), nice});
   if (!made.sandbox.on) {
     log("games in processes of their own have no sandbox: they can do what this user can");
     return launcher;
@@ -111,14 +112,14 @@ bool leavesAlone(const HostOptions& options) {
 }
 
 std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, const std::string& module,
-                                                  const std::string& config, const LogLine& log) {
+                                                  const std::string& config, const LogLine& log, int nice) {
   GamePlace place;
   place.files = {module, gameSettings()};
   place.folders = GameModule::resourceFolders(module);
   place.server_files = {options.log_file,   options.join_file, options.port_file,
                         options.truth_file, options.visitors,  options.control};
   place.secrets = {config, options.state};
-  return launch(options, place, moduleArguments(options, module), log);
+  return launch(options, place, moduleArguments(options, module), log, nice);
 }
 
 std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, const std::string& log_file,

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
@@ -19,10 +20,12 @@ bool wantsWorlds(const HostOptions& options);
 bool leavesAlone(const HostOptions& options);
 
 /// What starts the worlds of dfserver with this module, whose path is absolute; this process does not load
-/// it. `config`: the file of --config, or empty. Better called before this process has threads and secrets;
-/// from then on its memory is closed to its worlds. Throws std::system_error.
+/// it. `config`: the file of --config, or empty. `nice`: how far they stand back behind this process. Better
+/// called before this process has threads and secrets; from then on its memory is closed to its worlds.
+/// Throws std::system_error.
 std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, const std::string& module,
-                                                  const std::string& config, const LogLine& log);
+                                                  const std::string& config, const LogLine& log,
+                                                  int nice = 0);
 /// The same for this program, which is the game. `log_file`: the game's own.
 std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, const std::string& log_file,
                                                    const LogLine& log);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/managers/GameManager.h"
 #include "engine/managers/LogManager.h"
@@ -18,6 +19,7 @@
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
 #include "host/program/Restart.h"
+#include "host/program/RoomLaunch.h"
 #include "host/program/WorldSandbox.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
@@ -188,6 +190,38 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   return host.failure().empty() ? kOk : failGame(host.failure());
 }
 
+/// For lines of a room's game.
+naiad::LogLine roomLog(naiad::LineLog& log, const std::string& room) {
+  return [&log, room](const std::string& line) {
+    log({"game", "game in " + room + ": " + line, {{"room", room}}});
+  };
+}
+
+/// Each room has its game in worlds of its own.
+int serveRooms(Start& start, naiad::LineLog& lines) {
+  const naiad::HostOptions& options = start.options;
+  const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
+  const auto print = [&](const std::string& room) { return roomLog(lines, room); };
+  const std::vector<naiad::LaunchedRoom> launched = naiad::launchRooms(options, start.config, log, print);
+  const naiad::crash::Report crashes("dfserver", lines.descriptor());
+  naiad::Host host(options, launched.front().plan.game, log);
+  std::vector<naiad::Host::NamedRoom> rooms;
+  for (const naiad::LaunchedRoom& room : launched) {
+    rooms.push_back(
+        {room.plan, naiad::startWorlds(room.launcher, host.watchedGame(roomLog(lines, room.plan.name)))});
+  }
+  host.setRooms(std::move(rooms));
+  watchReloads(start, host, lines);
+  announce(options, host);
+  log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) +
+      " rooms on " + host.address());
+  df::World& world = df::World::current();
+  setUp(world, launched.front().plan.ready);
+  host.run(world);
+  noteEnd(host, start);
+  return kOk;
+}
+
 int serve(Start& start) {
   naiad::HostOptions& options = start.options;
   if (const auto socket = naiad::takeWorldSocket()) {
@@ -199,6 +233,7 @@ int serve(Start& start) {
   }
   naiad::LineLog log(options.log_file);
   useLogOptions(options, log);
+  if (!options.rooms.empty()) return serveRooms(start, log);
   if (naiad::wantsWorlds(options)) return serveWorlds(start, log);
   const naiad::crash::Report crashes("dfserver", log.descriptor());
   naiad::crash::setWorld(df::World::current());

@@ -51,12 +51,16 @@ struct Counters {
   std::uint64_t repeated_inputs = 0;    ///< applied before: ignored
   std::uint64_t chat_dropped = 0;       ///< faster than three lines a second, or than an address may: ignored
   std::uint64_t chat_muted = 0;         ///< lines of muted players: sent to nobody
-  std::uint64_t inactive = 0;           ///< no key, click or line for too long: ended
-  std::uint64_t sounds = 0;             ///< sent, each counted for each player
-  std::uint64_t sounds_dropped = 0;     ///< too many, or the stream was broken or busy: not sent
-  std::uint64_t resizes_deferred = 0;   ///< replaced by a newer one before they were taken over
-  std::uint64_t snapshots = 0;          ///< sent
-  std::uint64_t snapshot_bytes = 0;     ///< of their frames
+  std::uint64_t room_moves = 0;         ///< players who went to another room
+  std::uint64_t room_moves_refused = 0;     ///< that is not there, is full, or cannot begin
+  std::uint64_t room_requests_dropped = 0;  ///< for the list of rooms or another room, too often: ignored
+  std::uint64_t refused_room = 0;           ///< no such room
+  std::uint64_t inactive = 0;               ///< no key, click or line for too long: ended
+  std::uint64_t sounds = 0;                 ///< sent, each counted for each player
+  std::uint64_t sounds_dropped = 0;         ///< too many, or the stream was broken or busy: not sent
+  std::uint64_t resizes_deferred = 0;       ///< replaced by a newer one before they were taken over
+  std::uint64_t snapshots = 0;              ///< sent
+  std::uint64_t snapshot_bytes = 0;         ///< of their frames
   std::uint64_t skipped_ticks =
       0;  ///< a client with unsent or unacknowledged bytes, or on a full line, was not brought up to date
   std::uint64_t ticks = 0;

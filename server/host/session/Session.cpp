@@ -150,6 +150,7 @@ void Session::accompany(Session& other) {
 
 // `other` has the old stream afterwards, if there was one, and does not report its end.
 void Session::takeStream(Session& other) {
+  m_knows_rooms = other.m_knows_rooms;
   m_streams.takeFirst(other.m_streams);
   other.m_reported_gone = true;
   const Clock::time_point present = now();
@@ -251,6 +252,26 @@ void Session::checkSilence(Clock::time_point now) {
 void Session::beginWorld() {
   if (const auto dropped = m_inputs.clear()) m_delivery.noteInput(*dropped, m_delivery.tick());
   m_delivery.reset();
+}
+
+// On the stream at once, which snapshots take, too, until datagrams have proved to pass again: none of the
+// new world comes before.
+void Session::enterRoom(const wire::Welcome& welcome) {
+  *m_welcome = welcome;
+  m_player = welcome.player();
+  if (const auto dropped = m_inputs.clear()) m_delivery.noteInput(*dropped, m_delivery.tick());
+  m_delivery.restart(now());
+  wire::ServerMessage message;
+  wire::Entered& entered = *message.mutable_entered();
+  entered.set_player(welcome.player());
+  entered.set_room(welcome.room());
+  entered.set_game(welcome.game());
+  entered.set_view_width(welcome.view_width());
+  entered.set_view_height(welcome.view_height());
+  *entered.mutable_help() = welcome.help();
+  entered.set_tick(welcome.tick());
+  entered.set_world_epoch(sender().epoch());
+  send(message);
 }
 
 // A click without a snapshot that is remembered is judged in the present.

@@ -53,6 +53,8 @@ class Session {
     std::function<Clock::time_point()> now;  ///< empty: std::chrono::steady_clock
     /// The client is being refused, with this sentence.
     std::function<void(Session&, const std::string& sentence)> on_refused = {};
+    std::function<void(Session&)> on_list_rooms = {};
+    std::function<void(Session&, const std::string& room)> on_enter_room = {};
   };
 
   enum class State { kGreeting, kPlaying, kEnding, kGone };
@@ -111,6 +113,15 @@ class Session {
   /// the first.
   void accompany(Session& other);
   bool hasSecondStream() const { return m_streams.hasSecond(); }
+  /// How often the client may ask for the list of rooms, or for another room.
+  static constexpr BucketRate kRoomRate{.per_second = 2, .burst = 4};
+  /// May the client, or its game, ask once more? If not, nothing changes.
+  bool admitRoomRequest() { return m_room_requests.takeToken(kRoomRate, now()); }
+  /// Can the client be led to another room?
+  bool knowsRooms() const { return m_knows_rooms; }
+  /// The session, which has a stream, goes on in another room's world, as this welcome says: its client hears
+  /// of it before it is sent that world from the beginning.
+  void enterRoom(const wire::Welcome& welcome);
   /// Another world begins: the client forgets what it knows, and its inputs to the one before are dropped.
   void beginWorld();
   /// How long to wait for the client after its stream broke; 0: not at all.
@@ -214,6 +225,7 @@ class Session {
   void takeInput(const Input& input);
   void takeHello(const wire::Hello& hello);
   void takeChat(const std::string& text);
+  void takeRoomRequest(const wire::ClientMessage& message);
   void takePing(const wire::Ping& ping);
   void endMalformed();
   void reportGone();
@@ -225,6 +237,7 @@ class Session {
   Leave m_leave = &Counters::left_dismissed;
   bool m_greeted = false;  ///< the hello has come
   bool m_restored = false;
+  bool m_knows_rooms = false;
   std::uint32_t m_rtt_millis = 0;
   Counters& m_counters;
   Events m_events;
@@ -236,6 +249,7 @@ class Session {
   ReceivedInputs m_inputs;
   TokenBucket m_resumes;
   TokenBucket m_seconds;
+  TokenBucket m_room_requests;
   ReliableOutbox m_outbox;
   ReliableFramesHeard m_kept_heard;
   SnapshotDelivery m_delivery;

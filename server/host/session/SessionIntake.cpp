@@ -81,14 +81,31 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       if (m_resize.request({message.resize().columns(), message.resize().rows()}))
         ++m_counters.resizes_deferred;
       return true;
+    case What::kListRooms:
+    case What::kEnter:
+      takeRoomRequest(message);
+      return true;
     case What::WHAT_NOT_SET:
       break;
   }
   return false;
 }
 
+// Of a server without rooms, a client that knows them may ask all the same.
+void Session::takeRoomRequest(const wire::ClientMessage& message) {
+  if (!m_knows_rooms || !admitRoomRequest()) {
+    ++m_counters.room_requests_dropped;
+  } else if (!message.has_enter()) {
+    if (m_events.on_list_rooms) m_events.on_list_rooms(*this);
+  } else {
+    m_standing.noteAction(now());
+    if (m_events.on_enter_room) m_events.on_enter_room(*this, message.enter().room());
+  }
+}
+
 void Session::takeHello(const wire::Hello& hello) {
   m_greeted = true;
+  m_knows_rooms = hello.rooms();
   m_resize.request({hello.columns(), hello.rows()});
   m_events.on_hello(*this, hello);
 }

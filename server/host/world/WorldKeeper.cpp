@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -286,6 +287,7 @@ void runLauncher(int front, const WorldProgram& program) {
   standInFront();
   hideProcess();
   ignoreSignals();
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + program.nice);
   SandboxSupport support = program.sandbox.on ? findSandboxSupport() : SandboxSupport{};
   support.addresses = canFixAddresses() ? 1 : 0;
   sendTo(kFront, support);

@@ -32,6 +32,7 @@ struct WorldProgram {
   Sandbox sandbox;
   std::string preload = {};  ///< for LD_PRELOAD of worlds that are to be repeatable (Repeatable.h)
   std::chrono::milliseconds hang_time{1000};  ///< of one tick; then the game hangs (WorldProcess.h)
+  int nice = 0;                               ///< added to that of this process, for the world and its keeper
 };
 
 struct StartedWorld {

@@ -62,8 +62,18 @@ void visitScore(F& f, Text& table, Text& name, Number& points) {
 }
 
 template <class F, class T>
+void visitRoom(F& f, T& room) {
+  f.text(room.name, df::GameRooms::kMaxName);
+  f.text(room.game, df::GameRooms::kMaxGame);
+  f.number(room.players, 0, df::GameRooms::kMaxPlayers);
+  f.number(room.max_players, 0, df::GameRooms::kMaxPlayers);
+  f.flag(room.is_asleep);
+  f.flag(room.is_this_one);
+}
+
+template <class F, class T>
 void visitInput(F& f, T& input) {
-  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kScore);
+  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kRoom);
   f.number(input.player);
   switch (input.kind) {
     case df::InputQueue::kJoin:
@@ -82,6 +92,8 @@ void visitInput(F& f, T& input) {
       return visitSeen(f, input.seen);
     case df::InputQueue::kScore:
       return visitScore(f, input.table, input.name, input.points);
+    case df::InputQueue::kRoom:
+      return visitRoom(f, input.room);
   }
 }
 
@@ -147,6 +159,10 @@ void visitAnswer(F& f, T& answer) {
     visitScore(in, added.table, added.score.name, added.score.points);
     in.number(added.tick);
     in.number(added.number, 0, df::ScoreTables::kMaxNumber);
+  });
+  f.list(answer.sent, df::GameRooms::kMaxSentInTick, [](F& in, auto& sent) {
+    in.number(sent.player);
+    in.text(sent.room, df::GameRooms::kMaxName);
   });
   f.list(answer.pictures, kMaxViewPlayers, [](F& in, auto& picture) {
     in.number(picture.player);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/world/InputQueue.h"
+#include "engine/world/RoomTable.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
 #include "host/world/Repeatable.h"
@@ -63,6 +64,7 @@ struct WorldAnswer {
   std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
   std::vector<WorldPicture> pictures;       ///< by player
   std::vector<df::AddedScore> scores = {};  ///< at most HighScores::kMaxAddedInTick
+  std::vector<df::SentPlayer> sent = {};    ///< at most GameRooms::kMaxSentInTick
 };
 
 // Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/world/InputQueue.h"
+#include "engine/world/RoomTable.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
 #include "host/world/KeptSession.h"
@@ -87,6 +88,9 @@ class WorldPort {
   virtual std::vector<std::uint32_t> takeLeavers() = 0;
   /// The scores that the game added in the last tick, in that order.
   virtual std::vector<df::AddedScore> takeScores() = 0;
+  /// The players whom the game has sent to other rooms in the last tick. Nothing of it is checked but its
+  /// lengths.
+  virtual std::vector<df::SentPlayer> takeSent() { return {}; }
   virtual bool isGameOver() const = 0;
   /// What this player sees, as the engine drew it in the last tick.
   virtual df::Canvas renderPlayer(std::uint32_t player) const = 0;

@@ -195,6 +195,10 @@ std::vector<df::AddedScore> WorldProcess::takeScores() {
   return std::exchange(m_answer.scores, {});
 }
 
+std::vector<df::SentPlayer> WorldProcess::takeSent() {
+  return std::exchange(m_answer.sent, {});
+}
+
 // An upgrade has replaced files from which this process's worlds are started, but not what this process is.
 void WorldProcess::takeReady() {
   const auto build = readBuild(m_in);

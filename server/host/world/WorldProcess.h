@@ -67,6 +67,7 @@ class WorldProcess : public WorldPort {
   void notePublished(const Publisher& /*publisher*/) override {}
   std::vector<std::uint32_t> takeLeavers() override;
   std::vector<df::AddedScore> takeScores() override;
+  std::vector<df::SentPlayer> takeSent() override;
   bool isGameOver() const override { return m_answer.game_over; }
   df::Canvas renderPlayer(std::uint32_t player) const override;
   void checkProcess(std::uint32_t tick) override;

@@ -117,7 +117,10 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   answer.game_over = world.isGameOver();
   answer.leavers = world.takeLeavers();
   answer.has_view = turn.watched;
-  if (df::WorldExtras* p_extras = world.findExtras()) answer.scores = p_extras->scores.takeAdded();
+  if (df::WorldExtras* p_extras = world.findExtras()) {
+    answer.scores = p_extras->scores.takeAdded();
+    answer.sent = p_extras->rooms.takeSent();
+  }
   if (turn.checked) answer.state_hash = df::hashState(world);
   if (turn.watched && turn.wants_truth) {
     for (const df::PlayerFacts& player : world.view().players) {

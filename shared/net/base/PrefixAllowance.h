@@ -70,6 +70,13 @@ struct PrefixRates {
     const double crowd = classSize(max_per_address);
     return {{1, 2 * crowd}, {4, 8 * crowd}, BucketRate{8, 2.0 * max_players}};
   }
+  /// Rooms that are woken, each a process to start: a few at once, then one in a second.
+  static PrefixAllowance::Rates wakes() { return {{1, 4}, {4, 16}, BucketRate{8, 64}}; }
+  /// Moves to another room, each a world to send: of a class, all at once through one door.
+  static PrefixAllowance::Rates moves(int max_per_address) {
+    const double crowd = classSize(max_per_address);
+    return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};
+  }
   /// Lines of chat: three at once from each player of a class, and one of each in four seconds.
   static PrefixAllowance::Rates chat(int max_per_address) {
     const double crowd = classSize(max_per_address);

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <system_error>
 
+#include "shared/net/base/RoomName.h"
+
 namespace naiad {
 namespace {
 
@@ -12,7 +14,6 @@ constexpr std::string_view kScheme = "naiad:";
 constexpr std::size_t kMaxLink = 512;  // bytes; the longest good one has some 330
 constexpr std::size_t kMaxHost = 253;  // of a name (RFC 1035 2.3.4)
 constexpr std::size_t kMaxLabel = 63;  // of a part of it
-constexpr std::size_t kMaxRoom = 32;
 constexpr std::size_t kMaxPortDigits = 5;
 
 bool isLetterOrDigit(char c) {
@@ -59,12 +60,6 @@ bool isIPv6(std::string_view host) {
   std::error_code error;
   const auto address = asio::ip::make_address_v6(std::string(host), error);
   return !error && address.scope_id() == 0 && host.find('%') == std::string_view::npos;
-}
-
-bool isRoom(std::string_view room) {
-  return room.size() <= kMaxRoom && isLetterOrDigit(room.front()) &&
-         std::all_of(room.begin(), room.end(),
-                     [](char c) { return isLetterOrDigit(c) || c == '-' || c == '_' || c == '.'; });
 }
 
 }  // namespace
@@ -130,7 +125,7 @@ std::variant<JoinLink, LinkProblem> JoinLink::parse(std::string_view text) {
     return LinkProblem{"it names a user, which no link to a game does"};
   const auto where = LinkHost::parse(*authority);
   if (!where) return LinkProblem{"HOST or HOST:PORT is wanted behind naiad://"};
-  if (!room->empty() && !isRoom(*room))
+  if (!room->empty() && !isRoomName(*room))
     return LinkProblem{"what stands behind the / cannot be the name of a room"};
   return JoinLink{*where, *room, *key};
 }

@@ -40,7 +40,7 @@ struct LinkHost {
 
 struct JoinLink {
   LinkHost where;
-  std::string room;  ///< empty, or 1 to 32 of a-z, A-Z, 0-9, '-', '_', '.', beginning with a letter or digit
+  std::string room;  ///< empty, or a name that isRoomName() takes
   ShortKey key;
 
   /// Does the text mean to be a link? It begins with "naiad:", in any case.

@@ -13,6 +13,7 @@
 #include "client/session/ServerMessages.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/base/RoomName.h"
 #include "shared/replica/Limits.h"
 #include "shared/values/Canvas.h"
 #include "shared/values/SplitMix64.h"
@@ -69,6 +70,23 @@ void expectGood(const SoundsMessage& message) {
     EXPECT_LE(sound.action, SoundLine::Action::kStop);
   }
 }
+void expectGood(const EnteredMessage& entered) {
+  EXPECT_NE(entered.player, 0u);
+  EXPECT_TRUE(isRoomName(entered.room));
+  expectSafe(entered.game, kMaxProgramLength);
+  EXPECT_TRUE(entered.view_width >= 1 && entered.view_width <= kMaxViewWidth);
+  EXPECT_TRUE(entered.view_height >= 1 && entered.view_height <= kMaxViewHeight);
+  EXPECT_LE(entered.world_epoch, 3);
+  EXPECT_LE(entered.help.size(), kMaxHelpLines);
+  for (const std::string& line : entered.help) expectSafe(line, kMaxHelpLength);
+}
+void expectGood(const RoomsMessage& message) {
+  EXPECT_LE(message.rooms.size(), kMaxRooms);
+  for (const RoomLine& room : message.rooms) {
+    EXPECT_TRUE(isRoomName(room.name));
+    expectSafe(room.game, kMaxProgramLength);
+  }
+}
 void expectGood(const PongMessage&) {}
 void expectGood(const SnapshotMessage& snapshot) {
   EXPECT_LE(snapshot.bytes.size(), kMaxServerFrame);
@@ -80,7 +98,7 @@ void expectGood(const ServerMessageValue& value) {
 
 /// One of each kind, every field of it set.
 std::vector<wire::ServerMessage> validMessages(const std::string& text) {
-  std::vector<wire::ServerMessage> all(8);
+  std::vector<wire::ServerMessage> all(10);
   wire::Welcome& welcome = *all[0].mutable_welcome();
   welcome.set_player(1);
   welcome.set_name(text);
@@ -119,7 +137,42 @@ std::vector<wire::ServerMessage> validMessages(const std::string& text) {
     sound.set_loop(true);
     sound.set_player(3);
   }
+  wire::Entered& entered = *all[8].mutable_entered();
+  entered.set_player(2);
+  entered.set_room("arcade");
+  entered.set_game(text);
+  entered.set_view_width(kMaxViewWidth);
+  entered.set_view_height(kMaxViewHeight);
+  for (std::size_t i = 0; i < kMaxHelpLines; ++i) entered.add_help(text);
+  entered.set_tick(1000);
+  entered.set_world_epoch(3);
+  for (std::size_t i = 0; i < kMaxRooms; ++i) {
+    wire::RoomEntry& entry = *all[9].mutable_rooms()->add_rooms();
+    entry.set_name("room-" + std::to_string(i));
+    entry.set_game(text);
+    entry.set_players(3);
+    entry.set_max_players(8);
+    entry.set_asleep(true);
+  }
   return all;
+}
+
+TEST(ServerMessages, ARoomThatIsNoneIsRefused) {
+  const auto reads = [](const std::function<void(wire::Entered&)>& change) {
+    wire::ServerMessage message = validMessages("Ann")[8];
+    change(*message.mutable_entered());
+    return readServerMessage(message.SerializeAsString()).has_value();
+  };
+  EXPECT_TRUE(reads([](wire::Entered&) {}));
+  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_player(0); }));
+  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_room("a b"); }));
+  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_room(""); }));
+  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_world_epoch(4); }));
+  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_view_width(0); }));
+  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_view_height(kMaxViewHeight + 1); }));
+  wire::ServerMessage rooms = validMessages("Ann")[9];
+  *rooms.mutable_rooms()->add_rooms() = rooms.rooms().rooms(0);
+  EXPECT_FALSE(readServerMessage(rooms.SerializeAsString()));
 }
 
 TEST(ServerMessages, ValidMessagesAreRead) {

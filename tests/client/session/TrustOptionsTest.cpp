@@ -40,10 +40,24 @@ TEST(TrustOptions, WhatIsWrongIsASentenceWithNothingThatSteersATerminal) {
   for (const char c : hostile) EXPECT_GE(static_cast<unsigned char>(c), ' ');
 }
 
-TEST(TrustOptions, ARoomIsRefusedWithTheLinkThatWorks) {
-  const Resolved room("naiad://game.example/tron#" + kKey);
-  EXPECT_NE(room.problem.find("no rooms"), std::string::npos);
-  EXPECT_NE(room.problem.find("naiad://game.example#" + kKey), std::string::npos);
+TEST(TrustOptions, ARoomIsTheBeginningOfTheSession) {
+  const Resolved link("naiad://game.example/tron#" + kKey);
+  EXPECT_EQ(link.problem, "");
+  EXPECT_EQ(link.session.room, "tron");
+  for (const char* text : {"game.example/tron", "game.example:9876/tron"}) {
+    const Resolved address(text);
+    EXPECT_EQ(address.problem, "") << text;
+    EXPECT_EQ(address.address.text(), "game.example:9876");
+    EXPECT_EQ(address.session.room, "tron");
+  }
+  EXPECT_EQ(Resolved("[::1]:9877/a-b.c_d").session.room, "a-b.c_d");
+  EXPECT_EQ(Resolved("game.example").session.room, "");
+  for (const char* text :
+       {"game.example/", "game.example/a/b", "game.example/-x", "game.example/x y", "game.example/\033[2J"}) {
+    const std::string problem = Resolved(text).problem;
+    EXPECT_NE(problem.find("is no name of a room"), std::string::npos) << text;
+    for (const char c : problem) EXPECT_GE(static_cast<unsigned char>(c), ' ');
+  }
 }
 
 TEST(TrustOptions, OptionsThatContradictALinkAreErrors) {

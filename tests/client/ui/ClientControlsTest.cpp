@@ -83,6 +83,31 @@ TEST(ClientControls, KeysScrollAPanelThatDoesNotFit) {
   EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame);
 }
 
+TEST(ClientControls, TheListOfRoomsHasAChoiceThatReturnTakes) {
+  ClientControls controls;
+  controls.takeKey(kPrefix);
+  EXPECT_EQ(controls.takeKey(typed(R, U'r')), Result::kHandled);
+  EXPECT_EQ(controls.panel(), Panel::kRooms);
+  controls.noteShown({.rooms = 3});
+  EXPECT_EQ(controls.takeKey({UPARROW}), Result::kHandled);
+  EXPECT_EQ(controls.roomChoice(), 0);
+  for (int i = 0; i < 5; ++i) controls.takeKey({DOWNARROW});
+  EXPECT_EQ(controls.roomChoice(), 2);
+  EXPECT_EQ(controls.takeKey(typed(A, U'a')), Result::kGame);
+  EXPECT_EQ(controls.takeKey({RETURN}), Result::kEnterRoom);
+  EXPECT_EQ(controls.panel(), Panel::kNone);
+  EXPECT_EQ(controls.takeKey({RETURN}), Result::kGame);
+}
+
+TEST(ClientControls, WithoutRoomsReturnClosesTheirList) {
+  ClientControls controls;
+  controls.takeKey(kPrefix);
+  controls.takeKey(typed(R, U'r'));
+  controls.noteShown({.rooms = 0});
+  EXPECT_EQ(controls.takeKey({RETURN}), Result::kHandled);
+  EXPECT_EQ(controls.panel(), Panel::kNone);
+}
+
 TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
   ClientControls controls;
   EXPECT_FALSE(controls.insertPasted(U"secret"));

@@ -31,6 +31,43 @@ bool contains(const Picture& picture, const std::string& text) {
   return false;
 }
 
+TEST(ScreenLayout, RoomsAreListedWithTheirPlayersAndTheChosenOneStandsOut) {
+  ScreenModel m = model();
+  m.panel = Panel::kRooms;
+  m.room = "lobby";
+  m.rooms = {{"lobby", "lobby", 2, 64, false}, {"arcade", "saucershoot", 0, 8, true}};
+  m.room_choice = 1;
+  const ScreenLayout layout = layOut(m, 80, 24);
+  EXPECT_EQ(layout.shown.rooms, 2);
+  EXPECT_TRUE(contains(layout.picture, "* lobby "));
+  EXPECT_TRUE(contains(layout.picture, "arcade           saucershoot         0/8    asleep"));
+  for (int y = 0; y < 24; ++y) {
+    const std::string row = layout.picture.rowText(y);
+    const std::size_t at = row.find("arcade");
+    if (at == std::string::npos) continue;
+    for (int x = 0; x < 80; ++x) {
+      if (layout.picture.at(x, y).ch == U'a') EXPECT_EQ(layout.picture.at(x, y).style, Style::kReverse);
+    }
+  }
+}
+
+TEST(ScreenLayout, MoreRoomsThanFitShowTheChosenOne) {
+  ScreenModel m = model();
+  m.panel = Panel::kRooms;
+  m.room = "room-0";
+  for (int i = 0; i < 64; ++i) m.rooms.push_back({"room-" + std::to_string(i), "hello", 0, 8, false});
+  for (int choice = 0; choice < 64; ++choice) {
+    m.room_choice = choice;
+    EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "room-" + std::to_string(choice) + " ")) << choice;
+  }
+}
+
+TEST(ScreenLayout, AServerWithoutRoomsSaysSo) {
+  ScreenModel m = model();
+  m.panel = Panel::kRooms;
+  EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "This server has no rooms."));
+}
+
 TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
   const ScreenLayout layout = layOut(model(), 100, 30);
   const ViewPlacement& place = layout.placement;
@@ -253,7 +290,7 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   EXPECT_FALSE(contains(layout.picture, "close the help"));
   EXPECT_TRUE(contains(layout.picture, "Down"));
   EXPECT_TRUE(contains(layout.picture, "Esc closes"));
-  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 9 - 22);
+  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 10 - 22);
   EXPECT_EQ(layout.shown.page, 22);
   m.scroll = layout.shown.max_scroll;
   layout = layOut(m, 76, 24);

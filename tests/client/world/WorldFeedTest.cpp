@@ -27,6 +27,7 @@ class WorldFeedTest : public testing::Test {
     return taken(number, complete, epoch, true);
   }
 
+  std::uint32_t tick = 100;
   WorldFeed feed;
   WorldFeed::Time now = WorldFeed::Time{} + 1h;
 
@@ -38,7 +39,7 @@ class WorldFeedTest : public testing::Test {
   WorldFeed::Result taken(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
     SnapshotHeader header;
     header.number = number;
-    header.tick = 100;
+    header.tick = tick;
     header.epoch = epoch;
     header.complete = complete;
     SnapshotWriter out;
@@ -52,6 +53,28 @@ class WorldFeedTest : public testing::Test {
     return feed.applySnapshot(out.finish(), now, header, nullptr);
   }
 };
+
+// Room for more than the 16 bits of a tick that a snapshot has.
+TEST_F(WorldFeedTest, AnExpectedWorldMayBeFarBehindThePresentOne) {
+  tick = 500'000;
+  feed.noteTick(tick);
+  birth(1, true);
+  feed.expectWorld(1, 300'000, now);
+  tick = 300'010;
+  EXPECT_EQ(of(1, 2, true), WorldFeed::Result::kShown);
+  EXPECT_EQ(feed.shown().newest().tick, 300'010u);
+  EXPECT_EQ(of(0, 1, true), WorldFeed::Result::kIgnored);
+}
+
+TEST_F(WorldFeedTest, AnExpectedWorldThatHasBegunAlreadyIsKept) {
+  birth(1, true);
+  EXPECT_EQ(of(1, 2, false), WorldFeed::Result::kApplied);
+  feed.expectWorld(1, 100, now);
+  EXPECT_EQ(of(1, 3, true), WorldFeed::Result::kShown);
+  EXPECT_EQ(shown(), 2u);
+  feed.expectWorld(1, 100, now);
+  EXPECT_FALSE(feed.isChanging()) << "it is there";
+}
 
 TEST_F(WorldFeedTest, TheFirstPictureWaitsForTheCompleteWorld) {
   EXPECT_FALSE(hasPicture());

@@ -8,6 +8,7 @@
 //           goodbye, 252 a second stream comes, 253 the next frames come on the other stream, 254 the
 //           second closed, 255 it is busy, else so many half seconds pass
 #include <memory>
+#include <utility>
 
 #include "FakeSealed.h"
 #include "Require.h"
@@ -36,7 +37,14 @@ class Play {
                      [](Session&, const std::string& text) {
                        REQUIRE(!text.empty() && text.size() <= 4 * kMaxChatLength);
                      },
-                     [this](Session&) { REQUIRE(++m_gone == 1); }, [this] { return m_now; }});
+                     [this](Session&) { REQUIRE(++m_gone == 1); },
+                     [this] { return m_now; },
+                     {},
+                     [](Session&) {},
+                     [this](Session&, const std::string& room) {
+                       REQUIRE(room.size() <= kMaxClientFrame);
+                       m_moves = true;
+                     }});
     // Keys of these wait for the tick that they ask for.
     auto controls = std::make_shared<df::ControlTable>();
     controls->rows.push_back(
@@ -105,6 +113,7 @@ class Play {
     ++m_view.tick;
     m_publisher.update(m_view);
     if (m_session.state() != Session::State::kPlaying) return;
+    if (std::exchange(m_moves, false)) move();
     m_session.takeInputs(m_view.tick, [this](const Input& input) {
       REQUIRE(m_input == 0 || isNewer(input.id, m_input));
       REQUIRE(input.key < df::Keyboard::kKeyCount && input.x < kMaxViewWidth && input.y < kMaxViewHeight);
@@ -114,6 +123,15 @@ class Play {
   }
 
  private:
+  // To the same world: it is sent again, in another epoch.
+  void move() {
+    wire::Welcome welcome = m_session.welcomed();
+    welcome.set_player(welcome.player() + 1);
+    welcome.set_room("other");
+    const auto epoch = m_session.sender().epoch();
+    m_session.enterRoom(welcome);
+    REQUIRE(m_session.player() == welcome.player() && m_session.sender().epoch() != epoch);
+  }
   // Once: what the channel was given before is lost with it.
   void openSecond() {
     if (m_session.state() != Session::State::kPlaying || m_second.callbacks.on_frame) return;
@@ -139,6 +157,7 @@ class Play {
   FakeLine m_line;
   FakeLine m_second;
   bool m_on_second = false;
+  bool m_moves = false;
   FakeAir m_sealed;
   std::string m_last;  ///< frame
   Counters m_counters;

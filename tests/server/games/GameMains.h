@@ -9,6 +9,7 @@ int bullethell_main();
 int chase_main();
 int hello_main();
 int lander_main();
+int lobby_main();
 int maze_main();
 int platformer_main();
 int sandbox_main();
@@ -19,16 +20,13 @@ namespace naiad {
 
 /// By name.
 inline const std::map<std::string, int (*)()>& gameMains() {
-  static const std::map<std::string, int (*)()> s_mains = {{"breakout", breakout_main},
-                                                           {"bullethell", bullethell_main},
-                                                           {"chase", chase_main},
-                                                           {"hello", hello_main},
-                                                           {"lander", lander_main},
-                                                           {"maze", maze_main},
-                                                           {"platformer", platformer_main},
-                                                           {"sandbox", sandbox_main},
-                                                           {"saucershoot", saucershoot_main},
-                                                           {"tron", tron_main}};
+  static const std::map<std::string, int (*)()> s_mains = {
+      {"breakout", breakout_main}, {"bullethell", bullethell_main},
+      {"chase", chase_main},       {"hello", hello_main},
+      {"lander", lander_main},     {"lobby", lobby_main},
+      {"maze", maze_main},         {"platformer", platformer_main},
+      {"sandbox", sandbox_main},   {"saucershoot", saucershoot_main},
+      {"tron", tron_main}};
   return s_mains;
 }
 

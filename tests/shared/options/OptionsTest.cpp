@@ -42,6 +42,7 @@ class OptionsTest : public testing::Test {
          .range = OptionRange{0, 65535},
          .p_from_environment = &from_environment},
         {.name = "--max-players", .target = &players, .help = ""},
+        {.name = "--thing", .target = &things, .help = "", .joins = true},
         {.name = "--server-name", .target = &name, .help = "", .p_place = &place},
         {.name = "--quiet", .target = &quiet, .help = "", .p_given = &given},
         {.name = "--secret", .target = &secret, .help = "", .hidden = true}};
@@ -67,6 +68,7 @@ class OptionsTest : public testing::Test {
   int players = 2;
   std::string name;
   std::string place;
+  std::string things;
   bool quiet = false;
   bool given = false;
   bool secret = false;
@@ -74,6 +76,17 @@ class OptionsTest : public testing::Test {
 };
 
 constexpr const char* kHelp = "\nRun dfthing --help for more information.\n";
+
+TEST_F(OptionsTest, OneThatJoinsMayBeGivenSeveralTimes) {
+  EXPECT_EQ(parse({"--thing", "a=1", "--thing=b,c"}), "");
+  EXPECT_EQ(things, "a=1 b,c");
+  things.clear();
+  EXPECT_EQ(parseFile("thing = x\nport = 7\nthing = y\n"), "");
+  EXPECT_EQ(things, "x y");
+  things.clear();
+  EXPECT_EQ(parseFile("thing = x\n", {"--thing", "z"}), "");
+  EXPECT_EQ(things, "z") << "the command line counts more than the file";
+}
 
 TEST_F(OptionsTest, AnUnknownOptionIsNamedWithTheNearestOne) {
   EXPECT_EQ(parse({"--max-player", "3"}),

@@ -60,6 +60,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
   target.add("Ann");
   target.add("Bob", "192.0.2.2:1");
   const std::vector<std::vector<std::string>> all{{"who"},
+                                                  {"rooms"},
                                                   {"status"},
                                                   {"say", "hi"},
                                                   {"tell", "Ann", "hi"},
@@ -88,6 +89,15 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
   for (const AdminCommand& command : adminCommands()) {
     EXPECT_TRUE(command.place == Place::kChat || given.contains(command.name)) << command.name;
   }
+}
+
+TEST_F(AdminConsoleTest, RoomsAreListedAndTheRoomOfEachPlayerWithThem) {
+  EXPECT_EQ(give({"rooms"}).text, "This server has no rooms.");
+  target.named_rooms = {{{"room", std::string("arcade")}, {"players", std::int64_t{2}}}};
+  EXPECT_EQ(give({"rooms"}).rows, target.named_rooms);
+  target.add("Ann").room = "arcade";
+  const AdminRow row = give({"who"}, player("Eve", 7)).rows.front();
+  EXPECT_EQ(std::get<std::string>(row.back().second), "arcade");
 }
 
 TEST_F(AdminConsoleTest, PlayersMayDoLittle) {

@@ -17,6 +17,7 @@ class FakeTarget : public AdminTarget {
  public:
   std::vector<AdminPlayer> all;
   std::vector<std::string> done;  ///< in order
+  std::vector<AdminRow> named_rooms;
   std::optional<PasswordHash> password;
 
   AdminPlayer& add(const std::string& name, const std::string& address = "192.0.2.1:50000") {
@@ -69,6 +70,7 @@ class FakeTarget : public AdminTarget {
   AdminAnswer set(const std::string& option, const std::string& value) override {
     return note("set " + option + "=" + value);
   }
+  std::vector<AdminRow> rooms() const override { return named_rooms; }
   AdminRow settings() const override { return {{"grace", std::string("60")}}; }
 
  private:

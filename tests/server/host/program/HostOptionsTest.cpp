@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "host/program/HostOptions.h"
+#include "host/program/RoomList.h"
 #include "shared/options/Options.h"
 
 namespace naiad {
@@ -77,6 +78,104 @@ TEST(HostOptions, ARunningServerNamesWhatNeedsARestart) {
   EXPECT_EQ(now.port, HostOptions().port);
   next.game = "tron";
   EXPECT_EQ(takeOver(next, now).text(), "none has changed; game and port need a restart");
+}
+
+/// Games that are there while this is: hello and tron, which are not loaded.
+class Games {
+ public:
+  Games() {
+    std::string name = testing::TempDir() + "naiad-games-XXXXXX";
+    m_folder = mkdtemp(name.data());
+    for (const char* game : {"hello.so", "tron.so"}) std::ofstream(m_folder / game) << "no module";
+    setenv("NAIAD_GAMES", m_folder.c_str(), 1);
+  }
+  ~Games() {
+    unsetenv("NAIAD_GAMES");
+    std::filesystem::remove_all(m_folder);
+  }
+
+ private:
+  std::filesystem::path m_folder;
+};
+
+/// What dfserver says to these rooms.
+std::string complaintOf(const std::vector<const char*>& rooms) {
+  std::vector<const char*> words;
+  for (const char* p_room : rooms) words.insert(words.end(), {"--room", p_room});
+  HostOptions options;
+  testing::internal::CaptureStderr();
+  const CommandLine line = parse(words, options);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(line, CommandLine::kUsageError) << said;
+  return said.substr(0, said.find('\n'));
+}
+
+TEST(HostOptions, RoomsAreReadInTheirOrder) {
+  const Games games;
+  HostOptions options;
+  ASSERT_EQ(
+      parse({"--room", "first=hello", "--room", "Second_2=tron,max-players=3,players=first,world-memory=512",
+             "--max-players", "40", "--room-sleep", "2.5"},
+            options),
+      CommandLine::kRun);
+  const std::vector<RoomOptions> rooms = roomsOf(options);
+  ASSERT_EQ(rooms.size(), 2u);
+  EXPECT_EQ(rooms[0].name, "first");
+  EXPECT_EQ(rooms[0].game, "hello");
+  EXPECT_EQ(rooms[0].max_players, 40);
+  EXPECT_EQ(rooms[0].players, "together");
+  EXPECT_EQ(rooms[1].name, "Second_2");
+  EXPECT_EQ(rooms[1].max_players, 3);
+  EXPECT_EQ(rooms[1].world_memory, 512);
+  EXPECT_EQ(rooms[1].players, "first");
+  EXPECT_EQ(options.game, "hello") << "where players begin";
+  EXPECT_EQ(options.room_sleep, 2.5);
+  EXPECT_TRUE(roomsOf(HostOptions()).empty());
+}
+
+TEST(HostOptions, ARoomThatMakesNoSenseIsNamedWithTheNearestThatDoes) {
+  const Games games;
+  EXPECT_EQ(complaintOf({"hello"}), "dfserver: --room \"hello\": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
+  EXPECT_EQ(complaintOf({"a b=hello"}), "dfserver: --room \"a\": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
+  for (const char* name : {"=hello", "-x=hello", "a/b=hello", "\xc3\xbc=hello", "\033[2J=hello"}) {
+    const std::string said = complaintOf({name});
+    EXPECT_NE(said.find("is no name of a room: 1 to 32 of"), std::string::npos) << said;
+    EXPECT_EQ(said.find('\033'), std::string::npos);
+  }
+  EXPECT_EQ(complaintOf({"a=hello", "b=tron", "A=hello"}),
+            "dfserver: --room A: there are two rooms of this name");
+  EXPECT_EQ(complaintOf({"a=helo"}), "dfserver: --room a: there is no game \"helo\"; did you mean hello?");
+  EXPECT_EQ(complaintOf({"a=zzzzzz"}),
+            "dfserver: --room a: there is no game \"zzzzzz\"; --list-games prints those that there are");
+  EXPECT_EQ(complaintOf({"a=/no/such/game.so"}), "dfserver: --room a: there is no file \"/no/such/game.so\"");
+  EXPECT_EQ(complaintOf({"a=hello,max-player=3"}),
+            "dfserver: --room a: a room has no setting \"max-player\"; did you mean max-players?");
+  EXPECT_EQ(complaintOf({"a=hello,max-players"}), "dfserver: --room a: max-players=VALUE is wanted");
+  EXPECT_NE(complaintOf({"a=hello,max-players=many"}).find("--room a: max-players: "), std::string::npos);
+  EXPECT_NE(complaintOf({"a=hello,players=private"}).find("--room a: players: "), std::string::npos);
+  std::vector<std::string> many;
+  for (int i = 0; i < 65; ++i) many.push_back("room-" + std::to_string(i) + "=hello");
+  std::vector<const char*> all;
+  for (const std::string& room : many) all.push_back(room.c_str());
+  EXPECT_EQ(complaintOf(all), "dfserver: --room: a server has 64 rooms at most, not 65");
+}
+
+TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
+  const Games games;
+  HostOptions options;
+  EXPECT_EQ(parse({"--room", "a=hello", "--players", "private"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--room", "a=hello", "--on-game-over", "exit"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(
+      parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--journal", "/tmp"},
+            options),
+      CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--no-journal"}, options), CommandLine::kRun);
+}
+
+TEST(HostOptions, TheNearestRoomIsNamed) {
+  EXPECT_EQ(unknownRoom("tronn", {"lobby", "tron"}), "There is no room \"tronn\"; did you mean \"tron\"?");
+  EXPECT_EQ(unknownRoom("x\033[2J", {"lobby", "tron"}).find('\033'), std::string::npos);
+  EXPECT_EQ(unknownRoom("", {"lobby", "tron"}), "There is no room \"\". There are: lobby, tron.");
 }
 
 TEST(HostOptions, ATickThatNoClientWouldBelieveIsAnError) {

@@ -241,6 +241,7 @@ TEST(WorldMessages, AnswersCrossWhole) {
   sent.pictures[0].canvas.put(1, 1, {U'ü', df::RED});
   sent.scores = {{"arcade", {"ann", -7}, 70'000, 3},
                  {"other", {"bob", df::HighScores::kMaxPoints}, 70'000, 4}};
+  sent.sent = {{3, "arcade"}};
   df::WorldView view;
   const auto answer = readAnswer(fieldsOf(frameOf({}, writer, sent)), reader, view);
   ASSERT_TRUE(answer);
@@ -253,6 +254,9 @@ TEST(WorldMessages, AnswersCrossWhole) {
   EXPECT_EQ(answer->scores[1].score, sent.scores[1].score);
   EXPECT_EQ(answer->scores[1].tick, 70'000u);
   EXPECT_EQ(answer->scores[1].number, 4);
+  ASSERT_EQ(answer->sent.size(), 1u);
+  EXPECT_EQ(answer->sent[0].player, 3u);
+  EXPECT_EQ(answer->sent[0].room, "arcade");
   ASSERT_EQ(answer->pictures.size(), 1u);
   EXPECT_EQ(answer->pictures[0].player, 5u);
   EXPECT_EQ(countDifferences(answer->pictures[0].canvas, sent.pictures[0].canvas), 0);
@@ -275,6 +279,9 @@ WorldTurn fullTurn() {
   turn.inputs.push_back({.kind = Queue::kLeave, .player = 4});
   turn.inputs.push_back(
       {.kind = Queue::kScore, .player = 0, .name = "eve", .table = "arcade", .points = -900'000'000'000});
+  turn.inputs.push_back({.kind = Queue::kRoom,
+                         .player = 0,
+                         .room = {"arcade", "saucershoot", 3, df::GameRooms::kMaxPlayers, true, false}});
   return turn;
 }
 
@@ -293,8 +300,8 @@ TEST(WorldMessages, TurnsCrossWhole) {
     EXPECT_TRUE(a.kind == b.kind && a.player == b.player && a.name == b.name && a.color == b.color &&
                 a.key == b.key && a.key_action == b.key_action && a.button == b.button &&
                 a.mouse_action == b.mouse_action && a.x == b.x && a.y == b.y && a.table == b.table &&
-                a.points == b.points && a.seen.known == b.seen.known && a.seen.base == b.seen.base &&
-                a.seen.drawn == b.seen.drawn)
+                a.points == b.points && a.room == b.room && a.seen.known == b.seen.known &&
+                a.seen.base == b.seen.base && a.seen.drawn == b.seen.drawn)
         << i;
   }
 }

@@ -1,0 +1,280 @@
+// Rooms of one server (--room), each with a game in a process of its own (rooms/game.cpp): joining them by
+// name, going from one to another, sleep, and what the failure of one is to the others. Real processes and
+// sockets.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "GameProgram.h"
+#include "Home.h"
+#include "TestClient.h"
+
+namespace naiad::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kModule = NAIAD_BINARY_DIR "/../lib/room_module.so";
+
+/// What the game draws.
+struct Shown {
+  int process = 0;  ///< 0: nothing yet
+  int keys = 0;
+  int ticks = 0;
+};
+
+std::optional<int> numberAfter(const std::string& text, const std::string& label) {
+  const std::size_t at = text.find(label);
+  int number = 0;
+  if (at == std::string::npos) return std::nullopt;
+  const char* p_begin = text.data() + at + label.size();
+  const bool is_number = std::from_chars(p_begin, text.data() + text.size(), number).ec == std::errc();
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+class NamedRooms : public testing::Test {
+ protected:
+  /// Rooms of these names, with these settings behind the game.
+  void start(const std::vector<std::string>& rooms, std::vector<std::string> arguments = {}) {
+    for (const std::string& room : rooms) {
+      const std::size_t comma = std::min(room.find(','), room.size());
+      arguments.push_back("--room=" + room.substr(0, comma) + "=" + kModule + room.substr(comma));
+    }
+    server = std::make_unique<GameProgram>("dfserver", std::map<std::string, std::string>{}, arguments);
+    ASSERT_NE(server->port(), 0) << server->log();
+  }
+  std::unique_ptr<TestClient> connect(const std::string& name, const std::string& room) {
+    ClientSetup setup = home.player(name);
+    setup.options.room = room;
+    auto client = std::make_unique<TestClient>(context, server->port(), setup);
+    client->keepPictures(false);
+    clients.push_back(client.get());
+    return client;
+  }
+  std::unique_ptr<TestClient> join(const std::string& name, const std::string& room) {
+    auto client = connect(name, room);
+    EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).process > 0; })) << server->log();
+    return client;
+  }
+  /// Why the server does not let a player in.
+  std::string refusal(const std::string& room) {
+    auto client = connect("eve", room);
+    EXPECT_TRUE(serve([&] { return client->connection().isOver(); }));
+    clients.pop_back();
+    return client->connection().sentence();
+  }
+  bool serve(const std::function<bool()>& done) {
+    const auto end = Clock::now() + kPatience;
+    while (!done()) {
+      if (Clock::now() > end) return false;
+      for (TestClient* client : clients) client->connection().update(Clock::now());
+      context.restart();
+      context.run_one_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+  static Shown shown(TestClient& client) {
+    const std::string row = client.session().replica().render(client.newestTick()).rowText(12);
+    const auto process = numberAfter(row, "process=");
+    const auto keys = numberAfter(row, "keys=");
+    const auto ticks = numberAfter(row, "ticks=");
+    if (!process || !keys || !ticks || row.find(';') == std::string::npos) return {};
+    return {*process, *keys, *ticks};
+  }
+  static void press(TestClient& client, df::Keyboard::Key key) {
+    client.session().sendKey(key, df::KEY_PRESSED, Clock::now());
+  }
+  static bool heard(TestClient& client, const std::string& part) {
+    const auto& chat = client.session().chat();
+    return std::any_of(chat.begin(), chat.end(),
+                       [&](const ChatEntry& entry) { return entry.text.find(part) != std::string::npos; });
+  }
+  const RoomLine* roomInList(TestClient& client, const std::string& name) {
+    client.session().refreshRooms(Clock::now());
+    const auto& rooms = client.session().rooms();
+    const auto found =
+        std::find_if(rooms.begin(), rooms.end(), [&](const RoomLine& room) { return room.name == name; });
+    return found != rooms.end() ? &*found : nullptr;
+  }
+
+  Home home;
+  asio::io_context context;
+  std::unique_ptr<GameProgram> server;
+  std::vector<TestClient*> clients;
+};
+
+TEST_F(NamedRooms, PlayersOfTwoRoomsPlayInTwoWorlds) {
+  start({"one", "two"});
+  auto ann = join("ann", "");
+  auto bob = join("bob", "two");
+  auto cid = join("cid", "one");
+  EXPECT_EQ(ann->session().welcome().room, "one") << "players begin in the first";
+  EXPECT_EQ(bob->session().welcome().room, "two");
+  EXPECT_EQ(bob->session().welcome().game, "room_module");
+  press(*bob, df::Keyboard::X);
+  ASSERT_TRUE(serve([&] { return shown(*bob).keys == 1; }));
+  EXPECT_EQ(shown(*ann).keys, 0);
+  EXPECT_EQ(shown(*ann).process, shown(*cid).process);
+  EXPECT_NE(shown(*ann).process, shown(*bob).process);
+  ann->session().sendChat("hello");
+  EXPECT_TRUE(serve([&] { return heard(*bob, "hello"); })) << "chat is everybody's";
+}
+
+TEST_F(NamedRooms, UnknownRoomIsRefusedWithTheNearestName) {
+  start({"arcade", "quiet"});
+  EXPECT_EQ(refusal("arcde"), "There is no room \"arcde\"; did you mean \"arcade\"?");
+  EXPECT_EQ(refusal("zzz"), "There is no room \"zzz\". There are: arcade, quiet.");
+}
+
+TEST_F(NamedRooms, FullRoomRefusesWhileOthersHavePlaces) {
+  start({"one", "small,max-players=1"});
+  auto ann = join("ann", "small");
+  EXPECT_NE(refusal("small").find("\"small\" is full (1 players)"), std::string::npos);
+  auto bob = join("bob", "one");
+  bob->session().enterRoom("small");
+  EXPECT_TRUE(serve([&] { return heard(*bob, "is full"); }));
+  EXPECT_EQ(bob->session().welcome().room, "one");
+}
+
+TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
+  start({"one", "two"});
+  auto ann = join("ann", "one");
+  auto bob = join("bob", "two");
+  const ClientSession* const p_session = &ann->session();
+  const int process = shown(*bob).process;
+  const std::uint32_t player = ann->player();
+  press(*ann, df::Keyboard::X);
+  ASSERT_TRUE(serve([&] { return shown(*ann).keys == 1; }));
+  ann->session().enterRoom("two");
+  const auto took =
+      timeUntil(context, {ann.get(), bob.get()}, [&] { return shown(*ann).process == process; });
+  ASSERT_TRUE(took) << server->log();
+  EXPECT_LE(*took, std::chrono::milliseconds(300));
+  EXPECT_EQ(&ann->session(), p_session);
+  EXPECT_EQ(ann->session().welcome().room, "two");
+  EXPECT_NE(ann->player(), player) << "an id is used once in a world";
+  EXPECT_TRUE(heard(*ann, "You are in the room two"));
+  press(*ann, df::Keyboard::X);
+  EXPECT_TRUE(serve([&] { return shown(*ann).keys == 1 && shown(*bob).keys == 1; })) << "keys go there, too";
+  ann->session().enterRoom("one");
+  EXPECT_TRUE(serve([&] { return shown(*ann).process != process && shown(*ann).process > 0; }));
+  EXPECT_EQ(ann->session().counters().bad_messages, 0u);
+}
+
+// A world that has missed ticks counts behind the others.
+TEST_F(NamedRooms, PlayerMovesToAWorldWhoseTicksAreBehind) {
+  start({"one", "slow"});
+  auto ann = join("ann", "one");
+  auto bob = join("bob", "slow");
+  const int slow = shown(*bob).process;
+  press(*bob, df::Keyboard::B);
+  ASSERT_TRUE(serve([&] { return shown(*ann).ticks > shown(*bob).ticks + 200; }));
+  ann->session().enterRoom("slow");
+  ASSERT_TRUE(serve([&] { return shown(*ann).process == slow; }));
+  const int ticks = shown(*ann).ticks;
+  EXPECT_TRUE(serve([&] { return shown(*ann).ticks > ticks; })) << "the picture goes on";
+  EXPECT_LT(ann->newestTick(), bob->newestTick() + 100);
+}
+
+TEST_F(NamedRooms, UnknownRoomLeavesThePlayerWhereTheyAre) {
+  start({"one", "two"});
+  auto ann = join("ann", "one");
+  ann->session().enterRoom("tow");
+  EXPECT_TRUE(serve([&] { return heard(*ann, "did you mean \"two\"?"); }));
+  EXPECT_EQ(ann->session().welcome().room, "one");
+}
+
+TEST_F(NamedRooms, RoomSleepsWithoutPlayersAndWakes) {
+  start({"one", "two"}, {"--room-sleep=0.2"});
+  auto ann = join("ann", "one");
+  ASSERT_TRUE(serve([&] { return roomInList(*ann, "two") != nullptr; }));
+  EXPECT_TRUE(roomInList(*ann, "two")->asleep) << "it has had no players yet";
+  auto bob = join("bob", "two");
+  const int process = shown(*bob).process;
+  ASSERT_TRUE(serve([&] { return !roomInList(*ann, "two")->asleep; }));
+  EXPECT_EQ(roomInList(*ann, "two")->players, 1u);
+  bob->session().enterRoom("one");
+  ASSERT_TRUE(serve([&] { return roomInList(*ann, "two")->asleep; }));
+  EXPECT_TRUE(serve([&] { return kill(process, 0) != 0; })) << "its process has ended";
+  ann->session().enterRoom("two");
+  EXPECT_TRUE(serve([&] {
+    return shown(*ann).process > 0 && shown(*ann).process != process &&
+           ann->session().welcome().room == "two" && shown(*ann).keys == 0;
+  }));
+  EXPECT_EQ(server->log().find("crashed"), std::string::npos);
+}
+
+/// What a room's game does is nothing to the players of another: their ticks go on.
+class Isolation : public NamedRooms {
+ protected:
+  /// `key` in the room "bad". `done`: enough has happened there.
+  void expectOthersGoOn(df::Keyboard::Key key, const std::function<bool(TestClient& bad)>& done) {
+    start({"good", "bad", "other"});
+    auto ann = join("ann", "good");
+    auto bob = join("bob", "bad");
+    auto cid = join("cid", "other");
+    const int first = shown(*ann).ticks;
+    const int other = shown(*cid).ticks;
+    const int process = shown(*ann).process;
+    const auto began = Clock::now();
+    press(*bob, key);
+    ASSERT_TRUE(serve([&] { return done(*bob); })) << server->log();
+    const auto passed = std::chrono::duration<double>(Clock::now() - began).count();
+    // Far from all, for the machine may be busy; a world that waited for the bad one would have had hardly
+    // any.
+    const int least = static_cast<int>(passed / 0.005 * 0.15);
+    EXPECT_GE(shown(*ann).ticks - first, least) << passed;
+    EXPECT_GE(shown(*cid).ticks - other, least) << passed;
+    EXPECT_EQ(shown(*ann).process, process);
+    EXPECT_TRUE(bob->joined()) << "and they may be in the next round of theirs";
+  }
+};
+
+TEST_F(Isolation, CrashIsOneRoomsOwn) {
+  int process = 0;
+  expectOthersGoOn(df::Keyboard::C, [&](TestClient& bad) {
+    if (process == 0) process = shown(bad).process;
+    return shown(bad).process != process && shown(bad).process > 0;
+  });
+  EXPECT_NE(server->log().find("in the room bad: the game crashed (SIGABRT)"), std::string::npos);
+}
+
+TEST_F(Isolation, HangIsOneRoomsOwn) {
+  const auto began = Clock::now();
+  expectOthersGoOn(df::Keyboard::H,
+                   [&](TestClient&) { return Clock::now() - began > std::chrono::milliseconds(1500); });
+}
+
+TEST_F(Isolation, LoadIsOneRoomsOwn) {
+  int ticks = -1;
+  expectOthersGoOn(df::Keyboard::B, [&](TestClient& bad) {
+    if (ticks < 0) ticks = shown(bad).ticks;
+    return shown(bad).ticks > ticks + 4;  // each takes a tenth of a second
+  });
+}
+
+TEST_F(NamedRooms, GameThatFailsAgainAndAgainClosesItsRoomAlone) {
+  start({"one", "two"}, {"--room-sleep=0"});
+  auto ann = join("ann", "one");
+  auto bob = join("bob", "two");
+  std::ofstream(server->playFolder() / "fails") << "yes";
+  press(*bob, df::Keyboard::C);
+  ASSERT_TRUE(serve([&] { return bob->session().welcome().room == "one"; })) << server->log();
+  EXPECT_NE(server->log().find("the room two is closed for 30 s"), std::string::npos) << server->log();
+  EXPECT_TRUE(serve([&] { return shown(*bob).process == shown(*ann).process; }));
+  auto eve = connect("eve", "two");
+  EXPECT_TRUE(serve([&] { return eve->connection().isPutOff(); })) << "it tries again";
+  EXPECT_NE(eve->connection().sentence().find("closed for a moment"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace naiad::test

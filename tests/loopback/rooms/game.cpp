@@ -1,0 +1,81 @@
+// A game for a room, which goes wrong in each way that must stay in its room. What it is good for is in
+// NamedRoomsTest.cpp.
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "DisplayManager.h"
+#include "EventKeyboard.h"
+#include "EventStep.h"
+#include "GameManager.h"
+#include "Object.h"
+
+using namespace df;
+
+namespace {
+
+volatile bool g_hangs = true;
+
+double cpuSeconds() {
+  timespec spent;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
+  return (double)spent.tv_sec + (double)spent.tv_nsec * 1e-9;
+}
+
+class Teller : public Object {
+ public:
+  Teller() {
+    setType("Teller");
+    setPosition(Vector(40, 12));
+    registerInterest(KEYBOARD_EVENT);
+    registerInterest(STEP_EVENT);
+  }
+  int eventHandler(const Event* p_e) {
+    if (p_e->getType() == STEP_EVENT) {
+      m_ticks++;
+      for (const double end = cpuSeconds() + 0.1; m_burns && cpuSeconds() < end;) {
+      }
+      return 1;
+    }
+    if (p_e->getType() != KEYBOARD_EVENT) return 0;
+    const EventKeyboard* p_k = (const EventKeyboard*)p_e;
+    if (p_k->getKeyboardAction() != KEY_PRESSED) return 1;
+    m_keys++;
+    if (p_k->getKey() == Keyboard::B) m_burns = true;
+    if (p_k->getKey() == Keyboard::C) abort();
+    while (p_k->getKey() == Keyboard::H && g_hangs) {
+    }
+    return 1;
+  }
+  int draw() {
+    return DM.drawString(getPosition(),
+                         "process=" + std::to_string(getpid()) + " keys=" + std::to_string(m_keys) +
+                             " ticks=" + std::to_string(m_ticks) + ";",
+                         CENTER_JUSTIFIED, YELLOW);
+  }
+
+ private:
+  int m_ticks = 0;
+  int m_keys = 0;
+  bool m_burns = false;
+};
+
+// A game that begins with a file of this name ends at once, again and again.
+class Failing : public Object {
+ public:
+  Failing() { registerInterest(STEP_EVENT); }
+  int eventHandler(const Event*) { abort(); }
+};
+
+}  // namespace
+
+int main() {
+  GM.startUp();
+  new Teller;
+  if (access("fails", F_OK) == 0) new Failing;
+  GM.run();
+  GM.shutDown();
+  return 0;
+}

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "engine/world/GameRooms.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
+
+namespace df {
+namespace {
+
+class GameRoomsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    world.setLogSink([](const std::string&) {});
+  }
+  void keep(const GameRoom& room) {
+    world.inputs().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
+  }
+
+  World world;
+  const World::Scope scope{world};
+  GameRooms rooms;
+};
+
+TEST_F(GameRoomsTest, AreThoseThatTheServerHasInItsOrder) {
+  EXPECT_TRUE(rooms.getRooms().empty());
+  keep({.name = "one", .players = 1});
+  keep({.name = "two"});
+  keep({.name = "one", .players = 2});
+  ASSERT_EQ(rooms.getRooms().size(), 2u);
+  EXPECT_EQ(rooms.getRooms()[0].players, 2);
+  EXPECT_EQ(rooms.getRooms()[1].name, "two");
+}
+
+TEST_F(GameRoomsTest, AreLimited) {
+  for (std::size_t i = 0; i < 2 * GameRooms::kMaxRooms; ++i) keep({.name = "room-" + std::to_string(i)});
+  keep({.name = std::string(GameRooms::kMaxName + 1, 'x')});
+  keep({.name = ""});
+  EXPECT_EQ(rooms.getRooms().size(), GameRooms::kMaxRooms);
+}
+
+TEST_F(GameRoomsTest, PlayersAreSentToOthersAlone) {
+  keep({.name = "here", .is_this_one = true});
+  keep({.name = "there"});
+  const std::uint32_t ann = world.join("ann", RED);
+  world.tick();
+  EXPECT_EQ(rooms.send(ann, "nowhere"), -1);
+  EXPECT_EQ(rooms.send(ann, "here"), -1);
+  EXPECT_EQ(rooms.send(ann + 1, "there"), -1) << "no such player";
+  EXPECT_EQ(rooms.send(ann, "there"), 0);
+  const auto sent = world.extras().rooms.takeSent();
+  ASSERT_EQ(sent.size(), 1u);
+  EXPECT_EQ(sent[0].player, ann);
+  EXPECT_EQ(sent[0].room, "there");
+  EXPECT_NE(world.getPlayer(ann), nullptr) << "until the server leads them away";
+}
+
+TEST_F(GameRoomsTest, SendingIsLimitedInATickAndForgottenAfterIt) {
+  keep({.name = "there"});
+  const std::uint32_t ann = world.join("ann", RED);
+  world.tick();
+  for (std::size_t i = 0; i < GameRooms::kMaxSentInTick; ++i) EXPECT_EQ(rooms.send(ann, "there"), 0);
+  EXPECT_EQ(rooms.send(ann, "there"), -1);
+  world.tick();
+  EXPECT_TRUE(world.extras().rooms.takeSent().empty());
+}
+
+}  // namespace
+}  // namespace df

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "HostedGame.h"
+#include "Player.h"
+#include "engine/world/WorldExtras.h"
+
+/// The game's main(), compiled into this test under another name.
+int lobby_main();
+
+namespace naiad {
+namespace {
+
+using namespace df;
+
+GameRoom room(const std::string& name, int players = 0) {
+  return {.name = name, .game = "game of " + name, .players = players, .max_players = 8};
+}
+
+void keep(World& world, const GameRoom& room) {
+  world.inputs().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
+}
+
+/// Where the game has sent the player in the last tick; empty: nowhere.
+std::string sentTo(World& world, std::uint32_t player) {
+  for (const SentPlayer& sent : world.extras().rooms.sent()) {
+    if (sent.player == player) return sent.room;
+  }
+  return {};
+}
+
+/// Walk to the door of this number; where the game sends the player on that path.
+std::string walkTo(World& world, std::uint32_t player, int door) {
+  const Vector goal = world.objectsOfType("Door")[door]->getPosition();
+  for (int i = 0; i < 200; ++i) {
+    const Vector at = world.getPlayer(player)->getObject()->getPosition();
+    const bool is_above = at.x() == goal.x();
+    tap(world, player,
+        is_above            ? Keyboard::DOWNARROW
+        : at.x() < goal.x() ? Keyboard::RIGHTARROW
+                            : Keyboard::LEFTARROW);
+    world.tick();
+    if (const std::string room = sentTo(world, player); !room.empty()) return room;
+    tick(world, 2);
+  }
+  return {};
+}
+
+TEST(Lobby, HasADoorForEachOtherRoomAndWalkingIntoOneLeadsThere) {
+  hostGame(lobby_main, 1, [](World& world) {
+    GameRoom own = room("lobby");
+    own.is_this_one = true;
+    keep(world, own);
+    keep(world, room("arcade", 3));
+    keep(world, room("quiet"));
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 2);
+    EXPECT_EQ(world.objectsOfType("Door").getCount(), 2);
+    EXPECT_TRUE(shows(world, ann, "arcade"));
+    EXPECT_TRUE(shows(world, ann, "game of arcade 3/8"));
+    EXPECT_FALSE(shows(world, ann, "game of lobby"));
+    EXPECT_EQ(walkTo(world, ann, 1), "quiet");
+    tick(world, 2);
+    EXPECT_EQ(sentTo(world, ann), "") << "once, while the server makes up its mind";
+  });
+}
+
+TEST(Lobby, ShowsWhatChanges) {
+  hostGame(lobby_main, 1, [](World& world) {
+    keep(world, room("arcade", 3));
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 2);
+    keep(world, room("arcade", 8));
+    world.tick();
+    EXPECT_EQ(world.objectsOfType("Door").getCount(), 1);
+    EXPECT_TRUE(shows(world, ann, "8/8"));
+    EXPECT_TRUE(shows(world, ann, "[XX]"));
+  });
+}
+
+TEST(Lobby, SaysThatThereAreNoOtherRooms) {
+  hostGame(lobby_main, 1, [](World& world) {
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 2);
+    EXPECT_TRUE(shows(world, ann, "This server has no other rooms."));
+  });
+}
+
+TEST(Lobby, HasRoomForAllDoorsThatAServerCanHave) {
+  hostGame(lobby_main, 1, [](World& world) {
+    for (int i = 0; i < 64; ++i) keep(world, room("room-" + std::to_string(i)));
+    const std::uint32_t ann = world.join("ann", RED);
+    tick(world, 2);
+    EXPECT_EQ(world.objectsOfType("Door").getCount(), 64);
+    EXPECT_EQ(walkTo(world, ann, 0), "room-0");
+  });
+}
+
+}  // namespace
+}  // namespace naiad
