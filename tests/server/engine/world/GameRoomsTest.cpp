@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/world/GameRooms.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 
