@@ -212,6 +212,7 @@ bool Connection::followRedirect(const std::string& link) {
   m_options.password.clear();
   m_options.resume_token.clear();
   m_options.fresh = false;
+  m_options.room.clear();  // there, rooms have other names
   m_p_tokens = nullptr;
   m_key.reset();
   m_put_off = m_busy = false;

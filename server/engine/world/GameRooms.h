@@ -19,6 +19,7 @@
 
 namespace df {
 
+/// What a game knows of one room of its server.
 struct GameRoom {
   std::string name = {};     ///< for GameRooms::send()
   std::string game = {};     ///< that is played there

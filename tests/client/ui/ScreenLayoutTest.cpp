@@ -43,10 +43,10 @@ TEST(ScreenLayout, RoomsAreListedWithTheirPlayersAndTheChosenOneStandsOut) {
   EXPECT_TRUE(contains(layout.picture, "arcade           saucershoot         0/8    asleep"));
   for (int y = 0; y < 24; ++y) {
     const std::string row = layout.picture.rowText(y);
-    const std::size_t at = row.find("arcade");
-    if (at == std::string::npos) continue;
+    if (row.find("arcade") == std::string::npos) continue;
     for (int x = 0; x < 80; ++x) {
-      if (layout.picture.at(x, y).ch == U'a') EXPECT_EQ(layout.picture.at(x, y).style, Style::kReverse);
+      if (layout.picture.at(x, y).ch != U'a') continue;
+      EXPECT_EQ(layout.picture.at(x, y).style, Style::kReverse);
     }
   }
 }
