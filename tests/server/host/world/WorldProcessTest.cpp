@@ -61,8 +61,15 @@ class WorldProcessTest : public testing::Test {
 
   /// For a script: it is ready; it takes a turn, of 4 + 4 bytes (watched, no truth, no end, no inputs).
   static std::string isReady() { return "printf '" + escape(readyFrame()) + "' >&3; "; }
-  /// It answers: not over, no leavers, no pictures, no view.
-  static std::string answers() { return "printf '\\5\\0\\0\\0\\0\\0\\0\\0\\0' >&3; "; }
+  /// It answers, with nothing to tell but that the game is over, if so.
+  static std::string answers(bool is_over = false) {
+    WorldAnswer answer;
+    answer.game_over = is_over;
+    ViewWriter views;
+    std::string frame;
+    writeAnswer(answer, nullptr, views, frame);
+    return "printf '" + escape(frame) + "' >&3; ";
+  }
   static std::string takesTurn() { return "dd bs=8 count=1 <&3 2>/dev/null >/dev/null; "; }
 
   int ticks = 0;
@@ -88,8 +95,7 @@ TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
   EXPECT_EQ(play(crash).when, "");
   EXPECT_EQ(play(isReady() + takesTurn() + answer + takesTurn() + crash).when, "in tick 2");
   EXPECT_EQ(play(isReady() + takesTurn() + answer + "exit 0").when, "");
-  const std::string game_over = "printf '\\5\\0\\0\\0\\1\\0\\0\\0\\0' >&3; ";
-  EXPECT_EQ(play(isReady() + takesTurn() + game_over + crash).when, "after tick 1");
+  EXPECT_EQ(play(isReady() + takesTurn() + answers(true) + crash).when, "after tick 1");
 }
 
 TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {
