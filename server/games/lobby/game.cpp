@@ -31,8 +31,8 @@ struct Door : Object {
     setSolidness(SOFT);
     setAltitude(1);
     setBox(Box(Vector(-1.5, -0.4), 3, 0.8));
-    setPosition(Vector(kDoorWidth * (place % kDoorsInRow) + kDoorWidth / 2,
-                       kFirstDoor + kDoorHeight * (place / kDoorsInRow)));
+    const int row = place / kDoorsInRow;
+    setPosition(Vector(kDoorWidth * (place % kDoorsInRow + 0.5), kFirstDoor + kDoorHeight * row));
   }
   int draw() override {
     const GameRoom& room = GameRooms().getRooms()[number];
@@ -56,7 +56,7 @@ struct Walker : Object {
     setSolidness(SOFT);  // a crowd before a door lets each other by
     setAltitude(3);
     setBox(Box(Vector(-0.4, -0.4), 0.8, 0.8));
-    setPosition(Vector(kWidth / 2 + WM.randomInt(11) - 5, 2));
+    setPosition(Vector(kWidth / 2.0 + WM.randomInt(11) - 5, 2));
     registerInterest(STEP_EVENT);
     its.setObject(this);
     Controls controls;
@@ -113,9 +113,9 @@ struct Porter : Object {
     WM.setBoundary(Box(Vector(0, 0), kWidth, height()));
   }
   int draw() override {
-    DM.drawString(Vector(kWidth / 2, 0), "Walk into a door to play", CENTER_JUSTIFIED, CYAN);
+    DM.drawString(Vector(kWidth / 2.0, 0), "Walk into a door to play", CENTER_JUSTIFIED, CYAN);
     if (doors == 0)
-      DM.drawString(Vector(kWidth / 2, 12), "This server has no other rooms.", CENTER_JUSTIFIED, RED);
+      DM.drawString(Vector(kWidth / 2.0, 12), "This server has no other rooms.", CENTER_JUSTIFIED, RED);
     return 0;
   }
 };

@@ -52,8 +52,9 @@ void storeSetting(RoomOptions& room, const std::string& text, const std::string&
   const std::string key = text.substr(0, equals);
   for (const Option& option : settingsOf(room)) {
     if (option.name != "--" + key) continue;
-    if (equals == std::string::npos) throw OptionError(place + ": " + key + "=VALUE is wanted");
-    return storeValue(option, text.substr(equals + 1), place + ": " + key);
+    const std::string setting = std::string(place).append(": ").append(key);
+    if (equals == std::string::npos) throw OptionError(setting + "=VALUE is wanted");
+    return storeValue(option, text.substr(equals + 1), setting);
   }
   throw OptionError(place + ": a room has no setting " + asTyped(key) + meant(key, settingNames()));
 }

@@ -206,6 +206,7 @@ int serveRooms(Start& start, naiad::LineLog& lines) {
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   naiad::Host host(options, launched.front().plan.game, log);
   std::vector<naiad::Host::NamedRoom> rooms;
+  rooms.reserve(launched.size());
   for (const naiad::LaunchedRoom& room : launched) {
     rooms.push_back(
         {room.plan, naiad::startWorlds(room.launcher, host.watchedGame(roomLog(lines, room.plan.name)))});

@@ -70,7 +70,7 @@ void SubstepWorld::turnShapes(SubstepBody& b) {
 TurnedView SubstepWorld::turnedShape(const SubstepBody& b, std::int32_t number) const {
   const ConvexShape* const p_shapes = m_forms[b.form].shapes.data();
   const Vec2* p_corners = b.turned.data();
-  for (std::int32_t i = 0; i < number; ++i) p_corners += 2 * p_shapes[i].count;
+  for (std::int32_t i = 0; i < number; ++i) p_corners += std::ptrdiff_t{2} * p_shapes[i].count;
   const ConvexShape& shape = p_shapes[number];
   return {shape.count, shape.radius, shape.reach, p_corners, p_corners + shape.count};
 }
