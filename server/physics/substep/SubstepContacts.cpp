@@ -31,6 +31,9 @@ constexpr double kLarge = 4;           // times the size of another body
 // Of the speed at which two bodies meet: by how much the speed of either may change. What bounces off
 // something heavy leaves as fast as it came.
 constexpr double kStir = 2;
+// Over the pairs that fly past each other. A push that has not gone all its way by then may reach all of
+// them.
+constexpr int kMaxSweeps = 32;
 
 // They are at least so far apart.
 double gapBetween(const Bounds& a, const Bounds& b, Vec2 offset) {
@@ -249,19 +252,32 @@ void SubstepWorld::choosePairs() {
     if (a >= 0) stir(m_bodies[at(a)], kEverywhere);
     stir(m_bodies[at(b)], kEverywhere);
   });
-  for (m_has_stirred = !m_calm.empty(); std::exchange(m_has_stirred, false);) {
-    for (const Calm& calm : m_calm) {
-      const SubstepBody &a = m_bodies[at(m_pairs[at(calm.pair)].a)],
-                        &b = m_bodies[at(m_pairs[at(calm.pair)].b)];
-      stir(b, stirOf(a) + calm.nearer);
-      stir(a, stirOf(b) + calm.nearer);
-    }
-  }
+  passStirsOn();
   for (std::size_t i = 1; i < m_stirs.size(); ++i) m_stirs[i] = m_stirs[at(rootOf(static_cast<int>(i)))];
   for (const Calm& calm : m_calm) {
     Pair& pair = m_pairs[at(calm.pair)];
     const double by = m_stirs[at(m_bodies[at(pair.a)].state)] + m_stirs[at(m_bodies[at(pair.b)].state)];
     pair.is_examined = calm.nearer + by >= 0;
+  }
+}
+
+// There and back: along a row the pairs stand in the order of its bodies, or in that order reversed.
+void SubstepWorld::passStirsOn() {
+  const auto pass = [this](const Calm& calm) {
+    const Pair& pair = m_pairs[at(calm.pair)];
+    const SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
+    stir(b, stirOf(a) + calm.nearer);
+    stir(a, stirOf(b) + calm.nearer);
+  };
+  m_has_stirred = !m_calm.empty();
+  for (int sweep = 0; std::exchange(m_has_stirred, false); ++sweep) {
+    if (sweep == kMaxSweeps) return m_stirs.assign(m_stirs.size(), kEverywhere);
+    ++m_counters.sweeps;
+    if (sweep % 2 == 0) {
+      std::for_each(m_calm.begin(), m_calm.end(), pass);
+    } else {
+      std::for_each(m_calm.rbegin(), m_calm.rend(), pass);
+    }
   }
 }
 

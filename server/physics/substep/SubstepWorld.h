@@ -33,6 +33,7 @@ struct SubstepCounters {
   std::int64_t ticks = 0;
   std::int64_t contacts = 0;     ///< manifolds solved for, once per step each
   std::int64_t blocks = 0;       ///< of rows that were solved side by side
+  std::int64_t sweeps = 0;       ///< over pairs that fly past each other (choosePairs())
   std::int64_t stopped = 0;      ///< fast bodies, where they first touched something
   std::int64_t quarantined = 0;  ///< bodies frozen
   std::int64_t broken = 0;       ///< joints
@@ -165,6 +166,7 @@ class SubstepWorld final : public RigidStepper {
   double gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset);
   void stir(const SubstepBody& body, double by);
   void choosePairs();
+  void passStirsOn();
   double stirOf(const SubstepBody& b) { return m_stirs[at(rootOf(b.state))]; }
   double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);

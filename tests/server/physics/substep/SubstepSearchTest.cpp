@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -58,6 +60,30 @@ TEST(SubstepSearch, WhatIsHitInFlightHitsTheNext) {
   }
   EXPECT_LT(deepest, 0.1);
   EXPECT_GT(scene.world.body(ids[9]).velocity.x, 0.1);  // the last of the row that it ran into
+}
+
+// The work is bounded: along a row whose pairs stand in no order, a push would be passed on by one body a
+// sweep.
+TEST(SubstepSearch, APushAlongARowInNoOrderIsNotFollowedForEver) {
+  constexpr int kCrates = 400;
+  SubstepScene scene(awake());
+  std::vector<int> rows(kCrates);
+  std::iota(rows.begin(), rows.end(), 0);
+  std::shuffle(rows.begin(), rows.end(), std::mt19937(3));
+  const ConvexShape crate = boxShape(0.5, 0.5);
+  for (const int row : rows) {
+    RigidBody body = movable({0, -5 - 1.3 * row}, crate);
+    body.velocity = {0, 0.9};
+    scene.add(body, crate);
+  }
+  RigidBody shot = movable({0, -3.7}, crate);
+  shot.velocity = {0, -300};
+  const int id = scene.add(shot, crate);
+  scene.ticks(1);
+  EXPECT_LT(scene.at(id).y, -3) << "it was stopped by the first one";
+  EXPECT_GE(scene.world.counters().contacts, 1);
+  EXPECT_GT(scene.world.counters().sweeps, 8) << "or nothing was to be followed";
+  EXPECT_LE(scene.world.counters().sweeps, 32);
 }
 
 TEST(SubstepSearch, AnImmovableBodyThatWasMovedIsFoundWhereItIs) {
