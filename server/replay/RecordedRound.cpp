@@ -99,8 +99,8 @@ std::vector<std::string> RecordedRound::doubts() const {
 
 RoundStage::RoundStage(const RecordedRound& round, const std::string& game) : m_round(round) {
   const std::string module = findModule(game);
-  char name[] = "/tmp/dfreplay-XXXXXX";
-  if (mkdtemp(name) == nullptr) throw std::system_error(errno, std::generic_category(), "a folder in /tmp");
+  std::string name = (std::filesystem::temp_directory_path() / "dfreplay-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
   m_folder = name;
   if (const std::string settings = round.fact(kFactSettings); !settings.empty())
     std::ofstream(m_folder / "df-config.txt", std::ios::binary) << settings;

@@ -20,6 +20,8 @@ struct LogEvent {
   /// `what`: a literal, "joined". `sentence` has the fields' values in it.
   LogEvent(const char* what, std::string sentence, Fields facts)
       : name(what), text(std::move(sentence)), fields(std::move(facts)) {}
+  /// For people the sentence stands behind "warning: ".
+  static LogEvent warning(const std::string& sentence) { return {Level::kWarning, "warning: " + sentence}; }
   operator const std::string&() const { return text; }  // NOLINT(google-explicit-constructor)
 
   const char* name = "note";

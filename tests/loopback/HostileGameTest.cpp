@@ -73,16 +73,7 @@ class HostileGame : public testing::Test {
         << game->log() << readAll(game->playFolder() / "report");
     return client;
   }
-  bool serve(const std::function<bool()>& done) {
-    const auto end = Clock::now() + kPatience;
-    while (!done()) {
-      if (Clock::now() > end) return false;
-      for (TestClient* client : clients) client->connection().update(Clock::now());
-      context.restart();
-      context.run_one_for(std::chrono::milliseconds(5));
-    }
-    return true;
-  }
+  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
   std::vector<Line> report() const {
     std::vector<Line> lines;
     std::ifstream file(game->playFolder() / "report");

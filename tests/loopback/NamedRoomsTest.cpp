@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <fstream>
 #include <memory>
@@ -31,15 +30,6 @@ struct Shown {
   int keys = 0;
   int ticks = 0;
 };
-
-std::optional<int> numberAfter(const std::string& text, const std::string& label) {
-  const std::size_t at = text.find(label);
-  int number = 0;
-  if (at == std::string::npos) return std::nullopt;
-  const char* p_begin = text.data() + at + label.size();
-  const bool is_number = std::from_chars(p_begin, text.data() + text.size(), number).ec == std::errc();
-  return is_number ? std::optional(number) : std::nullopt;
-}
 
 class NamedRooms : public testing::Test {
  protected:
@@ -72,16 +62,7 @@ class NamedRooms : public testing::Test {
     clients.pop_back();
     return client->connection().sentence();
   }
-  bool serve(const std::function<bool()>& done) {
-    const auto end = Clock::now() + kPatience;
-    while (!done()) {
-      if (Clock::now() > end) return false;
-      for (TestClient* client : clients) client->connection().update(Clock::now());
-      context.restart();
-      context.run_one_for(std::chrono::milliseconds(5));
-    }
-    return true;
-  }
+  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
   static Shown shown(TestClient& client) {
     const std::string row = client.session().replica().render(client.newestTick()).rowText(12);
     const auto process = numberAfter(row, "process=");
@@ -89,9 +70,6 @@ class NamedRooms : public testing::Test {
     const auto ticks = numberAfter(row, "ticks=");
     if (!process || !keys || !ticks || row.find(';') == std::string::npos) return {};
     return {*process, *keys, *ticks};
-  }
-  static void press(TestClient& client, df::Keyboard::Key key) {
-    client.session().sendKey(key, df::KEY_PRESSED, Clock::now());
   }
   static bool heard(TestClient& client, const std::string& part) {
     const auto& chat = client.session().chat();

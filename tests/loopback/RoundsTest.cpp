@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -35,15 +34,6 @@ struct Shown {
   int process = 0;
 };
 
-std::optional<int> numberAfter(const std::string& text, const std::string& label) {
-  const std::size_t at = text.find(label);
-  int number = 0;
-  if (at == std::string::npos) return std::nullopt;
-  const char* p_begin = text.data() + at + label.size();
-  return std::from_chars(p_begin, text.data() + text.size(), number).ec == std::errc() ? std::optional(number)
-                                                                                       : std::nullopt;
-}
-
 class Rounds : public testing::Test {
  protected:
   void start(std::map<std::string, std::string> environment) {
@@ -56,16 +46,7 @@ class Rounds : public testing::Test {
     EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).steps >= 0; })) << game->log();
     return client;
   }
-  bool serve(const std::function<bool()>& done) {
-    const auto end = Clock::now() + kPatience;
-    while (!done()) {
-      if (Clock::now() > end) return false;
-      for (TestClient* client : clients) client->connection().update(Clock::now());
-      context.restart();
-      context.run_one_for(std::chrono::milliseconds(5));
-    }
-    return true;
-  }
+  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
   static Shown shown(TestClient& client) {
     const std::string row = client.session().replica().render(client.newestTick()).rowText(12);
     const auto mains = numberAfter(row, "mains=");
@@ -74,9 +55,6 @@ class Rounds : public testing::Test {
     // The first pictures of a round may be incomplete.
     if (!mains || !steps || !process || row.find(';') == std::string::npos) return {};
     return {*mains, *steps, *process};
-  }
-  static void press(TestClient& client, df::Keyboard::Key key) {
-    client.session().sendKey(key, df::KEY_PRESSED, Clock::now());
   }
   static bool heard(TestClient& client, const std::string& line) {
     const auto& chat = client.session().chat();

@@ -31,16 +31,7 @@ class Scores : public testing::Test {
     client = std::make_unique<TestClient>(context, game->port(), home.player("ann"));
     ASSERT_TRUE(serve([&] { return client->joined(); })) << game->log();
   }
-  bool serve(const std::function<bool()>& done) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (!done()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      client->connection().update(std::chrono::steady_clock::now());
-      context.restart();
-      context.run_one_for(std::chrono::milliseconds(5));
-    }
-    return true;
-  }
+  bool serve(const std::function<bool()>& done) { return serveUntil(context, {client.get()}, done); }
   bool shows(const std::string& text) {
     return serve([&] {
       return client->joined() &&

@@ -1,6 +1,7 @@
 #include "TestClient.h"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 namespace naiad::test {
@@ -36,13 +37,26 @@ void TestClient::record(ClientSession& session, std::uint32_t tick) {
   m_recorded = tick - 1;
 }
 
-bool serveUntil(asio::io_context& context, std::initializer_list<TestClient*> clients,
+void press(TestClient& client, df::Keyboard::Key key) {
+  client.session().sendKey(key, df::KEY_PRESSED, std::chrono::steady_clock::now());
+}
+
+std::optional<int> numberAfter(const std::string& row, const std::string& label) {
+  const std::size_t at = row.find(label);
+  if (at == std::string::npos) return std::nullopt;
+  int number = 0;
+  const char* p_begin = row.data() + at + label.size();
+  const bool is_number = std::from_chars(p_begin, row.data() + row.size(), number).ec == std::errc();
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+bool serveUntil(asio::io_context& context, const std::vector<TestClient*>& clients,
                 const std::function<bool()>& done) {
   return timeUntil(context, clients, done).has_value();
 }
 
 std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
-                                                  std::initializer_list<TestClient*> clients,
+                                                  const std::vector<TestClient*>& clients,
                                                   const std::function<bool()>& done) {
   constexpr std::chrono::nanoseconds kMaxTurn = std::chrono::milliseconds(10);
   auto now = std::chrono::steady_clock::now();

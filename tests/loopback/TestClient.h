@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "client/session/Connection.h"
 #include "client/trust/SessionFile.h"
@@ -57,13 +58,19 @@ class TestClient {
   bool m_keep = true;
 };
 
+/// The player presses this key now.
+void press(TestClient& client, df::Keyboard::Key key);
+
+/// The number behind `label` in a row of a picture; nothing if there is none.
+std::optional<int> numberAfter(const std::string& row, const std::string& label);
+
 /// Serve the clients' sockets until `done`, or give up after kPatience and return false.
-bool serveUntil(asio::io_context& context, std::initializer_list<TestClient*> clients,
+bool serveUntil(asio::io_context& context, const std::vector<TestClient*>& clients,
                 const std::function<bool()>& done);
 /// The same; how long it took, nothing if it gave up. A turn of the loop counts for 10 ms at most: time in
 /// which a busy machine lets this thread wait is not measured.
 std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
-                                                  std::initializer_list<TestClient*> clients,
+                                                  const std::vector<TestClient*>& clients,
                                                   const std::function<bool()>& done);
 
 }  // namespace naiad::test

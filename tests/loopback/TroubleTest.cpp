@@ -79,16 +79,7 @@ class Trouble : public testing::Test {
     EXPECT_TRUE(serve([&] { return client->joined(); })) << game->log();
     return client;
   }
-  bool serve(const std::function<bool()>& done) {
-    const auto end = Clock::now() + kPatience;
-    while (!done()) {
-      if (Clock::now() > end) return false;
-      for (TestClient* client : clients) client->connection().update(Clock::now());
-      context.restart();
-      context.run_one_for(std::chrono::milliseconds(5));
-    }
-    return true;
-  }
+  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
   bool logs(const std::string& part) {
     return serve([&] { return game->log().find(part) != std::string::npos; });
   }
@@ -100,9 +91,6 @@ class Trouble : public testing::Test {
   bool isDismissed(TestClient& client) {
     return serve([&] { return client.connection().state() == Connection::State::kEnded; }) &&
            client.connection().sentence() == kGoodbye;
-  }
-  static void press(TestClient& client, df::Keyboard::Key key) {
-    client.session().sendKey(key, df::KEY_PRESSED, Clock::now());
   }
 
   Home home;

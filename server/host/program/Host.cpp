@@ -53,10 +53,6 @@ std::optional<ServerIdentity> identityOf(const HostOptions& options) {
   return ServerIdentity::loadOrMake(directory, std::chrono::system_clock::now());
 }
 
-LogEvent warningOf(const std::string& text) {
-  return {LogEvent::Level::kWarning, "warning: " + text};
-}
-
 // As if the signal had not been handled: its sender sees that it was.
 void endBySignal(int signal) {
   ::signal(signal, SIG_DFL);
@@ -129,8 +125,8 @@ Host::Host(HostOptions options, std::string game, Log log)
   m_rooms.watchClosed(
       [this](const Room& room, const std::string& sentence) { m_room_moves.leadAway(room, sentence); });
   openMetrics();
-  for (const std::string& warning : m_options.warnings) m_log(warningOf(warning));
-  if (m_identity && !m_identity->warning().empty()) m_log(warningOf(m_identity->warning()));
+  for (const std::string& warning : m_options.warnings) m_log(LogEvent::warning(warning));
+  if (m_identity && !m_identity->warning().empty()) m_log(LogEvent::warning(m_identity->warning()));
   m_commands.listen();
   shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
   makePlaces();
@@ -174,61 +170,6 @@ void Host::beginMetrics() {
   const auto tick = TickLength::fromMicros(m_options.frame_micros).times(1);
   m_metrics->begin(tick);
   if (m_options.audit == "on") m_rooms.startAudit(static_cast<std::uint32_t>(std::chrono::seconds(1) / tick));
-}
-
-TlsListening Host::listening() {
-  TlsListening listening;
-  if (!m_identity) return listening;
-  listening.context = m_identity->tls();
-  const HalfOpenPlaces half_open = halfOpenPlaces(m_options);
-  listening.max_half_open = half_open.in_all;
-  listening.max_half_open_known = half_open.known;
-  listening.max_half_open_per_prefix = half_open.of_a_prefix;
-  listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
-  listening.on_refused = [this](const auto& peer, StreamRefusal why) { m_stream_refusals.note(peer, why); };
-  listening.is_banned = [this](const asio::ip::address& address) { return m_bans.isBanned(address); };
-  listening.take_handshake = [this](const AddressPrefix& prefix) {
-    return m_handshakes.take(prefix, Clock::now());
-  };
-  listening.has_handshake = [this](const AddressPrefix& prefix) {
-    return m_handshakes.has(prefix, Clock::now());
-  };
-  return listening;
-}
-
-// A world may have this user's rights, and so those on the socket: it would be as many visitors as it likes.
-VisitorsListening Host::visitors() const {
-  VisitorsListening visitors;
-  visitors.path = m_options.visitors;
-  visitors.is_refused = [](pid_t process) { return isDescendant(process); };
-  return visitors;
-}
-
-Listing::Server Host::listedAs(const std::string& game) const {
-  const auto link = m_options.link_host.empty() ? std::nullopt : joinLink(true);
-  return {game, m_network.port(), fingerprint(), link ? link->text() : std::string()};
-}
-
-std::optional<Fingerprint> Host::fingerprint() const {
-  return m_identity ? std::optional(m_identity->fingerprint()) : std::nullopt;
-}
-
-std::string Host::joinArguments() const {
-  const std::string port = std::to_string(m_network.port());
-  const bool any = m_options.address == "::" || m_options.address == "0.0.0.0";
-  const std::string where = any ? "127.0.0.1:" + port : m_network.address();
-  return where + (m_identity ? " --fingerprint " + m_identity->fingerprint().text() : " --insecure");
-}
-
-std::optional<JoinLink> Host::joinLink(bool elsewhere) const {
-  if (!m_identity) return std::nullopt;
-  const bool any = m_options.address == "::" || m_options.address == "0.0.0.0";
-  const std::uint16_t port = m_network.port();
-  const auto where = elsewhere ? LinkHost::parse(m_options.link_host, port)
-                     : any     ? LinkHost::parse("127.0.0.1", port)
-                               : LinkHost::parse(m_network.address());
-  if (!where) return std::nullopt;
-  return JoinLink{*where, "", ShortKey::of(m_identity->fingerprint())};
 }
 
 // Answers go through what is destroyed here.
@@ -316,7 +257,7 @@ void Host::heedUpgrade() {
   const auto news = m_rooms.takeUpgrade();
   if (!news) return;
   const bool waits = m_rooms.isPrivate();
-  m_log(warningOf(*news + (waits ? "; it begins again when all have left" : "; it begins again")));
+  m_log(LogEvent::warning(*news + (waits ? "; it begins again when all have left" : "; it begins again")));
   Ending::Plan plan = m_ending.plan().value_or(Ending::Plan{.begins_again = true});
   if (waits) {
     plan.when_empty = true;
@@ -330,38 +271,6 @@ void Host::sayToAll(const std::string& text) {
   wire::ServerMessage message;
   message.mutable_chat()->set_text(text);
   m_sessions.forEachPlaying([&message](Session& session) { session.sendKept(message); });
-}
-
-// ---- options that change while it runs --------------------------------------------------------------------
-
-void Host::reload(Reloading done) {
-  if (!m_reload) return done(false, "this server cannot read its options again");
-  const bool began = m_reload->begin(m_options, [this, done](Reloaded reloaded) {
-    asio::post(m_io, [this, done, reloaded = std::make_shared<Reloaded>(std::move(reloaded))] {
-      adoptReloaded(std::move(*reloaded), done);
-    });
-  });
-  if (!began) done(false, "the options are being read already");
-}
-
-void Host::adoptReloaded(Reloaded reloaded, const Reloading& done) {
-  if (!reloaded.problem.empty()) return done(false, "the options stay as they were: " + reloaded.problem);
-  if (reloaded.options.password != m_options.password)
-    m_admission.changePassword(std::move(reloaded.password));
-  const OptionChanges changes = takeOver(reloaded.options, m_options);
-  makePlaces();
-  useIdentity(std::move(reloaded.identity));
-  done(true, "the options were read again: " + changes.text());
-}
-
-void Host::useIdentity(std::optional<ServerIdentity> identity) {
-  if (!identity) return;
-  if (identity->fingerprint() != m_identity->fingerprint()) {
-    m_log(warningOf("the key is another one: players who know the server are warned of it. It is " +
-                    identity->fingerprint().text()));
-  }
-  m_identity = std::move(identity);
-  m_network.setTls(m_identity->tls());
 }
 
 // On the watchdog's thread. The game may hold any lock of the process, that of the log too, so nothing is

@@ -359,7 +359,7 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
     book.check = std::make_unique<RepeatCheck>(
         std::move(again), [log = m_log, journal = book.journal](const std::string& sentence) {
           journal->addFacts({{kFactRepeatable, "no"}});
-          log({LogEvent::Level::kWarning, "warning: " + sentence});
+          log(LogEvent::warning(sentence));
         });
   }
   m_writer->add(book.journal);

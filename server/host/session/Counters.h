@@ -32,7 +32,7 @@ struct Counters {
   std::uint64_t second_streams = 0;      ///< beside the first, where datagrams do not pass
   std::uint64_t resumes_deferred = 0;    ///< came back more often than allowed: refused for now
   std::uint64_t seconds_deferred = 0;    ///< second streams more often than allowed: refused for now
-  std::uint64_t sent_on = 0;             ///< of those for whom there was no place: to another server
+  std::uint64_t sent_on = 0;             ///< refused_full or closing, with a link to another server
   std::uint64_t refused_elsewhere = 0;   ///< came back, but the session goes on in another process
   std::uint64_t unknown_tokens =
       0;  ///< of no session that is still there: a new player, or a guess, or no place for a second stream

@@ -88,8 +88,8 @@ class WorldPort {
   virtual std::vector<std::uint32_t> takeLeavers() = 0;
   /// The scores that the game added in the last tick, in that order.
   virtual std::vector<df::AddedScore> takeScores() = 0;
-  /// The players whom the game has sent to other rooms in the last tick. Nothing of it is checked but its
-  /// lengths.
+  /// What the game asked for in the last tick: players to be moved to other rooms. Only lengths are checked:
+  /// a player may be in another world, and a room may not exist.
   virtual std::vector<df::SentPlayer> takeSent() { return {}; }
   virtual bool isGameOver() const = 0;
   /// What this player sees, as the engine drew it in the last tick.

@@ -23,7 +23,7 @@ using Clock = bench::Bot::Clock;
 /// After which a service manager starts a server again.
 constexpr std::chrono::milliseconds kRestart{300};
 constexpr std::chrono::milliseconds kPlay{2'000};  ///< between two kills
-constexpr std::chrono::milliseconds kMostBack{60'000};
+constexpr std::chrono::milliseconds kReturnTimeout{60'000};
 constexpr int kJoiningAtOnce = 25;
 
 struct Result {
@@ -63,7 +63,7 @@ void kill(bench::Fleet& fleet, bench::Bots& bots, std::size_t server, Result& re
   const auto all_back = [&] {
     return std::all_of(there.begin(), there.end(), [](const auto* p) { return p->isBack(); });
   };
-  bots.serveUntil(all_back, kMostBack);
+  bots.serveUntil(all_back, kReturnTimeout);
   ++result.kills;
   result.players += static_cast<int>(there.size());
   for (bench::Bot* p_bot : there) {

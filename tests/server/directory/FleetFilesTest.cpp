@@ -16,13 +16,13 @@
 #include <thread>
 #include <vector>
 
-#include "RunningProgram.h"
 #include "host/fleet/Bus.h"
 #include "shared/fleet/Presence.h"
 #include "shared/fleet/SendOn.h"
 #include "shared/fleet/ServerId.h"
 #include "tests/loopback/GameProgram.h"
 #include "tests/server/host/fleet/NatsServer.h"
+#include "tests/support/RunningProgram.h"
 
 namespace naiad::test {
 namespace {

@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "RunningProgram.h"
 #include "host/fleet/Bus.h"
 #include "shared/net/stream/JoinLink.h"
 #include "tests/loopback/GameProgram.h"
@@ -21,6 +20,7 @@
 #include "tests/loopback/RawClient.h"
 #include "tests/loopback/TestClient.h"
 #include "tests/server/host/fleet/NatsServer.h"
+#include "tests/support/RunningProgram.h"
 
 namespace naiad::test {
 namespace {

@@ -1,81 +1,23 @@
 // dfweb as it is run: its command line, what it prints, and its end.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "FakeGame.h"
 #include "GatewayRun.h"
 #include "WebClient.h"
+#include "tests/support/RunningProgram.h"
 
 namespace naiad::test {
 namespace {
 
-/// dfweb with these words, and what it prints on stdout and stderr.
-class Dfweb {
- public:
-  explicit Dfweb(std::vector<std::string> words) {
-    words.insert(words.begin(), NAIAD_BINARY_DIR "/dfweb");
-    int ends[2];
-    if (pipe(ends) != 0) throw std::runtime_error("no pipe");
-    m_child = fork();
-    if (m_child == 0) {
-      std::vector<char*> pointers;
-      for (std::string& word : words) pointers.push_back(word.data());
-      pointers.push_back(nullptr);
-      dup2(ends[1], STDOUT_FILENO);
-      dup2(ends[1], STDERR_FILENO);
-      close(ends[0]);
-      execv(pointers[0], pointers.data());
-      _exit(127);
-    }
-    close(ends[1]);
-    m_output = ends[0];
-  }
-  ~Dfweb() {
-    if (m_child > 0) kill(m_child, SIGKILL);
-    finish();
-  }
-  Dfweb(const Dfweb&) = delete;
-  Dfweb& operator=(const Dfweb&) = delete;
-
-  /// Read until this was printed, or the end.
-  bool prints(const std::string& text) {
-    char bytes[512];
-    while (m_printed.find(text) == std::string::npos) {
-      const auto got = read(m_output, bytes, sizeof bytes);
-      if (got <= 0) return false;
-      m_printed.append(bytes, static_cast<std::size_t>(got));
-    }
-    return true;
-  }
-  void signal(int number) const { kill(m_child, number); }
-  /// Read to the end; the exit code.
-  int finish() {
-    if (m_child <= 0) return m_code;
-    prints(std::string("\0", 1));
-    close(m_output);
-    int status = 0;
-    waitpid(m_child, &status, 0);
-    m_child = 0;
-    return m_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  const std::string& printed() const { return m_printed; }
-
- private:
-  pid_t m_child = 0;
-  int m_output = -1;
-  int m_code = -1;
-  std::string m_printed;
-};
-
 class DfwebProgram : public testing::Test {
  protected:
   /// The exit code, and whether it said this.
-  static void expectRefusal(const std::vector<std::string>& words, int code, const std::string& text) {
-    Dfweb dfweb(words);
+  static void expectRefusal(std::vector<std::string> words, int code, const std::string& text) {
+    words.insert(words.begin(), "dfweb");
+    RunningProgram dfweb(words);
     EXPECT_EQ(dfweb.finish(), code) << text;
     EXPECT_NE(dfweb.printed().find(text), std::string::npos) << dfweb.printed();
   }
@@ -103,8 +45,8 @@ TEST_F(DfwebProgram, WhatIsWrongIsASentenceAndACode) {
 TEST_F(DfwebProgram, PrintsTheAddressForPlayersAndEndsInOrder) {
   FakeGame game(home.path("identity"), home.path("visitors"));
   const std::string real = "naiad://game.test#" + game.key().text();
-  Dfweb dfweb({real, "--visitors", home.path("visitors"), "--page", page, "--listen", "127.0.0.1:0",
-               "--port-file", home.path("port"), "--origin", "https://play.example"});
+  RunningProgram dfweb({"dfweb", real, "--visitors", home.path("visitors"), "--page", page, "--listen",
+                        "127.0.0.1:0", "--port-file", home.path("port"), "--origin", "https://play.example"});
   ASSERT_TRUE(dfweb.prints("leads browsers")) << dfweb.printed();
   std::uint16_t port = 0;
   std::ifstream(home.path("port")) >> port;
