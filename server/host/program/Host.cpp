@@ -18,7 +18,6 @@
 #include "host/program/Places.h"
 #include "host/program/StopSignals.h"
 #include "host/session/LookAlikes.h"
-#include "host/world/Descendants.h"
 #include "naiad.pb.h"
 #include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"

@@ -56,10 +56,12 @@ bool isName(std::string_view host) {
   return label > 0;
 }
 
+// Asio reads a C string, which ends at a zero byte, and takes a scope behind a %.
 bool isIPv6(std::string_view host) {
+  if (host.find_first_not_of("0123456789abcdefABCDEF:.") != std::string_view::npos) return false;
   std::error_code error;
-  const auto address = asio::ip::make_address_v6(std::string(host), error);
-  return !error && address.scope_id() == 0 && host.find('%') == std::string_view::npos;
+  asio::ip::make_address_v6(std::string(host), error);
+  return !error;
 }
 
 }  // namespace

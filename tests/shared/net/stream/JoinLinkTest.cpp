@@ -147,6 +147,12 @@ TEST(JoinLink, HostsThatAreNoneAreRefused) {
   }
 }
 
+// Its parts are used elsewhere, for texts that may hold any byte: addresses of pages, for one.
+TEST(LinkHostTest, AnAddressEndsAtItsBracketAndNotAtAZeroByte) {
+  EXPECT_TRUE(LinkHost::parse("[::1]", 1));
+  EXPECT_FALSE(LinkHost::parse(std::string_view("[::1\0]", 6), 1));
+}
+
 TEST(JoinLink, AnyBytesAreRefusedOrComeBackTheSame) {
   std::mt19937 random(11);
   const std::string letters = "naid:/#[]%2F.@?-0a" + kKey + std::string(1, '\0') + "\xff";
