@@ -44,10 +44,15 @@ struct Pipe {
     if (ends[0] >= 0) close(ends[0]);
     ends[0] = -1;
   }
-  /// From now on nothing goes in until it is read.
+  /// From now on nothing goes in until it is read, whatever the program has written into it already.
   void fill() const {
-    const std::string page(4096, '#');
-    ASSERT_EQ(write(ends[1], page.data(), page.size()), 4096);
+    const int end = open(("/proc/self/fd/" + std::to_string(ends[1])).c_str(),
+                         O_WRONLY | O_NONBLOCK | O_CLOEXEC);  // of its own: the program's end still blocks
+    ASSERT_GE(end, 0);
+    while (write(end, "#", 1) == 1) {
+    }
+    EXPECT_EQ(errno, EAGAIN);
+    close(end);
   }
   /// What is in it now.
   std::string read() const {
