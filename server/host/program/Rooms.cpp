@@ -245,8 +245,7 @@ void Rooms::checkWorlds() {
   if (!hasWorlds()) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
-    if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
-      m_on_sessions(*room, *sessions);
+    if (const auto sessions = room->port().takeSessions()) endRecovery(*room, *sessions);
     if (const auto warning = room->port().takeWarning()) {
       m_log({LogEvent::Level::kWarning, *warning});
       room->say("The game takes long over something: everything stands still.");
@@ -257,6 +256,12 @@ void Rooms::checkWorlds() {
   if (isNamed()) checkSleep();
   if (!isPrivate()) return;
   std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
+}
+
+// The players of a server that was killed may come back now, to a server whose rooms may be others.
+void Rooms::endRecovery(Room& room, const std::vector<KeptSession>& sessions) {
+  if (m_on_sessions) m_on_sessions(room, sessions);
+  if (isNamed()) passRooms(room);
 }
 
 void Rooms::countEnd(WorldEnd::Why why) {
