@@ -1,6 +1,7 @@
 // Clients that are sent to another server: what they do there, and what a server that lies cannot make them
 // do.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <chrono>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/lan/LanNetworks.h"
 #include "tests/loopback/BusyWorld.h"
+#include "tests/loopback/GameProgram.h"
 #include "tests/loopback/Home.h"
 #include "tests/loopback/RecordingServer.h"
 #include "tests/loopback/TestServer.h"
@@ -128,6 +130,57 @@ TEST_F(RedirectTest, TheServerThereIsNotPinned) {
   ASSERT_EQ(refusal(home.player("ann")), "");
   EXPECT_EQ(pins().find(server.fingerprint()->text()), std::string::npos) << "a stranger has named the key";
   EXPECT_NE(pins().find(liar.key().text()), std::string::npos);
+}
+
+TEST_F(RedirectTest, WhereTheServerHasBecomeFullTheFirstOneIsAskedForAnother) {
+  LyingServer full(context, home.identity("full"));
+  full.answer(wire::Refused::FULL, "Full.", "");
+  TestServer server(world(), home.server());
+  liar.sendTo(full.port(), full.key());
+  ClientSetup setup = home.player("ann");
+  setup.options.password = "xyzzy-secret";
+  TestClient client(context, liar.port(), setup);
+  ASSERT_TRUE(serve(client, [&] { return full.hellos() == 1; }));
+  liar.sendTo(server.port(), *server.fingerprint());
+  EXPECT_EQ(refusal(client), "");
+  EXPECT_EQ(liar.hellos(), 2u);
+  EXPECT_EQ(liar.hello().password(), "xyzzy-secret") << "as of any join there";
+  EXPECT_EQ(full.hello().password(), "");
+  EXPECT_TRUE(client.connection().isRedirected());
+  EXPECT_EQ(client.connection().address().port, server.port());
+}
+
+TEST_F(RedirectTest, TheFirstOneIsAskedForAnotherOnce) {
+  LyingServer full(context, home.identity("full"));
+  RecordingServer third(home.identity("third"));
+  full.answer(wire::Refused::FULL, "Full.",
+              LyingServer::linkTo("127.0.0.1", third.port(), third.fingerprint()));
+  liar.sendTo(full.port(), full.key());
+  EXPECT_EQ(refusal(home.player("ann")), "Full.");
+  EXPECT_EQ(liar.hellos(), 2u);
+  EXPECT_EQ(full.hellos(), 2u);
+  EXPECT_EQ(third.heard(), "") << "that a server names to which the client was sent";
+}
+
+TEST_F(RedirectTest, AfterTheEndOfTheServerTheFirstOneIsAskedForAnother) {
+  GameProgram killed("dfserver", {{"NAIAD_GAME", "hello"}, {"NAIAD_IDENTITY", home.identity("killed")}});
+  ASSERT_NE(killed.port(), 0) << killed.log();
+  const auto key =
+      ServerIdentity::loadOrMake(home.identity("killed"), std::chrono::system_clock::now()).fingerprint();
+  TestServer server(world(), home.server());
+  liar.sendTo(killed.port(), key);
+  TestClient client(context, liar.port(), home.player("ann"));
+  client.connection().askAgainAfter(std::chrono::milliseconds(100));
+  ASSERT_EQ(refusal(client), "");
+  const std::uint16_t before = client.connection().address().port;
+  liar.sendTo(server.port(), *server.fingerprint());
+  killed.signal(SIGKILL);
+  killed.wait();
+  EXPECT_TRUE(serve(client, [&] {
+    return client.joined() && client.connection().address().port == server.port();
+  })) << client.connection().sentence();
+  EXPECT_EQ(before, killed.port());
+  EXPECT_EQ(client.session().welcome().name, "ann");
 }
 
 TEST_F(RedirectTest, OneServerSendsOnAndTheNextDoesNot) {
