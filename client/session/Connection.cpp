@@ -225,7 +225,8 @@ bool Connection::followRedirect(const std::string& link) {
   StreamOpener::Next next = m_opener->follow(link);
   if (!next.opener) return false;
   m_opener->cancel();
-  m_other = std::make_unique<Place>(Place{std::move(m_opener), m_address, m_options.password, m_options.room});
+  m_other =
+      std::make_unique<Place>(Place{std::move(m_opener), m_address, m_options.password, m_options.room});
   m_opener = std::move(next.opener);
   m_address = std::move(next.address);
   m_redirected = true;
@@ -244,8 +245,8 @@ bool Connection::followRedirect(const std::string& link) {
   return true;
 }
 
-// The server to which the client was sent has no place, or is not there: the one that sent it may know another.
-// That is another join, so that it may be sent on again: once, for that one may lie.
+// The server to which the client was sent has no place, or is not there: the one that sent it may know
+// another. That is another join, so that it may be sent on again: once, for that one may lie.
 bool Connection::askFirstAgain() {
   if (!m_redirected || std::exchange(m_has_asked, true)) return false;
   swapServers();

@@ -58,7 +58,7 @@ StreamOpener::Next TcpStreamOpener::follow(const std::string& link) {
   opener->m_connector.restrict(is_allowed);
   opener->m_second_connector.restrict(is_allowed);
   std::random_device random;
-  std::uniform_int_distribution<int> wait(0, static_cast<int>(kMaxFollowWait.count()));
+  std::uniform_int_distribution<int> wait(0, static_cast<int>(m_trust.max_redirect_wait.count()));
   return {std::move(opener), address, std::chrono::milliseconds(wait(random))};
 }
 

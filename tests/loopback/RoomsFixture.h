@@ -30,14 +30,15 @@ struct Shown {
 
 class RoomsFixture : public testing::Test {
  protected:
-  /// Rooms of these names, with these settings behind the game. A room that names no game plays rooms/game.cpp.
+  /// Rooms of these names, with these settings behind the game. A room that names no game plays
+  /// rooms/game.cpp.
   void start(const std::vector<std::string>& rooms, std::vector<std::string> arguments = {},
              const std::map<std::string, std::string>& environment = {}) {
     for (const std::string& room : rooms) {
       const std::size_t comma = std::min(room.find(','), room.size());
       const bool has_game = room.find('=') < comma;
-      arguments.push_back("--room=" + (has_game ? room : room.substr(0, comma) + "=" + kRoomModule +
-                                                             room.substr(comma)));
+      arguments.push_back("--room=" +
+                          (has_game ? room : room.substr(0, comma) + "=" + kRoomModule + room.substr(comma)));
     }
     server = std::make_unique<GameProgram>("dfserver", environment, arguments);
     ASSERT_NE(server->port(), 0) << server->log();

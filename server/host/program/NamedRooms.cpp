@@ -54,7 +54,8 @@ void Rooms::openNamed() {
   for (const auto& room : m_rooms) {
     std::string problem;
     const bool begins = room == m_rooms.front() || room->plan()->goes_on;
-    if (begins && !wake(*room, problem)) m_log("the room " + room->plan()->name + " cannot begin: " + problem);
+    if (begins && !wake(*room, problem))
+      m_log("the room " + room->plan()->name + " cannot begin: " + problem);
   }
 }
 
@@ -103,7 +104,8 @@ void Rooms::leaveRoom(const Session& session) {
 // ---- what games know of rooms -----------------------------------------------------------------------------
 
 void Rooms::passRooms(Room& room) const {
-  if (room.port().recovering()) return;  // the inputs of then are in its journal; those of now come behind them
+  if (room.port().recovering())
+    return;  // the inputs of then are in its journal; those of now come behind them
   for (std::size_t i = 0; i < m_game_rooms.size(); ++i) {
     df::GameRoom known = m_game_rooms[i];
     known.is_this_one = m_rooms[i].get() == &room;

@@ -53,10 +53,10 @@ std::optional<RoomDoor::Refusal> RoomDoor::open(Room& room, const AddressPrefix&
         ""};
   }
   if (const auto percent = room.port().recovering()) {
-    return Refusal{Why::kForNow,
-                   "The server was down; " + named(room) + " is being restored: " + std::to_string(*percent) +
-                       " %.",
-                   ""};
+    return Refusal{
+        Why::kForNow,
+        "The server was down; " + named(room) + " is being restored: " + std::to_string(*percent) + " %.",
+        ""};
   }
   if (!room.isAsleep()) return std::nullopt;
   if (now < room.sleep().closed_until)

@@ -64,6 +64,17 @@ TEST_F(RedirectTest, AClientThatIsSentOnPlaysThere) {
       << "datagrams, too";
 }
 
+TEST_F(RedirectTest, CrowdsAreSpreadOverASecond) {
+  EXPECT_EQ(ServerTrust().max_redirect_wait, std::chrono::seconds(1));
+  ClientSetup setup = home.player("ann");
+  setup.trust.max_redirect_wait = std::chrono::hours(1);
+  liar.sendTo(liar.port(), liar.key());
+  TestClient client(context, liar.port(), setup);
+  ASSERT_TRUE(serve(client, [&] { return client.connection().isRedirected(); }));
+  EXPECT_EQ(client.connection().state(), State::kJoining);
+  EXPECT_EQ(liar.hellos(), 1u) << "it waits";
+}
+
 TEST_F(RedirectTest, AServerThatIsFullSendsOn) {
   TestServer roomy(world(), home.server("roomy"));
   liar.answer(wire::Refused::FULL, "The server is full.",

@@ -40,7 +40,7 @@ TEST_F(SidecarDutiesTest, SaysNothingBeforeTheServerIsReady) {
   play({});
   EXPECT_EQ(said(), (All{"POST /health", "POST /ready", "GET /gameserver", "PATCH /v1beta1/counters/players",
                          "PATCH /v1beta1/lists/players"}));
-  EXPECT_EQ(bodies[2], R"({"count":"0","capacity":"64"})");
+  EXPECT_EQ(bodies[3], R"({"count":"0","capacity":"64"})");
   EXPECT_EQ(bodies[4], R"({"capacity":"64","values":[]})");
   EXPECT_EQ(said(), All{});
 }
@@ -124,8 +124,7 @@ TEST_F(SidecarDutiesTest, WhatTheResourceDoesNotHaveIsNotAskedForWithoutEnd) {
 
 // An answer that is no facts: too long, cut, or of another program on that port.
 TEST_F(SidecarDutiesTest, FactsThatCannotBeReadAreAskedForAgainWhileTheRestGoesOn) {
-  const std::string server =
-      R"({"status":{"address":"192.0.2.7","ports":[{"port":7012}]}})";
+  const std::string server = R"({"status":{"address":"192.0.2.7","ports":[{"port":7012}]}})";
   for (const std::string& body :
        {"{" + std::string(GameServerFacts::kMaxBytes, ' ') + "}", server.substr(0, 30), std::string("[]")}) {
     const std::uint64_t failures = duties.counters().failures;

@@ -165,9 +165,10 @@ TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
   HostOptions options;
   EXPECT_EQ(parse({"--room", "a=hello", "--players", "private"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--room", "a=hello", "--on-game-over", "exit"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--truth", "/tmp/t"},
-                  options),
-            CommandLine::kUsageError);
+  EXPECT_EQ(
+      parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--truth", "/tmp/t"},
+            options),
+      CommandLine::kUsageError);
   EXPECT_EQ(parse({"--truth", "", "--journal", "/tmp"}, options), CommandLine::kRun);
 }
 
