@@ -116,9 +116,11 @@ bool Connection::isTimeToAskFirst(Time now) const {
 /// The last attempt was ended in its handshake, and not too many before it. The same for one to a server to
 /// which the client was sent: it was there a moment ago.
 bool Connection::isHungUpOn(Time now) {
-  if (!m_opener->wasHungUpOn() && !m_redirected) return false;
+  const bool was_there = m_redirected && !m_has_asked;
+  if (!m_opener->wasHungUpOn() && !was_there) return false;
   m_hung_up_at = std::min(m_hung_up_at, now);
-  return now - m_hung_up_at < kHungUpPatience;
+  return now - m_hung_up_at < (was_there ? std::min<Clock::duration>(kHungUpPatience, m_ask_again_after)
+                                         : Clock::duration(kHungUpPatience));
 }
 
 void Connection::retryLater(Time now) {

@@ -63,7 +63,7 @@ class Connection {
   /// Keep the session's token there, which must outlive the Connection, and go on with the session that is in
   /// it. Before start().
   void keepIn(TokenStore& tokens) { m_p_tokens = &tokens; }
-  /// Instead of kAskAgainAfter. Before start().
+  /// Instead of kAskAgainAfter, and of kHungUpPatience there. Before start().
   void askAgainAfter(std::chrono::milliseconds time) { m_ask_again_after = time; }
   void start();
   /// Time-outs, pings, the next attempt. Call about ten times a second, and after every event.
