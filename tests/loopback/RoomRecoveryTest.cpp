@@ -37,18 +37,18 @@ class RoomRecovery : public RoomsFixture {
   void kill() {
     server->signal(SIGKILL);
     server->wait();
+    m_before.clear();
     for (TestClient* p_client : clients) m_before.push_back(&p_client->session());
   }
   /// Those who played before are back in a session of the new server, and see something of their room.
   bool serveUntilBack() {
     return serve([&] {
-      return std::none_of(clients.begin(), clients.end(), [&](TestClient* p_client) {
-        return !p_client->joined() || isOfBefore(p_client->session()) || p_client->newestTick() == 0;
-      });
+      for (std::size_t i = 0; i < clients.size(); ++i) {
+        TestClient& client = *clients[i];
+        if (!client.joined() || &client.session() == m_before[i] || client.newestTick() == 0) return false;
+      }
+      return true;
     });
-  }
-  bool isOfBefore(const ClientSession& session) const {
-    return std::find(m_before.begin(), m_before.end(), &session) != m_before.end();
   }
   /// The server went on with the sessions of so many players.
   std::size_t returned() const {
@@ -77,7 +77,7 @@ class RoomRecovery : public RoomsFixture {
 
  private:
   std::uint16_t m_port = 0;
-  std::vector<const ClientSession*> m_before;
+  std::vector<const ClientSession*> m_before;  ///< of the clients, when the server was killed
 };
 
 TEST_F(RoomRecovery, EachPlayerIsBackInTheirRoomAsTheSamePlayer) {

@@ -1,4 +1,5 @@
-// The journals of a server's rooms: a folder for each below that of --journal, and one thread that writes them.
+// The journals of a server's rooms: a folder for each below that of --journal, and one thread that writes
+// them.
 #pragma once
 
 #include <cstdint>

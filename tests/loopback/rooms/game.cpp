@@ -19,7 +19,9 @@ namespace {
 volatile bool g_hangs = true;
 
 /// Which process draws it; where rounds are executed again, that is the same one.
-int process() { return getenv("ROOM_REPEATS") != NULL ? 1 : getpid(); }
+int process() {
+  return getenv("ROOM_REPEATS") != NULL ? 1 : getpid();
+}
 
 double cpuSeconds() {
   timespec spent;
