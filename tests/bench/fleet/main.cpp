@@ -27,7 +27,10 @@ constexpr std::chrono::milliseconds kRestart{300};
 constexpr std::chrono::milliseconds kPlay{2'000};  ///< between two kills
 constexpr std::chrono::milliseconds kReturnTimeout{60'000};
 constexpr int kJoiningAtOnce = 25;
-constexpr int kPlayersOfProcess = 250;  ///< more keep one thread from serving them in time
+/// Of players: more than 250 keep one thread from serving them in time.
+int processesFor(int players) {
+  return std::min(players, std::max(4, (players + 249) / 250));
+}
 
 struct Result {
   int kills = 0;
@@ -88,8 +91,7 @@ void print(const bench::FleetSetup& setup, const Result& result, std::chrono::se
 int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time) {
   bench::Fleet fleet(setup);
   std::fprintf(stderr, "naiad_fleet: %zu servers, logs in %s\n", fleet.size(), fleet.folder().c_str());
-  const int processes = (setup.bots + kPlayersOfProcess - 1) / kPlayersOfProcess;
-  bench::Crowd crowd(fleet.link(), fleet.folder(), setup.bots, processes);
+  bench::Crowd crowd(fleet.link(), fleet.folder(), setup.bots, processesFor(setup.bots));
   Result result;
   if (!crowd.joinAll(kJoiningAtOnce, 300s)) {
     std::printf("fleet bots=%d servers=%d joined=%d failed=1\n", setup.bots, setup.servers,

@@ -40,6 +40,7 @@ class Teller : public Object {
   int eventHandler(const Event* p_e) {
     if (p_e->getType() == STEP_EVENT) {
       m_ticks++;
+      if (m_dozes) usleep(50000);
       for (const double end = cpuSeconds() + 0.1; m_burns && cpuSeconds() < end;) {
       }
       return 1;
@@ -49,6 +50,7 @@ class Teller : public Object {
     if (p_k->getKeyboardAction() != KEY_PRESSED) return 1;
     m_keys++;
     if (p_k->getKey() == Keyboard::B) m_burns = true;
+    if (p_k->getKey() == Keyboard::S) m_dozes = true;
     if (p_k->getKey() == Keyboard::C) abort();
     while (p_k->getKey() == Keyboard::H && g_hangs) {
     }
@@ -65,6 +67,7 @@ class Teller : public Object {
   int m_ticks = 0;
   int m_keys = 0;
   bool m_burns = false;
+  bool m_dozes = false;
 };
 
 // A game that begins with a file of this name ends at once, again and again.
