@@ -9,51 +9,20 @@
 #include <string>
 #include <utility>
 
-#include "RoomsFixture.h"
+#include "LobbyFixture.h"
 
 namespace naiad::test {
 namespace {
 
-constexpr int kDoorColumn = 10;  ///< of the first door, in its middle
-constexpr int kDoorRow = 6;
-constexpr int kFirstRow = 2;  ///< where players appear
-constexpr int kRows = 24;
 constexpr std::chrono::milliseconds kMostToMove{300};
 
-class LobbyDoors : public RoomsFixture {
+class LobbyDoors : public LobbyFixture {
  protected:
-  using Place = std::pair<int, int>;
-
   static std::string named(TestClient& client) { return client.session().welcome().room; }
-  /// Of a player who stands in these rows; nothing if none does.
-  static std::optional<Place> walker(TestClient& client, int first, int last) {
-    const df::Canvas picture = client.session().replica().render(client.newestTick());
-    for (int y = first; y <= last; ++y) {
-      const std::size_t x = picture.rowText(y).find('@');
-      if (x != std::string::npos) return Place(static_cast<int>(x), y);
-    }
-    return std::nullopt;
-  }
   /// The player is in that room, and sees it: themselves, and the sign of the door back.
   static bool isIn(TestClient& client, const std::string& room, const std::string& other) {
     return client.joined() && named(client) == room && walker(client, kFirstRow, kFirstRow) &&
            row(client, kDoorRow - 2).find(other) != std::string::npos;
-  }
-  /// One step, of which the lobby takes one every second tick.
-  void step(TestClient& client, df::Keyboard::Key key) {
-    const auto before = walker(client, kFirstRow, kRows - 1);
-    ASSERT_TRUE(before);
-    press(client, key);
-    ASSERT_TRUE(serve([&] { return walker(client, kFirstRow, kRows - 1) != before; }));
-    const std::uint32_t moved = client.newestTick();
-    ASSERT_TRUE(serve([&] { return client.newestTick() >= moved + 4; }));
-  }
-  /// To where the next step leads into the door.
-  void walkToDoor(TestClient& client) {
-    while (!HasFatalFailure() && walker(client, kFirstRow, kDoorRow - 1)->first > kDoorColumn)
-      step(client, df::Keyboard::LEFTARROW);
-    while (!HasFatalFailure() && walker(client, kFirstRow, kDoorRow - 1)->second < kDoorRow - 1)
-      step(client, df::Keyboard::DOWNARROW);
   }
   /// From the step into the door until the other room is on the screen.
   std::optional<std::chrono::milliseconds> enterDoor(TestClient& client, const std::string& to,

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include "RoomsFixture.h"
+#include "LobbyFixture.h"
 #include "host/journal/DfrWriter.h"
 #include "host/journal/OpenRound.h"
 #include "host/program/Journals.h"
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RoomRecovery : public RoomsFixture {
+class RoomRecovery : public LobbyFixture {
  protected:
   /// The same server each time.
   void startJournaled() {
@@ -148,16 +148,10 @@ TEST_F(RoomRecovery, DoorsLeadToRoomsAfterwards) {
   ASSERT_TRUE(serveUntilBack()) << server->log();
   ASSERT_TRUE(serve(sees_door));
   EXPECT_EQ(returned(), 1u);
-  const auto hold = [&](df::Keyboard::Key key) {
-    ann->session().sendKey(key, df::KEY_DOWN, std::chrono::steady_clock::now());
-  };
-  ASSERT_TRUE(serve([&] {
-    if (ann->session().welcome().room == "one") return true;
-    const std::size_t x = row(*ann, 2).find('@');
-    const bool is_beside = x != std::string::npos && x > 10;
-    hold(is_beside ? df::Keyboard::LEFTARROW : df::Keyboard::DOWNARROW);
-    return false;
-  })) << server->log();
+  walkToDoor(*ann);
+  ASSERT_FALSE(HasFatalFailure()) << server->log();
+  press(*ann, df::Keyboard::DOWNARROW);
+  ASSERT_TRUE(serve([&] { return ann->session().welcome().room == "one"; })) << server->log();
   EXPECT_TRUE(serve([&] { return shown(*ann).process > 0; }));
 }
 
