@@ -153,7 +153,6 @@ WorldOrder RoundStage::order() const {
   order.seed = m_round.header().seed;
   order.repeatable = true;
   order.again = true;
-  order.traceable = true;
   order.start_nanos = m_round.header().start_nanos;
   order.frame_nanos = m_round.header().frame_nanos;
   return order;

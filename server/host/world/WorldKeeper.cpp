@@ -146,8 +146,6 @@ Sandbox sandboxOf(const WorldProgram& program, const WorldOrder& order) {
   std::vector<std::string> words = program.arguments;
   std::vector<std::string> entries = environmentOf(program, order);
   if (order.repeatable && support.addresses != 0) fixAddresses();
-  // Where Yama restricts it, a process is traced by its ancestors alone, and a debugger is none of them.
-  if (order.traceable) prctl(PR_SET_PTRACER, PR_SET_PTRACER_ANY);
   const std::vector<char*> arguments = pointersTo(words);
   const std::vector<char*> environment = pointersTo(entries);
   if (program.sandbox.on) {
