@@ -4,8 +4,8 @@
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
-#include <sys/pidfd.h>
 #include <sys/signalfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -79,6 +79,11 @@ pid_t startDebugger(pid_t world) {
   return error == 0 ? debugger : 0;
 }
 
+/// Readable when it has ended. glibc 2.36 has no C++ declaration of pidfd_open().
+int watchProcess(pid_t process) {
+  return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+}
+
 void waitForDebugger(pid_t debugger) {
   int status = 0;
   while (waitpid(debugger, &status, 0) < 0 && errno == EINTR) continue;
@@ -133,7 +138,7 @@ void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32
                             std::to_string(until) + " of the round.";
   out << which << " `continue` executes that tick.\n" << std::flush;
   if (const pid_t debugger = startDebugger(world); debugger > 0) {
-    const WaitedFor ended(pidfd_open(debugger, 0));
+    const WaitedFor ended(watchProcess(debugger));
     goOn(replay, ended.get(), out);
     return waitForDebugger(debugger);
   }
