@@ -24,6 +24,8 @@ namespace naiad {
 namespace {
 
 constexpr const char* kDebugger = "gdb";
+/// Or its first `continue` would report the signal that has stopped the world, and go no further.
+constexpr const char* kNoStop = "handle SIGSTOP nostop noprint nopass";
 
 /// A process that is not our child says nothing when it stops.
 constexpr std::chrono::seconds kStopPatience{10};
@@ -63,7 +65,7 @@ class WaitedFor {
 /// gdb, in this terminal. Ctrl-C is for it alone. 0: it is not there.
 pid_t startDebugger(pid_t world) {
   const std::string number = std::to_string(world);
-  const char* words[] = {kDebugger, "-q", "-p", number.c_str(), nullptr};
+  const char* words[] = {kDebugger, "-q", "-p", number.c_str(), "-ex", kNoStop, nullptr};
   for (const int one : {SIGINT, SIGQUIT}) signal(one, SIG_IGN);
   posix_spawnattr_t usual;
   posix_spawnattr_init(&usual);
@@ -142,8 +144,8 @@ void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32
     goOn(replay, ended.get(), out);
     return waitForDebugger(debugger);
   }
-  out << kDebugger << " is not there. In another terminal: " << kDebugger << " -p " << world
-      << " (or attach another debugger to it), then continue. Ctrl-C ends it here.\n"
+  out << kDebugger << " is not there. In another terminal: " << kDebugger << " -p " << world << " -ex '"
+      << kNoStop << "' (or attach another debugger to it), then continue. Ctrl-C ends it here.\n"
       << std::flush;
   const WaitedFor ended(watchSignals());
   goOn(replay, ended.get(), out);

@@ -94,7 +94,9 @@ TEST_F(DebugTest, TheLineOfASecondDeathStopsTheGameBeforeIt) {
             std::string::npos)
       << said;
   const std::string number = process.substr(0, process.find(','));
-  EXPECT_EQ(called().find("called: -q -p " + number + "\nState:\tT"), 0u) << called();
+  EXPECT_EQ(called().find("called: -q -p " + number + " -ex handle SIGSTOP nostop noprint nopass\nState:\tT"),
+            0u)
+      << called();
   const std::string end =
       "The world ended in tick " + std::to_string(deathTick(true)) + (test::kSanitized ? "" : ": SIGSEGV.");
   EXPECT_NE(said.find(end), std::string::npos) << said;
