@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::size_t kMaxPrinted = 4096;
 
+constexpr const char* kEnded = "ended";
+
 /// For a keeper's word of its world's end, which ends all that the world has started first.
 constexpr int kEndMillis = 2000;
 
@@ -63,7 +65,7 @@ bool ReplayWorld::wait(short events) {
 std::optional<int> ReplayWorld::takeEnd() {
   pollfd keeper{m_started.keeper, POLLIN, 0};
   KeeperEnd end;
-  if (m_failure.empty() || poll(&keeper, 1, kEndMillis) <= 0) return std::nullopt;
+  if (m_failure != kEnded || poll(&keeper, 1, kEndMillis) <= 0) return std::nullopt;
   if (recv(m_started.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
   return end.status;
 }
@@ -88,7 +90,7 @@ bool ReplayWorld::send(std::string_view bytes) {
     } else if (errno == EAGAIN) {
       if (!wait(POLLOUT)) return false;
     } else if (errno != EINTR) {
-      m_failure = "ended";
+      m_failure = kEnded;
       return false;
     }
   }
@@ -104,7 +106,7 @@ bool ReplayWorld::receive(char* p_to, std::size_t count) {
       continue;
     }
     if (got <= 0) {
-      m_failure = "ended";
+      m_failure = kEnded;
       return false;
     }
     p_to += got;

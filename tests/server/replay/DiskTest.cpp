@@ -33,8 +33,9 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kFrame{5};
 constexpr std::chrono::seconds kPatience{60};
 /// When a round begins the writer is woken; then it comes by itself.
-constexpr std::size_t kAskedSyncs = 3;
-constexpr std::size_t kSyncsOfARun = kAskedSyncs + 3;
+constexpr std::int64_t kWakeNanos = 1'500'000'000;
+/// A disk that takes longer than this is busy; a writer that waits longer than this sleeps.
+constexpr std::int64_t kSleepNanos = 100'000'000;
 
 std::string bytesOf(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -47,6 +48,16 @@ std::size_t countTurns(const fs::path& path) {
   std::size_t turns = 0;
   while (const auto record = reader.next()) turns += std::holds_alternative<WorldTurn>(*record) ? 1 : 0;
   return turns;
+}
+
+/// From the begin of a sync to the end of the next, where the writer slept in between: what may be lost.
+std::vector<std::int64_t> periodsOf(const std::vector<SyncNote>& notes) {
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 0; i + 1 < notes.size(); ++i) {
+    if (notes[i].began - notes[0].began > kWakeNanos && notes[i + 1].began - notes[i].ended > kSleepNanos)
+      periods.push_back(notes[i + 1].ended - notes[i].began);
+  }
+  return periods;
 }
 
 class DiskTest : public testing::Test {
@@ -65,6 +76,8 @@ class DiskTest : public testing::Test {
   }
 
   void start() {
+    const std::string known = bytesOf(folder / "port");  // a round goes on where its players look for it
+    const std::string port = "--port=" + std::to_string(std::atoi(known.c_str()));
     fs::remove(folder / "port");
     server = fork();
     if (server == 0) {
@@ -73,8 +86,8 @@ class DiskTest : public testing::Test {
       [[maybe_unused]] const bool err = freopen("out.txt", "a", stderr) != nullptr;
       setenv("LD_PRELOAD", NAIAD_BINARY_DIR "/../lib/test_disk.so", 1);
       setenv("DF_TEST_DISK", disk.c_str(), 1);
-      execl(NAIAD_BINARY_DIR "/dfserver", "dfserver", "--game=hello", "--insecure", "--port=0",
-            "--port-file=port", "--journal=rounds", "--control=control.sock", "--state=off",
+      execl(NAIAD_BINARY_DIR "/dfserver", "dfserver", "--game=hello", "--insecure", port.c_str(),
+            "--port-file=port", "--journal=rounds", "--control=control.sock", "--state=state",
             "--frame-time=5000", nullptr);
       _exit(127);
     }
@@ -134,6 +147,7 @@ TEST_F(DiskTest, ADiskThatStallsHoldsUpNoTick) {
   const bool is_long = std::getenv("NAIAD_LONG_TESTS") != nullptr;
   const std::chrono::milliseconds stall(is_long ? 10'000 : 1'500);
   const long late = status("late_ticks");
+  const std::size_t before_stall = countTurns(round());
   set("stall");
   ASSERT_TRUE(waitUntil([this] { return fs::exists(disk / "stalled"); }));
   ASSERT_TRUE(playTicks(stall / kFrame)) << "ticks wait for the disk";
@@ -143,8 +157,7 @@ TEST_F(DiskTest, ADiskThatStallsHoldsUpNoTick) {
   const std::size_t before = syncs().size();
   ASSERT_TRUE(waitUntil([&] { return syncs().size() > before + 1; }));
   EXPECT_EQ(log().find("not written down"), std::string::npos) << log();
-  const auto turns = static_cast<long>(countTurns(round()));
-  EXPECT_GE(turns, stall / kFrame) << "and all of them are in the file";
+  EXPECT_GT(countTurns(round()), before_stall) << "and they are in the file";
 }
 
 TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
@@ -153,8 +166,14 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
   std::size_t kept = 0;
   for (int cut = 0; cut < cuts; ++cut) {
     start();
-    const std::size_t before = syncs().size();
-    ASSERT_TRUE(waitUntil([&] { return syncs().size() >= before + kSyncsOfARun; })) << log();
+    const std::size_t before = cut == 0 ? 0 : syncs().size() + 2;
+    ASSERT_TRUE(waitUntil([&] {
+      return cut == 0 ? periodsOf(syncs()).size() >= 2 : syncs().size() >= before;
+    })) << log();
+    if (cut == 0) {
+      const std::vector<std::int64_t> periods = periodsOf(syncs());
+      EXPECT_LE(*std::min_element(periods.begin(), periods.end()), 1'000'000'000);
+    }
     ASSERT_TRUE(playTicks(static_cast<long>(random() % 200)));
     end(SIGKILL);
     timespec now{};
@@ -172,13 +191,6 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
     // What came after the last sync began, and late ticks that were made up for.
     EXPECT_LE(static_cast<double>(all - kept) * 0.005, seconds + 0.25) << cut;
   }
-  // Whatever the machine does meanwhile, the writer means to be in time: by the syncs that were not
-  // asked for.
-  const std::vector<SyncNote> notes = syncs();
-  std::int64_t shortest = INT64_MAX;
-  for (std::size_t i = kAskedSyncs; i + 1 < kSyncsOfARun; ++i)
-    shortest = std::min(shortest, notes[i + 1].ended - notes[i].began);
-  EXPECT_LE(shortest, 1'000'000'000) << "what may be lost: from the begin of a sync to the end of the next";
   start();
   EXPECT_TRUE(isLogged("the round goes on after ")) << log();
   const std::size_t at = log().find("the round goes on after ", log().rfind("executed again: "));
