@@ -22,9 +22,9 @@ using naiad::physics::Vec2;
 // it, direct solutions are too dear for a tick, and sweeps without them are no better than sub-steps.
 constexpr int kMaxBodies = 640;
 
-// Groups whose masses differ by a larger factor go to the SubstepWorld as well: the rounding error of the
-// forces on the lightest body would throw it, so a direct solution has no digits left.
-constexpr double kMaxMassRatio = 1e6;
+// Groups whose masses differ by a larger factor go to the SubstepWorld as well: a direct solution has no
+// digits left for the lightest body.
+constexpr double kMaxMassRatio = 1e13;
 
 // In sizes of a body: a path that is so long is looked at as a line, not as a square around its start.
 constexpr double kLongPath = 8;

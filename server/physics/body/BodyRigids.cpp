@@ -104,8 +104,10 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
     body.inverse_mass = row.inverse_mass;
     body.inverse_inertia = unit_inertias[i] > 0 ? row.inverse_mass / unit_inertias[i] : 0;
     if (!state.is_kinematic)
-      body.acceleration =
-          state.is_bent && !state.is_sprung ? state.flown.velocity - row.velocity : state.push;
+      body.acceleration = state.is_bent && !state.is_sprung && state.turn_rate == 0
+                              ? state.flown.velocity - row.velocity
+                              : state.push;
+    body.turn_rate = state.turn_rate;
     body.torque = form.torque;
     body.friction = row.friction;
     body.restitution = row.restitution;

@@ -128,6 +128,26 @@ void RigidWorld::kick(bool is_second) {
   }
 }
 
+// At once for the sub-step, where it begins: there the velocity is what contacts and joints allow.
+void RigidWorld::pushByMagnets(double h) {
+  m_magnets.clear();
+  for (const int id : m_active) {
+    const double rate = m_bodies[at(id)].turn_rate;
+    RigidState& s = m_states[at(id)];
+    if (rate == 0 || s.inverse_mass == 0) continue;
+    const MagnetTurn turn = magnetTurn(s.velocity, rate, h);
+    s.velocity += turn.push;
+    m_magnets.emplace_back(id, turn);
+  }
+}
+
+void RigidWorld::undoMagnetWork() {
+  for (const auto& [id, turn] : m_magnets) {
+    Vec2& velocity = m_states[at(id)].velocity;
+    velocity = withoutWork(turn, velocity);
+  }
+}
+
 // As often as each group needs, and no oftener because of another one.
 void RigidWorld::pushOut(double h) {
   const auto sweepsOf = [&](int id) {
@@ -256,10 +276,12 @@ void RigidWorld::substep(double h) {
   for (ContactConstraint& c : m_constraints) {
     if (physics::beginSubstep(c, m_states, h)) is_deep = true;
   }
+  pushByMagnets(h);
   kick(false);
   m_joints.beginFirstHalf(m_states, h);
   for (ContactConstraint& c : m_constraints) beginFirstHalf(c, m_states);
   solve(false);
+  undoMagnetWork();
   if (is_deep) pushOut(h);
   drift(h);
   m_joints.refresh(m_states);
