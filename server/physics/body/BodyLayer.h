@@ -50,7 +50,7 @@ class BodyLayer : public Layer {
   using State = naiad::physics::BodyState;
 
   void beginBody(World& world, naiad::physics::BodyTable::Index index);
-  void holdInMagnet(State& state);
+  naiad::physics::Vec2 pushBesideMagnet(State& state);
   void fly(State& state);
   naiad::physics::Vec2 swingOf(const State& state) const;
   void measure(const WorldStore& store, State& state);

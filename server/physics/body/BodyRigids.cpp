@@ -302,8 +302,9 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
     const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));
     const bool is_touched =
         state.is_touched || state.is_joined || state.must_be_held || contacts.isTouching(state.key);
-    const bool is_alone =
-        m_solver == BodySolver::kSubstep ? !m_world.isStopped(proxy.id) : length(pushed) <= rounding;
+    const bool is_alone = m_solver == BodySolver::kSubstep
+                              ? !m_world.isStopped(proxy.id)
+                              : state.turn_rate != 0 || length(pushed) <= rounding;
     if (!is_touched && is_alone) {  // exactly as on its own
       state.place = state.start + state.flown.displacement;
       state.velocity = state.flown.velocity;

@@ -30,10 +30,12 @@ inline MagnetTurn magnetTurn(Vec2 velocity, double rate, double h) {
 }
 
 /// What the body's velocity became by that push and all others, as fast as these alone make it. A free body
-/// has turned by exactly the angle.
-inline Vec2 withoutWork(const MagnetTurn& turn, Vec2 after) {
-  const double square = lengthSquared(after);
-  const double wanted = square - dot(turn.push, turn.before + after);
+/// has turned by exactly the angle. `least`: a part of the push; if less is left of it, something holds the
+/// body, and `after` differs by what undoes the errors of joints.
+inline Vec2 withoutWork(const MagnetTurn& turn, Vec2 after, double least) {
+  const double square = lengthSquared(after), work = dot(turn.push, turn.before + after);
+  if (std::fabs(work) <= least * lengthSquared(turn.push)) return after;
+  const double wanted = square - work;
   return square > 0 && wanted > 0 ? std::sqrt(wanted / square) * after : after;
 }
 

@@ -232,8 +232,7 @@ class RigidWorld final : public RigidStepper {
   void solve(bool is_second);
   void pushOut(double h);
   void kick(bool is_second);
-  void pushByMagnets(double h);
-  void undoMagnetWork();
+  void turnByMagnets(double h);
   void drift(double h);
   void move(int id, double h);
   void finishStep(double dt);

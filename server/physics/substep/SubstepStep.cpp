@@ -20,7 +20,8 @@ constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched
 constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
 constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
 
-constexpr double kAhead = 1;  // … and further in the direction in which it goes, at most
+constexpr double kHeld = 0.05;  // of a magnet's push on a body, that is left
+constexpr double kAhead = 1;    // … and further in the direction in which it goes, at most
 constexpr double kTicksAhead = 2;
 constexpr double kNeverKept = kAhead + 2 * kBoundsSlack;  // at that speed it leaves its bounds in any case
 
@@ -134,7 +135,7 @@ void SubstepWorld::undoMagnetWork() {
     const SubstepBody& b = m_bodies[at(magnet.id)];
     SubstepState& s = m_states[at(b.state)];
     const Vec2 velocity = b.body.velocity + Vec2{s.vx, s.vy};
-    const Vec2 right = withoutWork(magnet.turn, velocity);
+    const Vec2 right = withoutWork(magnet.turn, velocity, kHeld);
     const Vec2 gained = right - b.body.velocity;
     s.vx = static_cast<float>(gained.x), s.vy = static_cast<float>(gained.y);
     magnet.given += right - velocity;
