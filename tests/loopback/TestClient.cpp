@@ -18,6 +18,10 @@ TestClient::TestClient(asio::io_context& context, std::uint16_t port, const Clie
     : m_connection(context, ServerAddress{"127.0.0.1", port}, setup.options, setup.rejoin, setup.trust) {
   m_connection.onSession([this](ClientSession& session) {
     session.onBeforeSnapshot([this, &session](std::uint32_t tick) { record(session, tick); });
+    m_whole = WholePicture();
+    session.onAfterSnapshot([this, &session](const SnapshotHeader& header, const AckWindow& acks) {
+      m_whole.addSnapshot(header, acks, session.welcome().continuation.value_or(Continuation()).snapshot);
+    });
   });
   if (!setup.sessions.empty()) {
     m_file.emplace(setup.sessions, m_connection.address().canonicalText(), setup.options.name,
@@ -32,6 +36,10 @@ TestClient::TestClient(asio::io_context& context, std::uint16_t port, const Clie
 void TestClient::record(ClientSession& session, std::uint32_t tick) {
   const std::uint32_t known = session.clock().newestTick();
   if (!m_keep || known == 0 || tick == known) return;
+  if (m_only_whole) {
+    if (m_whole.isWhole()) m_pictures[m_whole.tick()] = session.replica().render(m_whole.tick());
+    return;
+  }
   for (std::uint32_t t = std::max(m_recorded + 1, known); t < tick; ++t)
     m_pictures[t] = session.replica().render(t);
   m_recorded = tick - 1;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
 #include "client/trust/SessionFile.h"
 #include "tests/support/Sanitizers.h"
@@ -47,6 +48,9 @@ class TestClient {
   void keepPictures(bool keep) { m_keep = keep; }
   /// Keep those from now on only.
   void forgetPictures() { m_pictures.clear(); }
+  /// Where snapshots may be lost on the way: from now on, keep only pictures of a snapshot's own tick that
+  /// show all which was sent until then.
+  void keepWholePictures() { m_only_whole = true; }
 
  private:
   void record(ClientSession& session, std::uint32_t tick);
@@ -54,8 +58,10 @@ class TestClient {
   std::optional<SessionFile> m_file;
   Connection m_connection;
   std::map<std::uint32_t, df::Canvas> m_pictures;
+  WholePicture m_whole;
   std::uint32_t m_recorded = 0;  ///< newest tick recorded
   bool m_keep = true;
+  bool m_only_whole = false;
 };
 
 /// The player presses this key now.
