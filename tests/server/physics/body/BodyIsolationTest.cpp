@@ -73,6 +73,7 @@ struct Others {
   double speed = kNobody;
   Added added = Added::kAfter;
   bool is_removed = false;
+  bool takes_off = false;
 };
 
 Pair addOthers(const Others& others) {
@@ -107,6 +108,9 @@ std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_f
       WM.markForDelete(far.p_a);
       WM.markForDelete(far.p_b);
     }
+    if (others.takes_off && tick == 30) {
+      for (Body* p_body : {far.p_a, far.p_b}) p_body->setVelocity(Vector(0, -1));
+    }
     world.update();
     take(bits, pair.p_a);
     take(bits, pair.p_b);
@@ -134,6 +138,13 @@ TEST_P(BodyIsolation, APairIsTheSameAloneAndBesideAnother) {
       }
     }
   }
+}
+
+// Then another solver moves it, and all jointed bodies are collected again.
+TEST_P(BodyIsolation, APairInTheAirIsTheSameWhenAnotherTakesOff) {
+  const auto [link, other_link] = GetParam();
+  const Others others = {other_link, kOnTheFloor, Added::kBefore, false, true};
+  EXPECT_EQ(bitsOf(link, {}, true), bitsOf(link, others, true));
 }
 
 INSTANTIATE_TEST_SUITE_P(Joints, BodyIsolation,
