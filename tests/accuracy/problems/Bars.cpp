@@ -1,4 +1,5 @@
 // 21: bars that turn, shot at long walls.
+#include <algorithm>
 #include <array>
 #include <cmath>
 

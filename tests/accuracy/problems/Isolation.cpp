@@ -1,6 +1,7 @@
 // 23: a group alone, and beside another one.
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "Path.h"
 

@@ -1,4 +1,5 @@
 // 22: what a magnet turns, free and held.
+#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -100,6 +100,7 @@ std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_f
   if (has_others && others.added == Added::kBefore) far = addOthers(others);
   BodyScene::wall(Vector(0, 5), Vector(shares_floor ? 5000 : 100, 5));
   const Pair pair = pairAt(Vector(0, shares_floor ? -30 : -2), link);
+  if (shares_floor) pair.p_b->setSpin(0.03);  // so that its joint pulls while it falls
   if (has_others && others.added == Added::kAfter) far = addOthers(others);
   std::vector<std::uint64_t> bits;
   for (int tick = 0; tick < kTicks; ++tick) {
