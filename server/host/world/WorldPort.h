@@ -45,6 +45,12 @@ struct RoundName {
   std::string file;  ///< the name of its recording
 };
 
+/// Another world goes on in place of one that died.
+struct TakeOver {
+  bool by_copy = false;     ///< else it has executed the whole round
+  std::uint32_t ticks = 0;  ///< that it has executed again
+};
+
 class WorldPort {
  public:
   virtual ~WorldPort() = default;
@@ -105,6 +111,22 @@ class WorldPort {
   virtual std::optional<std::vector<KeptSession>> takeSessions() { return std::nullopt; }
   /// A player's session is so from now on: for journals, before its client can know.
   virtual void noteSession(const KeptSession& /*session*/) {}
+
+  // Copies of a world's process: one goes on where the world has crashed or hangs.
+
+  /// Keep a copy of the world as it is after the next tick, beside the one before. False: there will be none.
+  virtual bool keepCopy() { return false; }
+  /// Why there are none any more, once, in words.
+  virtual std::optional<std::string> takeCopyProblem() { return std::nullopt; }
+  /// After end(): the newest copy is the world from now on, as it was after its tick: return how many it has
+  /// had since the world's first. What it prints is dropped until endRepetition(). Nothing: there is none left,
+  /// and no process of the world is.
+  virtual std::optional<std::uint32_t> goOnWithCopy() { return std::nullopt; }
+  virtual void endRepetition() {}
+  /// It is not to go on: it ends as one that crashed.
+  virtual void giveUp(const std::string& /*why*/) {}
+  /// Once, when another world has taken over from one that died.
+  virtual std::optional<TakeOver> takeTakeOver() { return std::nullopt; }
 
   // Its end.
 

@@ -1,93 +1,15 @@
 // A world that crashes or hangs by a key: another one takes over, without that key.
 #include <gtest/gtest.h>
 
-#include <asio/io_context.hpp>
-#include <chrono>
-#include <filesystem>
-#include <sstream>
 #include <string>
-#include <vector>
 
-#include "host/program/GameModule.h"
-#include "host/program/Journals.h"
-#include "host/program/Worlds.h"
-#include "server/replay/RecordedRound.h"
-#include "server/replay/Verify.h"
-#include "tests/server/replay/Recorder.h"
+#include "tests/server/replay/FrailRound.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad {
 namespace {
 
-namespace fs = std::filesystem;
-using Input = df::InputQueue::Input;
-
-class TakeOverTest : public testing::Test {
- protected:
-  void SetUp() override {
-    module = (recorder.folder() / "unsteady_frail.so").string();
-    fs::copy_file(NAIAD_BINARY_DIR "/../lib/unsteady.so", module);
-    HostOptions options;
-    options.journal = rounds.string();
-    options.seed = 1;
-    options.hang_time = 0.2;
-    launcher = launchAgain(options, module, NAIAD_BINARY_DIR "/dfserver", recorder.folder().string(), {});
-    journals = Journals::open(options, GameModule::nameOf(module), module,
-                              [this](const LogEvent& event) { log += event.text + "\n"; });
-    world = startWorlds(
-        launcher, [](const LogEvent& /*event*/) {}, journals)(home);
-    world->setOnTick([this] { ++ended; });
-    serveUntil([this] { return world->isReady(); });
-    world->addInput({.kind = df::InputQueue::kJoin, .player = 1, .name = "Ann", .color = df::RED});
-  }
-  template <class Done>
-  void serveUntil(Done done) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!done() && !world->end() && std::chrono::steady_clock::now() < end) {
-      home.restart();
-      home.run_one_for(std::chrono::milliseconds(10));
-      world->checkProcess(1);
-    }
-  }
-  void press(df::Keyboard::Key key) {
-    Input input{.kind = df::InputQueue::kKey, .player = 1};
-    input.key = key;
-    input.key_action = df::KEY_PRESSED;
-    world->addInput(input);
-  }
-  /// True: it has ended.
-  bool tick() {
-    const int before = ended;
-    world->tick(true, false);
-    serveUntil([&] { return ended > before && world->isReady(); });
-    return ended == before + 1;
-  }
-  void play(int ticks) {
-    for (int i = 0; i < ticks; ++i) {
-      if (i % 3 == 0) press(df::Keyboard::A);
-      ASSERT_TRUE(tick()) << log;
-    }
-  }
-  std::string verify() {
-    world.reset();
-    journals.reset();  // writes what is left
-    const fs::path file = fs::directory_iterator(rounds)->path();
-    const RecordedRound round(file);
-    const RoundStage stage(round, module);
-    std::ostringstream out;
-    return verifyRound(round, stage, out) ? "" : out.str();
-  }
-
-  Recorder recorder;
-  fs::path rounds = recorder.folder() / "rounds";
-  std::string module;
-  std::string log;
-  asio::io_context home;
-  std::shared_ptr<const WorldLauncher> launcher;
-  std::shared_ptr<Journals> journals;
-  std::unique_ptr<WorldPort> world;
-  int ended = 0;
-};
+using TakeOverTest = FrailRound;
 
 TEST_F(TakeOverTest, AWorldThatCrashesByAKeyGoesOnWithoutIt) {
   play(100);
