@@ -58,8 +58,8 @@ std::vector<pid_t> processesOf(pid_t server, const std::string& name) {
   return found;
 }
 
-/// The one that executes its program; 0: there is none. A second world of the round, which is held against it,
-/// begins later.
+/// The one that executes its program; 0: there is none. A second world of the round, which is held against
+/// it, begins later.
 pid_t worldOf(pid_t server) {
   const std::vector<pid_t> worlds = processesOf(server, "exe");  // of /proc/self/exe
   return worlds.empty() ? 0 : worlds.front();

@@ -53,8 +53,8 @@ class RecoveryRun {
   /// The two halves of kill().
   void killServer();
   KillResult comeBack();
-  /// Kill the world's process alone, and wait until its players see more of it, and go on to. How long it took to
-  /// the last one's next picture; nothing: they do not go on, or not in the sessions that they had.
+  /// Kill the world's process alone, and wait until its players see more of it, and go on to. How long it
+  /// took to the last one's next picture; nothing: they do not go on, or not in the sessions that they had.
   std::optional<std::chrono::milliseconds> killWorld();
   /// The copies of the world's process that wait.
   std::vector<pid_t> copies() const;

@@ -74,7 +74,8 @@ TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {
   std::string said;
   EXPECT_TRUE(run.verify(said)) << said << run.log();
   if (!kSanitizedThreads)
-    EXPECT_NE(run.log().find("the game goes on: a copy of its world executed"), std::string::npos) << run.log();
+    EXPECT_NE(run.log().find("the game goes on: a copy of its world executed"), std::string::npos)
+        << run.log();
 }
 
 TEST(Recovery, ARoundThatKillsServersIsGivenUp) {

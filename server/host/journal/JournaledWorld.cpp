@@ -310,10 +310,10 @@ bool JournaledWorld::beginAgain(bool drops_keys) {
     m_death.reset();
     return false;
   }
-  return goOnWithCopy() || goOnWithAnother();
+  return repeatByCopy() || repeatByAnother();
 }
 
-bool JournaledWorld::goOnWithCopy() {
+bool JournaledWorld::repeatByCopy() {
   m_by_copy = false;
   const auto ticks = m_world->goOnWithCopy();
   if (!ticks) return false;
@@ -327,12 +327,13 @@ bool JournaledWorld::goOnWithCopy() {
   return true;
 }
 
-bool JournaledWorld::goOnWithAnother() {
+bool JournaledWorld::repeatByAnother() {
   try {
     AnotherWorld another = m_book.new_world();
     m_world = std::move(another.world);
     m_on_repeated = std::move(another.on_repeated);
   } catch (const std::system_error&) {
+    if (isTakingOver()) m_book.recovery.reset();  // that of a copy
     m_death.reset();
     return false;
   }
@@ -368,7 +369,8 @@ void JournaledWorld::endTakeOver(const std::string& problem) {
   m_world->endRepetition();
   m_taken_over = done;
   if (m_book.on_taken_over)
-    m_book.on_taken_over(done, std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_death_at));
+    m_book.on_taken_over(done,
+                         std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_death_at));
   m_death.reset();
   m_view = {};
   const bool ends_tick = std::exchange(m_in_tick, false);

@@ -2,8 +2,8 @@
 //
 // With a RoundRecovery it first gets the turns of a round whose server was killed, as fast as it answers, and
 // is ready when it has had all of them. In the same way another world takes over from one that crashed or
-// hangs, without the keys and clicks of the tick in which that happened: a copy of it that is a few seconds old, or
-// one that begins again.
+// hangs, without the keys and clicks of the tick in which that happened: a copy of it that is a few seconds
+// old, or one that begins again.
 #pragma once
 
 #include <chrono>
@@ -127,8 +127,8 @@ class JournaledWorld : public WorldPort {
   bool isTakingOver() const { return m_death.has_value(); }
   bool takeOver(const WorldEnd& end);
   bool beginAgain(bool drops_keys);
-  bool goOnWithCopy();
-  bool goOnWithAnother();
+  bool repeatByCopy();
+  bool repeatByAnother();
   void prepareToRepeat(std::size_t records);
   void orderCopy();
   void say(const std::string& sentence_of_copies) const;

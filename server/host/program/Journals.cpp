@@ -339,7 +339,8 @@ JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProc
   };
   book.on_taken_over = [log = m_log](const TakeOver& done, std::chrono::milliseconds time) {
     log(std::string("the game goes on: ") + (done.by_copy ? "a copy of its world" : "another world") +
-        " executed " + std::to_string(done.ticks) + " ticks again, in " + std::to_string(time.count()) + " ms");
+        " executed " + std::to_string(done.ticks) + " ticks again, in " + std::to_string(time.count()) +
+        " ms");
   };
   book.on_copies = [log = m_log](const std::string& sentence) { log(sentence); };
   return book;

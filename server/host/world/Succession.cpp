@@ -19,8 +19,7 @@ namespace {
 /// Alive or not: it has not been waited for.
 bool isChild(pid_t process) {
   siginfo_t facts{};
-  return process > 0 &&
-         waitid(P_PID, static_cast<id_t>(process), &facts, WEXITED | WNOHANG | WNOWAIT) == 0;
+  return process > 0 && waitid(P_PID, static_cast<id_t>(process), &facts, WEXITED | WNOHANG | WNOWAIT) == 0;
 }
 
 /// Has it ended? Others that have are waited for.

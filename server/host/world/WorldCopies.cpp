@@ -92,8 +92,7 @@ bool WorldCopies::hear(WorldCopy& copy) {
   std::int32_t process = 0;
   const bool is_known = copy.process > 0;
   char* p_to = reinterpret_cast<char*>(&process);
-  const ssize_t got =
-      ::recv(copy.socket, p_to, sizeof process, MSG_DONTWAIT | (is_known ? MSG_PEEK : 0));
+  const ssize_t got = ::recv(copy.socket, p_to, sizeof process, MSG_DONTWAIT | (is_known ? MSG_PEEK : 0));
   if (got < 0) return errno == EAGAIN || errno == EINTR;
   if (is_known || got != sizeof process || process <= 0) return false;  // it speaks out of turn
   copy.process = process;

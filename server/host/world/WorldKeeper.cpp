@@ -220,7 +220,8 @@ void waitForEnd(pid_t world, int front, int children) {
   if (got == sizeof error) begun.error = error;
   close(failure[0]);
   const bool wanted = sendTo(descriptors.keeper, begun);
-  if (world > 0 && wanted && begun.error == 0 && order.copies) followWorlds(world, descriptors.keeper, children);
+  if (world > 0 && wanted && begun.error == 0 && order.copies)
+    followWorlds(world, descriptors.keeper, children);
   if (world > 0 && wanted && begun.error == 0) waitForEnd(world, descriptors.keeper, children);
   if (world > 0) sendTo(descriptors.keeper, KeeperEnd{endDescendants(world)});
   _exit(0);

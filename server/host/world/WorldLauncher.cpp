@@ -133,10 +133,10 @@ StartedWorld WorldLauncher::start(const WorldOrder& order) const {
   Descriptor page = sharedPage(kWhat);
   std::pair<Descriptor, Descriptor> copies;
   if (order.copies) copies = socketPair(SOCK_SEQPACKET, kWhat);
-  require(sendOrder(m_socket, order,
-                    {their_world.get(), their_keeper.get(), their_output.get(), page.get(),
-                     copies.second.get()}),
-          kWhat);
+  require(
+      sendOrder(m_socket, order,
+                {their_world.get(), their_keeper.get(), their_output.get(), page.get(), copies.second.get()}),
+      kWhat);
   StartedWorld started{our_world.release(), our_keeper.release(), our_output.release(), page.release()};
   started.copies = copies.first.release();
   started.hang_time = m_hang_time;

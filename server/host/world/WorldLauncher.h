@@ -8,8 +8,9 @@
 // socket, by whatever death, the keeper ends all of them, also those that left the world's process group.
 // Worlds cannot signal or trace any of the three.
 //
-// On the keeper's socket the front reads KeeperStart, then one KeeperEnd. Of a world that makes copies of itself
-// (WorldOrder::copies) there are more: one for each world that ends, until there is none to go on with.
+// On the keeper's socket the front reads KeeperStart, then one KeeperEnd. Of a world that makes copies of
+// itself (WorldOrder::copies) there are more: one for each world that ends, until there is none to go on
+// with.
 #pragma once
 
 #include <sys/types.h>

@@ -112,22 +112,6 @@ class WorldPort {
   /// A player's session is so from now on: for journals, before its client can know.
   virtual void noteSession(const KeptSession& /*session*/) {}
 
-  // Copies of a world's process: one goes on where the world has crashed or hangs.
-
-  /// Keep a copy of the world as it is after the next tick, beside the one before. False: there will be none.
-  virtual bool keepCopy() { return false; }
-  /// Why there are none any more, once, in words.
-  virtual std::optional<std::string> takeCopyProblem() { return std::nullopt; }
-  /// After end(): the newest copy is the world from now on, as it was after its tick: return how many it has
-  /// had since the world's first. What it prints is dropped until endRepetition(). Nothing: there is none left,
-  /// and no process of the world is.
-  virtual std::optional<std::uint32_t> goOnWithCopy() { return std::nullopt; }
-  virtual void endRepetition() {}
-  /// It is not to go on: it ends as one that crashed.
-  virtual void giveUp(const std::string& /*why*/) {}
-  /// Once, when another world has taken over from one that died.
-  virtual std::optional<TakeOver> takeTakeOver() { return std::nullopt; }
-
   // Its end.
 
   /// Look after the world's process. Once in each tick of the host, ready or not; `tick` is its number.
@@ -138,6 +122,22 @@ class WorldPort {
   virtual std::optional<std::string> takeWarning() { return std::nullopt; }
   /// Let it come to its end; end() says when it has.
   virtual void close() {}
+
+  // Copies of a world's process: one goes on where the world has crashed or hangs.
+
+  /// Keep a copy of the world as it is after the next tick, beside the one before. False: there will be none.
+  virtual bool keepCopy() { return false; }
+  /// Why there are none any more, once, in words.
+  virtual std::optional<std::string> takeCopyProblem() { return std::nullopt; }
+  /// After end(): the newest copy is the world from now on, as it was after its tick: return how many it has
+  /// had since the world's first. What it prints is dropped until endRepetition(). Nothing: there is none
+  /// left, and no process of the world is.
+  virtual std::optional<std::uint32_t> goOnWithCopy() { return std::nullopt; }
+  virtual void endRepetition() {}
+  /// It is not to go on: it ends as one that crashed.
+  virtual void giveUp(const std::string& /*why*/) {}
+  /// Once, when another world has taken over from one that died.
+  virtual std::optional<TakeOver> takeTakeOver() { return std::nullopt; }
 
  protected:
   void reportTick() {

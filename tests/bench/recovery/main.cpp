@@ -126,8 +126,8 @@ int worlds(const std::string& game, int count, std::uint64_t seed) {
     return 1;
   }
   const int went_on = static_cast<int>(took.size());
-  std::printf("take_over game=%s kills=%d went_on=%d p50_ms=%ld p99_ms=%ld verified=%d\n", game.c_str(), count,
-              went_on, percentile(took, 50), percentile(took, 99), verified ? 1 : 0);
+  std::printf("take_over game=%s kills=%d went_on=%d p50_ms=%ld p99_ms=%ld verified=%d\n", game.c_str(),
+              count, went_on, percentile(took, 50), percentile(took, 99), verified ? 1 : 0);
   return went_on == count && verified ? 0 : 1;
 }
 
@@ -158,6 +158,7 @@ int main(int argc, char** argv) {
     return worlds(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
   if (words.size() == 3 && words[0] == "journal")
     return journal(words[1], static_cast<std::uint32_t>(std::atoi(words[2].c_str())));
-  std::fprintf(stderr, "usage: naiad_recovery kills GAME COUNT SEED | worlds GAME COUNT SEED | journal GAME TICKS\n");
+  std::fprintf(stderr,
+               "usage: naiad_recovery kills GAME COUNT SEED | worlds GAME COUNT SEED | journal GAME TICKS\n");
   return 2;
 }

@@ -1,4 +1,5 @@
-// Copies of a world's process (WorldCopies.h): one goes on where the world crashes or hangs, and none is left.
+// Copies of a world's process (WorldCopies.h): one goes on where the world crashes or hangs, and none is
+// left.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -35,7 +36,7 @@ bool isAlive(pid_t process) {
 /// Rounds of less than RepeatCheck::kDelay ticks have one world; in longer ones another is held against it.
 class CopiesTest : public FrailRound {
  protected:
-  explicit CopiesTest(const std::string& players = "shared") : FrailRound(players) {}
+  explicit CopiesTest(const std::string& whose = "together") : FrailRound(whose) {}
   void SetUp() override {
 #if defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "its runtime has a thread";
@@ -68,7 +69,9 @@ class CopiesTest : public FrailRound {
     }
     return all;
   }
-  bool logs(const std::string& text) const { return log.find(text) != std::string::npos; }
+  bool logs(const std::string& text) const {
+    return log.find(text) != std::string::npos;
+  }
   std::size_t count(const std::string& text) const {
     std::size_t found = 0;
     for (std::size_t at = 0; (at = log.find(text, at)) != std::string::npos; ++at) ++found;

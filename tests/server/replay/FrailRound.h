@@ -1,5 +1,5 @@
-// A journaled world of a game that crashes or hangs by a key (unsteady/game.cpp, as unsteady_frail.so), with real
-// processes and without a network.
+// A journaled world of a game that crashes or hangs by a key (unsteady/game.cpp, as unsteady_frail.so), with
+// real processes and without a network.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ namespace naiad {
 
 class FrailRound : public testing::Test {
  protected:
-  /// `players`: as dfserver's option.
-  explicit FrailRound(std::string players = "shared") : players(std::move(players)) {}
+  /// `whose`: the worlds are, as of dfserver's option --players.
+  explicit FrailRound(std::string whose = "together") : players(std::move(whose)) {}
   void SetUp() override {
     module = (recorder.folder() / "unsteady_frail.so").string();
     std::filesystem::copy_file(NAIAD_BINARY_DIR "/../lib/unsteady.so", module);

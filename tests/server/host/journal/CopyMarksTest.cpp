@@ -1,7 +1,7 @@
 // When copies of a world are due, and where in the round they are.
-#include "host/journal/CopyMarks.h"
-
 #include <gtest/gtest.h>
+
+#include "host/journal/CopyMarks.h"
 
 namespace naiad {
 namespace {
