@@ -36,7 +36,6 @@ bool isAlive(pid_t process) {
 /// Rounds of less than RepeatCheck::kDelay ticks have one world; in longer ones another is held against it.
 class CopiesTest : public FrailRound {
  protected:
-  explicit CopiesTest(const std::string& whose = "together") : FrailRound(whose) {}
   void SetUp() override {
 #if defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "its runtime has a thread";
@@ -234,14 +233,13 @@ TEST_F(CopiesTest, ARoundGoesOnWhenTheGroupOfTheWorldIsKilled) {
   EXPECT_EQ(verify(), "");
 }
 
-class SinglePlayersTest : public CopiesTest {
- protected:
-  SinglePlayersTest() : CopiesTest("private") {}
-};
-
-TEST_F(SinglePlayersTest, OfTheirWorldsThereAreNone) {
-  play(60);
-  EXPECT_TRUE(find(kCopy).empty());
+TEST_F(CopiesTest, OfWorldsOfSinglePlayersThereAreNone) {
+  HostOptions options;
+  options.journal = (recorder.folder() / "others").string();
+  const auto order = [&] { return Journals::open(options, "frail", module, [](const LogEvent&) {})->makeOrder(); };
+  EXPECT_TRUE(order().copies);
+  options.players = "private";
+  EXPECT_FALSE(order().copies);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A journaled world of a game that crashes or hangs by a key (unsteady/game.cpp, as unsteady_frail.so), with
-// real processes and without a network.
+// A round of a game that crashes by the key Q and hangs by H, as dfserver plays it: a world in a process of
+// its own, journaled.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <utility>
 
 #include "host/program/GameModule.h"
 #include "host/program/Journals.h"
@@ -23,15 +22,12 @@ namespace naiad {
 
 class FrailRound : public testing::Test {
  protected:
-  /// `whose`: the worlds are, as of dfserver's option --players.
-  explicit FrailRound(std::string whose = "together") : players(std::move(whose)) {}
   void SetUp() override {
     module = (recorder.folder() / "unsteady_frail.so").string();
     std::filesystem::copy_file(NAIAD_BINARY_DIR "/../lib/unsteady.so", module);
     HostOptions options;
     options.journal = rounds.string();
     options.seed = 1;
-    options.players = players;
     options.hang_time = 0.2;
     launcher = launchAgain(options, module, NAIAD_BINARY_DIR "/dfserver", recorder.folder().string(), {});
     journals = Journals::open(options, GameModule::nameOf(module), module,
@@ -70,10 +66,14 @@ class FrailRound : public testing::Test {
       ASSERT_TRUE(tick()) << log;
     }
   }
-  std::string verify() {
+  /// End the round. Return its file.
+  std::filesystem::path endRound() {
     world.reset();
     journals.reset();  // writes what is left
-    const std::filesystem::path file = std::filesystem::directory_iterator(rounds)->path();
+    return std::filesystem::directory_iterator(rounds)->path();
+  }
+  std::string verify() {
+    const std::filesystem::path file = endRound();
     const RecordedRound round(file);
     const RoundStage stage(round, module);
     std::ostringstream out;
@@ -81,7 +81,6 @@ class FrailRound : public testing::Test {
   }
 
   Recorder recorder;
-  const std::string players;
   std::filesystem::path rounds = recorder.folder() / "rounds";
   std::string module;
   std::string log;

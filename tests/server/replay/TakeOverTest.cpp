@@ -1,6 +1,7 @@
 // A world that crashes or hangs by a key: another one takes over, without that key.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 
 #include "tests/server/replay/FrailRound.h"
@@ -9,7 +10,7 @@
 namespace naiad {
 namespace {
 
-using TakeOverTest = FrailRound;
+class TakeOverTest : public FrailRound {};
 
 TEST_F(TakeOverTest, AWorldThatCrashesByAKeyGoesOnWithoutIt) {
   play(100);
