@@ -4,20 +4,20 @@
 
 namespace naiad {
 
-bool CopyMarks::isDue(std::uint32_t ticks) const {
-  if (m_asked == 0) return ticks >= kFirst;
-  const std::uint32_t since = ticks - m_asked;
-  return since >= kTicks || (since >= kFewestTicks && m_time >= kLongest);
+static_assert(CopyMarks::kTicks % CopyMarks::kFewestTicks == 0, "that is when it is looked");
+
+bool CopyMarks::isDueNow(std::uint32_t ticks, std::chrono::nanoseconds cpu_time) {
+  const bool is_due = m_asked == 0 || ticks - m_asked >= kTicks || cpu_time - m_cpu_time >= kLongest;
+  if (is_due) m_cpu_time = cpu_time;
+  return is_due;
 }
 
 void CopyMarks::beginTick(std::uint32_t ticks, std::vector<std::uint32_t> players, bool is_kept) {
   m_asked = ticks;
-  m_time = {};
   if (is_kept) m_under_way = CopyMark{ticks, std::move(players), 0};
 }
 
-bool CopyMarks::endTick(std::size_t records, std::chrono::nanoseconds time) {
-  m_time += time;
+bool CopyMarks::endTick(std::size_t records) {
   if (!m_under_way) return false;
   m_under_way->records = records;
   m_marks.push_back(*std::exchange(m_under_way, std::nullopt));

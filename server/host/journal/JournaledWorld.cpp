@@ -96,7 +96,6 @@ void JournaledWorld::tick(bool watched, bool truth) {
   m_world->setChecked(m_turn.checked);
   truth = m_turn.wants_truth;
   m_sent = std::exchange(m_turn, WorldTurn());
-  m_tick_began = Clock::now();
   m_world->tick(watched, truth);
   m_world->setPictured(m_pictured);
 }
@@ -134,7 +133,7 @@ void JournaledWorld::storeResult() {
   if (const std::uint32_t player = std::exchange(m_recorded, 0); player != 0)
     m_writer.write(RecordedPicture{player, m_world->renderPlayer(player)}, m_record);
   store();
-  if (m_copies.endTick(m_history.size(), Clock::now() - m_tick_began)) m_writer.repeatFlags();
+  if (m_copies.endTick(m_history.size())) m_writer.repeatFlags();
 }
 
 void JournaledWorld::store() {
@@ -389,7 +388,7 @@ void JournaledWorld::endTakeOver(const std::string& problem) {
 // ---- copies -----------------------------------------------------------------------------------------------
 
 void JournaledWorld::orderCopy() {
-  if (!m_book.new_world || !m_copies.isDue(m_ticks)) return;
+  if (!m_book.new_world || !m_copies.isDue(m_ticks, [this] { return m_world->cpuTime(); })) return;
   m_copies.beginTick(m_ticks, m_players, m_world->keepCopy());
   if (const auto problem = m_world->takeCopyProblem())
     say("of this game's world no copies are kept: " + *problem);

@@ -168,7 +168,6 @@ class JournaledWorld : public WorldPort {
 
   // Of copies.
   CopyMarks m_copies;
-  Clock::time_point m_tick_began;
   bool m_by_copy = false;  ///< the world that has the turns again is one
 };
 

@@ -4,6 +4,7 @@
 // process of its own (WorldProcess.h), which answers later, and may crash or hang.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -129,6 +130,8 @@ class WorldPort {
   virtual bool keepCopy() { return false; }
   /// Why there are none any more, once, in words.
   virtual std::optional<std::string> takeCopyProblem() { return std::nullopt; }
+  /// That its process has taken, of all processors; 0: unknown.
+  virtual std::chrono::nanoseconds cpuTime() const { return {}; }
   /// After end(): the newest copy is the world from now on, as it was after its tick: return how many it has
   /// had since the world's first. What it prints is dropped until endRepetition(). Nothing: there is none
   /// left, and no process of the world is.

@@ -336,6 +336,11 @@ bool WorldProcess::keepCopy() {
   return m_copies_now;
 }
 
+std::chrono::nanoseconds WorldProcess::cpuTime() const {
+  const auto look = lookAtProcess(m_process);
+  return look ? look->cpu : std::chrono::nanoseconds(0);
+}
+
 std::optional<std::string> WorldProcess::takeCopyProblem() {
   return m_copies.takeProblem();
 }

@@ -76,6 +76,7 @@ class WorldProcess : public WorldPort {
   std::optional<std::string> takeWarning() override { return std::exchange(m_warning, std::nullopt); }
   void close() override;
   bool keepCopy() override;
+  std::chrono::nanoseconds cpuTime() const override;
   std::optional<std::string> takeCopyProblem() override;
   std::optional<std::uint32_t> goOnWithCopy() override;
   void endRepetition() override;
