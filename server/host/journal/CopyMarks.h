@@ -23,8 +23,8 @@ class CopyMarks {
   static constexpr std::uint32_t kTicks = 300;
   /// Of the first one, by which most games have begun: until then a new world is as quick.
   static constexpr std::uint32_t kFirst = 30;
-  /// Where ticks take long, so that the ticks since the newest copy are executed again in little time: then it is
-  /// looked every so many ticks, and due when they have taken so much of a processor.
+  /// Where ticks take long, so that the ticks since the newest copy are executed again in little time: then
+  /// it is looked every so many ticks, and due when they have taken so much of a processor.
   static constexpr std::uint32_t kFewestTicks = 60;
   static constexpr std::chrono::milliseconds kLongest{100};
 
@@ -48,9 +48,9 @@ class CopyMarks {
 
   static constexpr std::size_t kMost = 8;  ///< more than a world keeps copies
 
-  std::deque<CopyMark> m_marks;         ///< newest last
-  std::optional<CopyMark> m_under_way;  ///< of the tick that has begun
-  std::uint32_t m_asked = 0;            ///< in which tick; 0: never
+  std::deque<CopyMark> m_marks;            ///< newest last
+  std::optional<CopyMark> m_under_way;     ///< of the tick that has begun
+  std::uint32_t m_asked = 0;               ///< in which tick; 0: never
   std::chrono::nanoseconds m_cpu_time{0};  ///< then
 };
 

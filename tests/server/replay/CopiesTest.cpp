@@ -236,7 +236,9 @@ TEST_F(CopiesTest, ARoundGoesOnWhenTheGroupOfTheWorldIsKilled) {
 TEST_F(CopiesTest, OfWorldsOfSinglePlayersThereAreNone) {
   HostOptions options;
   options.journal = (recorder.folder() / "others").string();
-  const auto order = [&] { return Journals::open(options, "frail", module, [](const LogEvent&) {})->makeOrder(); };
+  const auto order = [&] {
+    return Journals::open(options, "frail", module, [](const LogEvent&) {})->makeOrder();
+  };
   EXPECT_TRUE(order().copies);
   options.players = "private";
   EXPECT_FALSE(order().copies);
