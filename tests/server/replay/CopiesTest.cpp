@@ -10,7 +10,9 @@
 #include <thread>
 #include <vector>
 
+#include "host/journal/CopyMarks.h"
 #include "host/world/Descendants.h"
+#include "host/world/WorldCopies.h"
 #include "tests/server/replay/FrailRound.h"
 #include "tests/support/Sanitizers.h"
 
