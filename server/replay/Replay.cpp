@@ -39,7 +39,7 @@ bool Replay::nextTurn() {
   m_turn = std::get<WorldTurn>(std::move(*m_next));
   readAhead();
   if (m_next && std::holds_alternative<InputsDropped>(*m_next)) {
-    dropKeys(m_turn);
+    if (m_tick + 1 != m_kept_tick) dropKeys(m_turn);
     readAhead();
   }
   return true;

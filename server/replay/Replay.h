@@ -20,6 +20,10 @@ class Replay {
   /// the answer is not the recorded one, and only the state is compared. False: there are no more, or the
   /// world has ended.
   bool step(bool pictures = false);
+  /// Does the file have a turn behind those that were executed?
+  bool hasNextTurn() const { return m_next && std::holds_alternative<WorldTurn>(*m_next); }
+  /// In this tick the world gets the keys and clicks that were left out later, because it died by them.
+  void keepDroppedKeys(std::uint32_t tick) { m_kept_tick = tick; }
   /// Ticks executed so far.
   std::uint32_t tick() const { return m_tick; }
 
@@ -43,6 +47,7 @@ class Replay {
   const std::vector<std::string>& otherFiles() const { return m_other_files; }
   /// Does it have the addresses that it had?
   bool hasFixedAddresses() const { return m_world.ready()->fixed_addresses; }
+  ReplayWorld& world() { return m_world; }
   DfrEnd end() const { return m_reader->end(); }
   const std::string& why() const { return m_reader->why(); }
 
@@ -58,6 +63,7 @@ class Replay {
   ReplayWorld m_world;
   std::optional<TurnRecord> m_next;  ///< read ahead
   std::uint32_t m_tick = 0;
+  std::uint32_t m_kept_tick = 0;  ///< 0: none
   WorldTurn m_turn;
   std::vector<WorldPicture> m_pictures;
   std::optional<RecordedPicture> m_recorded;

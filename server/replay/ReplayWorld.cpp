@@ -15,11 +15,20 @@ namespace {
 
 constexpr std::size_t kMaxPrinted = 4096;
 
+constexpr const char* kEnded = "ended";
+
+/// For a keeper's word of its world's end, which ends all that the world has started first.
+constexpr int kEndMillis = 2000;
+
 }  // namespace
 
 ReplayWorld::ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order)
     : m_started(launcher.start(order)) {
   if (receiveFrame()) m_ready = readReady(m_answer);
+  // The keeper has sent it before the world's program was executed.
+  KeeperStart begun;
+  if (m_ready && recv(m_started.keeper, &begun, sizeof begun, MSG_WAITALL) == sizeof begun)
+    m_process = begun.process;
   if (!m_ready && m_failure.empty()) m_failure = "sent what no world sends";
 }
 
@@ -41,16 +50,24 @@ std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {
 bool ReplayWorld::wait(short events) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (true) {
-    pollfd either[2] = {{m_started.socket, events, 0}, {m_started.output, POLLIN, 0}};
+    pollfd any[3] = {{m_started.socket, events, 0}, {m_started.output, POLLIN, 0}, {m_also, POLLIN, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
-    if (left.count() <= 0) {
-      m_failure = "did not answer any more";
-      return false;
-    }
-    if (poll(either, m_started.output >= 0 ? 2 : 1, static_cast<int>(left.count())) < 0) continue;
-    if (either[1].revents != 0) readOutput();
-    if (either[0].revents != 0) return true;
+    if (m_also < 0 && left.count() <= 0) break;
+    if (poll(any, 3, m_also < 0 ? static_cast<int>(left.count()) : -1) < 0) continue;
+    if (any[1].revents != 0) readOutput();
+    if (any[0].revents != 0) return true;
+    if (any[2].revents != 0) break;
   }
+  m_failure = "did not answer any more";
+  return false;
+}
+
+std::optional<int> ReplayWorld::takeEnd() {
+  pollfd keeper{m_started.keeper, POLLIN, 0};
+  KeeperEnd end;
+  if (m_failure != kEnded || poll(&keeper, 1, kEndMillis) <= 0) return std::nullopt;
+  if (recv(m_started.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
+  return end.status;
 }
 
 void ReplayWorld::readOutput() {
@@ -73,7 +90,7 @@ bool ReplayWorld::send(std::string_view bytes) {
     } else if (errno == EAGAIN) {
       if (!wait(POLLOUT)) return false;
     } else if (errno != EINTR) {
-      m_failure = "ended";
+      m_failure = kEnded;
       return false;
     }
   }
@@ -89,7 +106,7 @@ bool ReplayWorld::receive(char* p_to, std::size_t count) {
       continue;
     }
     if (got <= 0) {
-      m_failure = "ended";
+      m_failure = kEnded;
       return false;
     }
     p_to += got;

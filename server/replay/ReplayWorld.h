@@ -32,6 +32,13 @@ class ReplayWorld {
   std::optional<std::string_view> step(const WorldTurn& turn);
   /// "did not answer any more"; empty while it answers.
   const std::string& failure() const { return m_failure; }
+  /// The number of its process; -1: it was never one.
+  int process() const { return m_process; }
+  /// From now on wait for answers for as long as it takes, or until this descriptor is readable; then the
+  /// world does not answer any more.
+  void waitAlsoFor(int descriptor) { m_also = descriptor; }
+  /// After a failure: how its process ended, as of waitpid(); nothing: it has not.
+  std::optional<int> takeEnd();
   /// What it printed last.
   const std::string& printed() const { return m_printed; }
 
@@ -43,6 +50,8 @@ class ReplayWorld {
   void readOutput();
 
   StartedWorld m_started;
+  int m_process = -1;
+  int m_also = -1;
   std::optional<WorldReady> m_ready;
   std::string m_frame;
   std::string m_answer;

@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 
+#include "server/replay/DebugRound.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/RoundPlayer.h"
 #include "server/replay/Verify.h"
@@ -29,6 +30,8 @@ struct ReplayOptions {
   bool verify = false;
   bool inputs = false;
   int text = 0;
+  int until = 0;
+  bool debug = false;
   int player = 0;
 };
 
@@ -47,6 +50,14 @@ std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
        .help = "Print what is on the screen after this tick",
        .range = naiad::OptionRange{1, 2e9},
        .type = "TICK"},
+      {.name = "--until",
+       .target = &replay.until,
+       .help = "With --debug: stop before this tick",
+       .range = naiad::OptionRange{1, 2e9},
+       .type = "TICK"},
+      {.name = "--debug",
+       .target = &replay.debug,
+       .help = "Attach gdb to the game before the tick of --until, with the addresses and clock that it had"},
       {.name = "--player",
        .target = &replay.player,
        .help = "With whose eyes: a number, as --inputs has them (default: the first there is)",
@@ -63,6 +74,8 @@ int fail(ExitCode code, const std::string& sentence) {
 }
 
 int run(const ReplayOptions& replay) {
+  if (replay.debug != (replay.until > 0))
+    return fail(kUsage, "--debug and --until TICK go together: --until says where the game stops.");
   const naiad::RecordedRound round(replay.file);
   if (replay.inputs) {
     naiad::printInputs(round, std::cout);
@@ -71,6 +84,10 @@ int run(const ReplayOptions& replay) {
   const naiad::RoundStage stage(round, replay.game);
   const auto player = static_cast<std::uint32_t>(replay.player);
   if (replay.verify) return naiad::verifyRound(round, stage, std::cout) ? kOk : kDiffers;
+  if (replay.debug) {
+    naiad::debugRound(round, stage, static_cast<std::uint32_t>(replay.until), std::cout);
+    return kOk;
+  }
   if (replay.text > 0) {
     const bool there =
         naiad::printPicture(round, stage, static_cast<std::uint32_t>(replay.text), player, std::cout);

@@ -8,6 +8,13 @@
 
 namespace naiad {
 
+namespace {
+
+/// Of kBetween, for the sync itself: what comes after one has begun is safe when the next has ended.
+constexpr std::chrono::milliseconds kForSync{100};
+
+}  // namespace
+
 struct JournalWriter::Shared {
   std::mutex mutex;
   std::condition_variable wanted;
@@ -22,8 +29,10 @@ struct JournalWriter::Shared {
 
 void JournalWriter::Shared::run() {
   std::unique_lock lock(mutex);
+  auto began = std::chrono::steady_clock::now();
   while (true) {
-    wanted.wait_for(lock, kBetween, [this] { return ends || asked > served; });
+    wanted.wait_until(lock, began + kBetween - kForSync, [this] { return ends || asked > served; });
+    began = std::chrono::steady_clock::now();
     const bool last = ends;
     const std::uint64_t serving = asked;
     const std::vector<std::shared_ptr<Journal>> now = journals;

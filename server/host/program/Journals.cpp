@@ -20,6 +20,7 @@
 #include "host/auth/Seed.h"
 #include "host/journal/DfrWriter.h"
 #include "host/journal/Salvage.h"
+#include "host/program/DebugCommand.h"
 #include "host/program/TickClock.h"
 #include "host/program/WorldSandbox.h"
 #include "host/world/BuildId.h"
@@ -62,6 +63,14 @@ std::string hexNumber(std::uint64_t number) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
   return text;
+}
+
+/// dfreplay executes modules alone.
+std::string describeLastDeath(const std::string& path, std::uint32_t tick, const std::string& game,
+                              const std::string& module) {
+  if (module.empty())
+    return " again; the round is kept in " + path + ", where it is tick " + std::to_string(tick);
+  return " again; the round is kept; to see where: " + debugCommand(path, tick, game, module);
 }
 
 DfrFacts factsOfStart(const WorldProcess& world) {
@@ -174,6 +183,7 @@ std::shared_ptr<Journals> Journals::open(const HostOptions& options, const std::
 Journals::Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log)
     : m_folder(fs::absolute(options.journal).string()),
       m_game(std::move(game)),
+      m_module(module),
       m_seed(options.seed),
       m_frame_nanos(static_cast<std::uint64_t>(
           std::chrono::nanoseconds(TickLength::fromMicros(options.frame_micros).times(1)).count())),
@@ -329,12 +339,12 @@ JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProc
     log({LogEvent::Level::kError,
          "the round is not written down any more, and goes on: " + problem + " (" + path + ")"});
   };
-  book.on_death = [log = m_log, path](const WorldEnd& end, std::uint32_t tick, bool goes_on) {
+  book.on_death = [log = m_log, path, game = m_game, module = m_module](const WorldEnd& end,
+                                                                        std::uint32_t tick, bool goes_on) {
     log({LogEvent::Level::kError,
          "the game " + end.text + (end.when.empty() ? "" : " " + end.when) +
              (goes_on ? "; another world takes over, without the keys and clicks of that tick"
-                      : " again; the round is kept in " + path + ", where it is tick " +
-                            std::to_string(tick) + " (dfreplay)")});
+                      : describeLastDeath(path, tick, game, module))});
     for (const std::string& line : end.last_lines) log("the game's log: " + line);
   };
   book.on_taken_over = [log = m_log](const TakeOver& done, std::chrono::milliseconds time) {

@@ -47,6 +47,7 @@ class Journals {
 
   const std::string m_folder;
   const std::string m_game;
+  const std::string m_module;  ///< path; empty: a game that is a program
   const std::int64_t m_seed;
   const std::uint64_t m_frame_nanos;
   const std::size_t m_ring;

@@ -52,7 +52,7 @@ TEST_F(TakeOverTest, ASecondDeathAtTheSamePlaceEndsTheRound) {
   EXPECT_FALSE(tick());
   ASSERT_TRUE(world->end());
   EXPECT_EQ(world->end()->why, WorldEnd::kCrashed);
-  EXPECT_NE(log.find(" again; the round is kept in "), std::string::npos) << log;
+  EXPECT_NE(log.find(" again; the round is kept; to see where: dfreplay "), std::string::npos) << log;
   EXPECT_EQ(verify(), "");
 }
 

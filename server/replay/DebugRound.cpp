@@ -1,0 +1,154 @@
+#include "server/replay/DebugRound.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/signalfd.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <string>
+#include <system_error>
+
+#include "server/replay/Replay.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr const char* kDebugger = "gdb";
+/// Or its first `continue` would report the signal that has stopped the world, and go no further.
+constexpr const char* kNoStop = "handle SIGSTOP nostop noprint nopass";
+
+/// A process that is not our child says nothing when it stops.
+constexpr std::chrono::seconds kStopPatience{10};
+
+/// The letter of its state in /proc; 0: it has ended. The name before it may have any characters.
+char stateOf(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t name_end = text.rfind(')');
+  return name_end != std::string::npos && name_end + 2 < text.size() ? text[name_end + 2] : '\0';
+}
+
+void stopWorld(pid_t world) {
+  if (world <= 0 || kill(world, SIGSTOP) != 0) throw RoundError("The world cannot be stopped.");
+  const auto end = std::chrono::steady_clock::now() + kStopPatience;
+  while (stateOf(world) != 'T') {
+    if (std::chrono::steady_clock::now() >= end) throw RoundError("The world does not stop.");
+    poll(nullptr, 0, 1);
+  }
+}
+
+/// A descriptor that is closed at the end of its block.
+class WaitedFor {
+ public:
+  explicit WaitedFor(int number) : m_number(number) {
+    if (number < 0) throw std::system_error(errno, std::generic_category(), "waiting for the debugger");
+  }
+  ~WaitedFor() { close(m_number); }
+  WaitedFor(const WaitedFor&) = delete;
+  WaitedFor& operator=(const WaitedFor&) = delete;
+  int get() const { return m_number; }
+
+ private:
+  int m_number;
+};
+
+/// gdb, in this terminal. Ctrl-C is for it alone. 0: it is not there.
+pid_t startDebugger(pid_t world) {
+  const std::string number = std::to_string(world);
+  const char* words[] = {kDebugger, "-q", "-p", number.c_str(), "-ex", kNoStop, nullptr};
+  for (const int one : {SIGINT, SIGQUIT}) signal(one, SIG_IGN);
+  posix_spawnattr_t usual;
+  posix_spawnattr_init(&usual);
+  sigset_t restored;
+  sigemptyset(&restored);
+  for (const int one : {SIGINT, SIGQUIT, SIGPIPE}) sigaddset(&restored, one);
+  posix_spawnattr_setsigdefault(&usual, &restored);
+  posix_spawnattr_setflags(&usual, POSIX_SPAWN_SETSIGDEF);
+  pid_t debugger = 0;
+  const int error =
+      posix_spawnp(&debugger, kDebugger, nullptr, &usual, const_cast<char* const*>(words), environ);
+  posix_spawnattr_destroy(&usual);
+  return error == 0 ? debugger : 0;
+}
+
+/// Readable when it has ended. glibc 2.36 has no C++ declaration of pidfd_open().
+int watchProcess(pid_t process) {
+  return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+}
+
+void waitForDebugger(pid_t debugger) {
+  int status = 0;
+  while (waitpid(debugger, &status, 0) < 0 && errno == EINTR) continue;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) == 0) return;
+  throw RoundError(std::string(kDebugger) + " ended with code " + std::to_string(WEXITSTATUS(status)) + ".");
+}
+
+/// Readable when the user wants to end it.
+int watchSignals() {
+  sigset_t ends;
+  sigemptyset(&ends);
+  for (const int one : {SIGINT, SIGTERM, SIGHUP}) {
+    signal(one, SIG_DFL);
+    sigaddset(&ends, one);
+  }
+  sigprocmask(SIG_BLOCK, &ends, nullptr);
+  return signalfd(-1, &ends, SFD_CLOEXEC);
+}
+
+/// Turn `until` and those behind it, until the world, the file or the wait for `ended` is at its end.
+void goOn(Replay& replay, int ended, std::ostream& out) {
+  replay.world().waitAlsoFor(ended);
+  while (replay.step()) continue;
+  const auto status = replay.world().takeEnd();
+  if (!status) return;
+  out << "The world ended in tick " << replay.tick();
+  if (WIFSIGNALED(*status)) out << ": SIG" << sigabbrev_np(WTERMSIG(*status));
+  out << "." << std::endl;
+}
+
+void executeTo(Replay& replay, std::uint32_t tick) {
+  const std::string which = "tick " + std::to_string(tick);
+  while (replay.tick() + 1 < tick && replay.step()) continue;
+  if (replay.world().failure().empty() && replay.hasNextTurn()) return;
+  if (!replay.world().failure().empty())
+    throw RoundError("The world " + replay.world().failure() + " in tick " + std::to_string(replay.tick()) +
+                     ", before " + which + ".");
+  throw RoundError("The round has no " + which + ": it has " + std::to_string(replay.tick()) + " ticks.");
+}
+
+}  // namespace
+
+void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32_t until, std::ostream& out) {
+  Replay replay(round, stage);
+  replay.keepDroppedKeys(until);
+  executeTo(replay, until);
+  if (replay.firstDifference() != 0)
+    out << "note: from tick " << replay.firstDifference() << " on the round is not as it was recorded\n";
+  const pid_t world = replay.world().process();
+  stopWorld(world);
+  const std::string which = "The world is process " + std::to_string(world) + ", before tick " +
+                            std::to_string(until) + " of the round.";
+  out << which << " `continue` executes that tick.\n" << std::flush;
+  if (const pid_t debugger = startDebugger(world); debugger > 0) {
+    const WaitedFor ended(watchProcess(debugger));
+    goOn(replay, ended.get(), out);
+    return waitForDebugger(debugger);
+  }
+  out << kDebugger << " is not there. In another terminal: " << kDebugger << " -p " << world << " -ex '"
+      << kNoStop << "' (or attach another debugger to it), then continue. Ctrl-C ends it here.\n"
+      << std::flush;
+  const WaitedFor ended(watchSignals());
+  goOn(replay, ended.get(), out);
+}
+
+}  // namespace naiad

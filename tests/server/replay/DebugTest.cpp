@@ -1,0 +1,177 @@
+// dfreplay --until T --debug, as a program: the world of the round stands before tick T, for a debugger. A
+// small script stands in for gdb.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "host/program/DebugCommand.h"
+#include "tests/server/replay/FrailRound.h"
+#include "tests/support/RunProgram.h"
+#include "tests/support/Sanitizers.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What follows `mark` in `text` up to the end of the line; empty: it is not there.
+std::string restAfter(const std::string& text, const std::string& mark) {
+  const std::size_t at = text.rfind(mark);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + mark.size();
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+class DebugTest : public FrailRound {
+ protected:
+  /// Dies twice at the same place, in two ticks.
+  void playToTheLastDeath() {
+    play(50);
+    press(df::Keyboard::Q);
+    ASSERT_TRUE(tick()) << log;
+    play(5);
+    press(df::Keyboard::Q);
+    ASSERT_FALSE(tick()) << log;
+    file = endRound();
+  }
+  /// The tick of the file in which Q was pressed, for the first or the second time.
+  int deathTick(bool last) const {
+    std::ostringstream out;
+    printInputs(RecordedRound(file), out);
+    const std::string text = out.str();
+    const std::size_t q = last ? text.rfind("key=Q") : text.find("key=Q");
+    return std::atoi(text.c_str() + text.rfind("tick=", q) + 5);
+  }
+  /// A gdb that notes how it was called and in which state the world is, and lets the world go on.
+  void makeDebugger(const std::string& last_line = "exit 0") {
+    const fs::path script = recorder.folder() / "bin" / "gdb";
+    fs::create_directory(script.parent_path());
+    std::ofstream(script) << "#!/bin/sh\n"
+                          << "exec >>" << recorder.folder().string() << "/gdb.txt\n"
+                          << "echo \"called: $*\"\n"
+                          << "grep State: /proc/$3/status\n"
+                          << "kill -CONT $3\n"
+                          << "while grep -qv 'State:.*Z' /proc/$3/status 2>/dev/null; do\n"
+                          << "  grep -q 'State:.Z' /proc/$3/status && break; sleep 0.01; done\n"
+                          << last_line << "\n";
+    fs::permissions(script, fs::perms::owner_all);
+  }
+  /// With a PATH that has dfreplay, and gdb if there is a script.
+  std::pair<int, std::string> runLine(const std::string& line) const {
+    return test::runProgram("PATH=" + (recorder.folder() / "bin").string() +
+                            ":" NAIAD_BINARY_DIR ":/bin:/usr/bin " + line + " 2>&1 </dev/null");
+  }
+  std::string command(int tick) const {
+    return "dfreplay " + file.string() + " --until " + std::to_string(tick) + " --debug --game " + module;
+  }
+  std::string called() const {
+    std::ifstream text(recorder.folder() / "gdb.txt");
+    return {std::istreambuf_iterator<char>(text), {}};
+  }
+
+  fs::path file;
+};
+
+TEST_F(DebugTest, TheLineOfASecondDeathStopsTheGameBeforeIt) {
+  playToTheLastDeath();
+  makeDebugger();
+  const std::string line = restAfter(log, "to see where: ");
+  ASSERT_EQ(line, command(deathTick(true))) << log;
+  const auto [code, said] = runLine(line);
+  EXPECT_EQ(code, 0) << said;
+  const std::string process = restAfter(said, "The world is process ");
+  EXPECT_NE(process.find(", before tick " + std::to_string(deathTick(true)) + " of the round"),
+            std::string::npos)
+      << said;
+  const std::string number = process.substr(0, process.find(','));
+  EXPECT_EQ(called().find("called: -q -p " + number + " -ex handle SIGSTOP nostop noprint nopass\nState:\tT"),
+            0u)
+      << called();
+  const std::string end =
+      "The world ended in tick " + std::to_string(deathTick(true)) + (test::kSanitized ? "" : ": SIGSEGV.");
+  EXPECT_NE(said.find(end), std::string::npos) << said;
+}
+
+TEST_F(DebugTest, ADeathThatWasLeftOutLaterHappensAgain) {
+  playToTheLastDeath();
+  makeDebugger();
+  ASSERT_LT(deathTick(false), deathTick(true));
+  const auto [code, said] = runLine(command(deathTick(false)));
+  EXPECT_EQ(code, 0) << said;
+  EXPECT_NE(said.find("The world ended in tick " + std::to_string(deathTick(false))), std::string::npos)
+      << said;
+}
+
+TEST_F(DebugTest, AGameThatLivesThroughTheTickPlaysOnToItsDeath) {
+  playToTheLastDeath();
+  makeDebugger();
+  const auto [code, said] = runLine(command(20));
+  EXPECT_EQ(code, 0) << said;
+  EXPECT_NE(said.find("before tick 20 of the round"), std::string::npos) << said;
+  EXPECT_NE(said.find("The world ended in tick " + std::to_string(deathTick(true))), std::string::npos)
+      << said;
+}
+
+TEST_F(DebugTest, ADebuggerThatFailsIsAnError) {
+  playToTheLastDeath();
+  makeDebugger("exit 7");
+  const auto [code, said] = runLine(command(20));
+  EXPECT_EQ(code, 3) << said;
+  EXPECT_NE(said.find("gdb ended with code 7"), std::string::npos) << said;
+}
+
+TEST_F(DebugTest, WithoutADebuggerASentenceSaysWhatToType) {
+  playToTheLastDeath();
+  // Where gdb is installed it is not to be found.
+  const std::string line = "PATH=/nowhere " NAIAD_BINARY_DIR "/" + command(deathTick(true)) + " 2>&1";
+  FILE* p_out = popen(line.c_str(), "re");
+  ASSERT_NE(p_out, nullptr);
+  std::string said;
+  char row[512];
+  while (fgets(row, sizeof row, p_out) != nullptr) {
+    said += row;
+    const std::string process = restAfter(row, "gdb is not there. In another terminal: gdb -p ");
+    if (!process.empty()) kill(std::atoi(process.c_str()), SIGCONT);
+  }
+  EXPECT_EQ(pclose(p_out), 0) << said;
+  EXPECT_NE(said.find("gdb -p "), std::string::npos) << said;
+  EXPECT_NE(said.find("The world ended in tick " + std::to_string(deathTick(true))), std::string::npos)
+      << said;
+}
+
+TEST_F(DebugTest, ATickThatTheRoundDoesNotHaveIsRefused) {
+  playToTheLastDeath();
+  const auto [code, said] = runLine(command(5000));
+  EXPECT_EQ(code, 3) << said;
+  EXPECT_NE(said.find("in tick " + std::to_string(deathTick(true)) + ", before tick 5000"), std::string::npos)
+      << said;
+}
+
+TEST_F(DebugTest, BothOptionsGoTogether) {
+  for (const char* p_one : {"--debug", "--until 5"}) {
+    const auto [code, said] = runLine(std::string("dfreplay FILE ") + p_one);
+    EXPECT_EQ(code, 2) << said;
+    EXPECT_NE(said.find("--debug and --until TICK go together"), std::string::npos) << said;
+  }
+}
+
+TEST(DebugCommandTest, NamesTheGameWhereItIsNotInstalled) {
+  const std::string installed = GameModule::find("hello").string();
+  EXPECT_EQ(debugCommand("/r/hello-1.dfr", 7, "hello", installed),
+            "dfreplay /r/hello-1.dfr --until 7 --debug");
+  EXPECT_EQ(debugCommand("/r/my game-1.dfr", 7, "my game", "/home/ann's/my game.so"),
+            "dfreplay '/r/my game-1.dfr' --until 7 --debug --game '/home/ann'\\''s/my game.so'");
+}
+
+}  // namespace
+}  // namespace naiad
