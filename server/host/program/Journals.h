@@ -51,6 +51,7 @@ class Journals {
   const std::int64_t m_seed;
   const std::uint64_t m_frame_nanos;
   const std::size_t m_ring;
+  const bool m_copies;  ///< of worlds: three processes for each are too many where each player has one
   DfrFacts m_facts;
   LogLine m_log;
   bool m_checked = false;             ///< a round has been, or is
