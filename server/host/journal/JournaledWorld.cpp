@@ -259,12 +259,13 @@ void JournaledWorld::closeRecovery() {
   sendTurn(std::exchange(m_turn, WorldTurn()));
 }
 
-// Players who left while the round was played have left.
+// Players who left or were led to other rooms while the round was played have gone.
 void JournaledWorld::endRecovery(const std::string& problem) {
   if (isTakingOver()) return endTakeOver(problem);
   const auto recovery = std::move(m_book.recovery);
   m_sessions = recovery->sessions();
   m_world->takeLeavers();
+  m_world->takeSent();
   if (m_on_repeated) std::exchange(m_on_repeated, {})();
   if (m_book.on_recovered) m_book.on_recovered(recovery->turns(), problem);
   if (problem.empty()) return;

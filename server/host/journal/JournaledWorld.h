@@ -95,6 +95,7 @@ class JournaledWorld : public WorldPort {
   void notePublished(const Publisher& publisher) override { m_world->notePublished(publisher); }
   std::vector<std::uint32_t> takeLeavers() override { return m_world->takeLeavers(); }
   std::vector<df::AddedScore> takeScores() override;
+  std::vector<df::SentPlayer> takeSent() override { return m_world->takeSent(); }
   RoundName roundName() const override;
   bool isGameOver() const override { return m_world->isGameOver(); }
   df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }

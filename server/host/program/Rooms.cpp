@@ -245,8 +245,7 @@ void Rooms::checkWorlds() {
   if (!hasWorlds()) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
-    if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
-      m_on_sessions(*room, *sessions);
+    if (const auto sessions = room->port().takeSessions()) endRecovery(*room, *sessions);
     if (const auto warning = room->port().takeWarning()) {
       m_log({LogEvent::Level::kWarning, *warning});
       room->say("The game takes long over something: everything stands still.");
@@ -263,6 +262,12 @@ void Rooms::checkWorlds() {
 void Rooms::noteTakeOver(const Room& room, const TakeOver& done) {
   ++(done.by_copy ? m_counters.taken_over_by_copies : m_counters.taken_over_by_worlds);
   room.say("The game failed, and goes on from where it was.");
+}
+
+// The players of a server that was killed may come back now, to a server whose rooms may be others.
+void Rooms::endRecovery(Room& room, const std::vector<KeptSession>& sessions) {
+  if (m_on_sessions) m_on_sessions(room, sessions);
+  if (isNamed()) passRooms(room);
 }
 
 void Rooms::countEnd(WorldEnd::Why why) {

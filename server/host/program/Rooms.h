@@ -178,6 +178,7 @@ class Rooms {
   void endRound(Room& room, const WorldEnd& end);
   void noteUpgrade(const Room& room, const WorldEnd& end);
   void noteTakeOver(const Room& room, const TakeOver& done);
+  void endRecovery(Room& room, const std::vector<KeptSession>& sessions);
   void countEnd(WorldEnd::Why why);
   bool beginRound(Room& room);
 
