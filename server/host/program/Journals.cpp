@@ -193,6 +193,7 @@ Journals::Journals(const HostOptions& options, std::string game, const std::stri
       m_ring(options.players == "private" ? kPrivateRing
              : p_shared != nullptr        ? kRoomRing
                                           : kSharedRing),
+      m_copies(options.players != "private"),
       m_facts(factsOfMachine()),
       m_log(std::move(log)),
       m_shared(p_shared != nullptr ? std::move(p_shared) : std::make_shared<SharedJournals>()) {
@@ -223,6 +224,7 @@ WorldOrder Journals::makeOrder() const {
   WorldOrder order;
   order.seed = m_seed != 0 ? static_cast<std::uint64_t>(m_seed) : newSeed();
   order.repeatable = true;
+  order.copies = m_copies;
   order.start_nanos = static_cast<std::uint64_t>(
       std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
   order.frame_nanos = m_frame_nanos;
@@ -258,6 +260,7 @@ std::optional<WorldOrder> Journals::orderOfOpenRound() const {
   WorldOrder order;
   order.seed = m_open->header().seed;
   order.repeatable = true;
+  order.copies = m_copies;
   order.again = true;  // or a game that sleeps would take as long as the round
   order.start_nanos = m_open->header().start_nanos;
   order.frame_nanos = m_open->header().frame_nanos;
@@ -354,6 +357,12 @@ JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProc
                       : describeLastDeath(path, tick, game, module))});
     for (const std::string& line : end.last_lines) log("the game's log: " + line);
   };
+  book.on_taken_over = [log = m_log](const TakeOver& done, std::chrono::milliseconds time) {
+    log(std::string("the game goes on: ") + (done.by_copy ? "a copy of its world" : "another world") +
+        " executed " + std::to_string(done.ticks) + " ticks again, in " + std::to_string(time.count()) +
+        " ms");
+  };
+  book.on_copies = [log = m_log](const std::string& sentence) { log(sentence); };
   return book;
 }
 

@@ -63,6 +63,7 @@ class Journals {
   const std::int64_t m_seed;
   const std::uint64_t m_frame_nanos;
   const std::size_t m_ring;
+  const bool m_copies;  ///< of worlds: three processes for each are too many where each player has one
   DfrFacts m_facts;
   LogLine m_log;
   std::unique_ptr<OpenRound> m_open;  ///< to go on with

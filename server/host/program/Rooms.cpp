@@ -250,12 +250,18 @@ void Rooms::checkWorlds() {
       m_log({LogEvent::Level::kWarning, *warning});
       room->say("The game takes long over something: everything stands still.");
     }
+    if (const auto taken_over = room->port().takeTakeOver()) noteTakeOver(*room, *taken_over);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
   if (isNamed()) checkSleep();
   if (!isPrivate()) return;
   std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
+}
+
+void Rooms::noteTakeOver(const Room& room, const TakeOver& done) {
+  ++(done.by_copy ? m_counters.taken_over_by_copies : m_counters.taken_over_by_worlds);
+  room.say("The game failed, and goes on from where it was.");
 }
 
 // The players of a server that was killed may come back now, to a server whose rooms may be others.
