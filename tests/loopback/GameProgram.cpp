@@ -46,6 +46,7 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
                       {"NAIAD_LOG", m_directory / "log"},
                       {"NAIAD_CONTROL", m_directory / "control.sock"},
                       {"NAIAD_STATE", m_directory / "state"},
+                      {"NAIAD_JOURNAL", "off"},
                       {"NAIAD_LOCAL_CLIENT", "false"},
                       {"NAIAD_FRAME_TIME", "5000"},
                       {"DRAGONFLY_CONFIG", m_directory / "df-config.txt"}});

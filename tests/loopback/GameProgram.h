@@ -14,9 +14,9 @@ namespace naiad::test {
 class GameProgram {
  public:
   /// Start `name` of the build's programs, in a session without a terminal, with these variables in its
-  /// environment. It listens on a free port of 127.0.0.1, and a tick takes 5 ms. `arguments`: of its command
-  /// line. `errors`: a descriptor for its standard error; below 0: the file of its output. It works in
-  /// playFolder(), where nothing is.
+  /// environment. It listens on a free port of 127.0.0.1, a tick takes 5 ms, and no round is written down.
+  /// `arguments`: of its command line. `errors`: a descriptor for its standard error; below 0: the file of
+  /// its output. It works in playFolder(), where nothing is.
   GameProgram(const std::string& name, std::map<std::string, std::string> environment,
               const std::vector<std::string>& arguments = {}, int errors = -1);
   /// SIGTERM, if it has not ended.

@@ -26,6 +26,7 @@ using Clock = std::chrono::steady_clock;
   setenv("TERM", "xterm-256color", 1);
   setenv("LC_ALL", "C.UTF-8", 1);
   unsetenv("NO_COLOR");
+  setenv("NAIAD_JOURNAL", "off", 1);  // no server of a test writes into its user's state
   for (const auto& [name, value] : options.environment) {
     if (value.empty()) {
       unsetenv(name.c_str());

@@ -36,6 +36,12 @@ std::optional<CopyMark> CopyMarks::take(std::uint32_t ticks) {
   return mark;
 }
 
+std::size_t CopyMarks::forgetRecords() {
+  const std::size_t forgotten = m_marks.empty() ? 0 : m_marks.front().records;
+  for (CopyMark& mark : m_marks) mark.records -= forgotten;
+  return forgotten;
+}
+
 void CopyMarks::clear() {
   *this = CopyMarks();
 }

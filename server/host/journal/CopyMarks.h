@@ -41,6 +41,8 @@ class CopyMarks {
   bool endTick(std::size_t records);
   /// The copy behind so many ticks goes on: it and those that are newer have no mark any more.
   std::optional<CopyMark> take(std::uint32_t ticks);
+  /// The records before the oldest copy are forgotten: return how many bytes that are.
+  std::size_t forgetRecords();
   void clear();
 
  private:

@@ -14,11 +14,14 @@ constexpr const char* kOverflow = "the disk is too slow";
 
 }  // namespace
 
-Journal::Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, DfrFacts facts, std::size_t ring,
-                 bool shared, std::optional<JournalPlace> goes_on, std::uint64_t folder)
+Journal::Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, const DfrFacts& facts,
+                 std::size_t ring, bool shared, std::optional<JournalPlace> goes_on, std::uint64_t folder,
+                 const std::string& name)
     : m_header(header),
-      m_ring(ring, header.uuid, shared, goes_on ? goes_on->position : 0, folder),
-      m_facts(std::move(facts)),
+      m_ring(
+          ring, header.uuid, shared, goes_on ? goes_on->position : 0, folder,
+          name.empty() ? FileBeginning() : FileBeginning{name, spellDfrHeader(header) + spellDfrMeta(facts)}),
+      m_facts(facts),
       m_sink(std::move(sink)),
       m_packer(goes_on ? std::move(goes_on->packer) : DfrTurnPacker()),
       m_begun(goes_on.has_value()) {}
@@ -53,6 +56,7 @@ std::optional<std::string> Journal::takeProblem() {
 
 bool Journal::flush() {
   if (m_stopped) return false;
+  if (mayWait()) return true;
   const bool last = m_finished;  // before what there is is taken
   try {
     write();
@@ -72,6 +76,15 @@ bool Journal::flush() {
     stop(error.what());
   }
   return !m_stopped;
+}
+
+bool Journal::mayWait() {
+  const bool waits =
+      m_calm && m_begun && !m_finished && !m_overflowed && !m_ring.isFilling() && ++m_skipped < kCalmTurns;
+  const std::lock_guard lock(m_mutex);
+  if (waits && m_facts.empty()) return true;
+  m_skipped = 0;
+  return false;
 }
 
 // Facts that were added before a record are written before it: so records are looked for first.

@@ -19,10 +19,12 @@ namespace naiad {
 class Journal {
  public:
   /// `facts`: what is known before the world begins. `ring`: bytes of records that may wait for the disk.
-  /// `goes_on`: the file has all that comes before. `folder`: of the file, for the ring (TurnRing.h). Throws
+  /// `goes_on`: the file has all that comes before. `folder`: of the file, for the ring (TurnRing.h). `name`:
+  /// of the file, so that a server that is killed before it is there has one; empty: no matter. Throws
   /// std::system_error if there is no memory.
-  Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, DfrFacts facts, std::size_t ring,
-          bool shared, std::optional<JournalPlace> goes_on = std::nullopt, std::uint64_t folder = 0);
+  Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, const DfrFacts& facts, std::size_t ring,
+          bool shared, std::optional<JournalPlace> goes_on = std::nullopt, std::uint64_t folder = 0,
+          const std::string& name = {});
 
   const DfrHeader& header() const { return m_header; }
   const TurnRing& ring() const { return m_ring; }
@@ -35,6 +37,8 @@ class Journal {
   void addFacts(DfrFacts facts);
   /// The round is over.
   void finish(const std::string& why);
+  /// No player is in the world: only every kCalmTurns-th turn of the writer goes to the disk.
+  void setCalm(bool calm) { m_calm.store(calm, std::memory_order_relaxed); }
   /// Is the writer wanted before its time?
   bool isFilling() const { return m_ring.isFilling(); }
   /// Why the journal stopped, once; nothing while it goes on.
@@ -42,10 +46,14 @@ class Journal {
 
   // On the writer's thread.
 
+  /// Half a minute: a server that only waits for players would write and sync all day.
+  static constexpr int kCalmTurns = 33;
+
   /// Put what there is on the disk. False: there will be no more.
   bool flush();
 
  private:
+  bool mayWait();
   void write();
   void stop(const std::string& problem);
 
@@ -54,6 +62,7 @@ class Journal {
   std::atomic<bool> m_stopped{false};
   std::atomic<bool> m_finished{false};
   std::atomic<bool> m_overflowed{false};
+  std::atomic<bool> m_calm{false};
 
   std::mutex m_mutex;  ///< held while these are swapped, never while the disk is waited for
   DfrFacts m_facts;    ///< not yet written
@@ -64,6 +73,7 @@ class Journal {
   std::unique_ptr<JournalSink> m_sink;
   DfrTurnPacker m_packer;
   bool m_begun = false;
+  int m_skipped = 0;  ///< turns since the last one that went to the disk
 };
 
 }  // namespace naiad

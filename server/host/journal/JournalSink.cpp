@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "host/journal/Dfr.h"
@@ -24,31 +26,54 @@ namespace fs = std::filesystem;
   throw std::system_error(errno, std::generic_category(), path);
 }
 
-/// Rounds' files by age, oldest first. Of others in the folder none is touched.
-std::vector<fs::path> filesByAge(const fs::path& folder) {
-  std::vector<std::pair<fs::file_time_type, fs::path>> found;
+struct RoundFile {
+  fs::file_time_type written_at;
+  std::uintmax_t size = 0;
+  fs::path path;
+};
+
+/// Oldest first. Of others in the folder none is touched.
+std::vector<RoundFile> filesByAge(const fs::path& folder) {
+  std::vector<RoundFile> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() != ".dfr" || !entry.is_regular_file(error)) continue;
-    const auto time = entry.last_write_time(error);
-    if (!error) found.emplace_back(time, entry.path());
+    std::error_code ignored;
+    if (entry.path().extension() != ".dfr" || !entry.is_regular_file(ignored)) continue;
+    RoundFile file{entry.last_write_time(error), entry.file_size(ignored), entry.path()};
+    if (!error && !ignored) files.push_back(std::move(file));
   }
-  std::sort(found.begin(), found.end());
-  std::vector<fs::path> paths;
-  paths.reserve(found.size());
-  for (auto& [time, path] : found) paths.push_back(std::move(path));
-  return paths;
+  std::sort(files.begin(), files.end(), [](const RoundFile& a, const RoundFile& b) {
+    return std::tie(a.written_at, a.path) < std::tie(b.written_at, b.path);
+  });
+  return files;
 }
 
-void removeOldest(const fs::path& folder, std::size_t kept) {
-  const std::vector<fs::path> files = filesByAge(folder);
-  std::error_code ignored;
-  for (std::size_t i = 0; i + kept < files.size(); ++i) fs::remove(files[i], ignored);
+/// By this server or another one.
+bool isBeingWritten(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0) return true;  // it is not ours to remove
+  const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0;
+  close(file);
+  return locked;
 }
 
 }  // namespace
 
-JournalFileSink::JournalFileSink(std::string path, std::size_t size) : m_path(std::move(path)) {
+void removeOldRounds(const std::string& folder, std::size_t max_files, std::uintmax_t max_bytes) {
+  const std::vector<RoundFile> files = filesByAge(folder);
+  std::size_t count = files.size();
+  std::uintmax_t bytes = 0;
+  for (const RoundFile& file : files) bytes += file.size;
+  for (const RoundFile& file : files) {
+    if (count <= max_files && bytes <= max_bytes) return;
+    std::error_code error;
+    if (isBeingWritten(file.path) || !fs::remove(file.path, error)) continue;
+    --count;
+    bytes -= file.size;
+  }
+}
+
+JournalFileSink::JournalFileSink(std::string path, std::size_t size) : m_path(std::move(path)), m_size(size) {
   const int file = ::open(m_path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
   const bool good = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0 &&
                     ftruncate(file, static_cast<off_t>(size)) == 0 && lseek(file, 0, SEEK_END) >= 0;
@@ -69,10 +94,13 @@ void JournalFileSink::open() {
   if (!folder.empty() && mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) failJournal(folder.string());
   m_file = ::open(m_path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (m_file < 0 || flock(m_file, LOCK_EX | LOCK_NB) != 0) failJournal(m_path);
-  removeOldest(folder, kMaxFiles);
+  removeOldRounds(folder.string(), kMaxFiles, kMaxFolder);
 }
 
 void JournalFileSink::write(std::string_view bytes) {
+  if (bytes.size() > kMaxRoundFile - std::min(m_size, kMaxRoundFile))
+    throw std::system_error(EFBIG, std::generic_category(), m_path);
+  m_size += bytes.size();
   if (m_file < 0) open();
   while (!bytes.empty()) {
     const ssize_t count = ::write(m_file, bytes.data(), bytes.size());

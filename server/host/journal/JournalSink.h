@@ -19,8 +19,14 @@ class JournalSink {
   virtual void setFlags(std::uint16_t flags) = 0;
 };
 
+/// A longer file is neither written nor read: some 270 hours of four players, a month of none.
+inline constexpr std::size_t kMaxRoundFile = std::size_t{128} << 20;
+
+/// Remove the oldest rounds of a folder until it has no more than these. One that a server is writing stays.
+void removeOldRounds(const std::string& folder, std::size_t max_files, std::uintmax_t max_bytes);
+
 /// A new file, readable by this user alone. It is made by the first write; its folder, too, if its parent is
-/// there. The file is locked for as long as this is.
+/// there. The file is locked for as long as this is. More than kMaxRoundFile is an error, EFBIG.
 class JournalFileSink : public JournalSink {
  public:
   explicit JournalFileSink(std::string path) : m_path(std::move(path)) {}
@@ -35,13 +41,15 @@ class JournalFileSink : public JournalSink {
   void sync() override;
   void setFlags(std::uint16_t flags) override;
 
-  /// Files of one folder, at most: of more, the oldest go when another is made.
+  /// Files of one folder, and bytes of all of them, at most: of more, the oldest go when another is made.
   static constexpr std::size_t kMaxFiles = 200;
+  static constexpr std::uintmax_t kMaxFolder = std::uintmax_t{1} << 30;
 
  private:
   void open();
 
   std::string m_path;
+  std::size_t m_size = 0;  ///< of the file
   int m_file = -1;
 };
 

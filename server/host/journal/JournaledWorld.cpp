@@ -26,6 +26,7 @@ JournaledWorld::JournaledWorld(std::unique_ptr<WorldPort> world, Book book)
 
 void JournaledWorld::listenToWorld() {
   m_world->setOnTick([this] {
+    if (m_world->wasSlow()) noteSlowTick();
     if (m_book.recovery) return endRepeatedTick();
     m_in_tick = false;
     storeResult();
@@ -95,6 +96,7 @@ void JournaledWorld::tick(bool watched, bool truth) {
   orderCopy();
   storeTurn();
   m_world->setChecked(m_turn.checked);
+  m_world->setImpatient(m_hangs == Hangs::kUnknown || m_hangs == Hangs::kReal);
   truth = m_turn.wants_truth;
   m_sent = std::exchange(m_turn, WorldTurn());
   m_world->tick(watched, truth);
@@ -117,6 +119,7 @@ void JournaledWorld::storeTurn() {
     m_goes_on = false;  // nor does the world take such a turn
     return;
   }
+  m_book.journal->setCalm(m_players.empty());
   store();
 }
 
@@ -134,11 +137,14 @@ void JournaledWorld::storeResult() {
   if (const std::uint32_t player = std::exchange(m_recorded, 0); player != 0)
     m_writer.write(RecordedPicture{player, m_world->renderPlayer(player)}, m_record);
   store();
-  if (m_copies.endTick(m_history.size())) m_writer.repeatFlags();
+  if (!m_copies.endTick(m_history.size())) return;
+  m_writer.repeatFlags();
+  if (!m_has_beginning) forgetBeginning();
 }
 
 void JournaledWorld::store() {
-  if (m_book.new_world && m_history.size() + m_record.size() <= kMaxHistory) {
+  const bool fits = m_history.size() + m_record.size() <= kMaxHistory;
+  if (m_book.new_world && (fits || forgetBeginning())) {
     m_history += m_record;
   } else {
     m_history.clear();
@@ -147,6 +153,15 @@ void JournaledWorld::store() {
   }
   m_goes_on = m_book.journal->add(m_record);
   if (m_goes_on && m_book.journal->isFilling()) m_book.writer->wake();
+}
+
+// No world can begin the round again then; a copy can go on with it.
+bool JournaledWorld::forgetBeginning() {
+  const std::size_t forgotten = m_copies.forgetRecords();
+  if (forgotten == 0) return false;
+  m_history.erase(0, forgotten);
+  m_has_beginning = false;
+  return true;
 }
 
 void JournaledWorld::checkProcess(std::uint32_t tick) {
@@ -280,6 +295,7 @@ void JournaledWorld::endRecovery(const std::string& problem) {
 bool JournaledWorld::takeOver(const WorldEnd& end) {
   const bool failed = end.why == WorldEnd::kCrashed || end.why == WorldEnd::kHung;
   if (!failed || !m_book.new_world || !m_goes_on || !m_began) return false;
+  if (end.why == WorldEnd::kHung) noteHang();
   const auto tick = m_ticks;
   if (m_by_copy && !m_book.recovery->isAtUnknownResult()) {
     say("a copy of the game's world " + end.text + " before it was where the world had been");
@@ -299,6 +315,18 @@ bool JournaledWorld::takeOver(const WorldEnd& end) {
     m_view = m_world->view();
   }
   return beginAgain(in_last_turn);
+}
+
+void JournaledWorld::noteHang() {
+  m_hangs = m_hangs == Hangs::kUnknown ? Hangs::kOneEnded : Hangs::kReal;
+}
+
+// In the first one games load.
+void JournaledWorld::noteSlowTick() {
+  if (m_ticks > 1 && std::exchange(m_hangs, Hangs::kSlow) != Hangs::kSlow)
+    say("tick " + std::to_string(m_later + m_ticks) +
+        " came to its end after all: from now on a tick of this round that seems to hang has " +
+        std::to_string(WorldProcess::kPatience) + " times as long before another world takes over");
 }
 
 bool JournaledWorld::beginAgain(bool drops_keys) {
@@ -330,6 +358,7 @@ bool JournaledWorld::repeatByCopy() {
 
 bool JournaledWorld::repeatByAnother() {
   try {
+    if (!m_has_beginning) throw std::system_error(std::make_error_code(std::errc::value_too_large));
     AnotherWorld another = m_book.new_world();
     m_world = std::move(another.world);
     m_on_repeated = std::move(another.on_repeated);

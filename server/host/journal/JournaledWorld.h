@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -37,7 +38,8 @@ class JournaledWorld : public WorldPort {
 
   /// A second death within so many ticks of the first one is the same: the round is over.
   static constexpr std::uint32_t kSameDeath = 30;
-  /// Bytes of records that are kept for another world: days. A longer round ends with its world.
+  /// Bytes of records that are kept for another world: days. Of a longer round those since the oldest copy
+  /// are.
   static constexpr std::size_t kMaxHistory = std::size_t{64} << 20;
 
   /// Scores of a recovery's turns that are kept: those before them are in the server's file.
@@ -111,11 +113,22 @@ class JournaledWorld : public WorldPort {
   std::optional<TakeOver> takeTakeOver() override { return std::exchange(m_taken_over, std::nullopt); }
 
  private:
+  /// What is known of ticks that seem to hang.
+  enum class Hangs : std::uint8_t {
+    kUnknown,
+    kOneEnded,  ///< once a copy took over at once; whether the tick would have ended is not known
+    kSlow,      ///< such a tick came to its end
+    kReal,      ///< one did not, however long it was waited for
+  };
+
   void begin();
+  void noteSlowTick();
+  void noteHang();
   void choosePicture();
   void storeTurn();
   void storeResult();
   void store();
+  bool forgetBeginning();
   void finish(const std::string& why);
   void noteInput(const df::InputQueue::Input& input);
   void repeatNextTurn();
@@ -158,8 +171,10 @@ class JournaledWorld : public WorldPort {
 
   // Of a world that takes over.
   bool m_in_tick = false;
-  std::string m_history;                   ///< all records; empty: they are too many
-  std::optional<WorldEnd> m_death;         ///< of the world before, while another one has its turns
+  Hangs m_hangs = Hangs::kUnknown;
+  std::string m_history;            ///< records; all, or since the oldest copy: no world can begin again
+  bool m_has_beginning = true;      ///< all
+  std::optional<WorldEnd> m_death;  ///< of the world before, while another one has its turns
   std::optional<std::uint32_t> m_died_at;  ///< tick
   std::function<void()> m_on_repeated;
   std::uint32_t m_next_tick = 0;

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/journal/JournalSink.h"
+
 namespace naiad {
 
 namespace {
@@ -14,7 +16,7 @@ using Input = df::InputQueue::Input;
 std::string bytesOf(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw OpenRoundError("there is no such file");
-  if (std::filesystem::file_size(path, error) > OpenRound::kMaxFile || error)
+  if (std::filesystem::file_size(path, error) > kMaxRoundFile || error)
     throw OpenRoundError("it is too long");
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};

@@ -26,9 +26,6 @@ class OpenRoundError : public std::runtime_error {
 
 class OpenRound {
  public:
-  /// Longer files are not read: some hundred hours of play.
-  static constexpr std::size_t kMaxFile = std::size_t{128} << 20;
-
   /// Reads the whole file. Throws OpenRoundError. One that has come to its end is no error: isOver().
   explicit OpenRound(std::string path);
   /// The same of a round that this process has in memory: its records from the beginning.

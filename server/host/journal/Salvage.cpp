@@ -5,9 +5,11 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <system_error>
 
 #include "host/journal/DfrReader.h"
 #include "host/journal/DfrWriter.h"
+#include "host/journal/JournalSink.h"
 #include "host/journal/TurnRing.h"
 
 namespace naiad {
@@ -51,10 +53,49 @@ std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) 
   return file.good() ? std::optional(rest->size()) : std::nullopt;
 }
 
+/// A name that no file but a round's in that folder has.
+bool isNameOfRound(const std::string& name) {
+  return name.size() > std::size(".dfr") && name.ends_with(".dfr") && name.front() != '.' &&
+         name.find('/') == std::string::npos;
+}
+
+/// The files that servers were killed too early to begin. One that is there is left alone.
+void beginFiles(const fs::path& folder, const std::set<std::string>& rounds) {
+  for (const LeftRing& ring : LeftRing::findWithoutFile(ringFolder(folder), rounds)) {
+    const auto beginning = ring.beginning();
+    if (!beginning || !isNameOfRound(beginning->name)) continue;
+    const fs::path path = folder / beginning->name;
+    std::error_code error;
+    if (fs::is_regular_file(path, error) && !headerOf(path)) fs::remove(path, error);  // it was just made
+    try {
+      JournalFileSink file(path.string());
+      file.write(beginning->bytes);
+      file.sync();
+    } catch (const std::system_error&) {
+      continue;  // the disk is full, or another server was first
+    }
+    if (const auto time = fs::last_write_time(ring.path(), error); !error)
+      fs::last_write_time(path, time, error);  // of the round, not of this
+  }
+}
+
+/// By uuid.
+std::set<std::string> roundsIn(const fs::path& folder) {
+  std::set<std::string> rounds;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    std::error_code ignored;
+    if (entry.path().extension() != ".dfr" || !entry.is_regular_file(ignored)) continue;
+    if (const auto header = headerOf(entry.path())) rounds.insert(uuidText(header->uuid));
+  }
+  return rounds;
+}
+
 }  // namespace
 
 std::vector<std::string> salvageRounds(const std::string& folder) {
   std::vector<std::string> said;
+  beginFiles(folder, roundsIn(folder));
   std::set<std::string> rounds;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {

@@ -18,7 +18,7 @@ namespace naiad {
 
 namespace {
 
-constexpr char kRingMagic[9] = "NAIADRG2";
+constexpr char kRingMagic[9] = "NAIADRG3";
 constexpr std::uint64_t kMaxRing = std::uint64_t{64} << 20;
 
 constexpr const char* kRings = "/dev/shm";
@@ -54,25 +54,32 @@ std::string uuidText(const std::array<std::uint8_t, 16>& uuid) {
 }
 
 TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
-                   std::uint64_t position, std::uint64_t folder)
-    : m_capacity(capacity) {
+                   std::uint64_t position, std::uint64_t folder, const FileBeginning& beginning)
+    : m_capacity(capacity),
+      m_beginning(beginning.name.empty() ? 0 : beginning.name.size() + 1 + beginning.bytes.size()) {
   if (!shared || !mapShared(uuid)) {
-    void* p_memory =
-        mmap(nullptr, sizeof(Head) + m_capacity, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    void* p_memory = mmap(nullptr, size(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (p_memory == MAP_FAILED)
       throw std::system_error(errno, std::generic_category(), "the journal's memory");
     m_p_head = new (p_memory) Head{};
   }
-  std::memcpy(m_p_head->magic, kRingMagic, sizeof m_p_head->magic);
   std::copy(uuid.begin(), uuid.end(), m_p_head->uuid);
   m_p_head->folder = folder;
   m_p_head->capacity = m_capacity;
   m_p_head->stored = position;
   m_p_head->released = position;
+  m_p_head->beginning = m_beginning;
+  if (m_beginning > 0) {
+    char* p_end = bytes() + m_capacity;
+    std::memcpy(p_end, beginning.name.c_str(), beginning.name.size() + 1);
+    std::memcpy(p_end + beginning.name.size() + 1, beginning.bytes.data(), beginning.bytes.size());
+  }
+  std::atomic_signal_fence(std::memory_order_release);  // last: a ring without it is not read
+  std::memcpy(m_p_head->magic, kRingMagic, sizeof m_p_head->magic);
 }
 
 TurnRing::~TurnRing() {
-  munmap(m_p_head, sizeof(Head) + m_capacity);
+  munmap(m_p_head, size());
   if (!m_path.empty()) unlink(m_path.c_str());
   if (m_file >= 0) close(m_file);
 }
@@ -82,12 +89,11 @@ bool TurnRing::mapShared(const std::array<std::uint8_t, 16>& uuid) {
   const std::string path = ringPath(uuid);
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (file < 0) return false;
-  const auto size = static_cast<off_t>(sizeof(Head) + m_capacity);
   void* p_memory = MAP_FAILED;
-  if (posix_fallocate(file, 0, size) == 0)
-    p_memory = mmap(nullptr, static_cast<std::size_t>(size), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (posix_fallocate(file, 0, static_cast<off_t>(size())) == 0)
+    p_memory = mmap(nullptr, size(), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   if (p_memory == MAP_FAILED || flock(file, LOCK_EX | LOCK_NB) != 0) {
-    if (p_memory != MAP_FAILED) munmap(p_memory, static_cast<std::size_t>(size));
+    if (p_memory != MAP_FAILED) munmap(p_memory, size());
     unlink(path.c_str());
     close(file);
     return false;
@@ -127,9 +133,13 @@ std::size_t TurnRing::peek(std::string& out, std::size_t most) const {
 }
 
 std::optional<LeftRing> LeftRing::find(const std::array<std::uint8_t, 16>& uuid) {
+  return open(ringPath(uuid));
+}
+
+std::optional<LeftRing> LeftRing::open(std::string path) {
   LeftRing ring;
-  ring.m_path = ringPath(uuid);
-  const int file = open(ring.m_path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  ring.m_path = std::move(path);
+  const int file = ::open(ring.m_path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (file < 0) return std::nullopt;
   if (flock(file, LOCK_EX | LOCK_NB) == 0) ring.m_bytes = readAll(file);
   close(file);
@@ -137,10 +147,22 @@ std::optional<LeftRing> LeftRing::find(const std::array<std::uint8_t, 16>& uuid)
   if (ring.m_bytes.size() < sizeof head) return std::nullopt;
   std::memcpy(static_cast<void*>(&head), ring.m_bytes.data(), sizeof head);
   const bool good = std::memcmp(head.magic, kRingMagic, sizeof head.magic) == 0 && head.capacity > 0 &&
-                    head.capacity == ring.m_bytes.size() - sizeof head &&
+                    head.beginning <= ring.m_bytes.size() - sizeof head &&
+                    head.capacity == ring.m_bytes.size() - sizeof head - head.beginning &&
                     head.released.load() <= head.stored.load() &&
                     head.stored.load() - head.released.load() <= head.capacity;
   return good ? std::optional(std::move(ring)) : std::nullopt;
+}
+
+std::optional<FileBeginning> LeftRing::beginning() const {
+  TurnRing::Head head{};
+  std::memcpy(static_cast<void*>(&head), m_bytes.data(), sizeof head);
+  if (head.released.load() != 0 || head.stored.load() == 0) return std::nullopt;
+  const std::string_view text =
+      std::string_view(m_bytes).substr(sizeof head + static_cast<std::size_t>(head.capacity));
+  const std::size_t zero = text.find('\0');
+  if (zero == std::string_view::npos) return std::nullopt;
+  return FileBeginning{std::string(text.substr(0, zero)), std::string(text.substr(zero + 1))};
 }
 
 std::optional<std::string> LeftRing::bytesFrom(std::uint64_t position) const {
@@ -148,7 +170,8 @@ std::optional<std::string> LeftRing::bytesFrom(std::uint64_t position) const {
   std::memcpy(static_cast<void*>(&head), m_bytes.data(), sizeof head);
   const std::uint64_t stored = head.stored.load();
   if (position > stored || stored - position > head.capacity) return std::nullopt;
-  const std::string_view ring = std::string_view(m_bytes).substr(sizeof head);
+  const std::string_view ring =
+      std::string_view(m_bytes).substr(sizeof head, static_cast<std::size_t>(head.capacity));
   const auto count = static_cast<std::size_t>(stored - position);
   const auto at = static_cast<std::size_t>(position % head.capacity);
   const std::size_t first = std::min(count, ring.size() - at);
@@ -161,23 +184,55 @@ std::uint64_t ringFolder(const std::string& folder) {
   return hash.value() | 1;  // 0 is unknown
 }
 
-// One that is being made is not locked yet, and has no magic yet.
-std::size_t removeStrayRings(std::uint64_t folder, const std::set<std::string>& kept) {
-  std::size_t removed = 0;
+namespace {
+
+/// All rings but those of these rounds.
+std::vector<std::string> ringsWithout(const std::set<std::string>& rounds) {
+  std::vector<std::string> paths;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(kRings, error)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kRingName) || kept.contains(name.substr(kRingName.size()))) continue;
-    const int file = open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (name.starts_with(kRingName) && !rounds.contains(name.substr(kRingName.size())))
+      paths.push_back(entry.path().string());
+  }
+  return paths;
+}
+
+int openRing(const std::string& path) {
+  return open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+}
+
+}  // namespace
+
+// One that is being made is not locked yet, and has no magic yet: it must not be locked here.
+bool TurnRing::isRingOf(int file, std::uint64_t folder) {
+  alignas(Head) char bytes[sizeof(Head)];
+  struct stat facts {};
+  const auto* p_head = reinterpret_cast<const Head*>(bytes);
+  return fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == getuid() &&
+         pread(file, bytes, sizeof bytes, 0) == sizeof bytes &&
+         std::memcmp(p_head->magic, kRingMagic, sizeof p_head->magic) == 0 && p_head->folder == folder;
+}
+
+std::vector<LeftRing> LeftRing::findWithoutFile(std::uint64_t folder, const std::set<std::string>& known) {
+  std::vector<LeftRing> found;
+  for (const std::string& path : ringsWithout(known)) {
+    const int file = openRing(path);
+    const bool is_of_folder = file >= 0 && TurnRing::isRingOf(file, folder);
+    if (file >= 0) close(file);
+    if (!is_of_folder) continue;
+    if (auto ring = open(path); ring && ring->beginning()) found.push_back(*std::move(ring));
+  }
+  return found;
+}
+
+std::size_t removeStrayRings(std::uint64_t folder, const std::set<std::string>& kept) {
+  std::size_t removed = 0;
+  for (const std::string& path : ringsWithout(kept)) {
+    const int file = openRing(path);
     if (file < 0) continue;
-    alignas(TurnRing::Head) char bytes[sizeof(TurnRing::Head)];
-    struct stat facts {};
-    const auto* p_head = reinterpret_cast<const TurnRing::Head*>(bytes);
-    const bool stray = fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == getuid() &&
-                       pread(file, bytes, sizeof bytes, 0) == sizeof bytes &&
-                       std::memcmp(p_head->magic, kRingMagic, sizeof p_head->magic) == 0 &&
-                       p_head->folder == folder && flock(file, LOCK_EX | LOCK_NB) == 0;
-    if (stray && unlink(entry.path().c_str()) == 0) ++removed;
+    const bool stray = TurnRing::isRingOf(file, folder) && flock(file, LOCK_EX | LOCK_NB) == 0;
+    if (stray && unlink(path.c_str()) == 0) ++removed;
     close(file);
   }
   return removed;

@@ -4,10 +4,13 @@
 // and releases it when it is on the disk. A process that is killed leaves the ring behind, under the round's
 // name: with the file it has everything.
 //
-//   ring   magic (8) | uuid (16) | folder (8) | capacity (8) | bytes stored (8) | bytes released (8) | bytes
+//   ring   magic (8) | uuid (16) | folder (8) | capacity (8) | bytes stored (8) | bytes released (8)
+//          | length of the beginning (8) | bytes | beginning
 //
-// The folder is that of the round's file, as a hash: a ring without a file is removed by the next server
-// there. The two counts are positions in the stream of records, as TURN chunks have them (Dfr.h).
+// The folder is that of the round's file, as a hash. The two counts are positions in the stream of records,
+// as TURN chunks have them (Dfr.h). The beginning is the file's name, a zero, and what the file begins with:
+// a worker makes the file only after the round has begun. The next server there makes it from a ring without
+// a file, or removes the ring.
 #pragma once
 
 #include <array>
@@ -17,17 +20,24 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace naiad {
+
+/// What a round's file begins with.
+struct FileBeginning {
+  std::string name;   ///< of the file, without its folder
+  std::string bytes;  ///< header and facts
+};
 
 class TurnRing {
  public:
   /// In memory of this process alone, or, with a name, in /dev/shm. If that cannot be, in this process's
   /// after all: isShared() says so.
   /// `position`: of the first byte, in the stream of records. `folder`: ringFolder() of the file's; 0:
-  /// unknown.
+  /// unknown. `beginning`: of a file that is not there yet.
   TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
-           std::uint64_t position = 0, std::uint64_t folder = 0);
+           std::uint64_t position = 0, std::uint64_t folder = 0, const FileBeginning& beginning = {});
   /// The shared memory is removed.
   ~TurnRing();
   TurnRing(const TurnRing&) = delete;
@@ -41,6 +51,9 @@ class TurnRing {
   bool store(std::string_view bytes);
   /// More than half of it is in use.
   bool isFilling() const;
+
+  /// Is this file one for that folder? `file`: opened for reading.
+  static bool isRingOf(int file, std::uint64_t folder);
 
   // For one other thread.
 
@@ -57,15 +70,18 @@ class TurnRing {
     std::uint64_t capacity;
     std::atomic<std::uint64_t> stored;
     std::atomic<std::uint64_t> released;
+    std::uint64_t beginning;
   };
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
   friend class LeftRing;
-  friend std::size_t removeStrayRings(std::uint64_t, const std::set<std::string>&);
   bool mapShared(const std::array<std::uint8_t, 16>& uuid);
   char* bytes() const { return reinterpret_cast<char*>(m_p_head + 1); }
 
+  std::size_t size() const { return sizeof(Head) + m_capacity + m_beginning; }
+
   std::size_t m_capacity;
+  std::size_t m_beginning;  ///< its length
   std::string m_path;
   int m_file = -1;  ///< of the shared memory, locked: as long as this process lives
   Head* m_p_head = nullptr;
@@ -76,16 +92,24 @@ class LeftRing {
  public:
   /// Nothing if there is none for this round, it is malformed, or its process lives.
   static std::optional<LeftRing> find(const std::array<std::uint8_t, 16>& uuid);
+  /// Those of a folder whose rounds, by uuid, are not among `known`: their servers were killed before the
+  /// file was there. None that has nothing to begin a file with.
+  static std::vector<LeftRing> findWithoutFile(std::uint64_t folder, const std::set<std::string>& known);
   LeftRing(LeftRing&&) = default;
   LeftRing& operator=(LeftRing&&) = default;
 
+  /// What the round's file would have begun with, and turns that were to come behind it; nothing if it was
+  /// there, or no turn was.
+  std::optional<FileBeginning> beginning() const;
   /// The bytes of the stream from this position on; nothing if some of them are gone.
   std::optional<std::string> bytesFrom(std::uint64_t position) const;
+  const std::string& path() const { return m_path; }
   /// It is not needed any more.
   void remove() const;
 
  private:
   LeftRing() = default;
+  static std::optional<LeftRing> open(std::string path);
 
   std::string m_path;
   std::string m_bytes;  ///< head and all

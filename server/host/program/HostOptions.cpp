@@ -10,9 +10,10 @@
 
 #include "host/metrics/MetricsAddress.h"
 #include "host/program/Announcement.h"
+#include "host/program/DefaultFolders.h"
 #include "host/program/HostFleet.h"
 #include "host/program/RoomList.h"
-#include "shared/net/base/UserDirectory.h"
+#include "host/program/Worlds.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
 #include "shared/options/UnknownVariables.h"
@@ -111,10 +112,18 @@ std::vector<Row> tableOf(HostOptions& o) {
         "Names of variables, with commas between, that games in processes of their own find in their "
         "environment, beside the usual ones",
         "NAIAD_WORLD_ENVIRONMENT"}},
+      {{"--in-process", &o.in_process,
+        "The game runs in the server's own process, for one in a debugger, and for one whose pictures are "
+        "too "
+        "large to be sent from process to process: without sandbox and without journal, and a crash ends the "
+        "server",
+        "NAIAD_IN_PROCESS"},
+       UsedBy::kServer},
       {{"--journal", &o.journal,
         "Write each round down in a file of this directory, as it is played, in little space: dfreplay plays "
-        "it and executes it again. The game then runs in a process of its own, with clocks and random "
-        "devices that can be repeated",
+        "it and executes it again, and a server that was killed goes on with it. The game has clocks and "
+        "random devices then that can be repeated. off: none. Default: rounds in the folder of --state; none "
+        "with --players private, --in-process, and for games that are programs themselves",
         "NAIAD_JOURNAL"}},
       {{"--no-journal", &o.no_journal, "Write no round down, whatever environment or file say",
         "NAIAD_NO_JOURNAL"}},
@@ -218,8 +227,8 @@ std::vector<Row> tableOf(HostOptions& o) {
         "~/.local/state/naiad; none for games that are programs themselves",
         "NAIAD_CONTROL"}},
       {{"--state", &o.state,
-        "Folder of what lasts beyond a restart: bans and scores. Default: naiad in the user's directory for "
-        "state "
+        "Folder of what lasts beyond a restart: bans, scores, rounds that are written down. Default: naiad "
+        "in the user's directory for state "
         "($XDG_STATE_HOME, ~/.local/state); none for games that are programs themselves",
         "NAIAD_STATE"}},
       {{"--admin-password", &o.admin_password,
@@ -334,6 +343,7 @@ std::string complaint(const HostOptions& options) {
     return "--frame-time: " + std::to_string(options.frame_micros) + " is neither 0 nor " +
            std::to_string(kMinFrameMicros) + " or more";
   }
+  if (std::string wrong = inProcessComplaint(options); !wrong.empty()) return wrong;
   if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
   if (options.insecure && options.lan == "on") return "--lan on needs encryption, so not --insecure";
   if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
@@ -358,14 +368,6 @@ void warnOfReadersOf(const std::string& file, const std::string& password, HostO
 /// Of "FILE:LINE".
 std::string fileAt(const std::string& place) {
   return place.substr(0, place.rfind(':'));
-}
-
-/// What dfserver does where these options do not say; "off" is none everywhere.
-void useDefaultFolders(HostOptions& options) {
-  options.control_by_port = options.control.empty();
-  if (options.control == "off") options.control.clear();
-  if (!options.state.empty()) return;
-  if (const auto folder = userDirectory("XDG_STATE_HOME", ".local/state")) options.state = folder->string();
 }
 
 Program dfserver() {
@@ -541,7 +543,8 @@ std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOption
   if (given.count("address") == 0 && !options.is_public) options.address = kLoopback;
   if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
-  if (options.control == "off") options.control.clear();
+  if (options.control == kOff) options.control.clear();
+  if (options.journal == kOff) options.journal.clear();
   return given;
 }
 

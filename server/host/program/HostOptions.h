@@ -35,9 +35,11 @@ struct HostOptions {
       "leave";                 ///< by one player among several: "leave" (for them alone), "exit" or "restart"
   std::string sandbox = "on";  ///< of worlds in processes of their own: "on" or "off"
   int world_memory = 4096;     ///< MiB of addresses for each of them; 0: no limit
+  bool in_process = false;     ///< dfserver's game plays in the server's own process
   std::string journal;         ///< directory where each round is written down; empty: none is
   bool no_journal = false;     ///< not even so
-  std::string recover = "on";  ///< go on with the round of a server that was killed: "on" or "off"
+  bool default_journal = false;  ///< not an option: `journal` is where dfserver writes by itself
+  std::string recover = "on";    ///< go on with the round of a server that was killed: "on" or "off"
   double hang_time = 1;  ///< seconds of one tick of a world in a process of its own; then the game hangs
   std::string world_environment;  ///< names of variables that they get, too, with commas between
   double room_sleep = 60;         ///< seconds without players after which a room sleeps
@@ -90,7 +92,7 @@ struct HostOptions {
 
 /// Is each round to be written down?
 inline bool wantsJournal(const HostOptions& options) {
-  return !options.journal.empty() && !options.no_journal;
+  return !options.journal.empty() && options.journal != "off" && !options.no_journal;
 }
 
 /// What the command line asked for.

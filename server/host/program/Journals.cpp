@@ -378,7 +378,7 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
   JournaledWorld::Book book = makeBook(path, *world);
   try {
     book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring,
-                                             true, std::nullopt, ringFolder(m_folder));
+                                             true, std::nullopt, ringFolder(m_folder), book.recording);
   } catch (const std::system_error& error) {
     m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
     return world;

@@ -107,6 +107,15 @@ bool wantsWorlds(const HostOptions& options) {
   return options.on_game_over == "restart" || options.players == "private" || wantsJournal(options);
 }
 
+std::string inProcessComplaint(const HostOptions& options) {
+  if (!options.in_process) return {};
+  if (wantsJournal(options))
+    return "--in-process goes without --journal: rounds are written down of games in processes of their own";
+  if (options.rooms.empty() && !wantsWorlds(options)) return {};
+  return "--in-process is not for --room, --on-game-over restart or --players private: each of their worlds has "
+         "a process of its own";
+}
+
 bool leavesAlone(const HostOptions& options) {
   return options.on_game_over != "exit";
 }

@@ -14,8 +14,11 @@
 
 namespace naiad {
 
-/// Another round, or another world beside the first, is another process.
+/// Has a game that is a program itself worlds in processes of their own? Another round, or another world
+/// beside the first, is another process, and so is a world that is written down.
 bool wantsWorlds(const HostOptions& options);
+/// What is wrong with --in-process and what else was asked for; empty if nothing is.
+std::string inProcessComplaint(const HostOptions& options);
 /// Does a key that ends the game end it for its player alone?
 bool leavesAlone(const HostOptions& options);
 

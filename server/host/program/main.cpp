@@ -1,5 +1,5 @@
-// dfserver: loads a game, installs the host as its runner, and calls the game's main(). With worlds in
-// processes of their own it does so in each of those, and is their front.
+// dfserver: starts the game's worlds in processes of their own, and is their front. Each of them, and with
+// --in-process this process, loads the game, installs a runner, and calls the game's main().
 #include <cstdint>
 #include <exception>
 #include <iostream>
@@ -15,6 +15,7 @@
 #include "host/auth/Seed.h"
 #include "host/program/Announcement.h"
 #include "host/program/CrashReport.h"
+#include "host/program/DefaultFolders.h"
 #include "host/program/GameModule.h"
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
@@ -162,8 +163,8 @@ void noteEnd(const naiad::Host& host, Start& start) {
 
 /// The game is loaded in its worlds alone: here it would have this process's key before it begins.
 int serveWorlds(Start& start, naiad::LineLog& lines) {
-  const naiad::HostOptions& options = start.options;
   const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
+  const naiad::HostOptions options = naiad::withUsableJournal(start.options, log);
   const auto module = naiad::GameModule::find(options.game);
   const auto launcher = naiad::launchModule(options, module.string(), start.config, log);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
@@ -175,7 +176,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   });
   if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
-  naiad::Host host(options, name, log);
+  naiad::Host host(start.options, name, log);
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
   journaled.port = host.port();  // a round goes on where its players look for it
   const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
@@ -219,12 +220,12 @@ std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host, const naiad::Host
 
 /// Each room has its game in worlds of its own.
 int serveRooms(Start& start, naiad::LineLog& lines) {
-  const naiad::HostOptions& options = start.options;
   const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
+  const naiad::HostOptions options = naiad::withUsableJournal(start.options, log);
   const auto print = [&](const std::string& room) { return roomLog(lines, room); };
   const std::vector<naiad::LaunchedRoom> launched = naiad::launchRooms(options, start.config, log, print);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
-  naiad::Host host(options, launched.front().plan.game, log);
+  naiad::Host host(start.options, launched.front().plan.game, log);
   host.setRooms(roomsOf(host, options, launched, lines));
   watchReloads(start, host, lines);
   announce(options, host);
@@ -249,7 +250,7 @@ int serve(Start& start) {
   naiad::LineLog log(options.log_file);
   useLogOptions(options, log);
   if (!options.rooms.empty()) return serveRooms(start, log);
-  if (naiad::wantsWorlds(options)) return serveWorlds(start, log);
+  if (!options.in_process) return serveWorlds(start, log);
   const naiad::crash::Report crashes("dfserver", log.descriptor());
   naiad::crash::setWorld(df::World::current());
   const naiad::GameModule game(options.game);

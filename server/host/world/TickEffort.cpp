@@ -49,7 +49,9 @@ void TickEffort::count(Nanos passed, const std::optional<ProcessLook>& look) {
   const bool is_stopped = look->doing == ProcessLook::kStopped || look->doing == ProcessLook::kDebugged;
   m_stopped = is_stopped ? m_stopped + passed : Nanos(0);
   if (look->doing == ProcessLook::kDebugged) return;
-  m_counted += look->doing == ProcessLook::kWaits ? passed : std::max(computed, passed / kStarvedPart);
+  const Nanos own = look->doing == ProcessLook::kWaits ? passed : computed;
+  m_own += own;
+  m_counted += std::max(own, passed / kStarvedPart);
 }
 
 }  // namespace naiad

@@ -47,12 +47,15 @@ class TickEffort {
     m_passed += passed;
     if (m_passed <= kUnseen) {
       m_counted += passed;
+      m_own += passed;
     } else {
       count(passed, look());
     }
   }
   /// What counts.
   Nanos counted() const { return m_counted; }
+  /// The part of it that no load, signal or debugger can have caused: computing, and waiting for something.
+  Nanos own() const { return m_own; }
   /// For how long it has been stopped.
   Nanos stopped() const { return m_stopped; }
 
@@ -61,6 +64,7 @@ class TickEffort {
 
   Nanos m_passed{0};
   Nanos m_counted{0};
+  Nanos m_own{0};
   Nanos m_stopped{0};
   std::optional<Nanos> m_cpu;  ///< at the last look
 };

@@ -62,6 +62,8 @@ class WorldCopies {
   void update();
   /// The newest, for the one that lets it go on; nothing: there is none. It is not kept any more.
   std::optional<WorldCopy> takeNewest();
+  /// Is there one that could go on?
+  bool hasCopy() const { return !processes().empty(); }
   /// Those that are kept.
   std::vector<pid_t> processes() const;
 

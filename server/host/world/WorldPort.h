@@ -123,6 +123,10 @@ class WorldPort {
   virtual std::optional<std::string> takeWarning() { return std::nullopt; }
   /// Let it come to its end; end() says when it has.
   virtual void close() {}
+  /// Where a copy is ready to go on, a tick that seems to hang is not waited for (WorldProcess.h).
+  virtual void setImpatient(bool /*impatient*/) {}
+  /// Did the last tick seem to hang, and came to its end?
+  virtual bool wasSlow() const { return false; }
 
   // Copies of a world's process: one goes on where the world has crashed or hangs.
 

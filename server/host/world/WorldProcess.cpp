@@ -277,6 +277,11 @@ std::chrono::nanoseconds WorldProcess::patience() const {
   return std::chrono::nanoseconds::max();
 }
 
+bool WorldProcess::isGivenUpEarly() const {
+  return m_state == State::kTicking && m_impatient && !isInFirstTick() && m_effort.own() > m_hang_time &&
+         m_copies.hasCopy();
+}
+
 void WorldProcess::checkProcess(std::uint32_t tick) {
   if (!m_began) m_next_tick = std::max(tick, 1u);
   if (m_state == State::kEnded) return;
@@ -291,7 +296,7 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   // Its last frames are read first.
   if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
   warnOfHang();
-  if (m_waited <= patience()) return;
+  if (m_waited <= patience() && !isGivenUpEarly()) return;
   if (m_state == State::kEnding) return kill();
   fail(WorldEnd::kHung, m_state == State::kStarting ? "did not begin" : "did not answer any more");
 }
@@ -383,7 +388,7 @@ void WorldProcess::become(WorldCopy copy) {
   m_failure.reset();
   m_end.reset();
   m_warning.reset();
-  m_in_tick = m_expected = m_copies_now = false;
+  m_in_tick = m_expected = m_copies_now = m_impatient = false;
   m_repeats = true;
   m_waited = {};
   m_state = State::kReady;

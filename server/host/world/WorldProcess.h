@@ -32,7 +32,8 @@ class WorldProcess : public WorldPort {
   using Clock = std::chrono::steady_clock;
 
   /// So many times StartedWorld::hang_time for an answer, and it is killed: a game may load something once in
-  /// a while. After one time takeWarning() says that it hangs.
+  /// a while. After one time takeWarning() says that it hangs; then it is killed at once if setImpatient()
+  /// and a copy is ready, and all of that time is surely its own doing (TickEffort::own()).
   static constexpr int kPatience = 5;
   /// From the start of the process to GM.run(), and for the first tick.
   static constexpr std::chrono::seconds kStartTime{30};
@@ -75,6 +76,8 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> end() const override { return m_end; }
   std::optional<std::string> takeWarning() override { return std::exchange(m_warning, std::nullopt); }
   void close() override;
+  void setImpatient(bool impatient) override { m_impatient = impatient; }
+  bool wasSlow() const override { return m_warned; }
   bool keepCopy() override;
   std::chrono::nanoseconds cpuTime() const override;
   std::optional<std::string> takeCopyProblem() override;
@@ -109,6 +112,7 @@ class WorldProcess : public WorldPort {
   template <class Message>
   std::optional<Message> takeFromKeeper(int patience_millis);
   std::chrono::nanoseconds patience() const;
+  bool isGivenUpEarly() const;
   bool isInFirstTick() const { return m_next_tick == m_later + 2; }
   void countTime(Clock::time_point now);
   void warnOfHang();
@@ -139,7 +143,8 @@ class WorldProcess : public WorldPort {
   std::uint32_t m_pictured = 0;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
-  bool m_in_tick = false;     ///< one was sent, and not answered
+  bool m_in_tick = false;  ///< one was sent, and not answered
+  bool m_impatient = false;
   bool m_warned = false;      ///< of this tick, that it hangs
   bool m_stop_noted = false;  ///< of this tick, that it is stopped
   std::optional<std::string> m_warning;

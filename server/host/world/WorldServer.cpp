@@ -136,7 +136,7 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   }
   if (!writeAnswer(answer, turn.watched ? &world.view() : nullptr, m_views, m_frame)) {
     world.log("The world does not fit in a frame of " + std::to_string(kMaxWorldFrame) +
-              " bytes; the game is over.");
+              " bytes; the game is over. dfserver --in-process has no such bound.");
     return false;
   }
   return send(m_frame);

@@ -44,8 +44,9 @@ std::vector<std::string> environmentWith(const std::string& password) {
 ServerProcess::ServerProcess(const ServerSetup& setup, const std::string& folder)
     : m_password(setup.password), m_truth_file(folder + "/truth") {
   const std::string join_file = folder + "/join";
-  std::vector<std::string> command{serverProgram(), "--port",  "0",       "--identity", folder + "/identity",
-                                   "--join-file",   join_file, "--truth", m_truth_file};
+  std::vector<std::string> command{
+      serverProgram(),   "--port",      "0",       "--identity", folder + "/identity", "--state",
+      folder + "/state", "--join-file", join_file, "--truth",    m_truth_file};
   command.insert(command.end(), setup.arguments.begin(), setup.arguments.end());
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("a pipe cannot be made");

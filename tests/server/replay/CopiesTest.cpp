@@ -128,6 +128,35 @@ TEST_F(CopiesTest, ACrashInDrawIsFollowedToo) {
   EXPECT_EQ(verify(), "");
 }
 
+// A game that hangs again is waited for: it may be one that is slow.
+TEST_F(CopiesTest, TheFirstHangOfARoundIsNotWaitedFor) {
+  std::vector<std::chrono::steady_clock::duration> took;
+  for (int i = 0; i < 2; ++i) {
+    play(50);
+    const auto began = std::chrono::steady_clock::now();
+    survive(df::Keyboard::H);
+    took.push_back(std::chrono::steady_clock::now() - began);
+  }
+  EXPECT_LT(took[0] * 2, took[1]) << "one time of five";
+  RecordProperty("first_ms", static_cast<int>(took[0] / std::chrono::milliseconds(1)));
+  EXPECT_EQ(count(kByCopy), 2u) << log;
+  EXPECT_EQ(verify(), "");
+}
+
+TEST_F(CopiesTest, AGameThatIsSlowLosesOneKeyAndGoesOn) {
+  play(50);
+  survive(df::Keyboard::S);
+  for (int i = 0; i < 2; ++i) {
+    play(50);
+    press(df::Keyboard::S);
+    ASSERT_TRUE(tick()) << log;
+    EXPECT_FALSE(world->takeTakeOver()) << log;
+  }
+  EXPECT_EQ(count("another world takes over"), 1u) << log;
+  EXPECT_EQ(count("came to its end after all"), 1u) << log;
+  EXPECT_EQ(verify(), "");
+}
+
 TEST_F(CopiesTest, AHangIsFollowedToo) {
   play(50);
   const std::vector<pid_t> hangs = find(kWorld);

@@ -124,7 +124,9 @@ Peer dfclient(const Place& place, bool udp) {
   peer.ready_file = place.file("port");
   peer.server = {"env", "HOME=" + place.folder, "NAIAD_SCENE_TRUTH=" + place.truth(),
                  "NAIAD_SCENE_SEED=" + std::to_string(place.seed)};
-  append(peer.server, {place.bin + "/dfserver", "--game", place.bin + "/../lib/naiad_scene_game.so"});
+  // The scene writes its truth, which a game in a process of its own may not.
+  append(peer.server,
+         {place.bin + "/dfserver", "--in-process", "--game", place.bin + "/../lib/naiad_scene_game.so"});
   append(peer.server, {"--address", place.address, "--port", kGamePort, "--port-file", peer.ready_file});
   append(peer.server, fromEnvironment("NAIAD_PATH_DFSERVER"));
   peer.client = {"env", "HOME=" + place.folder, place.bin + "/dfclient", place.address + ":" + kGamePort};

@@ -54,6 +54,19 @@ TEST_F(TickEffortTest, AGameInADebuggerIsWaitedFor) {
   EXPECT_EQ(effort.stopped(), 0s) << "it goes on";
 }
 
+TEST_F(TickEffortTest, WhatAMachineMayHaveCausedIsNotItsOwn) {
+  run(1000ms, Doing::kWaits, 0);
+  EXPECT_EQ(effort.own(), 1000ms);
+  run(1000ms, Doing::kRuns, 20);
+  EXPECT_EQ(effort.own(), 1200ms) << "what it computes";
+  const auto before = effort.counted();
+  run(60s, Doing::kRuns, 0);
+  run(60s, Doing::kStopped, 0);
+  run(60s, Doing::kDebugged, 0);
+  EXPECT_EQ(effort.own(), 1200ms);
+  EXPECT_GT(effort.counted(), before);
+}
+
 TEST_F(TickEffortTest, WhereTheKernelSaysNothingAllCounts) {
   for (int i = 0; i < 10; ++i) effort.add(100ms, [] { return std::optional<ProcessLook>(); });
   EXPECT_EQ(effort.counted(), 1000ms);

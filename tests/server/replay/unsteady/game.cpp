@@ -1,7 +1,7 @@
 // A game that is another one each time, from tick 47 on, in the way that its module's name says:
 // unsteady_instruction.so, _entropy, _clock, _thread, _file cannot be repeated; unsteady_time.so, _device,
 // _pointers can, by the server's help. unsteady_frail.so crashes by the key Q, in draw()
-// by D, and hangs by H; by T it has a thread, by P it is where its process's number says.
+// by D, hangs by H, and takes its time by S; by T it has a thread, by P it is where its process's number says.
 #include <dlfcn.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -98,6 +98,17 @@ std::uint64_t number() {
   return value;
 }
 
+/// Half a second of a processor: the clocks that a game sees stand still within a tick.
+void takeTime() {
+  const auto now = [] {
+    timespec time{};
+    syscall(SYS_clock_gettime, CLOCK_THREAD_CPUTIME_ID, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+  };
+  const auto end = now() + std::chrono::milliseconds(500);
+  while (now() < end) continue;
+}
+
 /// Moves with each key, but for those that end it.
 class Frail : public df::Object {
  public:
@@ -113,6 +124,7 @@ class Frail : public df::Object {
     if (p_key->getKey() == df::Keyboard::T) std::thread([] { pause(); }).detach();
     m_crashes = p_key->getKey() == df::Keyboard::D;
     while (p_key->getKey() == df::Keyboard::H) std::atomic_signal_fence(std::memory_order_seq_cst);
+    if (p_key->getKey() == df::Keyboard::S) takeTime();
     if (p_key->getKey() == df::Keyboard::P) m_keys = getpid();
     setPosition(df::Vector(5 + static_cast<float>(++m_keys % 60), 5));
     return 1;
