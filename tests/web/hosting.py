@@ -14,7 +14,8 @@ class Hosting:
         self.folder = tempfile.mkdtemp(prefix="naiad-web-")
         self.programs = []
         bin_ = os.path.join(build, "bin")
-        environment = {**os.environ, "XDG_CONFIG_HOME": self.folder, "XDG_DATA_HOME": self.folder, "XDG_STATE_HOME": self.folder}
+        environment = {**os.environ, "XDG_CONFIG_HOME": self.folder, "XDG_DATA_HOME": self.folder, "XDG_STATE_HOME": self.folder,
+                       "NAIAD_JOURNAL": "off"}
         self.visitors = os.path.join(self.folder, "visitors")
         self.server = self._start([os.path.join(bin_, "dfserver"), "--address", "127.0.0.1", "--port", "0", "--visitors", self.visitors,
                                    *arguments], "server.log", environment)

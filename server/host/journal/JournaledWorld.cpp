@@ -87,6 +87,7 @@ void JournaledWorld::tick(bool watched, bool truth) {
   begin();
   ++m_ticks;
   m_in_tick = true;
+  m_world->setImpatient(isImpatient());
   if (!m_goes_on) return m_world->tick(watched, truth);
   m_turn.watched = watched;
   m_turn.wants_truth = truth;
@@ -96,7 +97,6 @@ void JournaledWorld::tick(bool watched, bool truth) {
   orderCopy();
   storeTurn();
   m_world->setChecked(m_turn.checked);
-  m_world->setImpatient(m_hangs == Hangs::kUnknown || m_hangs == Hangs::kReal);
   truth = m_turn.wants_truth;
   m_sent = std::exchange(m_turn, WorldTurn());
   m_world->tick(watched, truth);
@@ -315,6 +315,13 @@ bool JournaledWorld::takeOver(const WorldEnd& end) {
     m_view = m_world->view();
   }
   return beginAgain(in_last_turn);
+}
+
+// Not where the round would end with the tick: then it is waited for.
+bool JournaledWorld::isImpatient() const {
+  const bool is_followed =
+      m_goes_on && m_book.new_world && !(m_died_at && m_ticks < *m_died_at + kSameDeath);
+  return is_followed && (m_hangs == Hangs::kUnknown || m_hangs == Hangs::kReal);
 }
 
 void JournaledWorld::noteHang() {

@@ -122,6 +122,7 @@ class JournaledWorld : public WorldPort {
   };
 
   void begin();
+  bool isImpatient() const;
   void noteSlowTick();
   void noteHang();
   void choosePicture();

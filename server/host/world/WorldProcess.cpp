@@ -296,7 +296,9 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   // Its last frames are read first.
   if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
   warnOfHang();
-  if (m_waited <= patience() && !isGivenUpEarly()) return;
+  if (isGivenUpEarly())
+    return fail(WorldEnd::kHung, "did not answer within " + secondsText(m_hang_time) + " s");
+  if (m_waited <= patience()) return;
   if (m_state == State::kEnding) return kill();
   fail(WorldEnd::kHung, m_state == State::kStarting ? "did not begin" : "did not answer any more");
 }

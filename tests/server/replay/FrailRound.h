@@ -28,7 +28,7 @@ class FrailRound : public testing::Test {
     HostOptions options;
     options.journal = rounds.string();
     options.seed = 1;
-    options.hang_time = 0.2;
+    options.hang_time = hang_time;
     launcher = launchAgain(options, module, NAIAD_BINARY_DIR "/dfserver", recorder.folder().string(), {});
     journals = Journals::open(options, GameModule::nameOf(module), module,
                               [this](const LogEvent& event) { log += event.text + "\n"; });
@@ -80,6 +80,7 @@ class FrailRound : public testing::Test {
     return verifyRound(round, stage, out) ? "" : out.str();
   }
 
+  double hang_time = 0.2;
   Recorder recorder;
   std::filesystem::path rounds = recorder.folder() / "rounds";
   std::string module;

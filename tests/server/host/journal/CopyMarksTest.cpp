@@ -46,6 +46,16 @@ TEST(CopyMarks, OneThatGoesOnLeavesThoseBeforeIt) {
   EXPECT_FALSE(marks.take(30));
 }
 
+TEST(CopyMarks, RecordsBeforeTheOldestCanBeForgotten) {
+  CopyMarks marks;
+  EXPECT_EQ(marks.forgetRecords(), 0u);
+  for (std::uint32_t tick = 1; tick <= 700; ++tick) play(marks, tick);
+  EXPECT_EQ(marks.forgetRecords(), 300u);
+  EXPECT_EQ(marks.forgetRecords(), 0u);
+  EXPECT_EQ(marks.take(630)->records, 6000u);
+  EXPECT_EQ(marks.take(30)->records, 0u);
+}
+
 TEST(CopyMarks, OfATickWithoutAResultThereIsNone) {
   CopyMarks marks;
   marks.beginTick(30, {}, true);

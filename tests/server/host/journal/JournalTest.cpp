@@ -173,6 +173,34 @@ TEST(JournalTest, AFullDiskStopsTheJournalAndIsSaidOnce) {
   EXPECT_EQ(countTurns(disk.bytes), 1u);
 }
 
+TEST(JournalTest, WhileNoPlayerIsThereTheDiskHasHalfAMinutesRest) {
+  Disk disk;
+  const auto journal = journalOn(disk);
+  journal->setCalm(true);
+  ASSERT_TRUE(journal->flush());
+  EXPECT_FALSE(disk.bytes.empty()) << "the file is begun at once";
+  journal->addFacts({{"first_tick", "1"}});
+  ASSERT_TRUE(journal->add(turnRecord()));
+  ASSERT_TRUE(journal->flush());
+  EXPECT_EQ(countTurns(disk.bytes), 1u) << "what is known of the round does not wait";
+  for (int i = 1; i < Journal::kCalmTurns; ++i) {
+    ASSERT_TRUE(journal->add(turnRecord()));
+    ASSERT_TRUE(journal->flush());
+    ASSERT_EQ(countTurns(disk.bytes), 1u) << i;
+  }
+  ASSERT_TRUE(journal->flush());
+  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kCalmTurns));
+  ASSERT_TRUE(journal->add(turnRecord()));
+  journal->setCalm(false);
+  ASSERT_TRUE(journal->flush());
+  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kCalmTurns) + 1) << "a player came";
+  journal->setCalm(true);
+  ASSERT_TRUE(journal->add(turnRecord()));
+  journal->finish("is over");
+  EXPECT_FALSE(journal->flush());
+  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kCalmTurns) + 2);
+}
+
 class JournalFileTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -224,6 +252,64 @@ TEST_F(JournalFileTest, AKilledServersRoundGetsTheTurnsThatHadNotReachedTheDisk)
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(countTurns(bytes), 150u);
   EXPECT_TRUE(salvageRounds(folder.string()).empty()) << "and the memory is free";
+}
+
+// A thread of its own begins the file, some time after the world has had its first turns.
+TEST_F(JournalFileTest, AServerThatWasKilledBeforeItsFileWasBegunHasItAfterwards) {
+  const fs::path path = folder / "hello-first.dfr";
+  DfrHeader header;
+  header.uuid = {0x5C, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8), 3};
+  header.seed = 7;
+  for (const bool is_made : {false, true}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      Journal journal(std::make_unique<JournalFileSink>(path.string()), header, {{"game", "hello"}}, kRing,
+                      true, std::nullopt, ringFolder(folder.string()), path.filename().string());
+      for (int i = 0; i < 20; ++i) journal.add(turnRecord());
+      if (is_made) std::ofstream(path) << "NA";  // nor is its head written whole
+      if (!journal.ring().isShared()) _exit(77);
+      kill(getpid(), SIGKILL);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
+    EXPECT_EQ(fs::exists(path), is_made);
+    EXPECT_EQ(salvageRounds(folder.string()).size(), 1u);
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    DfrReader reader(bytes);
+    std::size_t turns = 0;
+    while (reader.next()) ++turns;
+    EXPECT_EQ(turns, 20u);
+    EXPECT_EQ(reader.header().seed, 7u);
+    EXPECT_EQ(reader.facts().at("game"), "hello");
+    EXPECT_TRUE(salvageRounds(folder.string()).empty()) << "and the memory is free";
+    fs::remove(path);
+  }
+}
+
+// The memory is this user's, and yet what it says is no path.
+TEST_F(JournalFileTest, ARingNamesNoFileElsewhere) {
+  int number = 0;
+  for (const std::string name : {"../escaped.dfr", "/tmp/naiad-escaped.dfr", ".dfr", "hello.so", "..dfr"}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      DfrHeader header;
+      header.uuid = {0x5D, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8),
+                     static_cast<std::uint8_t>(++number)};
+      Journal journal(std::make_unique<JournalFileSink>((folder / "x.dfr").string()), header, {}, kRing, true,
+                      std::nullopt, ringFolder((folder / "rounds").string()), name);
+      journal.add(turnRecord());
+      kill(getpid(), SIGKILL);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+  }
+  fs::create_directory(folder / "rounds");
+  EXPECT_TRUE(salvageRounds((folder / "rounds").string()).empty());
+  EXPECT_TRUE(fs::is_empty(folder / "rounds"));
+  EXPECT_FALSE(fs::exists(folder / "escaped.dfr"));
+  EXPECT_FALSE(fs::exists("/tmp/naiad-escaped.dfr"));
 }
 
 TEST_F(JournalFileTest, ARoundThatIsBeingPlayedIsLeftAlone) {
@@ -289,6 +375,41 @@ TEST_F(JournalFileTest, TheOldestRoundsMakeRoom) {
   EXPECT_TRUE(fs::exists(folder / "old-6.dfr"));
   EXPECT_TRUE(fs::exists(folder / "new.dfr"));
   EXPECT_TRUE(fs::exists(folder / "notes.txt"));
+}
+
+TEST_F(JournalFileTest, RoundsThatAreTooLongTogetherMakeRoomUnlessOneIsPlayed) {
+  JournalFileSink played((folder / "a.dfr").string());
+  played.write(std::string(400, 'x'));
+  const auto now = fs::file_time_type::clock::now();
+  for (const char* name : {"b.dfr", "c.dfr", "d.dfr"}) {
+    std::ofstream(folder / name) << std::string(400, 'x');
+    fs::last_write_time(folder / name, now - std::chrono::hours('z' - name[0]));
+  }
+  fs::last_write_time(folder / "a.dfr", now - std::chrono::hours(1000));
+  removeOldRounds(folder.string(), 100, 1600);
+  EXPECT_TRUE(fs::exists(folder / "b.dfr"));
+  removeOldRounds(folder.string(), 100, 1599);
+  EXPECT_TRUE(fs::exists(folder / "a.dfr")) << "a server writes it";
+  EXPECT_FALSE(fs::exists(folder / "b.dfr"));
+  EXPECT_TRUE(fs::exists(folder / "c.dfr"));
+  removeOldRounds(folder.string(), 1, 1600);
+  EXPECT_TRUE(fs::exists(folder / "a.dfr"));
+  EXPECT_FALSE(fs::exists(folder / "d.dfr"));
+}
+
+TEST_F(JournalFileTest, ARoundHasALongestFile) {
+  const fs::path path = folder / "long.dfr";
+  std::ofstream(path) << "x";
+  fs::resize_file(path, kMaxRoundFile - 10);
+  JournalFileSink sink(path.string(), kMaxRoundFile - 10);
+  sink.write(std::string(10, 'x'));
+  try {
+    sink.write("x");
+    ADD_FAILURE() << "it was written";
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(error.code().value(), EFBIG);
+  }
+  EXPECT_EQ(fs::file_size(path), kMaxRoundFile);
 }
 
 TEST(TurnRingTest, BytesComeOutAsTheyWentInAcrossItsEnd) {
