@@ -1,7 +1,10 @@
 // dfserver without any option about journals: it is killed, and its players lose nothing. Real processes.
 #include <signal.h>
 
+#include <filesystem>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <string>
 
 #include "RoomsFixture.h"
@@ -88,8 +91,9 @@ TEST_F(DefaultJournal, TwoServersOfOneUserAreKilledAndGoOn) {
   clients.clear();
 }
 
-TEST_F(DefaultJournal, AStateThatCannotBeWrittenCostsTheJournalAlone) {
-  std::ofstream(state()) << "a file";
+TEST_F(DefaultJournal, AFolderThatCannotBeWrittenCostsTheJournalAlone) {
+  std::filesystem::create_directory(state());
+  std::ofstream(state() + "/rounds") << "a file";
   Server one{"ann"};
   start(one);
   join(one);

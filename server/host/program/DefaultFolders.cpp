@@ -30,7 +30,7 @@ std::error_code makeFolder(const fs::path& folder) {
   fs::create_directories(folder.parent_path(), error);
   if (error) return error;
   const bool good = (mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST) &&
-                    access(folder.c_str(), R_OK | W_OK | X_OK) == 0;
+                    access((folder / ".").c_str(), R_OK | W_OK | X_OK) == 0;
   return good ? std::error_code() : std::error_code(errno, std::generic_category());
 }
 

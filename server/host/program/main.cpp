@@ -169,12 +169,18 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   const auto launcher = naiad::launchModule(options, module.string(), start.config, log);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   const naiad::LogLine print = markedLog(lines);
-  // Why a game cannot be loaded is for whoever has started the server, too.
+  std::vector<std::string> said;
   const naiad::Preview preview = naiad::previewWorld(*launcher, [&](const std::string& line) {
     print(line);
-    if (!options.log_file.empty()) std::cerr << naiad::oneLine(line) << std::endl;
+    said.push_back(naiad::oneLine(line));
   });
-  if (!preview.ready) return failPreview(preview.end);
+  if (!preview.ready) {
+    // Why a game cannot be loaded is for whoever has started the server, too.
+    for (const std::string& line : said) {
+      if (!options.log_file.empty()) std::cerr << line << std::endl;
+    }
+    return failPreview(preview.end);
+  }
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(start.options, name, log);
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);

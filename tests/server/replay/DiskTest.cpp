@@ -77,6 +77,10 @@ class DiskTest : public testing::Test {
     fs::create_directory(disk);
   }
   void TearDown() override {
+    if (player > 0) {
+      kill(player, SIGKILL);
+      waitpid(player, nullptr, 0);
+    }
     if (server > 0) end(SIGKILL);
     if (!folder.empty()) fs::remove_all(folder);
   }
@@ -98,6 +102,21 @@ class DiskTest : public testing::Test {
       _exit(127);
     }
     ASSERT_TRUE(waitUntil([this] { return !bytesOf(folder / "port").empty(); })) << log();
+    if (player == 0) startPlayer();
+  }
+  /// The disk has half a minute's rest where no player is. This one looks for a lost server.
+  void startPlayer() {
+    const std::string address = "127.0.0.1:" + std::to_string(std::atoi(bytesOf(folder / "port").c_str()));
+    player = fork();
+    if (player == 0) {
+      if (chdir(folder.c_str()) != 0) _exit(126);
+      [[maybe_unused]] const bool out = freopen("player.txt", "a", stdout) != nullptr;
+      [[maybe_unused]] const bool err = freopen("player.txt", "a", stderr) != nullptr;
+      execl(NAIAD_BINARY_DIR "/dfbot", "dfbot", address.c_str(), "--insecure", "--rejoin", "--random=1",
+            "--seconds=3600", nullptr);
+      _exit(127);
+    }
+    ASSERT_TRUE(isLogged("joined with")) << log();
   }
   void end(int signal) {
     kill(server, signal);
@@ -144,6 +163,7 @@ class DiskTest : public testing::Test {
   fs::path folder;
   fs::path disk;  ///< what the library reads
   pid_t server = 0;
+  pid_t player = 0;
 };
 
 // If a tick waited for the disk, none would come while it stalls.
@@ -204,6 +224,17 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
   ASSERT_TRUE(waitUntil([&] { return countIn(log(), goes_on) == cuts; })) << log();
   EXPECT_EQ(std::atol(log().c_str() + log().rfind(goes_on) + goes_on.size()), static_cast<long>(kept))
       << log();
+}
+
+TEST_F(DiskTest, AServerThatIsKilledBeforeTheDiskHasTheFileGoesOn) {
+  set("stall");
+  start();
+  ASSERT_TRUE(playTicks(50)) << log();
+  EXPECT_EQ(round(), fs::path()) << "the disk has nothing";
+  end(SIGKILL);
+  unset("stall");
+  start();
+  EXPECT_TRUE(isLogged("is back, in the round that goes on")) << log();
 }
 
 TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {

@@ -77,6 +77,7 @@ TEST_F(DefaultFoldersTest, AFolderThatCannotBeIsSaidAndCostsTheJournalAlone) {
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_NE(lines[0].find("rounds are not written down"), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find((folder / "state" / "rounds").string()), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("Not a directory"), std::string::npos) << lines[0];
   lines.clear();
   EXPECT_TRUE(wantsJournal(withUsableJournal(parse({"--journal", (folder / "state").string()}), log())))
       << "what was asked for fails where it is used";
