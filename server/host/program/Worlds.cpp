@@ -112,7 +112,8 @@ std::string inProcessComplaint(const HostOptions& options) {
   if (wantsJournal(options))
     return "--in-process goes without --journal: rounds are written down of games in processes of their own";
   if (options.rooms.empty() && !wantsWorlds(options)) return {};
-  return "--in-process is not for --room, --on-game-over restart or --players private: each of their worlds has "
+  return "--in-process is not for --room, --on-game-over restart or --players private: each of their worlds "
+         "has "
          "a process of its own";
 }
 

@@ -1,7 +1,8 @@
 // A game that is another one each time, from tick 47 on, in the way that its module's name says:
 // unsteady_instruction.so, _entropy, _clock, _thread, _file cannot be repeated; unsteady_time.so, _device,
 // _pointers can, by the server's help. unsteady_frail.so crashes by the key Q, in draw()
-// by D, hangs by H, and takes its time by S; by T it has a thread, by P it is where its process's number says.
+// by D, hangs by H, and takes its time by S; by T it has a thread, by P it is where its process's number
+// says.
 #include <dlfcn.h>
 #include <sys/syscall.h>
 #include <time.h>
