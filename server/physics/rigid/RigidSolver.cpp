@@ -48,6 +48,7 @@ void setLevers(ContactPoint& p, Vec2 n, Vec2 arm_a, Vec2 arm_b, const RigidState
   const double tangent =
       mass + a.inverse_inertia * p.tangent_a * p.tangent_a + b.inverse_inertia * p.tangent_b * p.tangent_b;
   p.normal_mass = normal > 0 ? 1 / normal : 0;
+  p.normal_resistance = p.normal_mass > 0 ? 1 / p.normal_mass : 0;
   p.tangent_mass = tangent > 0 ? 1 / tangent : 0;
 }
 
@@ -116,7 +117,7 @@ double solveOne(ContactConstraint& c, ContactPoint& p, double target, RigidState
 // The complementarity problem of two points, by looking at its four cases.
 double solveTwo(ContactConstraint& c, double target_p, double target_q, RigidState& a, RigidState& b) {
   ContactPoint &p = c.points[0], &q = c.points[1];
-  const double kp = 1 / p.normal_mass, kq = 1 / q.normal_mass;
+  const double kp = p.normal_resistance, kq = q.normal_resistance;
   const double missing_p = target_p - normalSpeed(p, c.normal, a, b);
   const double missing_q = target_q - normalSpeed(q, c.normal, a, b);
   // What is missing if neither pushed.
