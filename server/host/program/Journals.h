@@ -1,6 +1,7 @@
 // The journals of a server's worlds: what is said of each round beside its turns, and where its file is.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -39,7 +40,29 @@ class Journals {
   std::unique_ptr<WorldPort> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
                                   RepeatCheck::NewWorld again = {}, NewWorld another = {});
 
+  // For a program that goes on with the round in this one's place (RoundHandover.h).
+
+  /// Why the round that is being played cannot go on elsewhere, as the rest of a sentence; empty: it can.
+  std::string whyNotKept() const;
+  /// The file of that round.
+  const std::string& currentFile() const { return m_current_file; }
+  /// Wait until all that was added is on the disk, or for so long. Return whether it is. From any thread.
+  bool sync(std::chrono::milliseconds most) { return m_writer->drain(most); }
+  /// Its journal is left as by a server that was killed. From now on nothing is written down.
+  void leaveOpen();
+  /// Say in the environment of the program that this process runs next that this round was executed again by
+  /// the module with this hash (hashOfModule), and was the same: what the module was before does not count.
+  void announceKept(const std::string& module_hash) const;
+
  private:
+  /// As announceKept() says it.
+  struct KeptRound {
+    std::string uuid;
+    std::string module_hash;
+  };
+  static std::optional<KeptRound> takeKeptRound();
+  bool isKept(const OpenRound& round) const;
+  void noteCurrent(const std::shared_ptr<Journal>& journal, const std::string& file);
   void findRound(const HostOptions& options);
   std::string pathOf(const DfrHeader& header) const;
   std::shared_ptr<Journal> goOnWriting(OpenRound& round) const;
@@ -53,6 +76,13 @@ class Journals {
   const std::size_t m_ring;
   DfrFacts m_facts;
   LogLine m_log;
+  std::weak_ptr<Journal> m_current;
+  std::string m_current_uuid;
+  std::string m_current_file;
+  bool m_is_private = false;  ///< each player has a round of their own
+  bool m_recovers = true;
+  std::shared_ptr<bool> m_repeats = std::make_shared<bool>(true);  ///< the current round, as far as is known
+  std::optional<KeptRound> m_kept = takeKeptRound();
   bool m_checked = false;             ///< a round has been, or is
   std::unique_ptr<OpenRound> m_open;  ///< to go on with
   std::shared_ptr<JournalWriter> m_writer = std::make_shared<JournalWriter>();
@@ -60,8 +90,10 @@ class Journals {
 
 /// The round that a server of this folder was killed in, if this one can go on with it: the same game with
 /// the same settings, on the same port, by `expected` facts. Else null, and `said` has why, if there is one.
+/// `kept`: the uuid of a round for which the game may be another version; empty: of none.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
-                                         std::uint64_t frame_nanos, std::string& said);
+                                         std::uint64_t frame_nanos, std::string& said,
+                                         const std::string& kept = {});
 
 /// The hash of a file by which a round says which game it was; empty if it cannot be read.
 std::string hashOfModule(const std::string& path);

@@ -13,6 +13,7 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/auth/Seed.h"
+#include "host/net/ListeningSockets.h"
 #include "host/program/Announcement.h"
 #include "host/program/CrashReport.h"
 #include "host/program/GameModule.h"
@@ -20,6 +21,7 @@
 #include "host/program/HostOptions.h"
 #include "host/program/Restart.h"
 #include "host/program/RoomLaunch.h"
+#include "host/program/RoundHandover.h"
 #include "host/program/WorldSandbox.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
@@ -142,7 +144,7 @@ void takeSockets(Start& start) {
 }
 
 [[noreturn]] void runAgain(const Start& start) {
-  if (start.kept) start.kept->putBack();
+  if (start.kept) naiad::handOver(*start.kept);
   start.command.run(*start.again);
 }
 
@@ -157,6 +159,14 @@ void watchReloads(const Start& start, naiad::Host& host, naiad::LineLog& lines) 
 
 void noteEnd(const naiad::Host& host, Start& start) {
   if (host.beginsAgain()) start.again = host.port();
+}
+
+/// The same of a host that may keep its round.
+void noteEnd(const naiad::Host& host, const naiad::RoundHandover* p_handover, Start& start) {
+  noteEnd(host, start);
+  if (p_handover == nullptr || !host.keepsRound()) return;
+  if (!start.kept) start.kept = p_handover->sockets();
+  p_handover->announce();
 }
 
 /// The game is loaded in its worlds alone: here it would have this process's key before it begins.
@@ -185,8 +195,10 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
       ", in worlds of their own");
   df::World& world = df::World::current();
   setUp(world, *preview.ready);
+  std::optional<naiad::RoundHandover> handover;
+  if (journals) host.setHandover(handover.emplace(start.command.program(), module.string(), journals));
   host.run(world);
-  noteEnd(host, start);
+  noteEnd(host, handover ? &*handover : nullptr, start);
   return host.failure().empty() ? kOk : failGame(host.failure());
 }
 

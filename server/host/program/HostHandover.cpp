@@ -1,0 +1,36 @@
+// A host that begins again in the program that is installed by now, and keeps its round (RoundHandover.h).
+#include <asio/post.hpp>
+#include <utility>
+
+#include "host/program/Host.h"
+#include "host/program/RoundHandover.h"
+
+namespace naiad {
+
+void Host::keepRound(Reloading done) {
+  if (m_p_handover == nullptr)
+    return done(false, "No round can be kept here: that takes dfserver with --journal");
+  if (const std::string why_not = m_p_handover->refusal(); !why_not.empty())
+    return done(false, "The round cannot be kept: " + why_not);
+  m_log("the round is executed again by the program that is installed, beside the game");
+  m_p_handover->prove([this, done = std::move(done)](const std::string& problem) {
+    asio::post(m_io, [this, done, problem] { finishProof(problem, done); });
+  });
+}
+
+// Without the proof: as if players were asked to finish.
+void Host::finishProof(const std::string& problem, const Reloading& done) {
+  m_keeps_round = problem.empty();
+  if (m_keeps_round) {
+    const std::string text = "The round goes on in the program that is installed";
+    m_log("restart: " + text);
+    end({.begins_again = true, .at = Clock::time_point()});
+    return done(true, text);
+  }
+  const std::string text = "The round cannot go on in the program that is installed: " + problem;
+  m_log(LogEvent::warning("restart: " + text + "; the server begins again when all have left"));
+  end({.begins_again = true, .when_empty = true});
+  done(false, text + ". The server restarts when all have left (cancel calls that off)");
+}
+
+}  // namespace naiad
