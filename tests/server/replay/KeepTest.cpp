@@ -34,7 +34,7 @@ std::string contentOf(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-int countIn(const std::string& text, const std::string& part) {
+int timesIn(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
   return count;
@@ -121,7 +121,7 @@ class KeepTest : public testing::Test {
   }
   std::string log() const { return contentOf(folder / "out.txt"); }
   bool areBack(int times) const {
-    return waitUntil([&] { return countIn(log(), kIsBack) >= times; });
+    return waitUntil([&] { return timesIn(log(), kIsBack) >= times; });
   }
   bool lives() const { return waitpid(server, nullptr, WNOHANG) == 0; }
   /// By which the kernel knows the socket that listens on the port.
