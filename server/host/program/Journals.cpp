@@ -394,8 +394,7 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
 }
 
-// ---- a program that goes on in this one's place
-// ------------------------------------------------------------
+// ---- a program that goes on in this one's place -----------------------------------------------------------
 
 namespace {
 
