@@ -52,6 +52,7 @@ void ClientSession::handle(RefusedMessage&& message, Time) {
   if (m_state != State::kGreeting) return reject("a refusal in the middle of the game");
   m_refused_for_now = message.for_now;
   m_password_refused = message.password;
+  m_refused_as_full = message.full;
   m_redirect = std::move(message.redirect);
   finish(State::kRefused, message.sentence.empty() ? "The server refused." : std::move(message.sentence));
 }

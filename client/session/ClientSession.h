@@ -108,6 +108,8 @@ class ClientSession {
   bool isRefusedForNow() const { return m_refused_for_now; }
   /// Refused, for the server's password was missing or wrong.
   bool isPasswordRefused() const { return m_password_refused; }
+  /// Refused, for the server had no place.
+  bool isRefusedAsFull() const { return m_refused_as_full; }
   /// Refused, and sent to another server: a link, as a stranger wrote it. Empty: none.
   const std::string& redirect() const { return m_redirect; }
   /// A session that was lost: the server has said that it is back within this time; 0: it has not.
@@ -202,6 +204,7 @@ class ClientSession {
   State m_state = State::kGreeting;
   bool m_refused_for_now = false;
   bool m_password_refused = false;
+  bool m_refused_as_full = false;
   std::string m_redirect;
   std::string m_sentence;
   std::chrono::seconds m_returns_in{0};

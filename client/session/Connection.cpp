@@ -1,6 +1,7 @@
 #include "client/session/Connection.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace naiad {
@@ -39,7 +40,9 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
   const ReliableChannel* p_channel = channel.get();
   m_key = m_opener->key();
   SessionOptions options = m_options;
-  if (m_session && !m_session->welcome().room.empty()) options.room = m_session->welcome().room;
+  // Another server has other rooms.
+  if (m_session && m_address == m_joined && !m_session->welcome().room.empty())
+    options.room = m_session->welcome().room;
   chooseToken(options);
   m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
   if (m_observer) m_observer(*m_pending);
@@ -93,19 +96,31 @@ void Connection::saveToken(const ClientSession& session) {
 void Connection::attemptFailed(const std::string& sentence) {
   const Time now = Clock::now();
   if (m_state == State::kJoining && !m_busy) {
-    if (!isHungUpOn(now)) return finish(State::kUnreachable, sentence);
-    return tryLater(now);
+    if (isHungUpOn(now)) return tryLater(now);
+    if (!askFirstAgain()) finish(State::kUnreachable, sentence);
+    return;
+  }
+  if (m_state == State::kSearching && m_other && (m_asks_first || isTimeToAskFirst(now))) {
+    swapServers();
+    m_ask_first_at = now + m_ask_again_after;
   }
   m_put_off = false;
   retryLater(now);
 }
 
+/// The server to which the client was sent is not there. The one that sent it may know another.
+bool Connection::isTimeToAskFirst(Time now) const {
+  return m_redirected && now - m_lost_at >= m_ask_again_after && now >= m_ask_first_at;
+}
+
 /// The last attempt was ended in its handshake, and not too many before it. The same for one to a server to
 /// which the client was sent: it was there a moment ago.
 bool Connection::isHungUpOn(Time now) {
-  if (!m_opener->wasHungUpOn() && !m_redirected) return false;
+  const bool was_there = m_redirected && !m_has_asked;
+  if (!m_opener->wasHungUpOn() && !was_there) return false;
   m_hung_up_at = std::min(m_hung_up_at, now);
-  return now - m_hung_up_at < kHungUpPatience;
+  return now - m_hung_up_at < (was_there ? std::min<Clock::duration>(kHungUpPatience, m_ask_again_after)
+                                         : Clock::duration(kHungUpPatience));
 }
 
 void Connection::retryLater(Time now) {
@@ -167,16 +182,19 @@ void Connection::checkPending() {
     m_put_off = false;
     m_sentence.clear();
     m_busy = false;
+    m_has_asked = false;
     if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
     ++m_revision;
     return;
   }
   if (m_pending->state() == S::kPlaying && m_pending->hasPicture(Clock::now())) {
     m_session = std::move(m_pending);
+    m_joined = m_address;
     m_state = State::kJoined;
     m_put_off = false;
     m_sentence.clear();
     m_busy = false;
+    m_has_asked = false;
     if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
     ++m_revision;
     return;
@@ -193,8 +211,10 @@ void Connection::checkPending() {
 }
 
 void Connection::checkRefusal(const ClientSession& refused) {
-  if (refused.isRefusedForNow()) return waitForServer(refused.sentence());
   if (!refused.redirect().empty() && followRedirect(refused.redirect())) return;
+  if (m_asks_first && m_state == State::kSearching) return attemptFailed(refused.sentence());
+  if (refused.isRefusedForNow()) return waitForServer(refused.sentence());
+  if (refused.isRefusedAsFull() && askFirstAgain()) return;
   // The player is asked for a password of the server that they have named, and of no other.
   m_password_refused = refused.isPasswordRefused() && !m_redirected;
   finish(State::kRefused, refused.sentence());
@@ -203,12 +223,16 @@ void Connection::checkRefusal(const ClientSession& refused) {
 // Who sends the client there may lie. So the other server gets its name, and nothing that was meant for this
 // one.
 bool Connection::followRedirect(const std::string& link) {
-  if (m_state != State::kJoining) return false;
+  if (m_state != State::kJoining && !m_asks_first) return false;
   StreamOpener::Next next = m_opener->follow(link);
   if (!next.opener) return false;
+  m_opener->cancel();
+  m_other =
+      std::make_unique<Place>(Place{std::move(m_opener), m_address, m_options.password, m_options.room});
   m_opener = std::move(next.opener);
   m_address = std::move(next.address);
   m_redirected = true;
+  m_asks_first = false;
   m_options.password.clear();
   m_options.resume_token.clear();
   m_options.fresh = false;
@@ -221,6 +245,30 @@ bool Connection::followRedirect(const std::string& link) {
   m_next_attempt = Clock::now() + next.wait;
   ++m_revision;
   return true;
+}
+
+// The server to which the client was sent has no place, or is not there: the one that sent it may know
+// another. That is another join, so that it may be sent on again: once, for that one may lie.
+bool Connection::askFirstAgain() {
+  if (!m_redirected || std::exchange(m_has_asked, true)) return false;
+  swapServers();
+  m_put_off = m_busy = false;
+  m_hung_up_at = Time::max();
+  m_backoff = kFirstBackoff;
+  tryLater(Clock::now());
+  ++m_revision;
+  return true;
+}
+
+void Connection::swapServers() {
+  m_opener->cancel();
+  std::swap(m_opener, m_other->opener);
+  std::swap(m_address, m_other->address);
+  std::swap(m_options.password, m_other->password);
+  std::swap(m_options.room, m_other->room);
+  m_asks_first = m_redirected;
+  m_redirected = !m_redirected;
+  m_key.reset();
 }
 
 // The server is busy, or this client has come back too often: the next attempt may do.

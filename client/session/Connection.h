@@ -4,6 +4,8 @@
 //   kJoining --no answer; hung up on for 4 s--> kUnreachable
 //   kJoining --Refused (BUSY)--> kJoining --60 s of that--> kRefused
 //   kJoining --Refused, and sent to another server--> kJoining, there (StreamOpener::follow(): once)
+//   kJoining, there --Refused (FULL), no answer for 4 s--> kJoining, at the first one again: once
+//   kSearching, there --no answer for 10 s--> kSearching, at both in turn; the first one may send it on
 //   any --Refused--> kRefused
 //   any --Goodbye--> kEnded
 //   kJoined --Goodbye of a server that restarts--> kSearching
@@ -46,6 +48,9 @@ class Connection {
   static constexpr std::chrono::seconds kGiveUp{60};
   /// A server hangs up on handshakes when too many come from one address: a newcomer tries for so long.
   static constexpr std::chrono::seconds kHungUpPatience{4};
+  /// A server to which the client was sent, and which it has lost, is looked for so long before the one that
+  /// sent it there is asked for another, too: longer than a server takes that begins again with its round.
+  static constexpr std::chrono::milliseconds kAskAgainAfter{10'000};
 
   /// `rejoin`: look for a lost server again. `address`: for people. Nothing happens before start().
   Connection(std::unique_ptr<StreamOpener> opener, ServerAddress address, SessionOptions options,
@@ -58,6 +63,8 @@ class Connection {
   /// Keep the session's token there, which must outlive the Connection, and go on with the session that is in
   /// it. Before start().
   void keepIn(TokenStore& tokens) { m_p_tokens = &tokens; }
+  /// Instead of kAskAgainAfter, and of kHungUpPatience there. Before start().
+  void askAgainAfter(std::chrono::milliseconds time) { m_ask_again_after = time; }
   void start();
   /// Time-outs, pings, the next attempt. Call about ten times a second, and after every event.
   void update(Time now);
@@ -107,6 +114,9 @@ class Connection {
   void checkPending();
   void checkRefusal(const ClientSession& refused);
   bool followRedirect(const std::string& link);
+  bool askFirstAgain();
+  void swapServers();
+  bool isTimeToAskFirst(Time now) const;
   void waitForServer(const std::string& sentence);
   void finish(State state, const std::string& sentence);
 
@@ -133,6 +143,20 @@ class Connection {
   bool m_put_off = false;
   bool m_password_refused = false;
   bool m_redirected = false;
+  /// Of the server that sent the client on: what it is joined with; while that one is asked again, the same
+  /// of the server to which the client was sent. Null: it was sent nowhere.
+  struct Place {
+    std::unique_ptr<StreamOpener> opener;
+    ServerAddress address;
+    std::string password;
+    std::string room;
+  };
+  std::unique_ptr<Place> m_other;
+  ServerAddress m_joined;     ///< where session() plays
+  bool m_asks_first = false;  ///< the first server is asked again
+  bool m_has_asked = false;   ///< … since the last picture
+  std::chrono::milliseconds m_ask_again_after{kAskAgainAfter};
+  Time m_ask_first_at{};  ///< while searching: not before
   std::uint64_t m_revision = 0;
 };
 

@@ -79,6 +79,7 @@ struct RefusedMessage {
   std::string sentence;
   /// To another server that has a place: a link (JoinLink.h), as the server wrote it. Empty: none.
   std::string redirect = {};
+  bool full = false;  ///< it has no place
 };
 
 struct GoodbyeMessage {

@@ -12,6 +12,17 @@
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
+
+namespace {
+
+/// One for all connections of a thread: with it the system's trust store is read, which takes some 20 ms.
+const std::shared_ptr<const TlsContext>& clientContext() {
+  thread_local const std::shared_ptr<const TlsContext> made = TlsContext::forClient();
+  return made;
+}
+
+}  // namespace
+
 TcpStreamOpener::TcpStreamOpener(asio::io_context& context, ServerAddress address, ServerTrust trust,
                                  std::optional<Visit> visit)
     : m_address(std::move(address)),
@@ -19,8 +30,8 @@ TcpStreamOpener::TcpStreamOpener(asio::io_context& context, ServerAddress addres
       m_context(context),
       m_visit(std::move(visit)),
       m_connector(context, TcpOptions{.receive_limit = kMaxServerFrame},
-                  m_trust.insecure ? nullptr : TlsContext::forClient()),
-      m_second_connector(context, TcpOptions{.receive_limit = kMaxServerFrame}, TlsContext::forClient()) {}
+                  m_trust.insecure ? nullptr : clientContext()),
+      m_second_connector(context, TcpOptions{.receive_limit = kMaxServerFrame}, clientContext()) {}
 
 void TcpStreamOpener::open(Done done) {
   connect(m_connector,
@@ -47,7 +58,7 @@ StreamOpener::Next TcpStreamOpener::follow(const std::string& link) {
   opener->m_connector.restrict(is_allowed);
   opener->m_second_connector.restrict(is_allowed);
   std::random_device random;
-  std::uniform_int_distribution<int> wait(0, static_cast<int>(kMaxFollowWait.count()));
+  std::uniform_int_distribution<int> wait(0, static_cast<int>(m_trust.max_redirect_wait.count()));
   return {std::move(opener), address, std::chrono::milliseconds(wait(random))};
 }
 

@@ -37,8 +37,6 @@ class TcpStreamOpener : public StreamOpener {
   Next follow(const std::string& link) override;
   bool wasHungUpOn() const override { return m_connector.wasHungUpOn(); }
 
-  /// Of servers that are sent many clients at once, as after another one's end.
-  static constexpr std::chrono::milliseconds kMaxFollowWait{1000};
   static constexpr std::uint16_t kLeastFollowedPort = 1024;
 
  private:

@@ -37,13 +37,15 @@ void run(const char* suite, const std::string& game, std::vector<std::string> wo
   if (finished.code != 0) Line(suite).add("game", game).addZero("failed", 1);
 }
 
-const Suite s_suite("recovery", "a server is killed while clients play, who come back; journals are measured",
-                    [](const Options& options) {
-                      for (const std::string& game : kGames) {
-                        run("recovery", game, {"kills", game, options.quick ? "5" : "100", "1"});
-                        run("journal", game, {"journal", game, options.quick ? "900" : "9000"});
-                      }
-                    });
+const Suite s_suite(
+    "recovery", "a server or its world is killed while clients play, who come back; journals are measured",
+    [](const Options& options) {
+      for (const std::string& game : kGames) {
+        run("recovery", game, {"kills", game, options.quick ? "5" : "100", "1"});
+        run("take_over", game, {"worlds", game, options.quick ? "3" : "30", "1"});
+        run("journal", game, {"journal", game, options.quick ? "900" : "9000"});
+      }
+    });
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include <chrono>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -38,6 +39,7 @@ class Home {
     setup.options.name = name;
     setup.options.program = "test";
     setup.trust.known_servers = knownServers();
+    setup.trust.max_redirect_wait = std::chrono::milliseconds(10);
     setup.rejoin = true;
     return setup;
   }

@@ -28,6 +28,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBetweenKeys{20};
 /// Ticks that clients may have on their way.
 constexpr std::uint32_t kSeenTicks = 10;
+/// Of these, what a tick that was answered before a kill can be.
+constexpr std::uint32_t kOnTheWay = 3;
 
 /// The parent and the name of a process; nothing if there is none.
 std::optional<std::pair<pid_t, std::string>> factsOf(const std::string& process) {
@@ -41,17 +43,26 @@ std::optional<std::pair<pid_t, std::string>> factsOf(const std::string& process)
                    line.substr(name + 1, end - name - 1));
 }
 
-/// The process below the server's keepers that executes its program; 0: there is none.
-pid_t worldOf(pid_t server) {
+/// The processes below the server's that have this name.
+std::vector<pid_t> processesOf(pid_t server, const std::string& name) {
+  std::vector<pid_t> found;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const std::string process = entry.path().filename().string();
     const auto facts = factsOf(process);
-    if (!facts || facts->second != "exe") continue;  // of /proc/self/exe
+    if (!facts || facts->second != name) continue;
     for (auto above = facts; above && above->first > 1; above = factsOf(std::to_string(above->first))) {
-      if (above->first == server) return std::atoi(process.c_str());
+      if (above->first == server) found.push_back(std::atoi(process.c_str()));
     }
   }
-  return 0;
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// The one that executes its program; 0: there is none. A second world of the round, which is held against
+/// it, begins later.
+pid_t worldOf(pid_t server) {
+  const std::vector<pid_t> worlds = processesOf(server, "exe");  // of /proc/self/exe
+  return worlds.empty() ? 0 : worlds.front();
 }
 
 constexpr std::chrono::seconds kForLog{3};  ///< a line of the server's that was written before
@@ -288,20 +299,27 @@ std::optional<std::chrono::milliseconds> RecoveryRun::killWorld() {
   for (const auto& client : m_clients) before.emplace_back(client->session(), client->newestTick());
   const auto began = Clock::now();
   ::kill(world, SIGKILL);
-  const auto sees_more = [&] {
+  const auto sees_more = [&](std::uint32_t ticks) {
     for (std::size_t i = 0; i < m_clients.size(); ++i) {
-      if (m_clients[i]->newestTick() < before[i].second + kSeenTicks) return false;
+      if (m_clients[i]->newestTick() < before[i].second + ticks) return false;
     }
     return true;
   };
-  while (!sees_more()) {
+  std::optional<Clock::time_point> next_picture;
+  while (!sees_more(kSeenTicks)) {
     if (Clock::now() > began + kPatience) return std::nullopt;
-    play(std::chrono::milliseconds(5));
+    play(std::chrono::milliseconds(2));
+    // What was on its way when the world died comes still.
+    if (!next_picture && sees_more(kOnTheWay)) next_picture = Clock::now();
   }
   for (std::size_t i = 0; i < m_clients.size(); ++i) {
     if (m_clients[i]->session() != before[i].first) return std::nullopt;
   }
-  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
+  return std::chrono::duration_cast<std::chrono::milliseconds>(next_picture.value_or(Clock::now()) - began);
+}
+
+std::vector<pid_t> RecoveryRun::copies() const {
+  return processesOf(m_server->process(), "df-copy");
 }
 
 // The world that goes on was executed from the file; executed again, it shows what its players saw.

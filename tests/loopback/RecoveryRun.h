@@ -2,6 +2,8 @@
 // them come back as the same player, into the same world?
 #pragma once
 
+#include <sys/types.h>
+
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdint>
@@ -51,9 +53,11 @@ class RecoveryRun {
   /// The two halves of kill().
   void killServer();
   KillResult comeBack();
-  /// Kill the world's process alone, and wait until its players see more of it. How long they waited;
-  /// nothing: they do not, or not in the sessions that they had.
+  /// Kill the world's process alone, and wait until its players see more of it, and go on to. How long it
+  /// took to the last one's next picture; nothing: they do not go on, or not in the sessions that they had.
   std::optional<std::chrono::milliseconds> killWorld();
+  /// The copies of the world's process that wait.
+  std::vector<pid_t> copies() const;
   /// End the server, and execute its round from the beginning. Is it the same, tick by tick? `said`: what
   /// dfreplay --verify prints.
   bool verify(std::string& said);

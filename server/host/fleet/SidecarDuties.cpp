@@ -63,7 +63,7 @@ std::optional<SidecarRequest> SidecarDuties::choose(Time now) const {
   if (m_said == Said::kNothing) return post(Kind::kReady, "/ready");
   if (m_said != wanted)
     return m_players.empty() ? post(Kind::kReady, "/ready") : post(Kind::kAllocate, "/allocate");
-  if (!m_facts) return SidecarRequest{Kind::kFacts, "GET", "/gameserver", ""};
+  if (!m_facts && now >= m_facts_not_before) return SidecarRequest{Kind::kFacts, "GET", "/gameserver", ""};
   const std::string counter =
       R"({"count":)" + quoted(m_players.size()) + R"(,"capacity":)" + quoted(m_most) + "}";
   if (m_counter != counter)
@@ -91,7 +91,7 @@ void SidecarDuties::onAnswer(int status, const std::string& body, Time now) {
     return;
   }
   m_not_before.reset();
-  if (!missing) ++m_counters.requests;
+  if (!missing && asked.kind != Kind::kFacts) ++m_counters.requests;
   switch (asked.kind) {
     case Kind::kReady:
       m_said = Said::kReady;
@@ -110,12 +110,19 @@ void SidecarDuties::onAnswer(int status, const std::string& body, Time now) {
       m_list = asked.body;
       break;
     case Kind::kFacts:
-      m_facts = GameServerFacts::parse(body, false).value_or(GameServerFacts());
+      takeFacts(body, now);
       break;
     case Kind::kShutdown:
       m_over = true;
       break;
   }
+}
+
+// Too long, cut, or no such JSON: it is asked for again, and hinders nothing meanwhile.
+void SidecarDuties::takeFacts(const std::string& body, Time now) {
+  m_facts = GameServerFacts::parse(body, false);
+  ++(m_facts ? m_counters.requests : m_counters.failures);
+  if (!m_facts) m_facts_not_before = now + kRetry;
 }
 
 }  // namespace naiad

@@ -61,6 +61,7 @@ class SidecarDuties {
   enum class Said { kNothing, kReady, kAllocated };
 
   std::optional<SidecarRequest> choose(Time now) const;
+  void takeFacts(const std::string& body, Time now);
   std::chrono::milliseconds healthTime() const;
 
   bool m_ready = false;
@@ -77,6 +78,7 @@ class SidecarDuties {
   std::optional<GameServerFacts> m_facts;
   std::optional<SidecarRequest> m_asked;  ///< not answered yet
   std::optional<Time> m_not_before;       ///< after a failure
+  Time m_facts_not_before{};              ///< after facts that could not be read
   Time m_wake{};
   PlatformCounters m_counters;
 };

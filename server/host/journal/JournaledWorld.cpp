@@ -1,6 +1,8 @@
 #include "host/journal/JournaledWorld.h"
 
 #include <algorithm>
+#include <cassert>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -90,6 +92,7 @@ void JournaledWorld::tick(bool watched, bool truth) {
   m_turn.pictured = m_pictured;
   m_turn.checked = m_ticks % kHashTicks == 0;
   if (watched && m_ticks % kPictureTicks == kFirstPicture && !m_players.empty()) choosePicture();
+  orderCopy();
   storeTurn();
   m_world->setChecked(m_turn.checked);
   truth = m_turn.wants_truth;
@@ -131,6 +134,7 @@ void JournaledWorld::storeResult() {
   if (const std::uint32_t player = std::exchange(m_recorded, 0); player != 0)
     m_writer.write(RecordedPicture{player, m_world->renderPlayer(player)}, m_record);
   store();
+  if (m_copies.endTick(m_history.size())) m_writer.repeatFlags();
 }
 
 void JournaledWorld::store() {
@@ -138,6 +142,7 @@ void JournaledWorld::store() {
     m_history += m_record;
   } else {
     m_history.clear();
+    m_copies.clear();
     m_book.new_world = {};
   }
   m_goes_on = m_book.journal->add(m_record);
@@ -238,6 +243,7 @@ void JournaledWorld::endRepeatedTick() {
     return endRecovery({});
   }
   const std::string difference = m_book.recovery->compareResult(*m_world);
+  if (!difference.empty() && m_by_copy) return m_world->giveUp("is other in tick " + std::to_string(m_ticks));
   if (!difference.empty())
     return endRecovery("in tick " + std::to_string(m_book.recovery->turns()) + " " + difference);
   if (m_book.recovery->isResultMissing() && !isTakingOver()) storeResult();
@@ -253,12 +259,13 @@ void JournaledWorld::closeRecovery() {
   sendTurn(std::exchange(m_turn, WorldTurn()));
 }
 
-// Players who left while the round was played have left.
+// Players who left or were led to other rooms while the round was played have gone.
 void JournaledWorld::endRecovery(const std::string& problem) {
   if (isTakingOver()) return endTakeOver(problem);
   const auto recovery = std::move(m_book.recovery);
   m_sessions = recovery->sessions();
   m_world->takeLeavers();
+  m_world->takeSent();
   if (m_on_repeated) std::exchange(m_on_repeated, {})();
   if (m_book.on_recovered) m_book.on_recovered(recovery->turns(), problem);
   if (problem.empty()) return;
@@ -274,6 +281,10 @@ bool JournaledWorld::takeOver(const WorldEnd& end) {
   const bool failed = end.why == WorldEnd::kCrashed || end.why == WorldEnd::kHung;
   if (!failed || !m_book.new_world || !m_goes_on || !m_began) return false;
   const auto tick = m_ticks;
+  if (m_by_copy && !m_book.recovery->isAtUnknownResult()) {
+    say("a copy of the game's world " + end.text + " before it was where the world had been");
+    return beginAgain(false);
+  }
   const bool again = m_died_at && tick < *m_died_at + kSameDeath;
   // A server that goes on with a round knows no more than that the world had the last turn.
   const bool in_last_turn = m_book.recovery ? m_book.recovery->isAtUnknownResult() : m_in_tick;
@@ -283,6 +294,7 @@ bool JournaledWorld::takeOver(const WorldEnd& end) {
   m_died_at = tick;
   if (!m_book.recovery) {
     m_death = end;
+    m_death_at = Clock::now();
     m_next_tick = m_world->nextTick();
     m_view = m_world->view();
   }
@@ -299,29 +311,55 @@ bool JournaledWorld::beginAgain(bool drops_keys) {
     m_death.reset();
     return false;
   }
+  return repeatByCopy() || repeatByAnother();
+}
+
+bool JournaledWorld::repeatByCopy() {
+  m_by_copy = false;
+  const auto ticks = m_world->goOnWithCopy();
+  if (!ticks) return false;
+  const auto mark = m_copies.take(*ticks);
+  assert(mark);  // one for each that there is
+  prepareToRepeat(mark->records);
+  m_by_copy = m_repeating = true;
+  m_ticks = mark->ticks;
+  m_players = mark->players;
+  repeatNextTurn();
+  return true;
+}
+
+bool JournaledWorld::repeatByAnother() {
   try {
     AnotherWorld another = m_book.new_world();
     m_world = std::move(another.world);
     m_on_repeated = std::move(another.on_repeated);
   } catch (const std::system_error&) {
+    if (isTakingOver()) m_book.recovery.reset();  // that of a copy
     m_death.reset();
     return false;
   }
   listenToWorld();
+  m_copies.clear();
+  prepareToRepeat(0);
+  return true;
+}
+
+/// With the turns behind so many bytes of records.
+void JournaledWorld::prepareToRepeat(std::size_t records) {
   m_book.check.reset();
   m_book.find_difference = {};  // of the world before
-  m_book.recovery =
-      std::make_unique<RoundRecovery>(std::make_shared<const OpenRound>(m_book.journal->header(), m_history));
+  m_book.recovery = std::make_unique<RoundRecovery>(std::make_shared<const OpenRound>(
+      m_book.journal->header(), std::string_view(m_history).substr(records)));
   m_ticks = 0;
   m_players.clear();
   m_scores.clear();
   m_repeating = m_closing = false;
-  return true;
 }
 
 // What came meanwhile is in the next turn. A tick that the world before did not end ends now.
 void JournaledWorld::endTakeOver(const std::string& problem) {
-  m_book.recovery.reset();
+  const auto recovery = std::move(m_book.recovery);
+  const TakeOver done{std::exchange(m_by_copy, false), recovery->turns()};
   if (!problem.empty()) {
     m_unrecovered = std::exchange(m_death, std::nullopt);
     m_unrecovered->text += ", and another world did not do the same (" + problem + ")";
@@ -329,6 +367,11 @@ void JournaledWorld::endTakeOver(const std::string& problem) {
     return m_world->close();
   }
   if (m_on_repeated) std::exchange(m_on_repeated, {})();
+  m_world->endRepetition();
+  m_taken_over = done;
+  if (m_book.on_taken_over)
+    m_book.on_taken_over(done,
+                         std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_death_at));
   m_death.reset();
   m_view = {};
   const bool ends_tick = std::exchange(m_in_tick, false);
@@ -342,6 +385,19 @@ void JournaledWorld::endTakeOver(const std::string& problem) {
     m_world->addInput(std::move(input));
   }
   if (ends_tick) reportTick();
+}
+
+// ---- copies -----------------------------------------------------------------------------------------------
+
+void JournaledWorld::orderCopy() {
+  if (!m_book.new_world || !m_copies.isDue(m_ticks, [this] { return m_world->cpuTime(); })) return;
+  m_copies.beginTick(m_ticks, m_players, m_world->keepCopy());
+  if (const auto problem = m_world->takeCopyProblem())
+    say("of this game's world no copies are kept: " + *problem);
+}
+
+void JournaledWorld::say(const std::string& sentence_of_copies) const {
+  if (m_book.on_copies) m_book.on_copies(sentence_of_copies);
 }
 
 }  // namespace naiad

@@ -2,9 +2,12 @@
 //
 // With a RoundRecovery it first gets the turns of a round whose server was killed, as fast as it answers, and
 // is ready when it has had all of them. In the same way another world takes over from one that crashed or
-// hangs, without the keys and clicks of the tick in which that happened.
+// hangs, without the keys and clicks of the tick in which that happened: a copy of it that is a few seconds
+// old, or one that begins again.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/journal/CopyMarks.h"
 #include "host/journal/Journal.h"
 #include "host/journal/JournalWriter.h"
 #include "host/journal/RepeatCheck.h"
@@ -23,6 +27,8 @@ namespace naiad {
 
 class JournaledWorld : public WorldPort {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// Ticks between two hashes of the state, and between two pictures, of which the first comes earlier. A
   /// picture takes some 500 bytes of the file, a hash 8.
   static constexpr std::uint32_t kHashTicks = 30;
@@ -66,6 +72,10 @@ class JournaledWorld : public WorldPort {
     std::function<AnotherWorld()> new_world = {};
     /// The world has ended so in this tick. `goes_on`: another one takes over.
     std::function<void(const WorldEnd& end, std::uint32_t tick, bool goes_on)> on_death = {};
+    /// Another world has taken over, and how long that took.
+    std::function<void(const TakeOver& done, std::chrono::milliseconds time)> on_taken_over = {};
+    /// A sentence about copies, for the log.
+    std::function<void(const std::string& sentence)> on_copies = {};
   };
 
   JournaledWorld(std::unique_ptr<WorldPort> world, Book book);
@@ -85,6 +95,7 @@ class JournaledWorld : public WorldPort {
   void notePublished(const Publisher& publisher) override { m_world->notePublished(publisher); }
   std::vector<std::uint32_t> takeLeavers() override { return m_world->takeLeavers(); }
   std::vector<df::AddedScore> takeScores() override;
+  std::vector<df::SentPlayer> takeSent() override { return m_world->takeSent(); }
   RoundName roundName() const override;
   bool isGameOver() const override { return m_world->isGameOver(); }
   df::Canvas renderPlayer(std::uint32_t player) const override { return m_world->renderPlayer(player); }
@@ -97,6 +108,7 @@ class JournaledWorld : public WorldPort {
   std::optional<WorldEnd> end() const override { return m_unrecovered ? m_unrecovered : m_world->end(); }
   std::optional<std::string> takeWarning() override { return m_world->takeWarning(); }
   void close() override { m_world->close(); }
+  std::optional<TakeOver> takeTakeOver() override { return std::exchange(m_taken_over, std::nullopt); }
 
  private:
   void begin();
@@ -116,6 +128,11 @@ class JournaledWorld : public WorldPort {
   bool isTakingOver() const { return m_death.has_value(); }
   bool takeOver(const WorldEnd& end);
   bool beginAgain(bool drops_keys);
+  bool repeatByCopy();
+  bool repeatByAnother();
+  void prepareToRepeat(std::size_t records);
+  void orderCopy();
+  void say(const std::string& sentence_of_copies) const;
   void endTakeOver(const std::string& problem);
 
   std::unique_ptr<WorldPort> m_world;
@@ -147,6 +164,12 @@ class JournaledWorld : public WorldPort {
   std::function<void()> m_on_repeated;
   std::uint32_t m_next_tick = 0;
   df::WorldView m_view;
+  Clock::time_point m_death_at;
+  std::optional<TakeOver> m_taken_over;
+
+  // Of copies.
+  CopyMarks m_copies;
+  bool m_by_copy = false;  ///< the world that has the turns again is one
 };
 
 }  // namespace naiad

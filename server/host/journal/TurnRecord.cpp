@@ -97,7 +97,8 @@ void TurnRecordWriter::append(std::string& out) {
 bool TurnRecordWriter::write(const WorldTurn& turn, std::string& out) {
   if (turn.inputs.size() > kMaxTurnInputs) return false;
   FieldWriter fields(m_fields);
-  const bool same = hasSameHead(turn, m_last);
+  const bool same = hasSameHead(turn, m_last) && !m_repeats_flags;
+  m_repeats_flags = false;
   fields.number(same ? kRecordedTurn : kRecordedNewTurn, 0, 255);
   if (!same) {
     visitHead(fields, turn);

@@ -49,6 +49,8 @@ class TurnRecordWriter {
   explicit TurnRecordWriter(const WorldTurn& last);
   /// Append one to `out`. False, and nothing is appended: more than kMaxTurnInputs.
   bool write(const WorldTurn& turn, std::string& out);
+  /// The next turn says all its flags, whatever the one before had: what begins with it can be read alone.
+  void repeatFlags() { m_repeats_flags = true; }
   void write(const TickResult& result, std::string& out);
   void write(const RecordedPicture& picture, std::string& out);
   void write(const KeptSession& session, std::string& out);
@@ -58,6 +60,7 @@ class TurnRecordWriter {
   void append(std::string& out);
 
   WorldTurn m_last;  ///< without inputs
+  bool m_repeats_flags = false;
   std::string m_fields;
 };
 

@@ -83,7 +83,7 @@ void Admission::changePassword(std::optional<PasswordHash> hash) {
 
 void Admission::judgeHello(Session& session, const wire::Hello& hello) {
   if (!checkHello(session, hello) || isBanned(session, cleanName(hello.player_name()))) return;
-  if (m_setup.rooms.recovering()) {
+  if (waitsForRound(hello)) {
     m_waiting.push_back({session.id(), std::make_shared<wire::Hello>(hello), session.now()});
     return;
   }
@@ -91,6 +91,14 @@ void Admission::judgeHello(Session& session, const wire::Hello& hello) {
   if (!hello.resume_token().empty() && resumeSession(session, hello)) return;
   if (m_needs_password) return checkPassword(session, hello);
   admitPlayer(session, hello);
+}
+
+// In rooms that have names, only a client that looks for its session does: it may be in one that is not there
+// yet. A room that is not there yet lets others in later (RoomDoor.h).
+bool Admission::waitsForRound(const wire::Hello& hello) const {
+  if (!m_setup.rooms.recovering()) return false;
+  return !m_setup.rooms.isNamed() ||
+         (!hello.resume_token().empty() && !m_tokens.find(hello.resume_token()).has_value());
 }
 
 // The address was asked for before TLS; a ban may have come meanwhile.
@@ -248,17 +256,17 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
 
 // Clients that look for a lost server ask again in a moment, and show the sentence.
 void Admission::judgeWaiting() {
-  const auto percent = m_setup.rooms.recovering();
+  const int percent = m_setup.rooms.recovering().value_or(100);
   for (const WaitingHello& one : std::exchange(m_waiting, {})) {
     Session* p_session = m_setup.sessions.find(one.session);
     if (p_session == nullptr || p_session->state() != Session::State::kGreeting) continue;
-    if (!percent) {
+    if (!waitsForRound(*one.hello)) {
       judgeHello(*p_session, *one.hello);
     } else if (p_session->now() - one.since < kRecoveryWait) {
       m_waiting.push_back(one);
     } else {
       refuseBusy(*p_session,
-                 "The server was down and restores your game: " + std::to_string(*percent) + " %.");
+                 "The server was down and restores your game: " + std::to_string(percent) + " %.");
     }
   }
 }

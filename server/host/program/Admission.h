@@ -1,6 +1,7 @@
 // Judges hellos: which client plays, which one goes on with its session, which one is refused and why.
 #pragma once
 
+#include <algorithm>
 #include <asio/any_io_executor.hpp>
 #include <chrono>
 #include <cstdint>
@@ -65,6 +66,8 @@ class Admission {
   /// Refuse or welcome the session that heard this hello: now, or once its password has been checked, or the
   /// round of a server that was killed has been executed again.
   void judgeHello(Session& session, const wire::Hello& hello);
+  /// New players have higher ids than this one.
+  void reservePlayers(std::uint32_t highest) { m_next_player = std::max(m_next_player, highest + 1); }
   /// Once a tick: judge the hellos that wait for a round.
   void judgeWaiting();
   /// The client has the token that it was sent last (Session::takeProof).
@@ -91,6 +94,7 @@ class Admission {
  private:
   bool isBanned(Session& session, const std::string& name);
   bool checkHello(Session& session, const wire::Hello& hello);
+  bool waitsForRound(const wire::Hello& hello) const;
   void checkPassword(Session& session, const wire::Hello& hello);
   void applyPasswordAnswer(Session& session, const wire::Hello& hello, PasswordCheck::Answer answer);
   bool resumeSession(Session& session, const wire::Hello& hello);

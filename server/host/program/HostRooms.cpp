@@ -11,6 +11,7 @@ void Host::setRooms(std::vector<NamedRoom> rooms) {
     RoomPlan& plan = plans.emplace_back(std::move(room.plan));
     plan.new_world = [this, new_world = std::move(room.new_world)] { return new_world(m_io); };
     plan.p_scores = &scoresOf(plan.game);
+    m_admission.reservePlayers(plan.highest_player);
   }
   m_rooms.setNamed(std::move(plans));
 }

@@ -33,8 +33,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Bytes of turns that may wait for a disk: of a thousand players for 20 seconds, and of one alone.
+/// Bytes of turns that may wait for a disk: of a thousand players for 20 seconds, of a room's, and of one
+/// alone.
 constexpr std::size_t kSharedRing = std::size_t{4} << 20;
+constexpr std::size_t kRoomRing = std::size_t{1} << 20;
 constexpr std::size_t kPrivateRing = std::size_t{256} << 10;
 
 /// To go on with one round. A server that ends while it does so may have been ended by the round.
@@ -184,18 +186,23 @@ std::shared_ptr<Journals> Journals::open(const HostOptions& options, const std::
   return wantsJournal(options) ? std::make_shared<Journals>(options, game, module, log) : nullptr;
 }
 
-Journals::Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log)
+Journals::Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log,
+                   std::shared_ptr<SharedJournals> p_shared)
     : m_folder(fs::absolute(options.journal).string()),
       m_game(std::move(game)),
       m_module(module),
       m_seed(options.seed),
       m_frame_nanos(static_cast<std::uint64_t>(
           std::chrono::nanoseconds(TickLength::fromMicros(options.frame_micros).times(1)).count())),
-      m_ring(options.players == "private" ? kPrivateRing : kSharedRing),
+      m_ring(options.players == "private" ? kPrivateRing
+             : p_shared != nullptr        ? kRoomRing
+                                          : kSharedRing),
+      m_copies(options.players != "private"),
       m_facts(factsOfMachine()),
       m_log(std::move(log)),
       m_is_private(options.players == "private"),
-      m_recovers(options.recover == "on") {
+      m_recovers(options.recover == "on"),
+      m_shared(p_shared != nullptr ? std::move(p_shared) : std::make_shared<SharedJournals>()) {
   m_facts[kFactGame] = m_game;
   m_facts[kFactVersion] = kVersion;
   m_facts[kFactPort] = std::to_string(options.port);
@@ -215,10 +222,15 @@ Journals::Journals(const HostOptions& options, std::string game, const std::stri
     m_log("warning: libdragonfly-repeat.so is missing: a game that reads a clock cannot be executed again");
 }
 
+std::uint32_t Journals::highestPlayer() const {
+  return m_open != nullptr && !m_open->sessions().empty() ? m_open->sessions().rbegin()->first : 0;
+}
+
 WorldOrder Journals::makeOrder() const {
   WorldOrder order;
   order.seed = m_seed != 0 ? static_cast<std::uint64_t>(m_seed) : newSeed();
   order.repeatable = true;
+  order.copies = m_copies;
   order.start_nanos = static_cast<std::uint64_t>(
       std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
   order.frame_nanos = m_frame_nanos;
@@ -256,6 +268,7 @@ std::optional<WorldOrder> Journals::orderOfOpenRound() const {
   WorldOrder order;
   order.seed = m_open->header().seed;
   order.repeatable = true;
+  order.copies = m_copies;
   order.again = true;  // or a game that sleeps would take as long as the round
   order.start_nanos = m_open->header().start_nanos;
   order.frame_nanos = m_open->header().frame_nanos;
@@ -336,14 +349,14 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
       static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
   book.new_world = std::move(another);
   book.recovery = std::make_unique<RoundRecovery>(round);
-  m_writer->add(book.journal);
+  m_shared->writer->add(book.journal);
   noteCurrent(book.journal, path);
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
 }
 
 JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProcess& world) const {
   JournaledWorld::Book book;
-  book.writer = m_writer;
+  book.writer = m_shared->writer;
   book.recording = std::filesystem::path(path).filename().string();
   book.late_facts = [&world] { return factsOfStart(world); };
   book.on_problem = [log = m_log, path](const std::string& problem) {
@@ -358,6 +371,12 @@ JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProc
                       : describeLastDeath(path, tick, game, module))});
     for (const std::string& line : end.last_lines) log("the game's log: " + line);
   };
+  book.on_taken_over = [log = m_log](const TakeOver& done, std::chrono::milliseconds time) {
+    log(std::string("the game goes on: ") + (done.by_copy ? "a copy of its world" : "another world") +
+        " executed " + std::to_string(done.ticks) + " ticks again, in " + std::to_string(time.count()) +
+        " ms");
+  };
+  book.on_copies = [log = m_log](const std::string& sentence) { log(sentence); };
   return book;
 }
 
@@ -379,7 +398,7 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
     return world;
   }
   book.new_world = std::move(another);
-  if (again && !std::exchange(m_checked, true)) {
+  if (again && m_shared->checked.insert(m_game).second) {
     book.check = std::make_unique<RepeatCheck>(
         std::move(again),
         [log = m_log, journal = book.journal, repeats = m_repeats](const std::string& sentence) {
@@ -388,9 +407,9 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
           log(LogEvent::warning(sentence));
         });
   }
-  m_writer->add(book.journal);
+  m_shared->writer->add(book.journal);
   noteCurrent(book.journal, path);
-  m_writer->wake();  // a server that is killed within the first second leaves a file, too
+  m_shared->writer->wake();  // a server that is killed within the first second leaves a file, too
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "host/journal/JournaledWorld.h"
@@ -16,6 +18,12 @@
 
 namespace naiad {
 
+/// What the journals of a server's rooms have in common (RoomJournals.h).
+struct SharedJournals {
+  std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
+  std::set<std::string> checked = {};  ///< games of which a round has been held against another, or is
+};
+
 class Journals {
  public:
   /// Null if the options want none. `module`: the game's path; empty for a game that is this program itself.
@@ -24,13 +32,17 @@ class Journals {
 
   using NewWorld = std::function<JournaledWorld::AnotherWorld()>;
 
-  Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log);
+  /// `p_shared`: with the journals of other rooms; null: there are none.
+  Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log,
+           std::shared_ptr<SharedJournals> p_shared = nullptr);
 
   /// For the next world.
   WorldOrder makeOrder() const;
   /// For the world that goes on with the round of a server that was killed; nothing: there is no such round,
   /// or it has been begun.
   std::optional<WorldOrder> orderOfOpenRound() const;
+  /// The highest id of the players who may come back to that round; 0: there are none.
+  std::uint32_t highestPlayer() const;
   /// That world, which first gets the turns of its round. `on_recovered`: it has had them.
   std::unique_ptr<WorldPort> goOn(std::unique_ptr<WorldProcess> world, std::function<void()> on_recovered,
                                   NewWorld another);
@@ -47,7 +59,7 @@ class Journals {
   /// The file of that round.
   const std::string& currentFile() const { return m_current_file; }
   /// Wait until all that was added is on the disk, or for so long. Return whether it is. From any thread.
-  bool sync(std::chrono::milliseconds most) { return m_writer->drain(most); }
+  bool sync(std::chrono::milliseconds most) { return m_shared->writer->drain(most); }
   /// Its journal is left as by a server that was killed. From now on nothing is written down.
   void leaveOpen();
   /// Say in the environment of the program that this process runs next that this round was executed again by
@@ -74,6 +86,7 @@ class Journals {
   const std::int64_t m_seed;
   const std::uint64_t m_frame_nanos;
   const std::size_t m_ring;
+  const bool m_copies;  ///< of worlds: three processes for each are too many where each player has one
   DfrFacts m_facts;
   LogLine m_log;
   std::weak_ptr<Journal> m_current;
@@ -83,9 +96,8 @@ class Journals {
   bool m_recovers = true;
   std::shared_ptr<bool> m_repeats = std::make_shared<bool>(true);  ///< the current round, as far as is known
   std::optional<KeptRound> m_kept = takeKeptRound();
-  bool m_checked = false;             ///< a round has been, or is
   std::unique_ptr<OpenRound> m_open;  ///< to go on with
-  std::shared_ptr<JournalWriter> m_writer = std::make_shared<JournalWriter>();
+  std::shared_ptr<SharedJournals> m_shared;
 };
 
 /// The round that a server of this folder was killed in, if this one can go on with it: the same game with

@@ -51,8 +51,12 @@ void Rooms::openNamed() {
     room.port().checkProcess(tickNumber());
     m_game_rooms.push_back(gameRoomOf(room));
   }
-  std::string problem;
-  if (!wake(firstRoom(), problem)) m_log("the first room cannot begin: " + problem);
+  for (const auto& room : m_rooms) {
+    std::string problem;
+    const bool begins = room == m_rooms.front() || room->plan()->goes_on;
+    if (begins && !wake(*room, problem))
+      m_log("the room " + room->plan()->name + " cannot begin: " + problem);
+  }
 }
 
 Room* Rooms::findRoom(const std::string& name) const {
@@ -100,6 +104,8 @@ void Rooms::leaveRoom(const Session& session) {
 // ---- what games know of rooms -----------------------------------------------------------------------------
 
 void Rooms::passRooms(Room& room) const {
+  if (room.port().recovering())
+    return;  // the inputs of then are in its journal; those of now come behind them
   for (std::size_t i = 0; i < m_game_rooms.size(); ++i) {
     df::GameRoom known = m_game_rooms[i];
     known.is_this_one = m_rooms[i].get() == &room;
@@ -116,7 +122,7 @@ void Rooms::publishRooms() {
     if (present == m_game_rooms[i]) continue;
     m_game_rooms[i] = present;
     for (const auto& room : m_rooms) {
-      if (room->isAsleep()) continue;
+      if (room->isAsleep() || room->port().recovering()) continue;
       present.is_this_one = room == m_rooms[i];
       room->port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = present});
     }
@@ -149,7 +155,7 @@ void Rooms::checkSleep() {
   const std::chrono::duration<double> patience(m_options.room_sleep);
   for (const auto& room : m_rooms) {
     RoomSleep& sleep = room->sleep();
-    if (sleep.asleep) continue;
+    if (sleep.asleep || room->port().recovering()) continue;
     if (!room->isEmpty()) {
       sleep.empty_since.reset();
     } else if (!sleep.empty_since) {

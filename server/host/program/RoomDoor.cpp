@@ -52,6 +52,12 @@ std::optional<RoomDoor::Refusal> RoomDoor::open(Room& room, const AddressPrefix&
         named(room) + " is full (" + std::to_string(room.plan()->max_players) + " players). Try again later.",
         ""};
   }
+  if (const auto percent = room.port().recovering()) {
+    return Refusal{
+        Why::kForNow,
+        "The server was down; " + named(room) + " is being restored: " + std::to_string(*percent) + " %.",
+        ""};
+  }
   if (!room.isAsleep()) return std::nullopt;
   if (now < room.sleep().closed_until)
     return Refusal{Why::kForNow, named(room) + " is closed for a moment: its game failed.", ""};

@@ -111,8 +111,6 @@ std::string gameComplaint(const RoomOptions& room) {
 std::string conflict(const HostOptions& options) {
   if (options.players == "private") return "--room and --players private do not go together";
   if (options.on_game_over == "exit") return "--room and --on-game-over exit do not go together";
-  if (wantsJournal(options))
-    return "--room and --journal do not go together: the rounds of rooms cannot be written down";
   if (!options.truth_file.empty()) return "--room and --truth do not go together";
   return {};
 }

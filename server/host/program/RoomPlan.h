@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,6 +24,9 @@ struct RoomPlan {
   /// Makes its world; throws std::system_error if it cannot.
   std::function<std::unique_ptr<WorldPort>()> new_world;
   ScoreKeeper* p_scores = nullptr;  ///< of the game; null: nothing is kept
+  /// Its first world goes on with the round of a server that was killed: it does not wait for players.
+  bool goes_on = false;
+  std::uint32_t highest_player = 0;  ///< id of the players who may come back to that round
 };
 
 /// When a room sleeps: it has no world then.

@@ -245,18 +245,29 @@ void Rooms::checkWorlds() {
   if (!hasWorlds()) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
-    if (const auto sessions = room->port().takeSessions(); sessions && m_on_sessions)
-      m_on_sessions(*room, *sessions);
+    if (const auto sessions = room->port().takeSessions()) endRecovery(*room, *sessions);
     if (const auto warning = room->port().takeWarning()) {
       m_log({LogEvent::Level::kWarning, *warning});
       room->say("The game takes long over something: everything stands still.");
     }
+    if (const auto taken_over = room->port().takeTakeOver()) noteTakeOver(*room, *taken_over);
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
   if (isNamed()) checkSleep();
   if (!isPrivate()) return;
   std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
+}
+
+void Rooms::noteTakeOver(const Room& room, const TakeOver& done) {
+  ++(done.by_copy ? m_counters.taken_over_by_copies : m_counters.taken_over_by_worlds);
+  room.say("The game failed, and goes on from where it was.");
+}
+
+// The players of a server that was killed may come back now, to a server whose rooms may be others.
+void Rooms::endRecovery(Room& room, const std::vector<KeptSession>& sessions) {
+  if (m_on_sessions) m_on_sessions(room, sessions);
+  if (isNamed()) passRooms(room);
 }
 
 void Rooms::countEnd(WorldEnd::Why why) {

@@ -177,6 +177,8 @@ class Rooms {
   void dismissLeavers(Room& room);
   void endRound(Room& room, const WorldEnd& end);
   void noteUpgrade(const Room& room, const WorldEnd& end);
+  void noteTakeOver(const Room& room, const TakeOver& done);
+  void endRecovery(Room& room, const std::vector<KeptSession>& sessions);
   void countEnd(WorldEnd::Why why);
   bool beginRound(Room& room);
 

@@ -149,6 +149,7 @@ Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLin
     WorldOrder again = order;
     again.again = true;
     again.reads_only = true;
+    again.copies = false;
     RepeatCheck::NewWorld start_again;
     if (launcher->support().landlock > 0) {
       start_again = [launcher, again, &home] {

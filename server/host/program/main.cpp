@@ -20,6 +20,7 @@
 #include "host/program/Host.h"
 #include "host/program/HostOptions.h"
 #include "host/program/Restart.h"
+#include "host/program/RoomJournals.h"
 #include "host/program/RoomLaunch.h"
 #include "host/program/RoundHandover.h"
 #include "host/program/WorldSandbox.h"
@@ -209,6 +210,25 @@ naiad::LogLine roomLog(naiad::LineLog& log, const std::string& room) {
   };
 }
 
+std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host, const naiad::HostOptions& options,
+                                            const std::vector<naiad::LaunchedRoom>& launched,
+                                            naiad::LineLog& lines) {
+  const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
+  const auto journals = naiad::openRoomJournals(options, host.port(), launched, log);
+  std::vector<naiad::Host::NamedRoom> rooms;
+  rooms.reserve(launched.size());
+  for (std::size_t i = 0; i < launched.size(); ++i) {
+    naiad::RoomPlan plan = launched[i].plan;
+    if (journals[i] != nullptr) {
+      plan.goes_on = journals[i]->orderOfOpenRound().has_value();
+      plan.highest_player = journals[i]->highestPlayer();
+    }
+    const naiad::LogLine print = host.watchedGame(roomLog(lines, plan.name));
+    rooms.push_back({std::move(plan), naiad::startWorlds(launched[i].launcher, print, journals[i])});
+  }
+  return rooms;
+}
+
 /// Each room has its game in worlds of its own.
 int serveRooms(Start& start, naiad::LineLog& lines) {
   const naiad::HostOptions& options = start.options;
@@ -217,13 +237,7 @@ int serveRooms(Start& start, naiad::LineLog& lines) {
   const std::vector<naiad::LaunchedRoom> launched = naiad::launchRooms(options, start.config, log, print);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   naiad::Host host(options, launched.front().plan.game, log);
-  std::vector<naiad::Host::NamedRoom> rooms;
-  rooms.reserve(launched.size());
-  for (const naiad::LaunchedRoom& room : launched) {
-    rooms.push_back(
-        {room.plan, naiad::startWorlds(room.launcher, host.watchedGame(roomLog(lines, room.plan.name)))});
-  }
-  host.setRooms(std::move(rooms));
+  host.setRooms(roomsOf(host, options, launched, lines));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) +

@@ -76,6 +76,8 @@ std::string Counters::summary() const {
       {"rounds_hung", rounds_hung},
       {"rounds_broken", rounds_broken},
       {"rounds_unrecovered", rounds_unrecovered},
+      {"taken_over_by_copies", taken_over_by_copies},
+      {"taken_over_by_worlds", taken_over_by_worlds},
       {"scores", scores},
       {"scores_refused", scores_refused},
       {"scores_written", scores_written},

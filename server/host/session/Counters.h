@@ -86,6 +86,8 @@ struct Counters {
   std::uint64_t rounds_hung = 0;
   std::uint64_t rounds_broken = 0;
   std::uint64_t rounds_unrecovered = 0;
+  std::uint64_t taken_over_by_copies = 0;  ///< worlds that died, and that their round went on without
+  std::uint64_t taken_over_by_worlds = 0;
   // Scores that games added (HighScores.h):
   std::uint64_t scores = 0;          ///< taken over
   std::uint64_t scores_refused = 0;  ///< no good, or of more tables than a game may have

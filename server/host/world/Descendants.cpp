@@ -25,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kNapMillis = 2;
 constexpr std::chrono::seconds kLongest{20};  ///< a process that waits for a dead disk cannot be ended
+constexpr std::chrono::milliseconds kLongestOthers{500};  ///< players wait meanwhile
 
 std::optional<pid_t> processOf(const char* name) {
   pid_t process = 0;
@@ -116,8 +117,10 @@ void endChild(pid_t child) {
 
 int endDescendants(pid_t leader) {
   int status = SIGKILL;
-  kill(-leader, SIGKILL);  // all of the group at once: none of it can fork on
-  kill(leader, SIGKILL);   // should it have left its group
+  if (leader > 0) {
+    kill(-leader, SIGKILL);  // all of the group at once: none of it can fork on
+    kill(leader, SIGKILL);   // should it have left its group
+  }
   std::set<pid_t> ended;
   bool naps = false;
   for (const auto end = Clock::now() + kLongest; Clock::now() < end;) {
@@ -140,6 +143,24 @@ int endDescendants(pid_t leader) {
     for (const Descendant& one : findDescendants()) kill(one.process, SIGKILL);
   }
   return status;
+}
+
+bool endOthers(const std::set<pid_t>& kept) {
+  for (const auto end = Clock::now() + kLongestOthers; Clock::now() < end;) {
+    std::set<pid_t> others;
+    for (const pid_t child : findChildren()) others.insert(child);
+    for (const Descendant& one : findDescendants()) {
+      if (kept.count(one.branch) == 0) others.insert(one.process);
+    }
+    for (const pid_t child : kept) others.erase(child);
+    if (others.empty()) return true;
+    for (const pid_t one : others) {
+      kill(one, SIGKILL);
+      waitpid(one, nullptr, WNOHANG);
+    }
+    poll(nullptr, 0, kNapMillis);
+  }
+  return false;
 }
 
 }  // namespace naiad

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <set>
 #include <vector>
 
 namespace naiad {
@@ -29,7 +30,11 @@ void endChild(pid_t child);
 /// whose parent has ended is a child then, so one that goes from process to process is followed. For a
 /// process without threads that is a child subreaper (PR_SET_CHILD_SUBREAPER): to it come those whose parents
 /// have ended, whatever group or session they have gone to. Return the status of `leader`, a child that has
-/// not been waited for; that of a SIGKILL if it cannot be had.
+/// not been waited for; that of a SIGKILL if it cannot be had. 0: all of them, without a leader.
 int endDescendants(pid_t leader);
+
+/// The same for all but these children and what descends from them. False: too many came for that; then all
+/// are to be ended.
+bool endOthers(const std::set<pid_t>& kept);
 
 }  // namespace naiad

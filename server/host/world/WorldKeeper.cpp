@@ -21,6 +21,7 @@
 #include "host/world/Descendants.h"
 #include "host/world/FixedStart.h"
 #include "host/world/Repeatable.h"
+#include "host/world/Succession.h"
 #include "host/world/WordPointers.h"
 #include "host/world/WorldStart.h"
 
@@ -76,9 +77,10 @@ std::optional<WorldDescriptors> receiveOrder(int from, WorldOrder& order) {
   ssize_t got = 0;
   while ((got = recvmsg(from, &message, MSG_CMSG_CLOEXEC)) < 0 && errno == EINTR) continue;
   const cmsghdr* p_head = CMSG_FIRSTHDR(&message);
-  if (got != sizeof order || p_head == nullptr || p_head->cmsg_len != CMSG_LEN(sizeof numbers))
-    return std::nullopt;
-  std::memcpy(&numbers, CMSG_DATA(p_head), sizeof numbers);
+  if (got != sizeof order || p_head == nullptr) return std::nullopt;
+  const std::size_t size = sizeof numbers - (order.copies ? 0 : sizeof numbers.copies);
+  if (p_head->cmsg_len != CMSG_LEN(size)) return std::nullopt;
+  std::memcpy(&numbers, CMSG_DATA(p_head), size);
   return numbers;
 }
 
@@ -98,6 +100,7 @@ void arrangeDescriptors(const WorldDescriptors& theirs, int failure) {
   const int world = moveUp(theirs.world);
   const int output = moveUp(theirs.output);
   const int page = moveUp(theirs.page);
+  const int copies = theirs.copies >= 0 ? moveUp(theirs.copies) : -1;
   dup2(moveUp(failure), kFailure);
   fcntl(kFailure, F_SETFD, FD_CLOEXEC);
   dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -105,7 +108,9 @@ void arrangeDescriptors(const WorldDescriptors& theirs, int failure) {
   dup2(output, STDERR_FILENO);
   dup2(world, kWorldSocket);
   dup2(page, kWorldPage);
-  close_range(kFirstFree, ~0u, 0);
+  if (copies >= 0) dup2(copies, kWorldCopies);
+  close_range(kFirstFree, kWorldCopies - 1, 0);
+  close_range(kWorldCopies + (copies >= 0 ? 1 : 0), ~0u, 0);
 }
 
 void restoreSignals() {
@@ -184,6 +189,14 @@ void waitForEnd(pid_t world, int front, int children) {
   }
 }
 
+[[noreturn]] void followWorlds(pid_t world, int front, int children) {
+  Succession succession(world, front, children);
+  const pid_t left = succession.run();
+  const int status = endDescendants(left);
+  sendTo(front, KeeperEnd{left > 0 ? status : succession.status()});
+  _exit(0);
+}
+
 [[noreturn]] void runKeeper(const WorldDescriptors& descriptors, const WorldOrder& order,
                             const WorldProgram& program, const SandboxSupport& support) {
   prctl(PR_SET_NAME, "df-keeper");
@@ -198,13 +211,17 @@ void waitForEnd(pid_t world, int front, int children) {
   const pid_t world = fork();
   if (world == 0) runWorld(descriptors, order, failure[1], self, program, support);
   KeeperStart begun{world < 0 ? errno : 0, world};
-  for (const int one : {failure[1], descriptors.world, descriptors.output, descriptors.page}) close(one);
+  for (const int one :
+       {failure[1], descriptors.world, descriptors.output, descriptors.page, descriptors.copies})
+    close(one);
   ssize_t got = 0;
   int error = 0;
   while ((got = read(failure[0], &error, sizeof error)) < 0 && errno == EINTR) continue;
   if (got == sizeof error) begun.error = error;
   close(failure[0]);
   const bool wanted = sendTo(descriptors.keeper, begun);
+  if (world > 0 && wanted && begun.error == 0 && order.copies)
+    followWorlds(world, descriptors.keeper, children);
   if (world > 0 && wanted && begun.error == 0) waitForEnd(world, descriptors.keeper, children);
   if (world > 0) sendTo(descriptors.keeper, KeeperEnd{endDescendants(world)});
   _exit(0);
@@ -274,7 +291,7 @@ class Launcher {
 }  // namespace
 
 void WorldDescriptors::closeAll() const {
-  for (const int one : {world, keeper, output, page}) close(one);
+  for (const int one : {world, keeper, output, page, copies}) close(one);
 }
 
 void runLauncher(int front, const WorldProgram& program) {

@@ -1,6 +1,8 @@
 // The launcher's and the keepers' side of a WorldLauncher: what their processes do.
 #pragma once
 
+#include <cstddef>
+
 #include "host/world/WorldLauncher.h"
 
 namespace naiad {
@@ -11,7 +13,10 @@ struct WorldDescriptors {
   int keeper = -1;
   int output = -1;
   int page = -1;
+  int copies = -1;  ///< of a world that makes copies
 
+  /// Of those that are there: they come first.
+  std::size_t bytes() const { return sizeof *this - (copies < 0 ? sizeof copies : 0); }
   void closeAll() const;
 };
 

@@ -74,17 +74,18 @@ Descriptor sharedPage(const char* what) {
 
 bool sendOrder(int to, WorldOrder order, const WorldDescriptors& numbers) {
   iovec data{&order, sizeof order};
+  const std::size_t size = numbers.bytes();
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof numbers)> room{};
   msghdr message{};
   message.msg_iov = &data;
   message.msg_iovlen = 1;
   message.msg_control = room.data();
-  message.msg_controllen = room.size();
+  message.msg_controllen = CMSG_SPACE(size);
   cmsghdr* p_head = CMSG_FIRSTHDR(&message);
   p_head->cmsg_level = SOL_SOCKET;
   p_head->cmsg_type = SCM_RIGHTS;
-  p_head->cmsg_len = CMSG_LEN(sizeof numbers);
-  std::memcpy(CMSG_DATA(p_head), &numbers, sizeof numbers);
+  p_head->cmsg_len = CMSG_LEN(size);
+  std::memcpy(CMSG_DATA(p_head), &numbers, size);
   ssize_t sent = 0;
   while ((sent = sendmsg(to, &message, MSG_NOSIGNAL)) < 0 && errno == EINTR) continue;
   return sent == sizeof order;
@@ -130,9 +131,16 @@ StartedWorld WorldLauncher::start(const WorldOrder& order) const {
   auto [our_keeper, their_keeper] = socketPair(SOCK_STREAM, kWhat);
   auto [our_output, their_output] = outputPipe(kWhat);
   Descriptor page = sharedPage(kWhat);
-  require(sendOrder(m_socket, order, {their_world.get(), their_keeper.get(), their_output.get(), page.get()}),
-          kWhat);
-  return {our_world.release(), our_keeper.release(), our_output.release(), page.release(), m_hang_time};
+  std::pair<Descriptor, Descriptor> copies;
+  if (order.copies) copies = socketPair(SOCK_SEQPACKET, kWhat);
+  require(
+      sendOrder(m_socket, order,
+                {their_world.get(), their_keeper.get(), their_output.get(), page.get(), copies.second.get()}),
+      kWhat);
+  StartedWorld started{our_world.release(), our_keeper.release(), our_output.release(), page.release()};
+  started.copies = copies.first.release();
+  started.hang_time = m_hang_time;
+  return started;
 }
 
 }  // namespace naiad

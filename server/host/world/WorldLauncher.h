@@ -8,11 +8,14 @@
 // socket, by whatever death, the keeper ends all of them, also those that left the world's process group.
 // Worlds cannot signal or trace any of the three.
 //
-// On the keeper's socket the front reads KeeperStart, then one KeeperEnd.
+// On the keeper's socket the front reads KeeperStart, then one KeeperEnd. Of a world that makes copies of
+// itself (WorldOrder::copies) there are more: one for each world that ends, until there is none to go on
+// with.
 #pragma once
 
 #include <sys/types.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -40,6 +43,7 @@ struct StartedWorld {
   int keeper = -1;  ///< of the keeper's; the caller's to close, which ends the world
   int output = -1;  ///< what it prints, for an OutputRelay; the caller's to close
   int page = -1;    ///< memory that it shares with us, an ActivityPage; the caller's to close
+  int copies = -1;  ///< for orders of copies (WorldCopies.h), if it is to make any; the caller's to close
   std::chrono::milliseconds hang_time{1000};  ///< as its WorldProgram has it
 };
 
@@ -50,7 +54,20 @@ struct KeeperStart {
 };
 
 struct KeeperEnd {
-  std::int32_t status = 0;  ///< as of waitpid()
+  std::int32_t status = 0;  ///< of the world, as of waitpid()
+  /// All that it had started has ended, and the keeper ends. 0: copies are there, and the keeper waits for a
+  /// KeeperOrder that says which of them goes on.
+  std::int32_t is_last = 1;
+};
+
+/// To the keeper of a world that makes copies.
+struct KeeperOrder {
+  enum Kind : std::int32_t {
+    kEndWorld,  ///< end the process of the world alone: it hangs
+    kGoOn,      ///< the world has ended: `process` is the world from now on, and all but `kept` end
+  } kind = kEndWorld;
+  std::int32_t process = 0;
+  std::array<std::int32_t, 3> kept{};  ///< other copies; 0: none
 };
 
 class WorldLauncher {

@@ -116,7 +116,7 @@ void visitFlags(FieldReader& in, Flags&... flags) {
 
 template <class F, class T>
 void visitTurn(F& f, T& turn) {
-  visitFlags(f, turn.watched, turn.wants_truth, turn.ends_game, turn.checked);
+  visitFlags(f, turn.watched, turn.wants_truth, turn.ends_game, turn.checked, turn.copied);
   f.number(turn.heard_player);
   f.number(turn.pictured);
   f.list(turn.inputs, kMaxTurnInputs, [](F& in, auto& input) { visitInput(in, input); });

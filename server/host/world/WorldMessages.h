@@ -43,6 +43,7 @@ struct WorldTurn {
   bool wants_truth = false;                   ///< and pictures
   bool ends_game = false;
   bool checked = false;            ///< the answer is to have a hash of the state
+  bool copied = false;             ///< behind it a copy is to be made (WorldCopies.h)
   std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
   std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
 };

@@ -12,6 +12,7 @@ struct WorldOrder {
   /// from the seed and the tick (server/repeat).
   bool repeatable = false;
   bool again = false;             ///< it is executed again: it sleeps for no clock
+  bool copies = false;            ///< it makes copies of itself when it is asked to (WorldCopies.h)
   bool reads_only = false;        ///< with a sandbox, it writes no files: another world of the game does
   std::uint64_t start_nanos = 0;  ///< its clock at the start, since 1970 in UTC
   std::uint64_t frame_nanos = 0;  ///< length of a tick

@@ -4,6 +4,7 @@
 // process of its own (WorldProcess.h), which answers later, and may crash or hang.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -43,6 +44,12 @@ struct WorldEnd {
 struct RoundName {
   std::string id;    ///< 32 hexadecimal digits that no other round has; empty: it is not written down
   std::string file;  ///< the name of its recording
+};
+
+/// Another world goes on in place of one that died.
+struct TakeOver {
+  bool by_copy = false;     ///< else it has executed the whole round
+  std::uint32_t ticks = 0;  ///< that it has executed again
 };
 
 class WorldPort {
@@ -116,6 +123,24 @@ class WorldPort {
   virtual std::optional<std::string> takeWarning() { return std::nullopt; }
   /// Let it come to its end; end() says when it has.
   virtual void close() {}
+
+  // Copies of a world's process: one goes on where the world has crashed or hangs.
+
+  /// Keep a copy of the world as it is after the next tick, beside the one before. False: there will be none.
+  virtual bool keepCopy() { return false; }
+  /// Why there are none any more, once, in words.
+  virtual std::optional<std::string> takeCopyProblem() { return std::nullopt; }
+  /// That its process has taken, of all processors; 0: unknown.
+  virtual std::chrono::nanoseconds cpuTime() const { return {}; }
+  /// After end(): the newest copy is the world from now on, as it was after its tick: return how many it has
+  /// had since the world's first. What it prints is dropped until endRepetition(). Nothing: there is none
+  /// left, and no process of the world is.
+  virtual std::optional<std::uint32_t> goOnWithCopy() { return std::nullopt; }
+  virtual void endRepetition() {}
+  /// It is not to go on: it ends as one that crashed.
+  virtual void giveUp(const std::string& /*why*/) {}
+  /// Once, when another world has taken over from one that died.
+  virtual std::optional<TakeOver> takeTakeOver() { return std::nullopt; }
 
  protected:
   void reportTick() {

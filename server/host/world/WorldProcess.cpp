@@ -64,18 +64,20 @@ std::uint64_t hashAnswer(std::string_view fields) {
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
       m_keeper(started.keeper),
-      m_output(started.output, std::move(print)),
+      m_print(std::move(print)),
+      m_output(started.output,
+               [this](const std::string& line) {
+                 if (m_print && !m_repeats) m_print(line);
+               }),
       m_p_page(mapPage(started.page)),
       m_hang_time(started.hang_time),
-      m_checked_at(Clock::now()) {
+      m_checked_at(Clock::now()),
+      m_copies(started.copies) {
   readHead();
 }
 
 WorldProcess::~WorldProcess() {
-  if (!m_status) {
-    kill();
-    readKeeper(kKillMillis);
-  }
+  waitForKeeper();
   ::close(m_keeper);
   if (m_p_page != nullptr) munmap(const_cast<df::ActivityPage*>(m_p_page), sizeof *m_p_page);
 }
@@ -92,7 +94,8 @@ std::optional<Message> WorldProcess::takeFromKeeper(int patience_millis) {
   if (::poll(&readable, 1, patience_millis) <= 0) return std::nullopt;
   Message message;
   if (::recv(m_keeper, &message, sizeof message, MSG_DONTWAIT) == sizeof message) return message;
-  m_status = SIGKILL;  // as if it had been killed
+  if (!m_status) m_status = SIGKILL;  // as if it had been killed
+  m_keeper_ended = true;
   return std::nullopt;
 }
 
@@ -107,7 +110,18 @@ void WorldProcess::readKeeper(int patience_millis) {
                            "could not be started: " + std::generic_category().message(start->error)};
     }
   }
-  if (const auto end = takeFromKeeper<KeeperEnd>(patience_millis)) m_status = end->status;
+  if (m_keeper_ended) return;
+  const auto end = takeFromKeeper<KeeperEnd>(patience_millis);
+  if (!end) return;
+  if (!m_status) m_status = end->status;
+  m_keeper_ended = end->is_last != 0;
+}
+
+void WorldProcess::waitForKeeper() {
+  if (m_keeper_ended) return;
+  kill();
+  const auto end = Clock::now() + std::chrono::milliseconds(kKillMillis);
+  while (!m_keeper_ended && Clock::now() < end) readKeeper(kKillMillis);
 }
 
 // ---- down -------------------------------------------------------------------------------------------------
@@ -180,6 +194,7 @@ void WorldProcess::onFrame() {
     m_answer = *std::move(answer);
     m_answer_hash = std::exchange(m_hashes, false) ? hashAnswer(m_in) : 0;
     m_in_tick = false;
+    if (std::exchange(m_copies_now, false)) m_copies.add({m_next_tick, *m_views, m_view});
   }
   m_state = State::kReady;
   m_waited = {};
@@ -236,7 +251,14 @@ void WorldProcess::hangUp() {
 void WorldProcess::fail(WorldEnd::Why why, const std::string& text) {
   if (!m_failure) m_failure = WorldEnd{why, text};
   hangUp();
-  kill();
+  killWorld();
+}
+
+// Its copies stay, if it may be followed by one.
+void WorldProcess::killWorld() {
+  if (!m_copies.isOn()) return kill();
+  const KeeperOrder order{KeeperOrder::kEndWorld};
+  ::send(m_keeper, &order, sizeof order, MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
 std::chrono::nanoseconds WorldProcess::patience() const {
@@ -261,6 +283,7 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   const Clock::time_point now = Clock::now();
   m_output.update(now);
   countTime(now);
+  if (m_copies.isOn()) m_copies.update();
   if (!m_status) {
     readKeeper(0);
     if (m_status) m_waited = {};
@@ -300,9 +323,76 @@ void WorldProcess::finish(int status) {
   asio::error_code ignored;
   m_socket.close(ignored);
   m_end = m_failure ? *m_failure : endOf(status);
+  if (m_end->why != WorldEnd::kCrashed && m_end->why != WorldEnd::kHung) waitForKeeper();
   if (m_end->why == WorldEnd::kGameOver || m_end->why == WorldEnd::kForeign) return;
   m_end->when = when();
   m_end->last_lines = lastLines();
+}
+
+// ---- copies -----------------------------------------------------------------------------------------------
+
+bool WorldProcess::keepCopy() {
+  m_turn.copied = m_copies_now = m_state == State::kReady && m_process > 0 && m_copies.order(m_process);
+  return m_copies_now;
+}
+
+std::chrono::nanoseconds WorldProcess::cpuTime() const {
+  const auto look = lookAtProcess(m_process);
+  return look ? look->cpu : std::chrono::nanoseconds(0);
+}
+
+std::optional<std::string> WorldProcess::takeCopyProblem() {
+  return m_copies.takeProblem();
+}
+
+// The keeper waits a second for this, so the host is not to sleep meanwhile.
+std::optional<std::uint32_t> WorldProcess::goOnWithCopy() {
+  if (m_state != State::kEnded) return std::nullopt;
+  readKeeper(0);  // it may have given up waiting
+  while (auto copy = m_keeper_ended ? std::nullopt : m_copies.takeNewest()) {
+    if (!orderToGoOn(*copy)) {
+      ::close(copy->socket);
+      continue;
+    }
+    become(*std::move(copy));
+    return m_next_tick - 1 - m_later;
+  }
+  waitForKeeper();
+  return std::nullopt;
+}
+
+bool WorldProcess::orderToGoOn(const WorldCopy& copy) {
+  KeeperOrder order{KeeperOrder::kGoOn, copy.process};
+  std::size_t at = 0;
+  for (const pid_t other : m_copies.processes()) {
+    if (at < order.kept.size()) order.kept[at++] = other;
+  }
+  return ::send(m_keeper, &order, sizeof order, MSG_NOSIGNAL | MSG_DONTWAIT) == sizeof order;
+}
+
+void WorldProcess::become(WorldCopy copy) {
+  m_self = std::make_shared<WorldProcess*>(this);  // handlers of the socket before have nothing to say
+  m_socket.assign(asio::local::stream_protocol(), copy.socket);
+  m_process = copy.process;
+  m_next_tick = copy.state.next_tick;
+  m_views = std::move(copy.state.views);
+  m_view = std::move(copy.state.view);
+  m_answer = {};
+  m_turn = {};
+  m_status.reset();
+  m_failure.reset();
+  m_end.reset();
+  m_warning.reset();
+  m_in_tick = m_expected = m_copies_now = false;
+  m_repeats = true;
+  m_waited = {};
+  m_state = State::kReady;
+  readHead();
+}
+
+void WorldProcess::endRepetition() {
+  m_output.update(Clock::now());
+  m_repeats = false;
 }
 
 WorldEnd WorldProcess::endOf(int status) const {

@@ -17,6 +17,7 @@
 #include "engine/world/ActivityPage.h"
 #include "host/world/OutputRelay.h"
 #include "host/world/TickEffort.h"
+#include "host/world/WorldCopies.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
 #include "host/world/WorldPort.h"
@@ -74,6 +75,12 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> end() const override { return m_end; }
   std::optional<std::string> takeWarning() override { return std::exchange(m_warning, std::nullopt); }
   void close() override;
+  bool keepCopy() override;
+  std::chrono::nanoseconds cpuTime() const override;
+  std::optional<std::string> takeCopyProblem() override;
+  std::optional<std::uint32_t> goOnWithCopy() override;
+  void endRepetition() override;
+  void giveUp(const std::string& why) override { fail(WorldEnd::kCrashed, why); }
 
   /// What the game has set up by GM.run(); nothing before.
   const std::optional<WorldReady>& ready() const { return m_ready; }
@@ -106,9 +113,14 @@ class WorldProcess : public WorldPort {
   void countTime(Clock::time_point now);
   void warnOfHang();
   void kill();
+  void killWorld();
+  void waitForKeeper();
+  bool orderToGoOn(const WorldCopy& copy);
+  void become(WorldCopy copy);
 
   asio::local::stream_protocol::socket m_socket;
   int m_keeper;  ///< the socket of its keeper
+  OutputRelay::Line m_print;
   OutputRelay m_output;
   const df::ActivityPage* m_p_page = nullptr;  ///< null: there is none
   const std::chrono::nanoseconds m_hang_time;
@@ -116,7 +128,8 @@ class WorldProcess : public WorldPort {
   pid_t m_process = -1;    ///< the same
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
-  std::optional<int> m_status;        ///< once it and all that it had started have ended
+  std::optional<int> m_status;        ///< once it has ended
+  bool m_keeper_ended = false;        ///< and with it all that the world had started
   std::optional<WorldEnd> m_failure;  ///< why it was killed
   std::optional<WorldEnd> m_end;
   Clock::time_point m_checked_at;
@@ -139,6 +152,9 @@ class WorldProcess : public WorldPort {
   std::optional<ViewReader> m_views;
   df::WorldView m_view;
   WorldAnswer m_answer;
+  WorldCopies m_copies;
+  bool m_copies_now = false;  ///< behind the tick that is under way
+  bool m_repeats = false;     ///< what it prints was printed
   std::shared_ptr<WorldProcess*> m_self = std::make_shared<WorldProcess*>(this);  ///< handlers may come later
 };
 

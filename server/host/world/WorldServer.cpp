@@ -84,10 +84,16 @@ void WorldServer::run(df::World& world) {
     applyTurn(*turn, world);
     world.tick();
     goes_on = sendAnswer(*turn, world) && !world.isGameOver();
+    if (goes_on && turn->copied) makeCopy();
   }
   world.setGameOver();
   world.setLagCompensation(nullptr);
   close();
+}
+
+// The copy comes here when it is to go on: in the same place, with another socket.
+void WorldServer::makeCopy() {
+  if (const auto socket = m_copies.makeCopy(m_socket)) m_socket = *socket;
 }
 
 void WorldServer::applyTurn(const WorldTurn& turn, df::World& world) {

@@ -7,6 +7,7 @@
 #include "engine/world/Runner.h"
 #include "host/snapshot/LagCompensator.h"
 #include "host/snapshot/Publisher.h"
+#include "host/world/CopyMaker.h"
 #include "host/world/WorldMessages.h"
 
 namespace naiad {
@@ -29,10 +30,12 @@ class WorldServer : public df::Runner {
   void applyTurn(const WorldTurn& turn, df::World& world);
   void updateLagCompensation(const WorldTurn& turn, df::World& world);
   bool sendAnswer(const WorldTurn& turn, df::World& world);
+  void makeCopy();
   void close();
 
   int m_socket;
   bool m_leaves;
+  CopyMaker m_copies;
   ViewWriter m_views;
   std::string m_frame;
   // A game that uses lag compensation asks in the middle of a tick, so the published models are computed

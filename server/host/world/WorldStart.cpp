@@ -65,6 +65,7 @@ std::optional<int> takeWorldSocket() {
   const bool good = parseWhole(p_said, socket) && socket > STDERR_FILENO;
   unsetenv(kVariable);  // programs that the game starts are no worlds
   if (!good || fcntl(socket, F_SETFD, FD_CLOEXEC) != 0) return std::nullopt;
+  fcntl(kWorldCopies, F_SETFD, FD_CLOEXEC);  // mostly there is none
   return socket;
 }
 

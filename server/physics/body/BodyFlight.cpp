@@ -99,7 +99,9 @@ bool staysOnLine(Vec2 displacement, Vec2 velocity, Vec2 acceleration, double spr
 constexpr double kTooStiff = 1e4;
 constexpr double kStiff = 1;             // per tick²: what is softer changes little within a tick
 constexpr double kDifference = 0x1p-20;  // of a length or speed, to see how a field changes
-constexpr double kFarthestPull = 1e12;   // metric cells: a Place can be moved by 2^51
+constexpr double kLeastTurn = 1e-6;      // rad per tick: what turns less is a constant force
+constexpr double kMostGrowth = 1;       // of a speed, per tick: the damping beside a magnet is constant in it
+constexpr double kFarthestPull = 1e12;  // metric cells: a Place can be moved by 2^51
 
 // The least eigenvalue of its symmetric part.
 double leastOf(const Mat22& m) {
@@ -136,6 +138,17 @@ bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, dou
   if (!(std::fabs(away.x) < kFarthestPull && std::fabs(away.y) < kFarthestPull)) return false;
   pull = {row.place + away, {stiffness, damping}};
   return true;
+}
+
+bool magnetOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Magnet& magnet) {
+  if (row.flight != FlightKind::kField) return false;
+  const Everything force(medium, acceleration, medium.anchor - row.place, medium.field_origin - row.place);
+  const Turning turning = turningAt(force, {}, row.velocity, time);
+  const double rate = turning.lambda.y, growth = turning.lambda.x;
+  if (!(std::fabs(rate) > kLeastTurn && std::fabs(rate) < 1e30 && std::fabs(growth) < kMostGrowth))
+    return false;
+  magnet = {rate, turning.rest + growth * row.velocity};
+  return isFinite(magnet.rest);
 }
 
 Joint jointOf(const Pull& pull, double mass) {

@@ -30,6 +30,15 @@ struct Pull {
 /// steepest direction. What `pull` leaves out is `acceleration`.
 bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Pull& pull);
 
+/// Likewise, what a magnet does to it.
+struct Magnet {
+  double rate = 0;  ///< at which it turns the body's velocity: rad per tick, from x to y
+  Vec2 rest;        ///< the acceleration by everything else
+};
+
+/// Is there one, which turns more than it damps? Four calls of the field.
+bool magnetOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Magnet& magnet);
+
 /// The joint that pulls a body so: a kMouse without a limit, whose b is still to be set.
 Joint jointOf(const Pull& pull, double mass);
 

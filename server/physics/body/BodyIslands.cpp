@@ -22,9 +22,12 @@ using naiad::physics::Vec2;
 // it, direct solutions are too dear for a tick, and sweeps without them are no better than sub-steps.
 constexpr int kMaxBodies = 640;
 
-// Groups whose masses differ by a larger factor go to the SubstepWorld as well: the rounding error of the
-// forces on the lightest body would throw it, so a direct solution has no digits left.
+// Groups whose masses differ by a larger factor go to the SubstepWorld as well. A direct solution still holds
+// what rests; of a blow it has no digits left for the lightest body, which it would throw or press into the
+// floor.
 constexpr double kMaxMassRatio = 1e6;
+constexpr double kMaxRestingRatio = 1e9;
+constexpr double kBlow = 0.1;  // metric cells per tick: a group in which nothing is faster gets no blow
 
 // In sizes of a body: a path that is so long is looked at as a line, not as a square around its start.
 constexpr double kLongPath = 8;
@@ -297,8 +300,9 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
     BodyState& state = states[i];
     const Group& group = m_groups[at(rootOf(static_cast<int>(i)))];
     if (state.p_failure != nullptr || state.is_kinematic) continue;
+    const double max_ratio = group.fastest > kBlow ? kMaxMassRatio : kMaxRestingRatio;
     const bool needs_substeps =
-        group.bodies > kMaxBodies || group.max_inverse_mass > kMaxMassRatio * group.min_inverse_mass;
+        group.bodies > kMaxBodies || group.max_inverse_mass > max_ratio * group.min_inverse_mass;
     if (group.is_general || (group.is_rigid && group.may_touch && needs_substeps)) {
       if (!state.is_hard && !state.is_joined && !state.must_be_held) continue;
       state.solver = BodySolver::kSubstep;

@@ -121,10 +121,23 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
     state.is_costly = m_links.isCostly(index);
     m_is_mixed = m_is_mixed || state.is_costly;
     // What is no constant force counts by what it does in the tick.
-    if (state.is_bent && !state.is_sprung) state.push = state.flown.velocity - row.velocity;
+    if (state.is_bent && !state.is_sprung && state.turn_rate == 0)
+      state.push = state.flown.velocity - row.velocity;
     m_has_pulls = m_has_pulls || state.isPulled();
   }
   if (state.is_hard && state.p_failure == nullptr) measure(store, state);
+}
+
+// Its own flight says nothing of how a magnet pushes what something holds.
+Vec2 BodyLayer::pushBesideMagnet(State& state) {
+  const BodyRow& row = m_table->row(state.index);
+  const bool may_be_held = !row.is_kinematic && !state.is_sprung && (state.is_hard || state.is_joined);
+  naiad::physics::Magnet magnet;
+  const BodyMedium& medium = std::as_const(*m_table).medium(state.index);
+  if (!may_be_held || !magnetOf(row, medium, state.push, static_cast<double>(m_table->ticks), magnet))
+    return state.push;
+  state.turn_rate = magnet.rate;
+  return magnet.rest;
 }
 
 // Where would it be on its own?
@@ -143,10 +156,13 @@ void BodyLayer::fly(State& state) {
     state.is_sprung = true;  // by its joint
     state.pull.spring.damping = medium.linear_drag;
   }
-  state.must_be_held = state.is_sprung && (state.is_joined ? state.pull.spring.stiffness > kFollowed
-                                                           : m_contacts.isTouching(state.key));
+  const Vec2 held_push = pushBesideMagnet(state);
+  const bool is_touching = m_contacts.isTouching(state.key);
+  state.must_be_held =
+      (state.turn_rate != 0 && (state.is_joined || is_touching)) ||
+      (state.is_sprung && (state.is_joined ? state.pull.spring.stiffness > kFollowed : is_touching));
   if (!state.is_bent || state.must_be_held) {
-    state.flown = naiad::physics::flyFree(row.velocity, state.push, 1);
+    state.flown = naiad::physics::flyFree(row.velocity, held_push, 1);
   } else if (p_spring != nullptr) {
     status = flyHanging(row, medium, p_spring->joint, p_spring->anchor, state.push, time,
                         m_table->settings.integrator, state.flown, m_table->counters.integrator);
@@ -159,6 +175,7 @@ void BodyLayer::fly(State& state) {
     state.flown = naiad::physics::flyFree(row.velocity, state.push, 1);
     status = IntegratorStatus::kDone;
   }
+  state.push = held_push;
   m_is_mixed = m_is_mixed || state.must_be_held;
   if (status != IntegratorStatus::kDone) state.p_failure = "what moves it cannot be worked out";
   const bool is_near =
@@ -186,7 +203,7 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
   if (!m_table->settings.is_fast) {
     ImpactBody body;
     state.is_simple = BodyImpacts::canHave(form, m_table->metric, box, body, offset) &&
-                      !m_table->row(state.index).touches_soft && !state.is_sprung;
+                      !m_table->row(state.index).touches_soft && !state.is_sprung && state.turn_rate == 0;
     const bool was_general =
         m_table->row(state.index).last_solver == static_cast<std::uint8_t>(BodySolver::kSubstep);
     if (!state.is_simple || state.is_joined || was_general) m_is_mixed = true;

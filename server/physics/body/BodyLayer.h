@@ -50,6 +50,7 @@ class BodyLayer : public Layer {
   using State = naiad::physics::BodyState;
 
   void beginBody(World& world, naiad::physics::BodyTable::Index index);
+  naiad::physics::Vec2 pushBesideMagnet(State& state);
   void fly(State& state);
   naiad::physics::Vec2 swingOf(const State& state) const;
   void measure(const WorldStore& store, State& state);

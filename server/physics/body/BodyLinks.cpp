@@ -269,6 +269,7 @@ void BodyLinks::store(BodyTable& table, std::vector<BodyState>& states) {
     JointEntry& entry = entries[m_entry_of[i]];
     entry.joint.force = m_joints[i].force;
     entry.joint.torque = m_joints[i].torque;
+    entry.joint.memory = m_joints[i].memory;  // for when all are collected again, as other groups may cause
     if (m_joints[i].is_broken) table.joints.remove({m_entry_of[i], entry.generation});
   }
 }

@@ -104,8 +104,10 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
     body.inverse_mass = row.inverse_mass;
     body.inverse_inertia = unit_inertias[i] > 0 ? row.inverse_mass / unit_inertias[i] : 0;
     if (!state.is_kinematic)
-      body.acceleration =
-          state.is_bent && !state.is_sprung ? state.flown.velocity - row.velocity : state.push;
+      body.acceleration = state.is_bent && !state.is_sprung && state.turn_rate == 0
+                              ? state.flown.velocity - row.velocity
+                              : state.push;
+    body.turn_rate = state.turn_rate;
     body.torque = form.torque;
     body.friction = row.friction;
     body.restitution = row.restitution;
@@ -300,8 +302,9 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
     const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));
     const bool is_touched =
         state.is_touched || state.is_joined || state.must_be_held || contacts.isTouching(state.key);
-    const bool is_alone =
-        m_solver == BodySolver::kSubstep ? !m_world.isStopped(proxy.id) : length(pushed) <= rounding;
+    const bool is_alone = m_solver == BodySolver::kSubstep
+                              ? !m_world.isStopped(proxy.id)
+                              : state.turn_rate != 0 || length(pushed) <= rounding;
     if (!is_touched && is_alone) {  // exactly as on its own
       state.place = state.start + state.flown.displacement;
       state.velocity = state.flown.velocity;

@@ -28,16 +28,17 @@ struct BodyState {
   bool is_costly = false;  ///< on joints, or after impacts, that cost more than their number allows
   bool is_kinematic = false;
   bool is_joined = false;
-  bool is_simple = false;           ///< an ImpactWorld can have it
-  bool is_sprung = false;           ///< a spring or a stiff field pulls it: what holds it must know `pull`
-  bool must_be_held = false;        ///< its own flight is not known, or no JointSolver follows its `pull`
-  bool is_bent = false;             ///< its own path is not that of a constant acceleration
-  bool is_near_rigid = false;       ///< kinematic, and on the path of one in the RigidWorld
-  bool is_near_substep = false;     ///< the same of the SubstepWorld
-  bool is_touched = false;          ///< by anything, in this tick or the last one
-  bool contacts_changed = false;    ///< a contact began or ended in this tick
-  bool turns_alone = true;          ///< nothing turns it but its own torque
-  int group = -1;                   ///< with solver kJointImpacts: bodies that may hit one another
+  bool is_simple = false;         ///< an ImpactWorld can have it
+  bool is_sprung = false;         ///< a spring or a stiff field pulls it: what holds it must know `pull`
+  bool must_be_held = false;      ///< its flight is not known, or no JointSolver follows its `pull` or magnet
+  double turn_rate = 0;           ///< of the magnet that turns it where something holds it: rad per tick
+  bool is_bent = false;           ///< its own path is not that of a constant acceleration
+  bool is_near_rigid = false;     ///< kinematic, and on the path of one in the RigidWorld
+  bool is_near_substep = false;   ///< the same of the SubstepWorld
+  bool is_touched = false;        ///< by anything, in this tick or the last one
+  bool contacts_changed = false;  ///< a contact began or ended in this tick
+  bool turns_alone = true;        ///< nothing turns it but its own torque
+  int group = -1;                 ///< with solver kJointImpacts: bodies that may hit one another
   const char* p_failure = nullptr;  ///< why it has to be frozen; null: it has not
   double radius = 0;                ///< of a circle about its place that does not turn; 0: it is none
   Place start;                      ///< at the beginning of the tick

@@ -39,26 +39,11 @@ bool hasErrorControl(IntegratorMethod method) {
 constexpr double kManyRadians = 64;
 constexpr int kTurningSteps = 16;  // instead; four calls of the field each
 
-// How the velocity alone changes itself: a(v) − a(0) = λv, as complex numbers, and what differs from that.
-struct Turning {
-  Vec2 lambda;  ///< − damping, rate of turning
-  Vec2 rest;
-};
-
 constexpr Vec2 times(Vec2 a, Vec2 b) {
   return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
 }
 constexpr Vec2 over(Vec2 a, Vec2 b) {
   return times(a, {b.x, -b.y}) / lengthSquared(b);
-}
-
-Turning turningAt(const ForceField& field, Vec2 position, Vec2 velocity, double time) {
-  const double scale = length(velocity) > 0 ? length(velocity) : 1;
-  const Vec2 at_rest = field.acceleration(position, {}, time);
-  const Vec2 by_x = (field.acceleration(position, {scale, 0}, time) - at_rest) / scale;
-  const Vec2 by_y = (field.acceleration(position, {0, scale}, time) - at_rest) / scale;
-  const Vec2 lambda = {0.5 * (by_x.x + by_y.y), 0.5 * (by_x.y - by_y.x)};
-  return {lambda, field.acceleration(position, velocity, time) - times(lambda, velocity)};
 }
 
 // Two calls say whether it can be so.
@@ -90,6 +75,15 @@ bool flyTurning(const ForceField& field, Vec2 position, Vec2 velocity, double ti
 }
 
 }  // namespace
+
+Turning turningAt(const ForceField& field, Vec2 position, Vec2 velocity, double time) {
+  const double scale = length(velocity) > 0 ? length(velocity) : 1;
+  const Vec2 at_rest = field.acceleration(position, {}, time);
+  const Vec2 by_x = (field.acceleration(position, {scale, 0}, time) - at_rest) / scale;
+  const Vec2 by_y = (field.acceleration(position, {0, scale}, time) - at_rest) / scale;
+  const Vec2 lambda = {0.5 * (by_x.x + by_y.y), 0.5 * (by_x.y - by_y.x)};
+  return {lambda, field.acceleration(position, velocity, time) - times(lambda, velocity)};
+}
 
 IntegratorStatus flyField(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t,
                           const IntegratorOptions& options, Flown& flown, IntegratorCounters& counters) {

@@ -22,6 +22,15 @@ class ForceField {
   }
 };
 
+/// How the velocity alone changes itself: a(v) − a(0) = λv, as complex numbers, and what differs from that.
+struct Turning {
+  Vec2 lambda;  ///< − damping, rate of turning in rad per tick
+  Vec2 rest;
+};
+
+/// Four calls of the field.
+Turning turningAt(const ForceField& field, Vec2 position, Vec2 velocity, double time);
+
 /// From `time` to `time + t`, by the method of `options`. `position` is relative to the field's origin.
 /// A status other than kDone: `flown` is where it stopped, and the caller should freeze the body.
 IntegratorStatus flyField(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/geometry/ShapeDistance.h"
 #include "physics/rigid/RigidSolver.h"
 #include "physics/rigid/RigidWorld.h"
 
@@ -13,6 +14,27 @@ namespace {
 constexpr double kMaxPush = 2;    // per tick: the greatest speed at which overlap is undone
 constexpr double kSlop = 1e-8;    // overlap that is left, so that a contact at rest stays one
 constexpr double kLinger = 0.01;  // a larger gap ends a contact
+constexpr double kSlide = 0.25;   // of the reference face, in a step: farther, and its points are left behind
+
+double edgeLength(const TurnedView& shape, std::int32_t edge) {
+  return length(shape.vertices[following(edge, shape.count)] - shape.vertices[edge]);
+}
+
+// The points of a contact lie on the edge that faces the reference, and stay there for the step. On a longer
+// edge, such as a floor's, they are left behind by what slides over it, and hold it no more. Then the longer
+// one is the better reference: the points go with what slides. `path`: of B against A, in the step.
+bool slidesAway(const TurnedView& a, const TurnedView& b, Vec2 offset, Vec2 path, const Manifold& manifold,
+                ReferenceFace& better) {
+  using Owner = ReferenceFace::Owner;
+  if (manifold.reference.owner == Owner::kNone) return false;
+  const bool is_of_a = manifold.reference.owner == Owner::kA;
+  const TurnedView &owner = is_of_a ? a : b, &other = is_of_a ? b : a;
+  const double face = edgeLength(owner, manifold.reference.edge);
+  if (std::fabs(cross(manifold.normal, path)) <= kSlide * face) return false;
+  const FaceSeparation facing = bestFace(other, owner, is_of_a ? -offset : offset, kNoLimit);
+  better = {is_of_a ? Owner::kB : Owner::kA, static_cast<std::uint8_t>(facing.edge)};
+  return other.count > 2 && edgeLength(other, facing.edge) > face;
+}
 
 // A constraint that was found within the step, in the coordinates of the start of the step.
 void measureFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
@@ -155,6 +177,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
   const RigidState &state_a = m_states[at(pair.a)], &state_b = m_states[at(pair.b)];
   const Vec2 start = m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place;
   const Vec2 offset = start + (state_b.displacement - state_a.displacement);
+  const Vec2 path = dt * (m_bodies[at(pair.b)].velocity - m_bodies[at(pair.a)].velocity);
   const double margin = a.margin + b.margin;
   const double reach = a.reach + b.reach + margin;
   if (lengthSquared(offset) > reach * reach) {
@@ -185,6 +208,8 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
         }
         continue;
       }
+      if (ReferenceFace better; slidesAway(a.turned[at(i)], b.turned[at(j)], offset, path, manifold, better))
+        collide(a.turned[at(i)], b.turned[at(j)], offset, margin, better, manifold);
       if (contact < 0) contact = makeContact();
       RigidContact& memory = m_contacts[at(contact)];
       memory.shape_a = i, memory.shape_b = j;

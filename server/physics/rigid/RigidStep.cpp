@@ -128,6 +128,31 @@ void RigidWorld::kick(bool is_second) {
   }
 }
 
+// When the velocities are those that contacts and joints allow. What they leave of the push is found by
+// solving for the same rows once more, of these groups alone.
+void RigidWorld::turnByMagnets(double h) {
+  m_magnets.clear();
+  for (const int id : m_active) {
+    const double rate = m_bodies[at(id)].turn_rate;
+    RigidState& s = m_states[at(id)];
+    if (rate == 0 || s.inverse_mass == 0) continue;
+    const MagnetTurn turn = magnetTurn(s.velocity, rate, h);
+    s.velocity += turn.push;
+    m_magnets.emplace_back(id, turn);
+  }
+  if (m_magnets.empty()) return;
+  for (Island& island : m_islands) {
+    const auto begin = m_island_bodies.begin() + island.first_body;
+    const bool has_magnet =
+        std::any_of(begin, begin + island.bodies, [&](int id) { return m_bodies[at(id)].turn_rate != 0; });
+    if (has_magnet && island.constraints + island.links > 0) solveIsland(island, true);
+  }
+  for (const auto& [id, turn] : m_magnets) {
+    Vec2& velocity = m_states[at(id)].velocity;
+    velocity = withoutWork(turn, velocity, 0);
+  }
+}
+
 // As often as each group needs, and no oftener because of another one.
 void RigidWorld::pushOut(double h) {
   const auto sweepsOf = [&](int id) {
@@ -269,6 +294,7 @@ void RigidWorld::substep(double h) {
   m_joints.beginSecondHalf(m_states, h);
   for (ContactConstraint& c : m_constraints) beginSecondHalf(c, m_states, h);
   solve(true);
+  turnByMagnets(h);
   m_joints.endSubstep();
   for (ContactConstraint& c : m_constraints) {
     const double before = c.points[0].total + c.points[1].total;

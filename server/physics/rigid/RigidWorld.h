@@ -9,11 +9,13 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/geometry/ConvexShape.h"
 #include "physics/geometry/Index.h"
+#include "physics/rigid/MagnetTurn.h"
 #include "physics/rigid/RigidContact.h"
 #include "physics/rigid/RigidDirect.h"
 #include "physics/rigid/RigidJoint.h"
@@ -230,6 +232,7 @@ class RigidWorld final : public RigidStepper {
   void solve(bool is_second);
   void pushOut(double h);
   void kick(bool is_second);
+  void turnByMagnets(double h);
   void drift(double h);
   void move(int id, double h);
   void finishStep(double dt);
@@ -298,8 +301,9 @@ class RigidWorld final : public RigidStepper {
   std::vector<RigidContact> m_contacts;
   std::int32_t m_free_contact = -1;
   std::vector<ContactConstraint> m_constraints;
-  std::vector<int> m_active;  // ids of those that move in this step
-  std::vector<int> m_dirty;   // ids of immovable ones that were set
+  std::vector<int> m_active;                          // ids of those that move in this step
+  std::vector<std::pair<int, MagnetTurn>> m_magnets;  // of those that a magnet turns, in this sub-step
+  std::vector<int> m_dirty;                           // ids of immovable ones that were set
   RigidJoints m_joints;
   std::vector<Late> m_late, m_late_before;
   std::vector<std::uint32_t> m_others;  // by body: how many are where it is

@@ -20,7 +20,8 @@ constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched
 constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
 constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
 
-constexpr double kAhead = 1;  // … and further in the direction in which it goes, at most
+constexpr double kHeld = 0.05;  // of a magnet's push on a body, that is left
+constexpr double kAhead = 1;    // … and further in the direction in which it goes, at most
 constexpr double kTicksAhead = 2;
 constexpr double kNeverKept = kAhead + 2 * kBoundsSlack;  // at that speed it leaves its bounds in any case
 
@@ -85,6 +86,7 @@ void SubstepWorld::begin(int id) {
   b.kick = {static_cast<float>(m_h * acceleration.x), static_cast<float>(m_h * acceleration.y),
             static_cast<float>(m_h * spin_gain)};
   m_kicks.push_back(b.kick);
+  if (body.turn_rate != 0 && body.inverse_mass > 0) m_magnets.push_back({id, {}, {}});
   if (b.proxy < 0) return;
   forecast(b);
   boundNow(b);
@@ -118,6 +120,28 @@ GridBounds SubstepWorld::wideBounds(const SubstepBody& b) {
   return gridBounds(b.body.place, swept, b.margin + kBoundsSlack * b.thickness);
 }
 
+void SubstepWorld::pushByMagnets() {
+  for (Magnet& magnet : m_magnets) {
+    const SubstepBody& b = m_bodies[at(magnet.id)];
+    SubstepState& s = m_states[at(b.state)];
+    magnet.turn = magnetTurn(b.body.velocity + Vec2{s.vx, s.vy}, b.body.turn_rate, double{m_h});
+    s.vx += static_cast<float>(magnet.turn.push.x), s.vy += static_cast<float>(magnet.turn.push.y);
+    magnet.given += magnet.turn.push;
+  }
+}
+
+void SubstepWorld::undoMagnetWork() {
+  for (Magnet& magnet : m_magnets) {
+    const SubstepBody& b = m_bodies[at(magnet.id)];
+    SubstepState& s = m_states[at(b.state)];
+    const Vec2 velocity = b.body.velocity + Vec2{s.vx, s.vy};
+    const Vec2 right = withoutWork(magnet.turn, velocity, kHeld);
+    const Vec2 gained = right - b.body.velocity;
+    s.vx = static_cast<float>(gained.x), s.vy = static_cast<float>(gained.y);
+    magnet.given += right - velocity;
+  }
+}
+
 // The rotation by the half angle's tangent: of length one for any angle.
 void SubstepWorld::moveStates() {
   for (std::size_t i = 1; i < m_states.size(); ++i) {
@@ -142,6 +166,7 @@ void SubstepWorld::stepOnce() {
   listActive();
   m_states.assign(1, {});
   m_kicks.assign(1, {});
+  m_magnets.clear();
   for (const std::int32_t id : m_active) begin(id);
   std::erase_if(m_active, [&](int id) { return m_bodies[at(id)].is_frozen; });
   updatePairs();
@@ -153,6 +178,7 @@ void SubstepWorld::stepOnce() {
   m_turns.assign(m_states.size(), 0);
   m_joints.place(m_states, time);
   for (int i = 0; i < m_options.substeps; ++i) {
+    pushByMagnets();
     for (std::size_t state = 1; state < m_states.size(); ++state) {
       SubstepState& s = m_states[state];
       const SubstepKick& kick = m_kicks[state];
@@ -162,6 +188,7 @@ void SubstepWorld::stepOnce() {
     m_rows.warmStart(m_states);
     m_joints.solve(m_states, true);
     m_rows.solve(m_states, m_h, time, true);
+    undoMagnetWork();
     moveStates();
     time += m_h;
     m_joints.place(m_states, time);
@@ -318,6 +345,11 @@ void SubstepWorld::keepMomentum() {
     const double mass = 1 / b.body.inverse_mass;
     group.missing += mass * changeOf(b);
     group.mass += mass;
+  }
+  for (const Magnet& magnet : m_magnets) {  // what turned a body is not missing
+    const SubstepBody& b = m_bodies[at(magnet.id)];
+    Group& group = groupOf(b);
+    if (!group.is_held) group.missing += magnet.given / b.body.inverse_mass;
   }
 }
 

@@ -13,6 +13,7 @@
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/broadphase/ImpactTree.h"
 #include "physics/geometry/Index.h"
+#include "physics/rigid/MagnetTurn.h"
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
 #include "physics/substep/SubstepBody.h"
@@ -118,6 +119,11 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t place;  // in the rows
   };
 
+  struct Magnet {  // a body that one turns, within a step
+    std::int32_t id;
+    MagnetTurn turn;  // in this sub-step
+    Vec2 given;       // to its velocity, since the step began
+  };
   struct Group {
     double still = 1e300;
     double speed_before = 0, speed = 0;
@@ -142,6 +148,8 @@ class SubstepWorld final : public RigidStepper {
   void stepOnce();
   void listActive();
   void begin(int id);
+  void pushByMagnets();
+  void undoMagnetWork();
   void moveStates();
   void keepMomentum();
   void finish();
@@ -205,7 +213,8 @@ class SubstepWorld final : public RigidStepper {
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
   std::vector<SubstepKick> m_kicks;  // by state
-  std::vector<double> m_turns;       // likewise: rad, since the step began
+  std::vector<Magnet> m_magnets;
+  std::vector<double> m_turns;  // likewise: rad, since the step began
   std::vector<Calm> m_calm;
   std::vector<double> m_stirs;         // by state: how far off its own path a body may come in this step
   std::vector<SubstepState> m_states;  // the first one is of all that does not move

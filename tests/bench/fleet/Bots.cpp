@@ -60,7 +60,8 @@ void Bot::noteKill(Time now) {
   m_before = player();
 }
 
-Bots::Bots(const std::string& link, const std::filesystem::path& known_servers, int count) : m_count(count) {
+Bots::Bots(const std::string& link, const std::filesystem::path& known_servers, int first, int count)
+    : m_first(first), m_count(static_cast<std::size_t>(count)) {
   const auto parsed = naiad::JoinLink::parse(link);
   const auto* const p_link = std::get_if<naiad::JoinLink>(&parsed);
   if (p_link == nullptr) throw std::runtime_error("the directory has no link: " + link);
@@ -69,38 +70,26 @@ Bots::Bots(const std::string& link, const std::filesystem::path& known_servers, 
   m_trust.known_servers = known_servers;
 }
 
-bool Bots::serveUntil(const std::function<bool()>& holds, std::chrono::milliseconds most) {
-  const auto end = Bot::Clock::now() + most;
-  while (!holds()) {
-    if (Bot::Clock::now() > end) return false;
-    m_context.restart();
-    m_context.run_for(kTurn);
-    const auto now = Bot::Clock::now();
-    for (const auto& bot : m_bots) bot->update(now);
+void Bots::serve() {
+  const std::size_t waiting = m_bots.size() - playing();
+  for (std::size_t i = waiting; i < m_at_once && m_bots.size() < m_count; ++i) {
+    const int number = m_first + static_cast<int>(m_bots.size());
+    m_bots.push_back(std::make_unique<Bot>(m_context, m_directory, m_trust, number));
   }
-  return true;
-}
-
-bool Bots::joinAll(int at_once, std::chrono::seconds most) {
-  const auto end = Bot::Clock::now() + most;
-  while (playing() < static_cast<std::size_t>(m_count)) {
-    if (Bot::Clock::now() > end) return false;
-    const std::size_t waiting = m_bots.size() - playing();
-    for (auto i = waiting; i < static_cast<std::size_t>(at_once) && static_cast<int>(m_bots.size()) < m_count;
-         ++i)
-      m_bots.push_back(
-          std::make_unique<Bot>(m_context, m_directory, m_trust, static_cast<int>(m_bots.size()) + 1));
-    serveUntil([] { return false; }, kTurn);
-    const auto over =
-        std::find_if(m_bots.begin(), m_bots.end(), [](const auto& bot) { return bot->isOver(); });
-    if (over != m_bots.end()) throw std::runtime_error("a player cannot join: " + (*over)->sentence());
-  }
-  return true;
+  m_context.restart();
+  m_context.run_for(kTurn);
+  const auto now = Bot::Clock::now();
+  for (const auto& bot : m_bots) bot->update(now);
 }
 
 std::size_t Bots::playing() const {
   return static_cast<std::size_t>(
       std::count_if(m_bots.begin(), m_bots.end(), [](const auto& bot) { return bot->isPlaying(); }));
+}
+
+std::string Bots::problem() const {
+  const auto over = std::find_if(m_bots.begin(), m_bots.end(), [](const auto& bot) { return bot->isOver(); });
+  return over != m_bots.end() ? (*over)->sentence() : "";
 }
 
 void Bots::leaveAll() {

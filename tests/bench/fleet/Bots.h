@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,21 +59,28 @@ class Bot {
 
 class Bots {
  public:
-  Bots(const std::string& link, const std::filesystem::path& known_servers, int count);
+  /// Numbered from `first` on.
+  Bots(const std::string& link, const std::filesystem::path& known_servers, int first, int count);
 
-  /// Serve them until that holds, or for so long. Did it hold?
-  bool serveUntil(const std::function<bool()>& holds, std::chrono::milliseconds most);
-  /// Have `count` come, some at a time.
-  bool joinAll(int at_once, std::chrono::seconds most);
+  /// One turn of some milliseconds.
+  void serve();
+  /// From now on they come, so many at a time.
+  void bringIn(int at_once) { m_at_once = static_cast<std::size_t>(at_once); }
   std::vector<std::unique_ptr<Bot>>& all() { return m_bots; }
   std::size_t playing() const;
+  /// All have come, and play.
+  bool havePlayed() const { return playing() == m_count; }
+  /// Why one of them cannot join, or plays no more; empty: none.
+  std::string problem() const;
   void leaveAll();
 
  private:
   asio::io_context m_context{1};
   naiad::ServerAddress m_directory;
   naiad::ServerTrust m_trust;
-  int m_count;
+  int m_first;
+  std::size_t m_count;
+  std::size_t m_at_once = 0;
   std::vector<std::unique_ptr<Bot>> m_bots;
 };
 

@@ -1,6 +1,7 @@
 // A fleet on this machine, whose servers and bus are killed while players play. deploy/bench fleet runs it.
 //
 //   naiad_fleet BOTS KILLS BUS_SECONDS HZ [SERVERS]   one line
+//   naiad_fleet --players LINK FILE FIRST COUNT       of these players (CrowdProcess.h)
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -8,9 +9,11 @@
 #include <exception>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
-#include "Bots.h"
+#include "Crowd.h"
+#include "CrowdProcess.h"
 #include "Fleet.h"
 #include "shared/program/BrokenPipes.h"
 #include "shared/program/OpenFiles.h"
@@ -18,13 +21,16 @@
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = bench::Bot::Clock;
 
 /// After which a service manager starts a server again.
 constexpr std::chrono::milliseconds kRestart{300};
 constexpr std::chrono::milliseconds kPlay{2'000};  ///< between two kills
 constexpr std::chrono::milliseconds kReturnTimeout{60'000};
 constexpr int kJoiningAtOnce = 25;
+/// Of players: more than 250 keep one thread from serving them in time.
+int processesFor(int players) {
+  return std::min(players, std::max(4, (players + 249) / 250));
+}
 
 struct Result {
   int kills = 0;
@@ -42,45 +48,27 @@ long percentile(std::vector<long> values, std::size_t percent) {
   return values[std::min(values.size() - 1, values.size() * percent / 100)];
 }
 
-int losses(bench::Bots& bots, std::uint16_t but_of_port) {
-  int count = 0;
-  for (const auto& bot : bots.all()) count += bot->port() != but_of_port ? bot->losses() : 0;
-  return count;
-}
-
-void kill(bench::Fleet& fleet, bench::Bots& bots, std::size_t server, Result& result) {
-  const std::uint16_t port = fleet.port(server);
-  const int before = losses(bots, port);
-  std::vector<bench::Bot*> there;
-  for (const auto& bot : bots.all()) {
-    if (bot->port() == port && bot->isPlaying()) there.push_back(bot.get());
-  }
-  const auto killed_at = Clock::now();
+void kill(bench::Fleet& fleet, bench::Crowd& crowd, std::size_t server, Result& result) {
+  const int there = crowd.noteKill(fleet.port(server));
   fleet.killServer(server);
-  for (bench::Bot* p_bot : there) p_bot->noteKill(killed_at);
-  bots.serveUntil([] { return false; }, kRestart);
+  std::this_thread::sleep_for(kRestart);
   fleet.startServer(server);
-  const auto all_back = [&] {
-    return std::all_of(there.begin(), there.end(), [](const auto* p) { return p->isBack(); });
-  };
-  bots.serveUntil(all_back, kReturnTimeout);
+  crowd.waitUntilBack(kReturnTimeout);
+  const bench::Crowd::Return came = crowd.result();
   ++result.kills;
-  result.players += static_cast<int>(there.size());
-  for (bench::Bot* p_bot : there) {
-    if (!p_bot->isBack()) continue;
-    result.back.push_back(p_bot->backTime().count());
-    result.returned += p_bot->isSamePlayer() ? 1 : 0;
-  }
-  result.disturbed += losses(bots, port) - before;
+  result.players += there;
+  result.returned += came.returned;
+  result.disturbed += came.disturbed;
+  result.back.insert(result.back.end(), came.back.begin(), came.back.end());
 }
 
-void loseBus(bench::Fleet& fleet, bench::Bots& bots, std::chrono::seconds time, Result& result) {
-  const int before = losses(bots, 0);
+void loseBus(bench::Fleet& fleet, bench::Crowd& crowd, std::chrono::seconds time, Result& result) {
+  const int before = crowd.state().losses;
   fleet.killBus();
-  bots.serveUntil([] { return false; }, time);
+  std::this_thread::sleep_for(time);
   fleet.startBus();
-  bots.serveUntil([] { return false; }, 5s);
-  result.lost_without_bus = losses(bots, 0) - before;
+  std::this_thread::sleep_for(5s);
+  result.lost_without_bus = crowd.state().losses - before;
 }
 
 void print(const bench::FleetSetup& setup, const Result& result, std::chrono::seconds bus_time,
@@ -103,31 +91,47 @@ void print(const bench::FleetSetup& setup, const Result& result, std::chrono::se
 int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time) {
   bench::Fleet fleet(setup);
   std::fprintf(stderr, "naiad_fleet: %zu servers, logs in %s\n", fleet.size(), fleet.folder().c_str());
-  bench::Bots bots(fleet.link(), fleet.folder() / "known_servers", setup.bots);
+  bench::Crowd crowd(fleet.link(), fleet.folder(), setup.bots, processesFor(setup.bots));
   Result result;
-  if (!bots.joinAll(kJoiningAtOnce, 300s)) {
-    std::printf("fleet bots=%d servers=%d joined=%zu failed=1\n", setup.bots, setup.servers, bots.playing());
+  if (!crowd.joinAll(kJoiningAtOnce, 300s)) {
+    std::printf("fleet bots=%d servers=%d joined=%d failed=1\n", setup.bots, setup.servers,
+                crowd.state().playing);
     return 1;
   }
-  for (const auto& bot : bots.all()) result.redirects.push_back(bot->redirectTime().count());
-  std::fprintf(stderr, "naiad_fleet: %zu players play\n", bots.playing());
+  result.redirects = crowd.redirects();
+  std::fprintf(stderr, "naiad_fleet: %d players play\n", setup.bots);
   std::mt19937_64 random(1);
   for (int i = 0; i < kills; ++i) {
-    bots.serveUntil([] { return false; }, kPlay);
-    kill(fleet, bots, random() % fleet.size(), result);
-    std::fprintf(stderr, "naiad_fleet: kill %d of %d, %zu play\n", i + 1, kills, bots.playing());
+    std::this_thread::sleep_for(kPlay);
+    kill(fleet, crowd, random() % fleet.size(), result);
+    std::fprintf(stderr, "naiad_fleet: kill %d of %d, %d play\n", i + 1, kills, crowd.state().playing);
   }
-  if (bus_time.count() > 0) loseBus(fleet, bots, bus_time, result);
-  bots.leaveAll();
+  if (bus_time.count() > 0) loseBus(fleet, crowd, bus_time, result);
+  crowd.leaveAll();
   fleet.end();
   print(setup, result, bus_time, fleet.ticks());
   return 0;
+}
+
+/// A process of players, which the other one has started.
+int serve(const std::vector<std::string>& words) {
+  const int count = std::atoi(words[4].c_str());
+  naiad::surviveBrokenPipes();
+  naiad::allowOpenFiles(static_cast<std::size_t>(4 * count + 256));
+  try {
+    bench::serveCrowd(words[1], words[2], std::atoi(words[3].c_str()), count);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "naiad_fleet: %s\n", error.what());
+    return 1;
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() == 5 && words[0] == "--players") return serve(words);
   if (words.size() != 4 && words.size() != 5) {
     std::fprintf(stderr, "usage: naiad_fleet BOTS KILLS BUS_SECONDS HZ [SERVERS]\n");
     return 2;

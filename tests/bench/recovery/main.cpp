@@ -2,6 +2,7 @@
 // it.
 //
 //   naiad_recovery kills GAME COUNT SEED   one line: what became of so many kills
+//   naiad_recovery worlds GAME COUNT SEED  the same, of worlds under a server that lives
 //   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
 #include <algorithm>
 #include <chrono>
@@ -29,6 +30,9 @@ constexpr int kPlayers = 4;
 /// Kills in one round: each of them compares pictures by executing the round from its beginning.
 constexpr int kKillsInARound = 10;
 constexpr milliseconds kMostPlay{1500};
+/// Two deaths of a world within a second are the same one, which ends the round.
+constexpr milliseconds kBetweenDeaths{1500};
+constexpr milliseconds kBetweenCopies{10'000};
 
 struct Total {
   int kills = 0;
@@ -101,6 +105,32 @@ int kills(const std::string& game, int count, std::uint64_t seed) {
   return good ? 0 : 1;
 }
 
+/// Worlds of one round are killed at any time since their newest copy.
+int worlds(const std::string& game, int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<long> took;
+  bool verified = false;
+  try {
+    RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
+    for (int i = 0; i < count; ++i) {
+      run.play(kBetweenDeaths + milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count())));
+      const auto time = run.killWorld();
+      if (!time) break;
+      took.push_back(time->count());
+    }
+    std::string said;
+    verified = run.verify(said);
+    if (!verified) std::fprintf(stderr, "naiad_recovery: %s\n%s\n", said.c_str(), run.log().c_str());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
+    return 1;
+  }
+  const int went_on = static_cast<int>(took.size());
+  std::printf("take_over game=%s kills=%d went_on=%d p50_ms=%ld p99_ms=%ld verified=%d\n", game.c_str(),
+              count, went_on, percentile(took, 50), percentile(took, 99), verified ? 1 : 0);
+  return went_on == count && verified ? 0 : 1;
+}
+
 int journal(const std::string& game, std::uint32_t ticks) {
   naiad::Recorder recorder;
   const auto file = recorder.record({.game = game, .seed = 1, .ticks = ticks, .players = kPlayers});
@@ -124,8 +154,11 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() == 4 && words[0] == "kills")
     return kills(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
+  if (words.size() == 4 && words[0] == "worlds")
+    return worlds(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
   if (words.size() == 3 && words[0] == "journal")
     return journal(words[1], static_cast<std::uint32_t>(std::atoi(words[2].c_str())));
-  std::fprintf(stderr, "usage: naiad_recovery kills GAME COUNT SEED | journal GAME TICKS\n");
+  std::fprintf(stderr,
+               "usage: naiad_recovery kills GAME COUNT SEED | worlds GAME COUNT SEED | journal GAME TICKS\n");
   return 2;
 }

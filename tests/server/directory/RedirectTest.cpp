@@ -1,6 +1,7 @@
 // Clients that are sent to another server: what they do there, and what a server that lies cannot make them
 // do.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <chrono>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/lan/LanNetworks.h"
 #include "tests/loopback/BusyWorld.h"
+#include "tests/loopback/GameProgram.h"
 #include "tests/loopback/Home.h"
 #include "tests/loopback/RecordingServer.h"
 #include "tests/loopback/TestServer.h"
@@ -60,6 +62,17 @@ TEST_F(RedirectTest, AClientThatIsSentOnPlaysThere) {
   EXPECT_EQ(client.session().welcome().name, "ann");
   EXPECT_TRUE(serve(client, [&] { return client.session().hasDatagrams(std::chrono::steady_clock::now()); }))
       << "datagrams, too";
+}
+
+TEST_F(RedirectTest, CrowdsAreSpreadOverASecond) {
+  EXPECT_EQ(ServerTrust().max_redirect_wait, std::chrono::seconds(1));
+  ClientSetup setup = home.player("ann");
+  setup.trust.max_redirect_wait = std::chrono::hours(1);
+  liar.sendTo(liar.port(), liar.key());
+  TestClient client(context, liar.port(), setup);
+  ASSERT_TRUE(serve(client, [&] { return client.connection().isRedirected(); }));
+  EXPECT_EQ(client.connection().state(), State::kJoining);
+  EXPECT_EQ(liar.hellos(), 1u) << "it waits";
 }
 
 TEST_F(RedirectTest, AServerThatIsFullSendsOn) {
@@ -128,6 +141,57 @@ TEST_F(RedirectTest, TheServerThereIsNotPinned) {
   ASSERT_EQ(refusal(home.player("ann")), "");
   EXPECT_EQ(pins().find(server.fingerprint()->text()), std::string::npos) << "a stranger has named the key";
   EXPECT_NE(pins().find(liar.key().text()), std::string::npos);
+}
+
+TEST_F(RedirectTest, WhereTheServerHasBecomeFullTheFirstOneIsAskedForAnother) {
+  LyingServer full(context, home.identity("full"));
+  full.answer(wire::Refused::FULL, "Full.", "");
+  TestServer server(world(), home.server());
+  liar.sendTo(full.port(), full.key());
+  ClientSetup setup = home.player("ann");
+  setup.options.password = "xyzzy-secret";
+  TestClient client(context, liar.port(), setup);
+  ASSERT_TRUE(serve(client, [&] { return full.hellos() == 1; }));
+  liar.sendTo(server.port(), *server.fingerprint());
+  EXPECT_EQ(refusal(client), "");
+  EXPECT_EQ(liar.hellos(), 2u);
+  EXPECT_EQ(liar.hello().password(), "xyzzy-secret") << "as of any join there";
+  EXPECT_EQ(full.hello().password(), "");
+  EXPECT_TRUE(client.connection().isRedirected());
+  EXPECT_EQ(client.connection().address().port, server.port());
+}
+
+TEST_F(RedirectTest, TheFirstOneIsAskedForAnotherOnce) {
+  LyingServer full(context, home.identity("full"));
+  RecordingServer third(home.identity("third"));
+  full.answer(wire::Refused::FULL, "Full.",
+              LyingServer::linkTo("127.0.0.1", third.port(), third.fingerprint()));
+  liar.sendTo(full.port(), full.key());
+  EXPECT_EQ(refusal(home.player("ann")), "Full.");
+  EXPECT_EQ(liar.hellos(), 2u);
+  EXPECT_EQ(full.hellos(), 2u);
+  EXPECT_EQ(third.heard(), "") << "that a server names to which the client was sent";
+}
+
+TEST_F(RedirectTest, AfterTheEndOfTheServerTheFirstOneIsAskedForAnother) {
+  GameProgram killed("dfserver", {{"NAIAD_GAME", "hello"}, {"NAIAD_IDENTITY", home.identity("killed")}});
+  ASSERT_NE(killed.port(), 0) << killed.log();
+  const auto key =
+      ServerIdentity::loadOrMake(home.identity("killed"), std::chrono::system_clock::now()).fingerprint();
+  TestServer server(world(), home.server());
+  liar.sendTo(killed.port(), key);
+  TestClient client(context, liar.port(), home.player("ann"));
+  client.connection().askAgainAfter(std::chrono::milliseconds(100));
+  ASSERT_EQ(refusal(client), "");
+  const std::uint16_t before = client.connection().address().port;
+  liar.sendTo(server.port(), *server.fingerprint());
+  killed.signal(SIGKILL);
+  killed.wait();
+  EXPECT_TRUE(serve(client, [&] {
+    return client.joined() && client.connection().address().port == server.port();
+  })) << client.connection().sentence();
+  EXPECT_EQ(before, killed.port());
+  EXPECT_EQ(client.session().welcome().name, "ann");
 }
 
 TEST_F(RedirectTest, OneServerSendsOnAndTheNextDoesNot) {
@@ -209,6 +273,7 @@ TEST_F(RedirectTest, FromANeighbourPlayersAreNotSentToTheirOwnMachine) {
   neighbour.sendTo(local.port(), local.fingerprint());
   const ClientSetup setup = home.player("ann");
   Connection client(context, ServerAddress{address, neighbour.port()}, setup.options, true, setup.trust);
+  client.askAgainAfter(std::chrono::milliseconds(100));
   client.start();
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (!client.isOver() && std::chrono::steady_clock::now() < end) {
@@ -216,7 +281,7 @@ TEST_F(RedirectTest, FromANeighbourPlayersAreNotSentToTheirOwnMachine) {
     context.run_one_for(std::chrono::milliseconds(5));
     client.update(std::chrono::steady_clock::now());
   }
-  EXPECT_EQ(neighbour.hellos(), 1u);
+  EXPECT_EQ(neighbour.hellos(), 2u) << "asked for another once";
   EXPECT_NE(client.sentence().find("nearer to you"), std::string::npos) << client.sentence();
   EXPECT_EQ(local.heard(), "");
 }

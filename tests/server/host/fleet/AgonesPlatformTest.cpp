@@ -113,6 +113,23 @@ TEST(AgonesPlatform, TheWatchSaysWhenTheServerIsShutDownAlsoAfterItWasCutAndInPi
   EXPECT_FALSE(platform.takeEnd()) << "once";
 }
 
+TEST(AgonesPlatform, AnAnswerThatIsTooLongIsAskedForAgain) {
+  FakeSidecar sidecar;
+  std::atomic<int> asked = 0;
+  sidecar.start([&](const std::string& request) {
+    if (request == "GET /gameserver" && asked++ == 0)
+      return std::pair<int, std::string>{200, "{" + std::string(GameServerFacts::kMaxBytes, ' ') + "}"};
+    return well(request);
+  });
+  AgonesPlatform platform(sidecar.port());
+  platform.notifyReady();
+  ASSERT_TRUE(sidecar.waitFor("GET /gameserver", 2));
+  while (!platform.address()) {
+  }
+  EXPECT_EQ(platform.address()->port, 7012);
+  EXPECT_GE(platform.counters().failures, 1u);
+}
+
 TEST(AgonesPlatform, AWatchWithoutLinesIsHungUpOn) {
   FakeSidecar sidecar;
   sidecar.start(well);

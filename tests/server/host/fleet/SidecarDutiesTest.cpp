@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,27 @@ TEST_F(SidecarDutiesTest, WhatTheResourceDoesNotHaveIsNotAskedForWithoutEnd) {
   EXPECT_FALSE(duties.next(now));
   EXPECT_EQ(duties.missing(), "/v1beta1/counters/players, /v1beta1/lists/players");
   EXPECT_EQ(duties.counters().failures, 0u);
+}
+
+// An answer that is no facts: too long, cut, or of another program on that port.
+TEST_F(SidecarDutiesTest, FactsThatCannotBeReadAreAskedForAgainWhileTheRestGoesOn) {
+  const std::string server = R"({"status":{"address":"192.0.2.7","ports":[{"port":7012}]}})";
+  for (const std::string& body :
+       {"{" + std::string(GameServerFacts::kMaxBytes, ' ') + "}", server.substr(0, 30), std::string("[]")}) {
+    const std::uint64_t failures = duties.counters().failures;
+    duties.setReady();
+    play({});
+    const All all = said(200, body);
+    EXPECT_EQ(std::count(all.begin(), all.end(), "GET /gameserver"), 1);
+    EXPECT_EQ(duties.counters().failures, failures + 1);
+    EXPECT_FALSE(duties.facts());
+    EXPECT_EQ(duties.wake(), now + SidecarDuties::kRetry);
+    now = duties.wake();
+  }
+  EXPECT_EQ(bodies[2], R"({"count":"0","capacity":"64"})") << "what it does not hinder";
+  EXPECT_EQ(said(200, server), All{"GET /gameserver"});
+  ASSERT_TRUE(duties.facts());
+  EXPECT_EQ(duties.facts()->port, 7012);
 }
 
 TEST_F(SidecarDutiesTest, TheEndComesBeforeAllAndLast) {

@@ -166,10 +166,10 @@ TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
   EXPECT_EQ(parse({"--room", "a=hello", "--players", "private"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--room", "a=hello", "--on-game-over", "exit"}, options), CommandLine::kUsageError);
   EXPECT_EQ(
-      parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--journal", "/tmp"},
+      parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--truth", "/tmp/t"},
             options),
       CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--no-journal"}, options), CommandLine::kRun);
+  EXPECT_EQ(parse({"--truth", "", "--journal", "/tmp"}, options), CommandLine::kRun);
 }
 
 TEST(HostOptions, TheNearestRoomIsNamed) {

@@ -246,5 +246,81 @@ TEST(WorldLauncher, HasASessionOfItsOwnAndOnlyItsDescriptors) {
   closeBoth(world);
 }
 
+/// A world that ends, and leaves two processes, which are its copies to the keeper.
+class LeftCopies : public testing::Test {
+ protected:
+  LeftCopies() {
+    WorldOrder order;
+    order.copies = true;
+    world = launcher.start(order);
+    EXPECT_GT(waitForStart(world), 1);
+    for (pid_t& one : left) one = std::stoi(readLine(world.socket));
+    EXPECT_EQ(send(world.socket, "\n", 1, MSG_NOSIGNAL), 1);
+    EXPECT_EQ(waitForReport(), "exit 7, copies are there");
+  }
+  ~LeftCopies() override {
+    closeBoth(world);
+    close(world.copies);
+  }
+  std::string waitForReport() const {
+    pollfd readable{world.keeper, POLLIN, 0};
+    KeeperEnd end;
+    if (poll(&readable, 1, kPatienceMillis) <= 0 ||
+        recv(world.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end)
+      return "nothing";
+    return (WIFEXITED(end.status) ? "exit " + std::to_string(WEXITSTATUS(end.status))
+                                  : "signal " + std::to_string(WTERMSIG(end.status))) +
+           (end.is_last != 0 ? ", all have ended" : ", copies are there");
+  }
+  void order(const KeeperOrder& order) const {
+    EXPECT_EQ(send(world.keeper, &order, sizeof order, MSG_NOSIGNAL), static_cast<ssize_t>(sizeof order));
+  }
+
+  const WorldLauncher launcher{
+      shell("for i in 1 2 3; do sleep 1000 & echo $! >&3; done; read word <&3; exit 7")};
+  StartedWorld world;
+  pid_t left[3] = {};
+};
+
+TEST_F(LeftCopies, TheOneThatGoesOnStaysAndAllOthersEnd) {
+  order({KeeperOrder::kGoOn, left[0], {left[1], 0, 0}});
+  EXPECT_TRUE(isGone(left[2]));
+  EXPECT_EQ(kill(left[0], 0), 0);
+  EXPECT_EQ(kill(left[1], 0), 0);
+  order({KeeperOrder::kEndWorld, 0, {}});
+  EXPECT_EQ(waitForReport(), "signal 9, copies are there");
+  order({KeeperOrder::kGoOn, left[1], {}});
+  shutdown(world.keeper, SHUT_WR);
+  EXPECT_EQ(waitForReport(), "signal 9, all have ended");
+  EXPECT_EQ(kill(left[1], 0), -1);
+}
+
+TEST_F(LeftCopies, NoProcessButAChildOfTheKeeperGoesOn) {
+  order({KeeperOrder::kGoOn, getpid(), {left[0], left[1], left[2]}});
+  EXPECT_EQ(waitForReport(), "exit 7, all have ended");
+  for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
+}
+
+TEST_F(LeftCopies, WithoutAWordAllEnd) {
+  EXPECT_EQ(waitForReport(), "exit 7, all have ended");
+  for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
+}
+
+TEST(WorldLauncher, OnlyAWorldThatMakesCopiesHasASocketForThem) {
+  const WorldLauncher launcher(shell(
+      "for n in 0 1 2 3 4 5 6 99 100 101; do test -e /proc/$$/fd/$n && set -- $* $n; done; echo $* >&3"));
+  for (const bool copies : {false, true}) {
+    WorldOrder order;
+    order.copies = copies;
+    const StartedWorld world = launcher.start(order);
+    EXPECT_EQ(world.copies >= 0, copies);
+    EXPECT_EQ(readLine(world.socket), copies ? "0 1 2 3 4 100" : "0 1 2 3 4");
+    EXPECT_GT(waitForStart(world), 1);
+    EXPECT_EQ(waitForEnd(world), 0);
+    closeBoth(world);
+    if (world.copies >= 0) close(world.copies);
+  }
+}
+
 }  // namespace
 }  // namespace naiad

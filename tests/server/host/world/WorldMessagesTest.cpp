@@ -265,6 +265,7 @@ TEST(WorldMessages, AnswersCrossWhole) {
 WorldTurn fullTurn() {
   using Queue = df::InputQueue;
   WorldTurn turn{{}, true, true, true};
+  turn.copied = true;
   turn.pictured = 5;
   turn.inputs.push_back({.kind = Queue::kJoin, .player = 4, .name = "bob", .color = df::GREEN});
   turn.inputs.push_back(
@@ -291,7 +292,7 @@ TEST(WorldMessages, TurnsCrossWhole) {
   ASSERT_TRUE(writeTurn(sent, frame));
   const auto turn = readTurn(fieldsOf(frame));
   ASSERT_TRUE(turn);
-  EXPECT_TRUE(turn->watched && turn->wants_truth && turn->ends_game);
+  EXPECT_TRUE(turn->watched && turn->wants_truth && turn->ends_game && turn->copied && !turn->checked);
   EXPECT_EQ(turn->pictured, 5u);
   ASSERT_EQ(turn->inputs.size(), sent.inputs.size());
   for (std::size_t i = 0; i < sent.inputs.size(); ++i) {

@@ -73,6 +73,7 @@ struct Others {
   double speed = kNobody;
   Added added = Added::kAfter;
   bool is_removed = false;
+  bool takes_off = false;
 };
 
 Pair addOthers(const Others& others) {
@@ -99,6 +100,7 @@ std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_f
   if (has_others && others.added == Added::kBefore) far = addOthers(others);
   BodyScene::wall(Vector(0, 5), Vector(shares_floor ? 5000 : 100, 5));
   const Pair pair = pairAt(Vector(0, shares_floor ? -30 : -2), link);
+  if (shares_floor) pair.p_b->setSpin(0.03);  // so that its joint pulls while it falls
   if (has_others && others.added == Added::kAfter) far = addOthers(others);
   std::vector<std::uint64_t> bits;
   for (int tick = 0; tick < kTicks; ++tick) {
@@ -106,6 +108,9 @@ std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_f
     if (others.is_removed && tick == 35) {
       WM.markForDelete(far.p_a);
       WM.markForDelete(far.p_b);
+    }
+    if (others.takes_off && tick == 30) {
+      for (Body* p_body : {far.p_a, far.p_b}) p_body->setVelocity(Vector(0, -1));
     }
     world.update();
     take(bits, pair.p_a);
@@ -134,6 +139,13 @@ TEST_P(BodyIsolation, APairIsTheSameAloneAndBesideAnother) {
       }
     }
   }
+}
+
+// Then another solver moves it, and all jointed bodies are collected again.
+TEST_P(BodyIsolation, APairInTheAirIsTheSameWhenAnotherTakesOff) {
+  const auto [link, other_link] = GetParam();
+  const Others others = {other_link, kOnTheFloor, Added::kBefore, false, true};
+  EXPECT_EQ(bitsOf(link, {}, true), bitsOf(link, others, true));
 }
 
 INSTANTIATE_TEST_SUITE_P(Joints, BodyIsolation,

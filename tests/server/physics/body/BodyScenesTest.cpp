@@ -148,7 +148,7 @@ constexpr std::array<double, 9> kStiffnesses = {0.01, 0.1, 1, 4.5, 10, 100, 1e4,
 
 // A box slides on ice, pulled to a point: how far from it does it get, and how far at the end?
 struct Swing {
-  double farthest = 0, late = 0, gained = 0;
+  double farthest = 0, late = 0, gained = 0, sunk = 0;
 };
 
 class PulledBox : public BodyScenes {
@@ -173,6 +173,7 @@ class PulledBox : public BodyScenes {
       swing.farthest = std::max(swing.farthest, away);
       if (i >= 200) swing.late = std::max(swing.late, away);
       swing.gained = std::max(swing.gained, energy() / start - 1);
+      swing.sunk = std::max(swing.sunk, std::abs(p_box->getPosition().y() + 0.5));
       // Beyond that, a unit in the last place of a place is a force that throws it.
       if (stiffness <= 1e8) {
         EXPECT_NEAR(p_box->getPosition().y(), -0.5, 5e-3) << stiffness << ' ' << i;
@@ -251,15 +252,52 @@ TEST_F(BodyScenes, ASpringOnARodIsNotThrown) {
   }
 }
 
+class Magnet : public Field {
+ public:
+  double rate = 0;  // rad per tick, from x to y
+  Vector accelerationAt(Vector /*displacement*/, Vector v, double /*time*/) const override {
+    return Vector(-rate * v.y(), rate * v.x());
+  }
+};
+
+// A magnet presses what slides onto the floor, and what goes round against its rod: at right angles to the
+// way, so that nothing becomes slower or faster.
+TEST_F(BodyScenes, AMagnetDoesNotBrakeWhatIsHeld) {
+  Magnet magnet;
+  wall(Vector(0, 0.5), Vector(500, 0.5));
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    ASSERT_EQ(PM.setAccuracy(accuracy), 0);
+    // The fast level is soft: a strong magnet's first push takes some.
+    const double least = accuracy == ACCURACY_DEFAULT ? 0.1 * (1 - 1e-4) : 0.07;
+    for (const double rate : {0.01, 1.0, 100.0, 1e4, -1.0, -1e4}) {
+      SCOPED_TRACE(testing::Message() << accuracy << ' ' << rate);
+      magnet.rate = rate;
+      bodies.clear();
+      put(ball(Vector(5, -20), Vector(0, 3), 0.25));
+      PM.addDistance(nullptr, bodies[0], Vector(0, -20), Vector(5, -20));
+      put(ball(Vector(100, -0.5), Vector(3, 0)))->setRestitution(0);
+      put(crate(Vector(-100, -0.5)))->setTurning();
+      bodies[2]->setFriction(0);
+      bodies[2]->setVelocity(Vector(0.1, 0));
+      for (Body* p_body : bodies) p_body->setField(&magnet);
+      for (int i = 0; i < 300; ++i) {
+        ticks(1);
+        for (const Body* p_body : bodies) {
+          ASSERT_LE(p_body->getVelocity().getMagnitude(), 0.1 * (1 + 1e-6)) << i;
+          const bool may_land = rate < 0 && p_body != bodies[0];  // it comes off the floor and falls back
+          if (!may_land) ASSERT_GE(p_body->getVelocity().getMagnitude(), least) << i;
+        }
+      }
+      EXPECT_EQ(PM.getQuarantineCount(), 0U);
+      for (Body* p_body : bodies) delete p_body;
+    }
+  }
+}
+
 // A magnet however strong freezes nothing, at both levels, in flight, on a floor, on a rod and in a
 // collision.
 TEST_F(BodyScenes, AStrongMagnetFreezesNothing) {
-  struct Magnet : Field {
-    double rate = 0;
-    Vector accelerationAt(Vector /*displacement*/, Vector v, double /*time*/) const override {
-      return Vector(-rate * v.y(), rate * v.x());
-    }
-  } magnet;
+  Magnet magnet;
   PM.setGravity(perSecondSquared(Vector(0, kFall)));
   wall(Vector(0, 0.5), Vector(50, 0.5));
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
@@ -363,6 +401,36 @@ TEST_F(BodyScenes, AStackThatLeansToAndFroStands) {
           << count << ' ' << i;
     }
     for (Body* p_body : bodies) delete p_body;
+  }
+}
+
+// However fast it swings, the floor holds it with its whole width.
+TEST_F(PulledBox, WhatSlidesFastDoesNotTiltIntoTheFloor) {
+  for (double k = 0.01; k <= 2; k *= 1.1) {  // up to 1.4 times its width a tick
+    const Swing its = swing(k, [&](Body* p_box) { p_box->setSpring(Vector(0, -0.5), k); });
+    EXPECT_LE(its.gained, 1e-6) << k;
+    EXPECT_LE(its.sunk, 1e-6) << k;
+  }
+}
+
+// Up to 10⁹ times as heavy, it lies on a light one as on a stone.
+TEST_F(BodyScenes, AHeavyBodyLiesOnLightOnes) {
+  PM.setGravity(perSecondSquared(Vector(0, kFall)));
+  wall(Vector(0, 0.5), Vector(50, 0.5));
+  for (const double ratio : {10.0, 1e3, 1e6, 1e7, 1e9}) {
+    for (const int lights : {1, 2, 3}) {
+      bodies.clear();
+      for (int i = 0; i <= lights; ++i) {
+        put(crate(Vector(0, -0.5 - i), Vector(0.5, 0.5), i < lights ? 1 : ratio))->setTurning();
+        bodies.back()->setFriction(0.6);
+      }
+      ticks(300);
+      for (int i = 0; i <= lights; ++i) {
+        EXPECT_NEAR(bodies[static_cast<std::size_t>(i)]->getPosition().y(), -0.5 - i, 1e-3)
+            << ratio << ' ' << lights << ' ' << i;
+      }
+      for (Body* p_body : bodies) delete p_body;
+    }
   }
 }
 

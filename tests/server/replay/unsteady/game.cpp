@@ -1,6 +1,7 @@
 // A game that is another one each time, from tick 47 on, in the way that its module's name says:
 // unsteady_instruction.so, _entropy, _clock, _thread, _file cannot be repeated; unsteady_time.so, _device,
-// _pointers can, by the server's help. unsteady_frail.so crashes by the key Q, and hangs by H.
+// _pointers can, by the server's help. unsteady_frail.so crashes by the key Q, in draw()
+// by D, and hangs by H; by T it has a thread, by P it is where its process's number says.
 #include <dlfcn.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -109,13 +110,20 @@ class Frail : public df::Object {
     const auto* p_key = dynamic_cast<const df::EventKeyboard*>(p_event);
     if (p_key == nullptr || p_key->getKeyboardAction() != df::KEY_PRESSED) return 0;
     if (p_key->getKey() == df::Keyboard::Q) std::raise(SIGSEGV);
+    if (p_key->getKey() == df::Keyboard::T) std::thread([] { pause(); }).detach();
+    m_crashes = p_key->getKey() == df::Keyboard::D;
     while (p_key->getKey() == df::Keyboard::H) std::atomic_signal_fence(std::memory_order_seq_cst);
+    if (p_key->getKey() == df::Keyboard::P) m_keys = getpid();
     setPosition(df::Vector(5 + static_cast<float>(++m_keys % 60), 5));
     return 1;
   }
-  int draw() override { return DM.drawCh(getPosition(), 'F', df::RED); }
+  int draw() override {
+    if (m_crashes) std::raise(SIGSEGV);
+    return DM.drawCh(getPosition(), 'F', df::RED);
+  }
 
  private:
+  bool m_crashes = false;
   int m_keys = 0;
 };
 

@@ -1,0 +1,113 @@
+// 23: a group alone, and beside another one.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kFar = 2000;  // m between the groups
+constexpr int kTicks = 200;
+constexpr Vec kHalf{0.5, 0.25};
+
+enum class Held { ROD, SPRING, NOTHING };
+
+// Two boxes that fall onto a floor, one of them turning.
+void addPair(Scene& scene, Held held, Vec at, Vec velocity) {
+  const int first = static_cast<int>(scene.bodies.size());
+  for (int i = 0; i < 2; ++i) {
+    Body made = box(at + Vec{1.5 * i, 0.1 * i}, kHalf);
+    made.rotates = true;
+    made.friction = 0.6;
+    made.velocity = velocity;
+    made.spin = i;
+    scene.bodies.push_back(made);
+  }
+  if (held == Held::NOTHING) return;
+  const Vec from = at + Vec{0.5, 0}, to = at + Vec{1, 0.1};
+  Joint joint = rod(first, from, first + 1, to);
+  if (held == Held::SPRING) {
+    joint.kind = Joint::Kind::SPRING;
+    joint.stiffness = 300;
+    joint.rest_length = std::sqrt(dot(to - from, to - from));
+  }
+  scene.joints.push_back(joint);
+}
+
+void addFloor(Scene& scene, double x) {
+  Body ground = wall({x, -5}, {100, 5});
+  ground.friction = 0.6;
+  scene.bodies.push_back(ground);
+}
+
+Scene alone(Held held) {
+  Scene scene;
+  scene.gravity = {0, -10};
+  scene.ticks = kTicks;
+  addPair(scene, held, {0, 3}, {1, 0});
+  addFloor(scene, 0);
+  return scene;
+}
+
+// Another group far away, which rests, flies, or lies on a floor of its own.
+Scene accompanied(Held held, double speed, bool has_floor) {
+  Scene scene = alone(held);
+  addPair(scene, held, {kFar, has_floor ? 0.25 : 3.0}, {0, speed});
+  if (has_floor) addFloor(scene, kFar);
+  return scene;
+}
+
+bool areEqual(const BodyState& a, const BodyState& b) {
+  return a.position.x == b.position.x && a.position.y == b.position.y && a.velocity.x == b.velocity.x &&
+         a.velocity.y == b.velocity.y && a.angle == b.angle && a.spin == b.spin;
+}
+
+Case heldBy(Held held, const std::string& name) {
+  Case beside;
+  beside.name = name;
+  beside.scene = accompanied(held, 30, false);
+  beside.most_substeps = 16;
+  beside.metrics = {{"differing", "part of the ticks in which a bit differs", 0, 1e-6, ""}};
+  beside.judge = [held](const Trial& trial) {
+    std::vector<BodyState> path;
+    trial.run(alone(held), [&](int /*tick*/, const Simulation& simulation) {
+      path.push_back(simulation.body(0));
+      path.push_back(simulation.body(1));
+    });
+    int differing = 0, ticks = 0;
+    for (const double speed : {0.0, 0.3, 30.0, 3e4}) {
+      for (const bool has_floor : {false, true}) {
+        std::size_t next = 0;
+        trial.run(accompanied(held, speed, has_floor), [&](int /*tick*/, const Simulation& simulation) {
+          const bool same =
+              areEqual(simulation.body(0), path[next]) && areEqual(simulation.body(1), path[next + 1]);
+          next += 2;
+          ++ticks;
+          if (!same) ++differing;
+        });
+      }
+    }
+    return std::vector<double>{static_cast<double>(differing) / ticks};
+  };
+  return beside;
+}
+
+Problem make() {
+  Problem problem;
+  problem.title = "Groups do not see each other";
+  problem.text =
+      "Two boxes on a rod, on a spring, or on nothing fall onto a floor, alone and with another such pair "
+      "2000 m away that rests, moves by 0.01 to 1000 cells a tick, or lies on a floor of its own; 200 ticks.";
+  problem.reference = "the same bits as alone";
+  problem.cases = {heldBy(Held::ROD, "rod"), heldBy(Held::SPRING, "spring"), heldBy(Held::NOTHING, "loose")};
+  return problem;
+}
+
+const RegisteredProblem problem("23", "isolation", make);
+
+}  // namespace
+
+}  // namespace lab

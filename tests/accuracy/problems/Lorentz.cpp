@@ -1,0 +1,102 @@
+// 22: what a magnet turns, free and held.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kSpeed = 3;   // m/s: a tenth of a cell a tick
+constexpr double kLength = 5;  // of the rod
+constexpr double kRadius = 0.25;
+constexpr int kTicks = 100;
+
+// Turns a velocity by `rate` rad a tick, clockwise where y points up.
+Field magnet(double rate) {
+  return [rate](double /*t*/, const BodyState& state) {
+    const double omega = rate / kTick;
+    return Vec{omega * state.velocity.y, -omega * state.velocity.x};
+  };
+}
+
+// How far it is off a path by formula, and how much its speed changes.
+using Formula = Vec (*)(double t, double omega);
+
+Case along(const std::string& name, Scene scene, double rate, Formula path, double far, double drift) {
+  Case moved;
+  moved.name = name;
+  moved.scene = std::move(scene);
+  moved.scene.field = magnet(rate);
+  moved.scene.ticks = kTicks;
+  moved.metrics = {{"sup_error_m", "largest distance from the path, m", far, 1e-13, ""},
+                   {"energy_drift", "largest change of energy, relative", drift, 1e-15, ""}};
+  moved.judge = [scene = moved.scene, rate, path](const Trial& trial) {
+    double away = 0, changed = 0;
+    trial.run(scene, [&](int tick, const Simulation& simulation) {
+      const BodyState state = simulation.body(0);
+      const Vec off = state.position - path(tick * scene.tick, rate / scene.tick);
+      away = std::max(away, std::sqrt(dot(off, off)));
+      changed = std::max(changed, std::abs(dot(state.velocity, state.velocity) / (kSpeed * kSpeed) - 1));
+    });
+    return std::vector<double>{away, changed};
+  };
+  return moved;
+}
+
+Vec onCircle(double t, double omega) {
+  return kSpeed / omega * Vec{std::sin(omega * t), std::cos(omega * t) - 1};
+}
+Vec onFloor(double t, double /*omega*/) {
+  return {kSpeed * t, kRadius};
+}
+Vec aboutPivot(double t, double /*omega*/) {
+  const double angle = kSpeed / kLength * t;
+  return {kLength * std::sin(angle), kLength * (1 - std::cos(angle))};
+}
+
+Case freely(double rate, const std::string& name) {
+  Scene scene;
+  scene.bodies = {ball({0, 0}, {kSpeed, 0}, kRadius)};
+  return along(name, scene, rate, onCircle, 1e-6, 1e-6);
+}
+
+// Pressed onto it.
+Case overFloor(double rate, const std::string& name) {
+  Scene scene;
+  scene.bodies = {ball({0, kRadius}, {kSpeed, 0}, kRadius), wall({0, -0.5}, {100, 0.5})};
+  return along(name, scene, rate, onFloor, 1e-6, 1e-6);
+}
+
+Case onRod(double rate, const std::string& name) {
+  Scene scene;
+  scene.bodies = {ball({0, 0}, {kSpeed, 0}, kRadius)};
+  scene.joints = {rod(-1, {0, kLength}, 0, {0, 0})};
+  return along(name, scene, rate, aboutPivot, 0.01, 1e-4);
+}
+
+Problem make() {
+  Problem problem;
+  problem.title = "In a magnet";
+  problem.text =
+      "A ball of 3 m/s in a field that turns its velocity by 1 to 10⁴ radians a tick: free, over a floor "
+      "onto which the field presses it, and on a rod of 5 m; 100 ticks, no gravity, no friction.";
+  problem.reference =
+      "a circle of v/ω, the floor's line, the rod's circle at constant speed: the force does no work";
+  for (const double rate : {1.0, 10.0, 1e3, 1e4}) {
+    problem.cases.push_back(freely(rate, "free" + std::to_string(static_cast<int>(rate))));
+  }
+  for (const double rate : {1.0, 1e3}) {
+    problem.cases.push_back(overFloor(rate, "floor" + std::to_string(static_cast<int>(rate))));
+    problem.cases.push_back(onRod(rate, "rod" + std::to_string(static_cast<int>(rate))));
+  }
+  return problem;
+}
+
+const RegisteredProblem problem("22", "lorentz", make);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,179 @@
+// A server with rooms that is killed while players are in them: the next one goes on with the round of each
+// room, and every player is back in theirs, as the same player. Real processes.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "LobbyFixture.h"
+#include "host/journal/DfrWriter.h"
+#include "host/journal/OpenRound.h"
+#include "host/program/Journals.h"
+
+namespace naiad::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RoomRecovery : public LobbyFixture {
+ protected:
+  /// The same server each time.
+  void startJournaled() {
+    const std::uint16_t port = server ? m_port : 0;
+    server.reset();
+    start(rooms, {"--grace=60", "--world-environment=ROOM_REPEATS"},
+          {{"ROOM_REPEATS", "1"},
+           {"NAIAD_PORT", std::to_string(port)},
+           {"NAIAD_IDENTITY", home.identity("key")},
+           {"NAIAD_JOURNAL", rounds()},
+           {"NAIAD_STATE", home.identity("state")},
+           {"DRAGONFLY_CONFIG", home.identity("none")}});
+    m_port = server->port();
+  }
+  /// Once the round of every player's room can be gone on with: a thread of its own begins its file.
+  void kill() {
+    ASSERT_TRUE(serve([&] {
+      return std::all_of(clients.begin(), clients.end(),
+                         [&](TestClient* p_client) { return isWritten(p_client->session().welcome().room); });
+    }));
+    server->signal(SIGKILL);
+    server->wait();
+    m_before.clear();
+    for (TestClient* p_client : clients) m_before.push_back(&p_client->session());
+  }
+  bool isWritten(const std::string& room) const {
+    const std::vector<fs::path> files = roundsOf(room);
+    if (files.empty()) return false;
+    try {
+      return !OpenRound(files.front().string()).fact(kFactFirstTick).empty();
+    } catch (const OpenRoundError&) {  // not even its head
+      return false;
+    }
+  }
+  /// Those who played before are back in a session of the new server, and see something of their room.
+  bool serveUntilBack() {
+    return serve([&] {
+      for (std::size_t i = 0; i < clients.size(); ++i) {
+        TestClient& client = *clients[i];
+        if (!client.joined() || &client.session() == m_before[i] || client.newestTick() == 0) return false;
+      }
+      return true;
+    });
+  }
+  /// The server went on with the sessions of so many players.
+  std::size_t returned() const {
+    constexpr const char* kIsBack = "is back, in the round that goes on";
+    const std::string log = server->log();
+    std::size_t count = 0;
+    for (std::size_t at = log.find(kIsBack); at != std::string::npos; at = log.find(kIsBack, at + 1)) ++count;
+    return count;
+  }
+  fs::path rounds() const { return home.identity("rounds"); }
+  std::vector<fs::path> roundsOf(const std::string& room) const {
+    std::vector<fs::path> found;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(rounds() / room, error)) found.push_back(entry.path());
+    return found;
+  }
+  /// Keys that one after the other have arrived.
+  void type(TestClient& client, int count) {
+    for (const int before = shown(client).keys; shown(client).keys < before + count;) {
+      const int keys = shown(client).keys;
+      press(client, df::Keyboard::X);
+      ASSERT_TRUE(serve([&] { return shown(client).keys == keys + 1; })) << server->log();
+    }
+  }
+
+  std::vector<std::string> rooms = {"one", "two", "three", "four"};
+
+ private:
+  std::uint16_t m_port = 0;
+  std::vector<const ClientSession*> m_before;  ///< of the clients, when the server was killed
+};
+
+TEST_F(RoomRecovery, EachPlayerIsBackInTheirRoomAsTheSamePlayer) {
+  startJournaled();
+  auto ann = join("ann", "one");
+  auto bob = join("bob", "two");
+  auto cid = join("cid", "one");
+  cid->session().enterRoom("three");
+  ASSERT_TRUE(serve([&] { return cid->session().welcome().room == "three" && shown(*cid).process > 0; }));
+  type(*ann, 1);
+  type(*bob, 3);
+  type(*cid, 2);
+  for (int kills = 1; kills <= 2 && !HasFatalFailure(); ++kills) {
+    const std::vector<int> keys = {shown(*ann).keys, shown(*bob).keys, shown(*cid).keys};
+    const std::vector<std::uint32_t> ids = {ann->player(), bob->player(), cid->player()};
+    const int ticks = shown(*bob).ticks;
+    kill();
+    startJournaled();
+    ASSERT_TRUE(serveUntilBack()) << server->log();
+    ASSERT_TRUE(serve([&] { return returned() == 3; })) << server->log();
+    ASSERT_TRUE(
+        serve([&] { return shown(*ann).process > 0 && shown(*bob).process > 0 && shown(*cid).process > 0; }));
+    EXPECT_EQ((std::vector<int>{shown(*ann).keys, shown(*bob).keys, shown(*cid).keys}), keys);
+    EXPECT_EQ((std::vector<std::uint32_t>{ann->player(), bob->player(), cid->player()}), ids);
+    EXPECT_EQ(ann->session().welcome().room, "one");
+    EXPECT_EQ(bob->session().welcome().room, "two");
+    EXPECT_EQ(cid->session().welcome().room, "three");
+    EXPECT_GE(shown(*bob).ticks, ticks) << "no tick that was seen is lost";
+    type(*bob, 1);
+  }
+  ASSERT_TRUE(serve([&] { return roomInList(*ann, "four") != nullptr; }));
+  EXPECT_TRUE(roomInList(*ann, "four")->asleep) << "it had no round";
+  auto dan = join("dan", "two");
+  EXPECT_GT(dan->player(), std::max({ann->player(), bob->player(), cid->player()}));
+  cid->session().enterRoom("two");
+  EXPECT_TRUE(serve([&] {
+    return cid->session().welcome().room == "two" && shown(*cid).keys == shown(*bob).keys;
+  })) << server->log();
+}
+
+// What the lobby knows of rooms, and whom it leads where, are part of its round.
+TEST_F(RoomRecovery, DoorsLeadToRoomsAfterwards) {
+  rooms = {"hall=lobby", "one"};
+  startJournaled();
+  auto ann = connect("ann", "hall");
+  const auto sees_door = [&] { return ann->joined() && row(*ann, 4).find("one") != std::string::npos; };
+  ASSERT_TRUE(serve(sees_door)) << server->log();
+  kill();
+  startJournaled();
+  ASSERT_TRUE(serveUntilBack()) << server->log();
+  ASSERT_TRUE(serve(sees_door));
+  EXPECT_EQ(returned(), 1u);
+  walkToDoor(*ann);
+  ASSERT_FALSE(HasFatalFailure()) << server->log();
+  press(*ann, df::Keyboard::DOWNARROW);
+  ASSERT_TRUE(serve([&] { return ann->session().welcome().room == "one"; })) << server->log();
+  EXPECT_TRUE(serve([&] { return shown(*ann).process > 0; }));
+}
+
+TEST_F(RoomRecovery, ARoundThatCannotGoOnIsOneRoomsOwn) {
+  startJournaled();
+  auto ann = join("ann", "one");
+  auto bob = join("bob", "two");
+  type(*ann, 2);
+  type(*bob, 2);
+  kill();
+  ASSERT_EQ(roundsOf("two").size(), 1u);
+  std::ofstream(roundsOf("two").front(), std::ios::binary | std::ios::app)
+      << spellDfrMeta({{kFactAttempts, "3 1000000"}});
+  startJournaled();
+  ASSERT_TRUE(serveUntilBack()) << server->log();
+  ASSERT_TRUE(serve([&] { return shown(*ann).process > 0 && shown(*bob).process > 0; })) << server->log();
+  EXPECT_EQ(returned(), 1u) << server->log();
+  EXPECT_EQ(shown(*ann).keys, 2);
+  EXPECT_EQ(shown(*bob).keys, 0) << "the next round";
+  EXPECT_EQ(bob->session().welcome().room, "two");
+  EXPECT_NE(server->log().find("room two: the round"), std::string::npos) << server->log();
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,98 @@
+// A server with rooms, as a real process, and clients in them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "GameProgram.h"
+#include "Home.h"
+#include "TestClient.h"
+
+namespace naiad::test {
+
+/// rooms/game.cpp
+inline constexpr const char* kRoomModule = NAIAD_BINARY_DIR "/../lib/room_module.so";
+
+/// What that game draws.
+struct Shown {
+  int process = 0;  ///< 0: nothing yet
+  int keys = 0;
+  int ticks = 0;
+};
+
+class RoomsFixture : public testing::Test {
+ protected:
+  /// Rooms of these names, with these settings behind the game. A room that names no game plays
+  /// rooms/game.cpp.
+  void start(const std::vector<std::string>& rooms, std::vector<std::string> arguments = {},
+             const std::map<std::string, std::string>& environment = {}) {
+    for (const std::string& room : rooms) {
+      const std::size_t comma = std::min(room.find(','), room.size());
+      const bool has_game = room.find('=') < comma;
+      arguments.push_back("--room=" +
+                          (has_game ? room : room.substr(0, comma) + "=" + kRoomModule + room.substr(comma)));
+    }
+    server = std::make_unique<GameProgram>("dfserver", environment, arguments);
+    ASSERT_NE(server->port(), 0) << server->log();
+  }
+  std::unique_ptr<TestClient> connect(const std::string& name, const std::string& room) {
+    ClientSetup setup = home.player(name);
+    setup.options.room = room;
+    auto client = std::make_unique<TestClient>(context, server->port(), setup);
+    client->keepPictures(false);
+    clients.push_back(client.get());
+    return client;
+  }
+  /// In a room that plays rooms/game.cpp.
+  std::unique_ptr<TestClient> join(const std::string& name, const std::string& room) {
+    auto client = connect(name, room);
+    EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).process > 0; })) << server->log();
+    return client;
+  }
+  /// Why the server does not let a player in.
+  std::string refusal(const std::string& room) {
+    auto client = connect("eve", room);
+    EXPECT_TRUE(serve([&] { return client->connection().isOver(); }));
+    clients.pop_back();
+    return client->connection().sentence();
+  }
+  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
+  static std::string row(TestClient& client, int y) {
+    return client.session().replica().render(client.newestTick()).rowText(y);
+  }
+  static Shown shown(TestClient& client) {
+    const std::string text = row(client, 12);
+    const auto process = numberAfter(text, "process=");
+    const auto keys = numberAfter(text, "keys=");
+    const auto ticks = numberAfter(text, "ticks=");
+    if (!process || !keys || !ticks || text.find(';') == std::string::npos) return {};
+    return {*process, *keys, *ticks};
+  }
+  static bool heard(TestClient& client, const std::string& part) {
+    const auto& chat = client.session().chat();
+    return std::any_of(chat.begin(), chat.end(),
+                       [&](const ChatEntry& entry) { return entry.text.find(part) != std::string::npos; });
+  }
+  const RoomLine* roomInList(TestClient& client, const std::string& name) {
+    client.session().refreshRooms(std::chrono::steady_clock::now());
+    const auto& rooms = client.session().rooms();
+    const auto found =
+        std::find_if(rooms.begin(), rooms.end(), [&](const RoomLine& room) { return room.name == name; });
+    return found != rooms.end() ? &*found : nullptr;
+  }
+
+  Home home;
+  asio::io_context context;
+  std::unique_ptr<GameProgram> server;
+  std::vector<TestClient*> clients;
+};
+
+}  // namespace naiad::test

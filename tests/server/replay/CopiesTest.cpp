@@ -1,0 +1,250 @@
+// Copies of a world's process (WorldCopies.h): one goes on where the world crashes or hangs, and none is
+// left.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "host/journal/CopyMarks.h"
+#include "host/world/Descendants.h"
+#include "host/world/WorldCopies.h"
+#include "tests/server/replay/FrailRound.h"
+#include "tests/support/Sanitizers.h"
+
+namespace naiad {
+namespace {
+
+constexpr const char* kCopy = "df-copy";
+constexpr const char* kKeeper = "df-keeper";
+constexpr const char* kWorld = "dfserver";
+constexpr const char* kByCopy = "the game goes on: a copy of its world executed ";
+constexpr const char* kByAnother = "the game goes on: another world executed ";
+
+std::string nameOf(pid_t process) {
+  std::string name;
+  std::getline(std::ifstream("/proc/" + std::to_string(process) + "/comm"), name);
+  return name;
+}
+
+bool isAlive(pid_t process) {
+  return kill(process, 0) == 0;
+}
+
+/// Rounds of less than RepeatCheck::kDelay ticks have one world; in longer ones another is held against it.
+class CopiesTest : public FrailRound {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "its runtime has a thread";
+#endif
+    FrailRound::SetUp();
+  }
+  /// Those that descend from this process, in the order of their numbers, so of their beginning.
+  static std::vector<pid_t> find(const std::string& name) {
+    std::vector<pid_t> found;
+    for (const Descendant& one : findDescendants()) {
+      if (nameOf(one.process) == name) found.push_back(one.process);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  static void waitUntilGone(const std::vector<pid_t>& processes) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    for (const pid_t one : processes) {
+      while (isAlive(one) && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before it is asked again
+      EXPECT_FALSE(isAlive(one)) << nameOf(one);
+    }
+  }
+  /// The processes of worlds, keepers and copies.
+  static std::vector<pid_t> findAll() {
+    std::vector<pid_t> all;
+    for (const char* name : {kCopy, kWorld, kKeeper}) {
+      const std::vector<pid_t> found = find(name);
+      all.insert(all.end(), found.begin(), found.end());
+    }
+    return all;
+  }
+  bool logs(const std::string& text) const {
+    return log.find(text) != std::string::npos;
+  }
+  std::size_t count(const std::string& text) const {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = log.find(text, at)) != std::string::npos; ++at) ++found;
+    return found;
+  }
+  /// Press the key, and hold that the world goes on.
+  void survive(df::Keyboard::Key key) {
+    const std::uint32_t next = world->nextTick();
+    press(key);
+    ASSERT_TRUE(tick()) << log;
+    EXPECT_EQ(world->nextTick(), next + 1);
+    const auto done = world->takeTakeOver();
+    ASSERT_TRUE(done);
+    EXPECT_EQ(world->takeTakeOver().has_value(), false);
+  }
+};
+
+TEST_F(CopiesTest, ACopyGoesOnWithTheTicksSince) {
+  play(100);
+  EXPECT_EQ(find(kCopy).size(), 1u);
+  const std::vector<pid_t> copy = find(kCopy);
+  survive(df::Keyboard::Q);
+  EXPECT_TRUE(logs(std::string(kByCopy) + "71 ticks again")) << log << "31 to 101";
+  EXPECT_EQ(find(kWorld), copy) << "that is the world now";
+  play(60);
+  EXPECT_EQ(verify(), "") << "byte for byte what it answered before";
+}
+
+TEST_F(CopiesTest, ACrashInDrawIsFollowedToo) {
+  play(60);
+  survive(df::Keyboard::D);
+  EXPECT_TRUE(logs(kByCopy)) << log;
+  play(20);
+  EXPECT_EQ(verify(), "");
+}
+
+TEST_F(CopiesTest, AHangIsFollowedToo) {
+  play(50);
+  const std::vector<pid_t> hangs = find(kWorld);
+  survive(df::Keyboard::H);
+  EXPECT_TRUE(logs(kByCopy)) << log;
+  for (const pid_t one : hangs) EXPECT_FALSE(isAlive(one)) << "two of one game would write the same files";
+  play(20);
+  EXPECT_EQ(verify(), "");
+}
+
+TEST_F(CopiesTest, EachDeathIsFollowedByANewerCopy) {
+  for (int death = 0; death < 3; ++death) {
+    play(static_cast<int>(JournaledWorld::kSameDeath) + 10);
+    survive(df::Keyboard::Q);
+  }
+  EXPECT_EQ(count(kByCopy), 3u) << log;
+  play(10);
+  EXPECT_EQ(verify(), "");
+}
+
+TEST_F(CopiesTest, ASecondDeathAtTheSamePlaceEndsTheRoundAndAllProcesses) {
+  play(60);
+  survive(df::Keyboard::Q);
+  play(5);
+  const std::vector<pid_t> all = findAll();
+  press(df::Keyboard::Q);
+  EXPECT_FALSE(tick());
+  ASSERT_TRUE(world->end());
+  EXPECT_EQ(verify(), "");
+  waitUntilGone(all);
+}
+
+TEST_F(CopiesTest, TheOlderOneGoesOnWhereTheNewerIsGone) {
+  play(static_cast<int>(CopyMarks::kTicks + CopyMarks::kFirst) + 50);
+  const std::vector<pid_t> copies = find(kCopy);
+  ASSERT_EQ(copies.size(), WorldCopies::kKept);
+  kill(copies.back(), SIGKILL);
+  survive(df::Keyboard::Q);
+  EXPECT_TRUE(logs(kByCopy)) << log;
+  EXPECT_EQ(find(kWorld), std::vector<pid_t>{copies.front()});
+  play(20);
+  EXPECT_EQ(verify(), "");
+}
+
+TEST_F(CopiesTest, WithoutThemTheRoundIsExecutedFromItsBeginning) {
+  play(60);
+  for (const pid_t copy : find(kCopy)) kill(copy, SIGKILL);
+  survive(df::Keyboard::Q);
+  EXPECT_TRUE(logs(std::string(kByAnother) + "61 ticks again")) << log;
+  play(20);
+  EXPECT_EQ(verify(), "");
+}
+
+// It is killed when the world has been: the one that goes on is gone while it has the turns again.
+TEST_F(CopiesTest, ACopyThatEndsWhileItHasTheTurnsAgainIsFollowedByTheNext) {
+  play(static_cast<int>(CopyMarks::kTicks + CopyMarks::kFirst) + 50);
+  const std::vector<pid_t> copies = find(kCopy);
+  ASSERT_EQ(copies.size(), WorldCopies::kKept);
+  kill(copies.back(), SIGSTOP);
+  press(df::Keyboard::Q);
+  world->tick(true, false);
+  serveUntil([this] { return logs("takes over"); });
+  kill(copies.back(), SIGKILL);
+  serveUntil([this] { return world->isReady(); });
+  EXPECT_TRUE(logs("a copy of the game's world crashed (SIGKILL) before")) << log;
+  EXPECT_TRUE(logs(kByCopy)) << log;
+  EXPECT_EQ(find(kWorld), std::vector<pid_t>{copies.front()});
+  play(20);
+  EXPECT_EQ(verify(), "");
+}
+
+// By its own number, which is another one in each.
+TEST_F(CopiesTest, ACopyThatAnswersOtherwiseIsNotGoneOnWith) {
+  play(50);
+  press(df::Keyboard::P);
+  ASSERT_TRUE(tick());
+  const std::vector<pid_t> all = findAll();
+  press(df::Keyboard::Q);
+  EXPECT_FALSE(tick());
+  EXPECT_TRUE(logs("a copy of the game's world is other in tick 51 before")) << log;
+  ASSERT_TRUE(world->end());
+  EXPECT_NE(world->end()->text.find("another world did not do the same"), std::string::npos);
+  waitUntilGone(all);
+}
+
+TEST_F(CopiesTest, AtMostTwoAreKept) {
+  play(static_cast<int>(CopyMarks::kFirst + 2 * CopyMarks::kTicks));
+  EXPECT_LE(find(kCopy).size(), WorldCopies::kKept + 1);
+  play(10);
+  EXPECT_EQ(find(kCopy).size(), WorldCopies::kKept);
+}
+
+TEST_F(CopiesTest, OfAGameWithThreadsThereAreNone) {
+  play(60);
+  EXPECT_EQ(find(kCopy).size(), 1u);
+  press(df::Keyboard::T);
+  play(static_cast<int>(CopyMarks::kTicks));
+  EXPECT_TRUE(find(kCopy).empty());
+  EXPECT_EQ(count("no copies are kept: it has threads"), 1u) << log;
+}
+
+TEST_F(CopiesTest, NoneIsLeftWhenTheRoundEnds) {
+  play(50);
+  const std::vector<pid_t> all = findAll();
+  EXPECT_EQ(all.size(), 3u);
+  world.reset();
+  waitUntilGone(all);
+}
+
+TEST_F(CopiesTest, NoneIsLeftWhenTheKeeperIsKilled) {
+  play(50);
+  const std::vector<pid_t> all = findAll();
+  for (const pid_t keeper : find(kKeeper)) kill(keeper, SIGKILL);
+  waitUntilGone(all);
+  ASSERT_TRUE(tick()) << log;
+  EXPECT_TRUE(logs(kByAnother)) << log;
+}
+
+TEST_F(CopiesTest, ARoundGoesOnWhenTheGroupOfTheWorldIsKilled) {
+  play(50);
+  for (const pid_t one : find(kWorld)) kill(-one, SIGKILL);
+  serveUntil([this] { return logs("the game goes on"); });
+  play(10);
+  EXPECT_EQ(verify(), "");
+}
+
+TEST_F(CopiesTest, OfWorldsOfSinglePlayersThereAreNone) {
+  HostOptions options;
+  options.journal = (recorder.folder() / "others").string();
+  const auto order = [&] {
+    return Journals::open(options, "frail", module, [](const LogEvent&) {})->makeOrder();
+  };
+  EXPECT_TRUE(order().copies);
+  options.players = "private";
+  EXPECT_FALSE(order().copies);
+}
+
+}  // namespace
+}  // namespace naiad
