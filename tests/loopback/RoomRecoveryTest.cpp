@@ -136,7 +136,7 @@ TEST_F(RoomRecovery, EachPlayerIsBackInTheirRoomAsTheSamePlayer) {
   })) << server->log();
 }
 
-// What the lobby knows of rooms, and whom it leads where, are part of its round.
+// What the lobby knows of rooms is part of its round.
 TEST_F(RoomRecovery, DoorsLeadToRoomsAfterwards) {
   rooms = {"hall=lobby", "one"};
   startJournaled();

@@ -81,25 +81,25 @@ bool Journal::flush() {
   return !m_stopped;
 }
 
+// Facts that were added before a record are written before it: so records are looked for first.
 void Journal::write() {
-  DfrFacts facts;
-  {
-    const std::lock_guard lock(m_mutex);
-    facts.swap(m_facts);
-  }
-  std::string bytes;
-  if (!std::exchange(m_begun, true)) bytes = spellDfrHeader(m_header);
-  if (!facts.empty()) bytes += spellDfrMeta(facts);
   std::string records;
   while (true) {
     records.clear();
     const std::size_t count = m_ring.peek(records, kMaxTaken);
+    DfrFacts facts;
+    {
+      const std::lock_guard lock(m_mutex);
+      facts.swap(m_facts);
+    }
+    std::string bytes;
+    if (!std::exchange(m_begun, true)) bytes = spellDfrHeader(m_header);
+    if (!facts.empty()) bytes += spellDfrMeta(facts);
     bytes += m_packer.pack(records);
     if (bytes.empty()) return;
     m_sink->write(bytes);
     m_sink->sync();
     m_ring.release(count);
-    bytes.clear();
   }
 }
 

@@ -31,7 +31,7 @@ class Journal {
 
   /// Add a record. False: the journal has stopped, and takes no more.
   bool add(std::string_view record);
-  /// More facts: before the first record, or they come after what the writer has taken by then.
+  /// More facts. In the file they come before all records that are added after them.
   void addFacts(DfrFacts facts);
   /// The round is over.
   void finish(const std::string& why);

@@ -100,7 +100,7 @@ constexpr double kTooStiff = 1e4;
 constexpr double kStiff = 1;             // per tick²: what is softer changes little within a tick
 constexpr double kDifference = 0x1p-20;  // of a length or speed, to see how a field changes
 constexpr double kLeastTurn = 1e-6;      // rad per tick: what turns less is a constant force
-constexpr double kMostGrowth = 1;       // of a speed, per tick: the damping beside a magnet is constant in it
+constexpr double kMaxGrowth = 1;        // of a speed, per tick: the damping beside a magnet is constant in it
 constexpr double kFarthestPull = 1e12;  // metric cells: a Place can be moved by 2^51
 
 // The least eigenvalue of its symmetric part.
@@ -145,7 +145,7 @@ bool magnetOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, d
   const Everything force(medium, acceleration, medium.anchor - row.place, medium.field_origin - row.place);
   const Turning turning = turningAt(force, {}, row.velocity, time);
   const double rate = turning.lambda.y, growth = turning.lambda.x;
-  if (!(std::fabs(rate) > kLeastTurn && std::fabs(rate) < 1e30 && std::fabs(growth) < kMostGrowth))
+  if (!(std::fabs(rate) > kLeastTurn && std::fabs(rate) < 1e30 && std::fabs(growth) < kMaxGrowth))
     return false;
   magnet = {rate, turning.rest + growth * row.velocity};
   return isFinite(magnet.rest);

@@ -20,6 +20,11 @@ double edgeLength(const TurnedView& shape, std::int32_t edge) {
   return length(shape.vertices[following(edge, shape.count)] - shape.vertices[edge]);
 }
 
+// What nothing moves. In a drum that turns, bodies would sink deeper with the points on their own edges.
+bool isFloor(const RigidBody& body) {
+  return body.inverse_mass == 0 && body.spin == 0;
+}
+
 // The points of a contact lie on the edge that faces the reference, and stay there for the step. On a longer
 // edge, such as a floor's, they are left behind by what slides over it, and hold it no more. Then the longer
 // one is the better reference: the points go with what slides. `path`: of B against A, in the step.
@@ -208,7 +213,10 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
         }
         continue;
       }
-      if (ReferenceFace better; slidesAway(a.turned[at(i)], b.turned[at(j)], offset, path, manifold, better))
+      const bool is_of_a = manifold.reference.owner == ReferenceFace::Owner::kA;
+      ReferenceFace better;
+      if (isFloor(m_bodies[at(is_of_a ? pair.b : pair.a)]) &&
+          slidesAway(a.turned[at(i)], b.turned[at(j)], offset, path, manifold, better))
         collide(a.turned[at(i)], b.turned[at(j)], offset, margin, better, manifold);
       if (contact < 0) contact = makeContact();
       RigidContact& memory = m_contacts[at(contact)];

@@ -13,11 +13,11 @@ namespace {
 constexpr Vec kBar{0.3, 0.05};  // half
 constexpr double kWallAt = 50;  // m
 constexpr double kHalfWall = 0.5;
-constexpr double kHeavy = 100;      // of a bar's mass
-constexpr double kFastest = 6;      // a power of ten, of cells a tick
-constexpr double kTicksAfter = 2;   // in which it must have met the wall
-constexpr double kMostTicksTo = 3;  // in which it arrives there
-constexpr double kTurned = 0.5;     // rad, likewise a tick: the bar may have passed the wall's end
+constexpr double kHeavy = 100;         // of a bar's mass
+constexpr double kFastest = 6;         // a power of ten, of cells a tick
+constexpr double kTicksAfter = 2;      // in which it must have met the wall
+constexpr double kMaxTicksToWall = 3;  // in which it arrives there
+constexpr double kTurned = 0.5;        // rad, likewise a tick: the bar may have passed the wall's end
 constexpr int kShots = 1000;
 constexpr int kProductShots = 10000;
 
@@ -42,7 +42,7 @@ Scene shot(Motion motion, int number, naiad::SplitMix64& random) {
   const double length = oneOf(std::array{10.0, 200.0, 3000.0, 40'000.0, 200'000.0}, random);
   Body target = wallOf(motion, length, per_tick / kTick);
   const double closing = per_tick * (motion == Motion::KINEMATIC ? 1.5 : 1);
-  const double away = std::min(kWallAt, 2 + kMostTicksTo * closing);
+  const double away = std::min(kWallAt, 2 + kMaxTicksToWall * closing);
   Body bar = box({kWallAt - away, 0.4 * length * (2 * random.unit() - 1)}, kBar);
   bar.rotates = true;
   bar.fast = true;

@@ -52,7 +52,8 @@ class CountingBody : public df::Body {
 
 class DefaultBodies : public Simulation {
  public:
-  explicit DefaultBodies(const Scene& scene) : m_origin(scene.origin), m_tick(scene.tick) {
+  explicit DefaultBodies(const Scene& scene)
+      : m_origin(scene.origin), m_tick(scene.tick), m_is_hearing(scene.hearing) {
     m_world.setLogSink([](const std::string&) {});
     const df::World::Scope scope(m_world);
     PM.setAspect(1);
@@ -122,6 +123,7 @@ class DefaultBodies : public Simulation {
     m_bodies.push_back(std::make_unique<CountingBody>(m_contacts));
     CountingBody& made = *m_bodies.back();
     if (body.shapes.empty()) made.setSolidness(df::SPECTRAL);
+    if (m_is_hearing) made.setSolidness(df::SOFT);
     // A game that is refused a place for a body has none to put it.
     if (made.setPosition(cells(m_origin + body.position)) != 0) WM.removeObject(&made);
     addShapes(made, body.shapes);
@@ -174,6 +176,7 @@ class DefaultBodies : public Simulation {
   df::World m_world;
   Vec m_origin;
   double m_tick;
+  bool m_is_hearing;
   double m_friction = -1;
   double m_restitution = -1;
   long m_contacts = 0;
@@ -186,7 +189,7 @@ class DefaultBodies : public Simulation {
 }  // namespace
 
 SimulationPtr bodiesByDefault(const Scene& scene) {
-  return scene.rigid() ? std::make_unique<DefaultBodies>(scene) : nullptr;
+  return scene.rigid() || scene.hearing ? std::make_unique<DefaultBodies>(scene) : nullptr;
 }
 
 }  // namespace lab

@@ -101,13 +101,15 @@ struct Scene {
   int ticks = 0;
   /// The bodies are the book's Objects, which have no mass and move by themselves: for the product alone.
   bool massless = false;
+  /// Bodies hear of what they meet, and nothing pushes them: for the product alone.
+  bool hearing = false;
   /// The same in generalised coordinates, for methods that solve ordinary differential equations; null where
   /// there are contacts.
   std::shared_ptr<const Equations> equations;
   /// There are no bodies, only equations.
   bool abstract() const { return bodies.empty() && beams.empty(); }
   /// Rigid bodies and joints and nothing else.
-  bool rigid() const { return !bodies.empty() && beams.empty() && !massless; }
+  bool rigid() const { return !bodies.empty() && beams.empty() && !massless && !hearing; }
   double duration() const { return tick * ticks; }
 };
 

@@ -208,7 +208,7 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
 
 TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {
   start();
-  ASSERT_TRUE(waitUntil([this] { return !syncs().empty(); })) << log();
+  ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
   set("full");
   EXPECT_TRUE(isLogged("the round is not written down any more, and goes on: ")) << log();
   EXPECT_NE(log().find("No space left on device"), std::string::npos) << log();

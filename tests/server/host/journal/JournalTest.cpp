@@ -101,6 +101,24 @@ TEST(JournalTest, WhatIsAddedIsOnTheDiskAfterATurnOfTheWriter) {
   EXPECT_EQ(journal->takeProblem(), std::nullopt);
 }
 
+// Who reads a file knows its facts before its first turn, also if they came while its header was written.
+TEST(JournalTest, FactsAreBeforeTheRecordsThatWereAddedAfterThem) {
+  Disk disk;
+  const auto journal = journalOn(disk);
+  JournalWriter writer;
+  disk.setStalled(true);
+  writer.add(journal);
+  writer.wake();
+  disk.waitUntilSomebodyWaits();
+  journal->addFacts({{"file ship.txt", "1"}});
+  ASSERT_TRUE(journal->add(turnRecord()));
+  disk.setStalled(false);
+  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  DfrReader reader(disk.bytes);
+  EXPECT_EQ(reader.facts().count("file ship.txt"), 1u);
+  EXPECT_TRUE(reader.next());
+}
+
 // While the disk stalls, adding returns: this test would hang otherwise.
 TEST(JournalTest, ADiskThatStallsKeepsNobodyWaiting) {
   Disk disk;

@@ -1,0 +1,69 @@
+// 24: bodies that hear each other and push nothing.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "Path.h"
+#include "shared/values/SplitMix64.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kRadius = 0.5;
+constexpr int kTicks = 60;
+
+// Part of the pairs that overlap and are not heard of, or are heard of and do not overlap.
+Case hearing(const std::string& name, Scene scene, long pairs) {
+  Case heard;
+  heard.name = name;
+  heard.scene = std::move(scene);
+  heard.scene.hearing = true;
+  heard.scene.ticks = kTicks;
+  heard.most_substeps = 4;
+  heard.metrics = {{"misheard", "pairs that are heard of wrongly, of all", 0, 1e-6, ""}};
+  heard.judge = [scene = heard.scene, pairs](const Trial& trial) {
+    const SimulationPtr end = trial.run(scene);
+    const auto all = static_cast<double>(pairs > 0 ? pairs : 1);
+    return std::vector<double>{std::abs(static_cast<double>(end->contacts() - pairs)) / all};
+  };
+  return heard;
+}
+
+Case apart(int side) {
+  constexpr double kApart = 3;  // m
+  Scene scene;
+  for (int i = 0; i < side * side; ++i) {
+    scene.bodies.push_back(ball({kApart * (i % side), kApart * (i / side)}, {}, kRadius));
+  }
+  return hearing("apart" + std::to_string(side * side), scene, 0);
+}
+
+// Each overlaps every other one.
+Case together(int count) {
+  naiad::SplitMix64 random(24);
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    const double x = kRadius * random.unit(), y = kRadius * random.unit();
+    scene.bodies.push_back(ball({x, y}, {}, kRadius));
+  }
+  return hearing("together" + std::to_string(count), scene, static_cast<long>(count) * (count - 1) / 2);
+}
+
+Problem make() {
+  Problem problem;
+  problem.title = "Crowds that hear";
+  problem.text =
+      "SOFT bodies, which nothing pushes: 1024 circles of 1 m that lie 3 m apart, and 50, 100, 200 and 400 "
+      "of "
+      "them of which each overlaps every other one; 60 ticks. For the product alone.";
+  problem.reference = "each pair that overlaps is heard of once; in the first tick, which is the worst";
+  problem.cases = {apart(32), together(50), together(100), together(200), together(400)};
+  return problem;
+}
+
+const RegisteredProblem problem("24", "crowds", make);
+
+}  // namespace
+
+}  // namespace lab
