@@ -40,6 +40,8 @@ class Journal {
   void leaveOpen();
   /// The round is not over, and all of it is written down.
   bool isOpen() const { return !m_stopped && !m_finished && !m_overflowed && !m_left; }
+  /// It stopped before the round was over.
+  bool hasStopped() const { return (m_stopped && !m_finished) || m_overflowed; }
   /// Is the writer wanted before its time?
   bool isFilling() const { return m_ring.isFilling(); }
   /// Why the journal stopped, once; nothing while it goes on.

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@ namespace naiad {
 namespace {
 
 using Endpoint = asio::ip::tcp::endpoint;
+
+/// Of sockets that a server leaves for itself.
+constexpr std::string_view kNames = "naiad-streams:naiad-datagrams";
 
 int socketOption(int socket, int option) {
   int value = -1;
@@ -72,10 +76,20 @@ std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
   return sockets.duplicate();
 }
 
+// In the way of a service manager (sd_listen_fds(3)), under names of our own.
 void handOver(const InheritedSockets& sockets) {
   sockets.putBack();
   setenv("LISTEN_PID", std::to_string(getpid()).c_str(), 1);
   setenv("LISTEN_FDS", "2", 1);
+  setenv("LISTEN_FDNAMES", kNames.data(), 1);
+}
+
+std::optional<InheritedSockets> takeHandedOver() {
+  const char* p_names = std::getenv("LISTEN_FDNAMES");
+  if (p_names == nullptr || std::string_view(p_names) != kNames) return std::nullopt;
+  const auto sockets = InheritedSockets::take();
+  for (const char* p_name : {"LISTEN_PID", "LISTEN_FDS", "LISTEN_FDNAMES"}) unsetenv(p_name);
+  return sockets;
 }
 
 }  // namespace naiad

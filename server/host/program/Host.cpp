@@ -239,6 +239,7 @@ void Host::end(Ending::Plan plan) {
   if (plan.at_round_end && (m_rooms.isPrivate() || m_rooms.isNamed()))
     plan.at_round_end = !(plan.when_empty = true);
   m_rooms.setLastRound(plan.at_round_end);
+  m_keeps_round = false;
   m_ending.setPlan(std::move(plan), Clock::now());
   if (m_metrics && !m_ending.isOpen()) m_metrics->beginDrain(true);
 }
@@ -508,6 +509,7 @@ bool Host::isOver() const {
 
 // Players of a round that is kept lose the server, as if it had been killed.
 void Host::drain() {
+  m_is_draining = true;
   if (keepsRound()) m_p_handover->leaveOpen(port());
   m_fleet.noteStopping();
   if (m_metrics) m_metrics->beginDrain(false);

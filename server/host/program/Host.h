@@ -174,6 +174,7 @@ class Host : public df::Runner {
   void sayToAll(const std::string& text);
   void adoptReloaded(Reloaded reloaded, const Reloading& done);
   void finishProof(const std::string& problem, const Reloading& done);
+  void endWithoutRound(const std::string& problem, const Reloading& done);
   AdminControls adminControls();
   void makePlaces();
   void useIdentity(std::optional<ServerIdentity> identity);
@@ -220,6 +221,7 @@ class Host : public df::Runner {
   std::optional<Reload> m_reload;
   RoundHandover* m_p_handover = nullptr;  ///< null: no round can be kept
   bool m_keeps_round = false;
+  bool m_is_draining = false;
   int m_heeded_signals = 0;
   Clock::time_point m_empty_since;
   Clock::time_point m_tick_began;

@@ -18,15 +18,20 @@ void Host::keepRound(Reloading done) {
   });
 }
 
-// Without the proof: as if players were asked to finish.
 void Host::finishProof(const std::string& problem, const Reloading& done) {
-  m_keeps_round = problem.empty();
-  if (m_keeps_round) {
-    const std::string text = "The round goes on in the program that is installed";
-    m_log("restart: " + text);
-    end({.begins_again = true, .at = Clock::time_point()});
-    return done(true, text);
-  }
+  if (m_is_draining) return done(false, "The server ends");
+  if (!problem.empty()) return endWithoutRound(problem, done);
+  if (const std::string change = m_p_handover->changeSinceProof(); !change.empty())
+    return done(false, "The round cannot be kept: " + change);
+  const std::string text = "The round goes on in the program that is installed";
+  m_log("restart: " + text);
+  end({.begins_again = true, .at = Clock::time_point()});
+  m_keeps_round = true;
+  done(true, text);
+}
+
+// As if players were asked to finish.
+void Host::endWithoutRound(const std::string& problem, const Reloading& done) {
   const std::string text = "The round cannot go on in the program that is installed: " + problem;
   m_log(LogEvent::warning("restart: " + text + "; the server begins again when all have left"));
   end({.begins_again = true, .when_empty = true});

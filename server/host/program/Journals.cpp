@@ -116,17 +116,19 @@ std::vector<fs::path> roundsOf(const std::string& folder, const std::string& gam
 
 /// What of a round is not as this server would play it, in words; empty: nothing is.
 std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::uint64_t frame_nanos,
-                         const std::string& kept) {
+                         const KeptRounds& kept) {
   if ((round.header().flags & kDfrStopped) != 0) return "its journal had stopped before";
   if ((round.header().flags & kDfrInProcess) != 0) return "the game ran in the server's own process";
   if (round.fact(kFactRepeatable) == "no") return "the game is not repeatable";
   if (round.header().frame_nanos != frame_nanos) return "its ticks have another length";
   if (round.fact(kFactClocks) != "repeatable") return "its clocks were real";
-  const bool is_kept = uuidText(round.header().uuid) == kept;
+  const auto proven = kept.find(uuidText(round.header().uuid));
   for (const char* p_name : {kFactModule, kFactPlayers, kFactGameOver, kFactSettings, kFactClocks}) {
-    if (is_kept && std::string_view(p_name) == kFactModule) continue;
     const auto here = expected.find(p_name);
-    if (round.fact(p_name) != (here != expected.end() ? here->second : std::string()))
+    const std::string value = here != expected.end() ? here->second : std::string();
+    const bool is_proven =
+        proven != kept.end() && std::string_view(p_name) == kFactModule && value == proven->second;
+    if (round.fact(p_name) != value && !is_proven)
       return "of its facts, " + std::string(p_name) + " is another one here";
   }
   for (const auto& [name, value] : expected) {
@@ -141,7 +143,7 @@ std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::
 // Only the newest one: from those before, players have gone on already.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
                                          std::uint64_t frame_nanos, std::string& said,
-                                         const std::string& kept) {
+                                         const KeptRounds& kept) {
   for (const fs::path& path : roundsOf(folder, expected.at(kFactGame))) {
     try {
       auto round = std::make_unique<OpenRound>(path.string());
@@ -249,9 +251,7 @@ std::string Journals::pathOf(const DfrHeader& header) const {
 void Journals::findRound(const HostOptions& options) {
   if (options.recover != "on") return;
   std::string why_not;
-  const bool is_proven =
-      m_kept && m_facts.contains(kFactModule) && m_kept->module_hash == m_facts[kFactModule];
-  m_open = findOpenRound(m_folder, m_facts, m_frame_nanos, why_not, is_proven ? m_kept->uuid : std::string());
+  m_open = findOpenRound(m_folder, m_facts, m_frame_nanos, why_not, m_shared->kept);
   if (m_open != nullptr && options.players == "private") {
     why_not = m_open->path() + ": worlds of single players are not gone on with";
     m_open.reset();
@@ -418,23 +418,43 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
 namespace {
 
 /// Not an option: it is of one start, and no configuration.
-constexpr const char* kKeptVariable = "DF_KEPT_ROUND";
+constexpr const char* kKeptVariable = "DF_KEPT_ROUNDS";
 
 }  // namespace
 
+KeptRounds takeKeptRounds() {
+  KeptRounds rounds;
+  const char* p_value = std::getenv(kKeptVariable);
+  std::istringstream words(p_value != nullptr ? p_value : "");
+  for (std::string uuid, hash; words >> uuid >> hash;) rounds[uuid] = hash;
+  unsetenv(kKeptVariable);
+  return rounds;
+}
+
+void Journals::announceKept(const KeptRounds& rounds) {
+  std::string text;
+  for (const auto& [uuid, hash] : rounds) text += uuid + " " + hash + " ";
+  setenv(kKeptVariable, text.c_str(), 1);
+}
+
 void Journals::noteCurrent(const std::shared_ptr<Journal>& journal, const std::string& file) {
   m_current = journal;
-  m_current_uuid = uuidText(journal->header().uuid);
   m_current_file = file;
+}
+
+std::optional<Journals::CurrentRound> Journals::currentRound() const {
+  const auto journal = m_current.lock();
+  if (journal == nullptr || !journal->isOpen()) return std::nullopt;
+  return CurrentRound{uuidText(journal->header().uuid), m_current_file, journal->header().start_nanos};
 }
 
 std::string Journals::whyNotKept() const {
   if (m_is_private) return "each player has a world of their own";
   if (!m_recovers) return "--recover is off";
   if (m_module.empty()) return "the game is a program of its own";
-  const auto journal = m_current.lock();
-  if (journal == nullptr || !journal->isOpen()) return "none is being written down";
   if (!*m_repeats) return "the game is not repeatable";
+  const auto journal = m_current.lock();
+  if (journal != nullptr && journal->hasStopped()) return "its journal has stopped";
   const auto clocks = m_facts.find(kFactClocks);
   return clocks == m_facts.end() || clocks->second != "repeatable" ? "the game's clocks are real"
                                                                    : std::string();
@@ -444,21 +464,8 @@ void Journals::leaveOpen() {
   if (const auto journal = m_current.lock()) journal->leaveOpen();
 }
 
-void Journals::announceKept(const std::string& module_hash) const {
-  setenv(kKeptVariable, (m_current_uuid + " " + module_hash).c_str(), 1);
-}
-
-std::optional<Journals::KeptRound> Journals::takeKeptRound() {
-  const char* p_value = std::getenv(kKeptVariable);
-  if (p_value == nullptr) return std::nullopt;
-  KeptRound kept;
-  std::istringstream(p_value) >> kept.uuid >> kept.module_hash;
-  unsetenv(kKeptVariable);
-  return kept.uuid.empty() || kept.module_hash.empty() ? std::nullopt : std::optional(kept);
-}
-
 bool Journals::isKept(const OpenRound& round) const {
-  return m_kept && m_kept->uuid == uuidText(round.header().uuid);
+  return m_shared->kept.contains(uuidText(round.header().uuid));
 }
 
 }  // namespace naiad

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -18,10 +19,18 @@
 
 namespace naiad {
 
+/// Rounds that a program which this process ran before has left open for this one: the uuid of each, and the
+/// hash of the module that has executed it again, to the same answers.
+using KeptRounds = std::map<std::string, std::string>;
+
+/// What Journals::announceKept() has said, once.
+KeptRounds takeKeptRounds();
+
 /// What the journals of a server's rooms have in common (RoomJournals.h).
 struct SharedJournals {
   std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
   std::set<std::string> checked = {};  ///< games of which a round has been held against another, or is
+  KeptRounds kept = takeKeptRounds();
 };
 
 class Journals {
@@ -54,25 +63,27 @@ class Journals {
 
   // For a program that goes on with the round in this one's place (RoundHandover.h).
 
-  /// Why the round that is being played cannot go on elsewhere, as the rest of a sentence; empty: it can.
+  /// A round that is being played and written down.
+  struct CurrentRound {
+    std::string uuid;
+    std::string file;
+    std::uint64_t start_nanos = 0;  ///< since 1970
+  };
+  /// Nothing: none is.
+  std::optional<CurrentRound> currentRound() const;
+  /// Why its rounds cannot go on elsewhere, as the rest of a sentence; empty: they can, if there are any.
   std::string whyNotKept() const;
-  /// The file of that round.
-  const std::string& currentFile() const { return m_current_file; }
+  /// The path of the game's module; empty: it is a program of its own.
+  const std::string& module() const { return m_module; }
   /// Wait until all that was added is on the disk, or for so long. Return whether it is. From any thread.
   bool sync(std::chrono::milliseconds most) { return m_shared->writer->drain(most); }
   /// Its journal is left as by a server that was killed. From now on nothing is written down.
   void leaveOpen();
-  /// Say in the environment of the program that this process runs next that this round was executed again by
-  /// the module with this hash (hashOfModule), and was the same: what the module was before does not count.
-  void announceKept(const std::string& module_hash) const;
+  /// Say in the environment of the program that this process runs next that these rounds were executed again
+  /// by modules with these hashes (hashOfModule), and were the same: what those were before does not count.
+  static void announceKept(const KeptRounds& rounds);
 
  private:
-  /// As announceKept() says it.
-  struct KeptRound {
-    std::string uuid;
-    std::string module_hash;
-  };
-  static std::optional<KeptRound> takeKeptRound();
   bool isKept(const OpenRound& round) const;
   void noteCurrent(const std::shared_ptr<Journal>& journal, const std::string& file);
   void findRound(const HostOptions& options);
@@ -90,22 +101,20 @@ class Journals {
   DfrFacts m_facts;
   LogLine m_log;
   std::weak_ptr<Journal> m_current;
-  std::string m_current_uuid;
   std::string m_current_file;
   bool m_is_private = false;  ///< each player has a round of their own
   bool m_recovers = true;
   std::shared_ptr<bool> m_repeats = std::make_shared<bool>(true);  ///< the current round, as far as is known
-  std::optional<KeptRound> m_kept = takeKeptRound();
   std::unique_ptr<OpenRound> m_open;  ///< to go on with
   std::shared_ptr<SharedJournals> m_shared;
 };
 
 /// The round that a server of this folder was killed in, if this one can go on with it: the same game with
 /// the same settings, on the same port, by `expected` facts. Else null, and `said` has why, if there is one.
-/// `kept`: the uuid of a round for which the game may be another version; empty: of none.
+/// `kept`: rounds for which the game may be another version than it was.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
                                          std::uint64_t frame_nanos, std::string& said,
-                                         const std::string& kept = {});
+                                         const KeptRounds& kept = {});
 
 /// The hash of a file by which a round says which game it was; empty if it cannot be read.
 std::string hashOfModule(const std::string& path);

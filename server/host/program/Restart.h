@@ -18,6 +18,8 @@ class StartCommand {
 
   /// Its path.
   const std::string& program() const { return m_program; }
+  /// Behind the program's name.
+  std::vector<std::string> arguments() const;
   int argc() const { return static_cast<int>(m_arguments.size()); }
   /// Ends with null; valid as long as this.
   std::vector<const char*> argv() const;

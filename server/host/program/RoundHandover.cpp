@@ -1,22 +1,17 @@
 #include "host/program/RoundHandover.h"
 
-#include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <chrono>
+#include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "host/net/ListeningSockets.h"
+#include "host/program/WorldSandbox.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 
@@ -26,13 +21,9 @@ namespace {
 
 /// For what waits for the disk, before it is read again.
 constexpr std::chrono::seconds kSyncTime{5};
-/// The game that is played comes first.
-constexpr int kReplayNice = 10;
-/// Of what dfreplay prints, its beginning.
-constexpr std::size_t kMaxPrinted = std::size_t{64} << 10;
+/// For a program that only reads its options.
+constexpr std::chrono::seconds kCheckTime{20};
 constexpr std::size_t kMaxProblem = 200;
-/// Not to be started, as a shell has it.
-constexpr int kNotStarted = 127;
 
 constexpr std::string_view kProtocolKey = " protocol=";
 
@@ -46,6 +37,13 @@ std::string lineWith(const std::string& text, std::string_view begin) {
   return found;
 }
 
+/// The last line, as the rest of a sentence.
+std::string lastWords(const std::string& printed) {
+  std::string last = lineWith(printed, "");
+  while (last.ends_with('.')) last.pop_back();
+  return safeText(last, kMaxProblem);
+}
+
 std::string protocolProblem(const std::string& verified) {
   const std::size_t at = verified.find(kProtocolKey);
   if (at == std::string::npos) return "it does not say which protocol it speaks";
@@ -55,99 +53,128 @@ std::string protocolProblem(const std::string& verified) {
          std::to_string(kProtocolVersion);
 }
 
-}  // namespace
-
-std::string readVerdict(int code, const std::string& printed) {
-  if (code == 0) return protocolProblem(lineWith(printed, "verified "));
-  if (code == kNotStarted) return "dfreplay, which tries that out, cannot be started";
-  const std::string tick = code == 1 ? lineWith(printed, "tick ") : std::string();
-  if (!tick.empty()) return safeText(tick, kMaxProblem);
-  std::string last = lineWith(printed, "");
-  while (last.ends_with('.')) last.pop_back();
-  return last.empty() ? "dfreplay ended with code " + std::to_string(code) : safeText(last, kMaxProblem);
+/// What has no exit code of the program's own; empty: it has one.
+std::string abruptEnd(const std::string& name, const ProgramEnd& end) {
+  if (end.is_late) return name + ", which tries that out, does not come to its end";
+  if (end.signal != 0)
+    return name + ", which tries that out, was ended by signal " + std::to_string(end.signal);
+  if (end.code == ProgramEnd::kNotStarted) return name + ", which tries that out, cannot be started";
+  return {};
 }
 
-RoundHandover::RoundHandover(std::string program, std::string module, std::shared_ptr<Journals> journals)
-    : m_program(std::move(program)), m_module(std::move(module)), m_journals(std::move(journals)) {}
+std::chrono::milliseconds timeFor(const Journals::CurrentRound& round) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::chrono::nanoseconds played =
+      std::max(std::chrono::nanoseconds(0), now - std::chrono::nanoseconds(round.start_nanos));
+  const auto time = RoundHandover::kLeastTime +
+                    std::chrono::duration_cast<std::chrono::seconds>(played / RoundHandover::kPartOfRound);
+  return std::min<std::chrono::milliseconds>(time, RoundHandover::kMostTime);
+}
+
+/// Why, of the room of that name if rooms have names; empty: there is no reason.
+std::string inRoom(const std::string& name, const std::string& why) {
+  return why.empty() || name.empty() ? why : "room " + name + ": " + why;
+}
+
+}  // namespace
+
+std::string readVerdict(const ProgramEnd& end) {
+  if (const std::string abrupt = abruptEnd("dfreplay", end); !abrupt.empty()) return abrupt;
+  if (end.code == 0) return protocolProblem(lineWith(end.printed, "verified "));
+  const std::string tick = end.code == 1 ? lineWith(end.printed, "tick ") : std::string();
+  if (!tick.empty()) return safeText(tick, kMaxProblem);
+  const std::string last = lastWords(end.printed);
+  return last.empty() ? "dfreplay ended with code " + std::to_string(end.code) : last;
+}
+
+RoundHandover::RoundHandover(const StartCommand& command, std::vector<Room> rooms)
+    : m_command(command), m_rooms(std::move(rooms)) {}
 
 RoundHandover::~RoundHandover() {
-  {
-    const std::lock_guard lock(m_mutex);
-    m_ends = true;
-    if (m_replay > 0) kill(m_replay, SIGKILL);
-  }
+  m_run.cancel();
   if (m_thread.joinable()) m_thread.join();
 }
 
 std::string RoundHandover::refusal() const {
   if (m_proving) return "that is being tried already";
-  return m_journals->whyNotKept();
+  bool is_any = false;
+  for (const Room& room : m_rooms) {
+    if (const std::string why_not = room.journals->whyNotKept(); !why_not.empty())
+      return inRoom(room.name, why_not);
+    is_any = is_any || room.journals->currentRound();
+  }
+  return is_any ? std::string() : "none is being written down";
 }
 
+// Signals are for the thread that ticks.
 void RoundHandover::prove(std::function<void(const std::string& problem)> done) {
   if (m_thread.joinable()) m_thread.join();  // it has done its work
+  m_proofs.clear();
+  for (const Room& room : m_rooms) {
+    if (const auto round = room.journals->currentRound()) m_proofs.push_back({&room, *round});
+  }
   m_proving = true;
-  m_thread = std::thread([this, file = m_journals->currentFile(), done = std::move(done)] {
-    const std::string problem = execute(file);
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  m_thread = std::thread([this, done = std::move(done)] {
+    std::string problem = problemOfProgram();
+    for (Proof& proof : m_proofs) {
+      if (problem.empty()) problem = inRoom(proof.p_room->name, problemOf(proof));
+    }
     m_proving = false;
     done(problem);
   });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-std::string RoundHandover::execute(const std::string& file) {
-  if (!m_journals->sync(kSyncTime)) return "the disk is too slow";
-  m_proven_hash = hashOfModule(m_module);
-  std::string printed;
-  const int code = runReplay(file, printed);
-  return readVerdict(code, printed);
+// One that ends at once, for it cannot be loaded or has other options, would end the game.
+std::string RoundHandover::problemOfProgram() {
+  std::vector<std::string> arguments = withoutPasswords(m_command.arguments());
+  arguments.emplace_back("--check-config");
+  const ProgramEnd end = m_run.run(m_command.program(), arguments, kCheckTime);
+  if (const std::string abrupt = abruptEnd("dfserver", end); !abrupt.empty()) return abrupt;
+  if (end.code == 0) return {};
+  return "dfserver does not start with the options of this server: " + safeText(end.printed, kMaxProblem);
 }
 
-// Its exit code.
-int RoundHandover::runReplay(const std::string& file, std::string& printed) {
-  const std::string replay = (std::filesystem::path(m_program).parent_path() / "dfreplay").string();
-  const char* words[] = {"dfreplay", file.c_str(), "--verify", "--game", m_module.c_str(), nullptr};
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return kNotStarted;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  pid_t child = 0;
-  {
-    const std::lock_guard lock(m_mutex);
-    if (m_ends ||
-        posix_spawn(&child, replay.c_str(), &actions, nullptr, const_cast<char* const*>(words), environ) != 0)
-      child = 0;
-    m_replay = child;
+std::string RoundHandover::problemOf(Proof& proof) {
+  Journals& journals = *proof.p_room->journals;
+  if (!journals.sync(kSyncTime)) return "the disk is too slow";
+  proof.module_hash = hashOfModule(journals.module());
+  const std::string replay = std::filesystem::path(m_command.program()).replace_filename("dfreplay").string();
+  return readVerdict(m_run.run(
+      replay, {proof.round.file, "--verify", "--for-server", "--game", journals.module()}, timeFor(proof.round)));
+}
+
+std::string RoundHandover::changeSinceProof() const {
+  for (const Room& room : m_rooms) {
+    if (const std::string why_not = room.journals->whyNotKept(); !why_not.empty())
+      return inRoom(room.name, why_not);
+    const auto round = room.journals->currentRound();
+    if (!round) continue;
+    const bool is_proven = std::any_of(m_proofs.begin(), m_proofs.end(), [&round](const Proof& proof) {
+      return proof.round.uuid == round->uuid;
+    });
+    if (!is_proven) return inRoom(room.name, "another round has begun meanwhile");
   }
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  if (child > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(child), kReplayNice);
-  char part[4096];
-  for (ssize_t got = 1; child > 0 && got != 0;) {
-    got = read(ends[0], part, sizeof part);
-    if (got < 0 && errno != EINTR) break;
-    if (got > 0 && printed.size() < kMaxPrinted) printed.append(part, static_cast<std::size_t>(got));
+  for (const Proof& proof : m_proofs) {
+    if (hashOfModule(proof.p_room->journals->module()) != proof.module_hash)
+      return inRoom(proof.p_room->name, "the game was replaced meanwhile");
   }
-  close(ends[0]);
-  if (child == 0) return kNotStarted;
-  siginfo_t facts{};
-  while (waitid(P_PID, static_cast<id_t>(child), &facts, WEXITED | WNOWAIT) != 0 && errno == EINTR) continue;
-  const std::lock_guard lock(m_mutex);
-  m_replay = 0;
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : kNotStarted;
+  return {};
 }
 
 void RoundHandover::leaveOpen(std::uint16_t port) {
   m_sockets = copyListeningSockets(port);
-  m_journals->leaveOpen();
+  for (const Room& room : m_rooms) room.journals->leaveOpen();
 }
 
 void RoundHandover::announce() const {
-  m_journals->announceKept(m_proven_hash);
+  KeptRounds rounds;
+  for (const Proof& proof : m_proofs) rounds[proof.round.uuid] = proof.module_hash;
+  Journals::announceKept(rounds);
 }
 
 }  // namespace naiad

@@ -1,33 +1,45 @@
-// A round that goes on in the program that is installed by now: dfctl restart --keep.
+// Rounds that go on in the program that is installed by now: dfctl restart --keep.
 //
-// dfreplay, which is installed beside the new dfserver, executes the round again with it, in processes beside
+// dfreplay, which is installed beside the new dfserver, executes each round again with it, in processes beside
 // the game, and holds every answer against the file. When all are the same and both ends of the wire keep
-// their protocol, this process leaves the journal open, as if it had been killed, and runs the new program in
-// its own place, with the sockets that players come to. That one goes on with the round as after a crash
+// their protocol, this process leaves the journals open, as if it had been killed, and runs the new program in
+// its own place, with the sockets that players come to. That one goes on with the rounds as after a crash
 // (Journals.h), and so players are back as the same players.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "host/net/InheritedSockets.h"
 #include "host/program/Journals.h"
+#include "host/program/ProgramRun.h"
+#include "host/program/Restart.h"
 
 namespace naiad {
 
 class RoundHandover {
  public:
-  /// `program`: the path of dfserver that is run again. `module`: of the game. Outlived by what `done` of
-  /// prove() uses.
-  RoundHandover(std::string program, std::string module, std::shared_ptr<Journals> journals);
+  /// For dfreplay: so much, and of the time that the round has been played this part, for it is executed at
+  /// least twenty times as fast; never more than the last.
+  static constexpr std::chrono::seconds kLeastTime{60};
+  static constexpr int kPartOfRound = 4;
+  static constexpr std::chrono::hours kMostTime{1};
+
+  /// Where a round may be played.
+  struct Room {
+    std::string name;  ///< empty: the server has no rooms
+    std::shared_ptr<Journals> journals;
+  };
+
+  /// `command`: that runs dfserver again; outlives this. What `done` of prove() uses outlives it, too.
+  RoundHandover(const StartCommand& command, std::vector<Room> rooms);
   /// A proof that is under way ends.
   ~RoundHandover();
   RoundHandover(const RoundHandover&) = delete;
@@ -37,34 +49,39 @@ class RoundHandover {
 
   /// Why no round can be kept now, as the rest of a sentence; empty: one can.
   std::string refusal() const;
-  /// Execute the round again. `done` gets why it cannot go on, as the rest of a sentence; empty: it can. It
-  /// is called once, on a thread of this, unless this ends before. Only without a refusal().
+  /// Execute the rounds again. `done` gets why they cannot go on, as the rest of a sentence; empty: they can.
+  /// It is called once, on a thread of this, unless this ends before. Only without a refusal().
   void prove(std::function<void(const std::string& problem)> done);
-  /// From now on nothing is written down, and another program goes on with the round. `port`: of the server.
+  /// After a proof without a problem: what has changed since, so that it says nothing any more; empty:
+  /// nothing has.
+  std::string changeSinceProof() const;
+  /// From now on nothing is written down, and another program goes on with the rounds. `port`: of the server.
   void leaveOpen(std::uint16_t port);
   /// After leaveOpen(): the sockets to hand over; nothing if the program is to open its own.
   const std::optional<InheritedSockets>& sockets() const { return m_sockets; }
-  /// After leaveOpen(): let the program that this process runs next know which round it is.
+  /// After leaveOpen(): let the program that this process runs next know which rounds they are.
   void announce() const;
 
  private:
-  std::string execute(const std::string& file);
-  int runReplay(const std::string& file, std::string& printed);
+  struct Proof {
+    const Room* p_room = nullptr;
+    Journals::CurrentRound round;
+    std::string module_hash = {};  ///< of the game that played it the same
+  };
 
-  const std::string m_program;
-  const std::string m_module;
-  const std::shared_ptr<Journals> m_journals;
+  std::string problemOfProgram();
+  std::string problemOf(Proof& proof);
+
+  const StartCommand& m_command;
+  const std::vector<Room> m_rooms;
+  std::vector<Proof> m_proofs;  ///< the thread's while it proves
   std::optional<InheritedSockets> m_sockets;
-  std::string m_proven_hash;  ///< of the module
   std::thread m_thread;
   std::atomic<bool> m_proving{false};
-  std::mutex m_mutex;  ///< of m_replay and m_ends
-  pid_t m_replay = 0;  ///< dfreplay's process; 0: it does not run
-  bool m_ends = false;
+  ProgramRun m_run;
 };
 
-/// What came of dfreplay --verify by its exit code and what it printed: why the round cannot go on; empty: it
-/// can.
-std::string readVerdict(int code, const std::string& printed);
+/// What came of dfreplay --verify: why the round cannot go on; empty: it can.
+std::string readVerdict(const ProgramEnd& end);
 
 }  // namespace naiad

@@ -135,9 +135,12 @@ struct Start {
   std::string config;                                ///< file of --config
   std::optional<std::uint16_t> again = {};           ///< to be run again on this port
   std::optional<naiad::InheritedSockets> kept = {};  ///< that it would be run again with
+  /// The same for one time, so that players of a round that goes on come to sockets that were open all along.
+  std::optional<naiad::InheritedSockets> handed_over = {};
 };
 
 void takeSockets(Start& start) {
+  if (const auto handed_over = naiad::takeHandedOver()) return naiad::useSockets(*handed_over, start.options);
   const auto sockets = naiad::InheritedSockets::take();
   if (!sockets) return;
   naiad::useSockets(*sockets, start.options);
@@ -145,7 +148,8 @@ void takeSockets(Start& start) {
 }
 
 [[noreturn]] void runAgain(const Start& start) {
-  if (start.kept) naiad::handOver(*start.kept);
+  if (start.kept) start.kept->putBack();
+  if (!start.kept && start.handed_over) naiad::handOver(*start.handed_over);
   start.command.run(*start.again);
 }
 
@@ -166,7 +170,7 @@ void noteEnd(const naiad::Host& host, Start& start) {
 void noteEnd(const naiad::Host& host, const naiad::RoundHandover* p_handover, Start& start) {
   noteEnd(host, start);
   if (p_handover == nullptr || !host.keepsRound()) return;
-  if (!start.kept) start.kept = p_handover->sockets();
+  start.handed_over = p_handover->sockets();
   p_handover->announce();
 }
 
@@ -197,7 +201,10 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   df::World& world = df::World::current();
   setUp(world, *preview.ready);
   std::optional<naiad::RoundHandover> handover;
-  if (journals) host.setHandover(handover.emplace(start.command.program(), module.string(), journals));
+  if (journals) {
+    handover.emplace(start.command, std::vector<naiad::RoundHandover::Room>{{"", journals}});
+    host.setHandover(*handover);
+  }
   host.run(world);
   noteEnd(host, handover ? &*handover : nullptr, start);
   return host.failure().empty() ? kOk : failGame(host.failure());
