@@ -45,6 +45,27 @@ TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
+// dfctl restart --keep: the same as for a kill is true of the program that goes on.
+TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNobodyAndNothing) {
+  constexpr int kRestarts = kSanitized ? 1 : 2;
+  std::mt19937_64 random(11);
+  RecoveryRun run(GetParam(), 2, random());
+  for (int i = 0; i < kRestarts; ++i) {
+    run.play(std::chrono::milliseconds(200 + random() % 300));
+    ASSERT_TRUE(run.playUntilPictured()) << i;
+    const KillResult result = run.keepRound();
+    EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
+    EXPECT_EQ(result.ticks_lost, 0u) << i << ": " << result.problem;
+    EXPECT_GT(result.cells, 0u) << i;
+    EXPECT_EQ(result.wrong_cells, 0u) << i << " of " << result.cells << ": " << result.problem;
+    RecordProperty("took_ms_" + std::to_string(i), static_cast<int>(result.took.count()));
+    RecordProperty("pause_ms_" + std::to_string(i), static_cast<int>(result.pause.count()));
+    if (HasFailure()) return;
+  }
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
+}
+
 TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {
   RecoveryRun run("saucershoot", 2, 3);
   for (int i = 0; i < 3; ++i) {

@@ -217,7 +217,9 @@ Journals::Journals(const HostOptions& options, std::string game, const std::stri
     const std::size_t equals = entry.find('=');
     if (isGameVariable(entry)) m_facts[kFactVariable + entry.substr(0, equals)] = entry.substr(equals + 1);
   }
-  for (const std::string& sentence : salvageRounds(m_folder)) m_log(sentence);
+  std::set<std::string> left;
+  for (const auto& [uuid, hash] : m_shared->kept) left.insert(uuid);
+  for (const std::string& sentence : salvageRounds(m_folder, left)) m_log(sentence);
   findRound(options);
   m_log("each round is written down in " + m_folder);
   if (repeatPreload().empty())
