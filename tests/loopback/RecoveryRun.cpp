@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <future>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "ProcessesBelow.h"
 #include "client/bot/BotPlayer.h"
 #include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
@@ -32,33 +32,6 @@ constexpr std::chrono::milliseconds kBetweenKeys{20};
 constexpr std::uint32_t kSeenTicks = 10;
 /// Of these, what a tick that was answered before a kill can be.
 constexpr std::uint32_t kOnTheWay = 3;
-
-/// The parent and the name of a process; nothing if there is none.
-std::optional<std::pair<pid_t, std::string>> factsOf(const std::string& process) {
-  std::ifstream file("/proc/" + process + "/stat");
-  std::string line;
-  if (!std::getline(file, line)) return std::nullopt;
-  const std::size_t name = line.find('(');
-  const std::size_t end = line.rfind(')');
-  if (name == std::string::npos || end == std::string::npos) return std::nullopt;
-  return std::pair(static_cast<pid_t>(std::atoi(line.c_str() + end + 4)),
-                   line.substr(name + 1, end - name - 1));
-}
-
-/// The processes below the server's that have this name.
-std::vector<pid_t> processesOf(pid_t server, const std::string& name) {
-  std::vector<pid_t> found;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string process = entry.path().filename().string();
-    const auto facts = factsOf(process);
-    if (!facts || facts->second != name) continue;
-    for (auto above = facts; above && above->first > 1; above = factsOf(std::to_string(above->first))) {
-      if (above->first == server) found.push_back(std::atoi(process.c_str()));
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 /// The one that executes its program; 0: there is none. A second world of the round, which is held against
 /// it, begins later.
@@ -307,7 +280,7 @@ KillResult RecoveryRun::keepRound() {
   }
   const auto began = Clock::now();
   auto answer = std::async(std::launch::async, [path = m_server->control()] {
-    return Talk(path).ask(R"({"command":"restart","when":"keep"})");
+    return Talk(path).ask(R"({"command":"restart","arguments":{"when":"keep"}})");
   });
   while (answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     play(std::chrono::milliseconds(5));

@@ -7,11 +7,19 @@
 
 namespace naiad {
 
+namespace {
+
+/// Servers that end while they execute a round are counted in its file (Journals.h).
+constexpr const char* kIsRecovering = "The round cannot be kept: it is being executed again already";
+
+}  // namespace
+
 void Host::keepRound(Reloading done) {
   if (m_p_handover == nullptr)
     return done(false, "No round can be kept here: that takes dfserver with --journal");
   if (const std::string why_not = m_p_handover->refusal(); !why_not.empty())
     return done(false, "The round cannot be kept: " + why_not);
+  if (m_rooms.recovering()) return done(false, kIsRecovering);
   m_log("the round is executed again by the program that is installed, beside the game");
   m_p_handover->prove([this, done = std::move(done)](const std::string& problem) {
     asio::post(m_io, [this, done, problem] { finishProof(problem, done); });
@@ -23,6 +31,7 @@ void Host::finishProof(const std::string& problem, const Reloading& done) {
   if (!problem.empty()) return endWithoutRound(problem, done);
   if (const std::string change = m_p_handover->changeSinceProof(); !change.empty())
     return done(false, "The round cannot be kept: " + change);
+  if (m_rooms.recovering()) return done(false, kIsRecovering);
   const std::string text = "The round goes on in the program that is installed";
   m_log("restart: " + text);
   end({.begins_again = true, .at = Clock::time_point()});

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -166,12 +167,12 @@ void noteEnd(const naiad::Host& host, Start& start) {
   if (host.beginsAgain()) start.again = host.port();
 }
 
-/// The same of a host that may keep its round.
-void noteEnd(const naiad::Host& host, const naiad::RoundHandover* p_handover, Start& start) {
+/// The same of a host that may keep its rounds.
+void noteEnd(const naiad::Host& host, const naiad::RoundHandover& handover, Start& start) {
   noteEnd(host, start);
-  if (p_handover == nullptr || !host.keepsRound()) return;
-  start.handed_over = p_handover->sockets();
-  p_handover->announce();
+  if (!host.keepsRound()) return;
+  start.handed_over = handover.sockets();
+  handover.announce();
 }
 
 /// The game is loaded in its worlds alone: here it would have this process's key before it begins.
@@ -200,13 +201,10 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
       ", in worlds of their own");
   df::World& world = df::World::current();
   setUp(world, *preview.ready);
-  std::optional<naiad::RoundHandover> handover;
-  if (journals) {
-    handover.emplace(start.command, std::vector<naiad::RoundHandover::Room>{{"", journals}});
-    host.setHandover(*handover);
-  }
+  naiad::RoundHandover handover(start.command, {{"", journals}});
+  if (journals) host.setHandover(handover);
   host.run(world);
-  noteEnd(host, handover ? &*handover : nullptr, start);
+  noteEnd(host, handover, start);
   return host.failure().empty() ? kOk : failGame(host.failure());
 }
 
@@ -217,11 +215,10 @@ naiad::LogLine roomLog(naiad::LineLog& log, const std::string& room) {
   };
 }
 
-std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host, const naiad::HostOptions& options,
+std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host,
                                             const std::vector<naiad::LaunchedRoom>& launched,
+                                            const std::vector<std::shared_ptr<naiad::Journals>>& journals,
                                             naiad::LineLog& lines) {
-  const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
-  const auto journals = naiad::openRoomJournals(options, host.port(), launched, log);
   std::vector<naiad::Host::NamedRoom> rooms;
   rooms.reserve(launched.size());
   for (std::size_t i = 0; i < launched.size(); ++i) {
@@ -236,6 +233,17 @@ std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host, const naiad::Host
   return rooms;
 }
 
+/// What keeps the rounds of rooms; nothing: they are not written down.
+std::vector<naiad::RoundHandover::Room> keptRooms(
+    const std::vector<naiad::LaunchedRoom>& launched,
+    const std::vector<std::shared_ptr<naiad::Journals>>& journals) {
+  std::vector<naiad::RoundHandover::Room> rooms;
+  for (std::size_t i = 0; i < launched.size(); ++i) {
+    if (journals[i] != nullptr) rooms.push_back({launched[i].plan.name, journals[i]});
+  }
+  return rooms;
+}
+
 /// Each room has its game in worlds of its own.
 int serveRooms(Start& start, naiad::LineLog& lines) {
   const naiad::HostOptions& options = start.options;
@@ -244,15 +252,18 @@ int serveRooms(Start& start, naiad::LineLog& lines) {
   const std::vector<naiad::LaunchedRoom> launched = naiad::launchRooms(options, start.config, log, print);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   naiad::Host host(options, launched.front().plan.game, log);
-  host.setRooms(roomsOf(host, options, launched, lines));
+  const auto journals = naiad::openRoomJournals(options, host.port(), launched, log);
+  host.setRooms(roomsOf(host, launched, journals, lines));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) +
       " rooms on " + host.address());
   df::World& world = df::World::current();
   setUp(world, launched.front().plan.ready);
+  naiad::RoundHandover handover(start.command, keptRooms(launched, journals));
+  if (naiad::wantsJournal(options)) host.setHandover(handover);
   host.run(world);
-  noteEnd(host, start);
+  noteEnd(host, handover, start);
   return kOk;
 }
 

@@ -229,7 +229,7 @@ TEST_F(DiskTest, ARoundThatAFullDiskEndedTheJournalOfIsNotKept) {
   set("full");
   for (int i = 0; i < 2; ++i) {  // found by the proof, and known before it
     const std::string said =
-        test::Talk(folder / "control.sock").ask(R"({"command":"restart","when":"keep"})");
+        test::Talk(folder / "control.sock").ask(R"({"command":"restart","arguments":{"when":"keep"}})");
     EXPECT_NE(said.find("The round cannot be kept: its journal has stopped"), std::string::npos) << said;
   }
   EXPECT_TRUE(playTicks(100));

@@ -155,9 +155,8 @@ class KeepTest : public testing::Test {
     fs::copy_file(NAIAD_BINARY_DIR "/../lib/games/hello.so", folder / "mine.so");
   }
   void TearDown() override {
-    for (const pid_t one : {bots, server}) {
-      if (one > 0 && kill(one, SIGKILL) == 0) waitpid(one, nullptr, 0);
-    }
+    endBots(SIGKILL);
+    if (server > 0 && kill(server, SIGKILL) == 0) waitpid(server, nullptr, 0);
     if (const pid_t one = replay(); one > 0) kill(one, SIGKILL);
     if (!folder.empty()) fs::remove_all(folder);
   }
@@ -176,11 +175,13 @@ class KeepTest : public testing::Test {
     execv(pointers[0], pointers.data());
     _exit(127);
   }
-  void start(const std::string& journal) {
+  /// `games`: options that say what is played.
+  void start(const std::string& journal, const std::vector<std::string>& games = {"--game=./mine.so"}) {
     fs::remove(folder / "join");
-    std::vector<std::string> words{dfserver,           "--game=./mine.so",  "--port=" + port(),
-                                   "--port-file=port", "--join-file=join",  "--identity=key",
-                                   "--state=off",      "--frame-time=5000", "--control=control.sock"};
+    std::vector<std::string> words{
+        dfserver,         "--port=" + port(), "--port-file=port",  "--join-file=join",
+        "--identity=key", "--state=off",      "--frame-time=5000", "--control=control.sock"};
+    words.insert(words.end(), games.begin(), games.end());
     if (!journal.empty()) words.push_back("--journal=" + journal);
     server = run(words, "out.txt");
     ASSERT_TRUE(waitUntil([this] { return !contentOf(folder / "join").empty(); })) << log();
@@ -189,12 +190,19 @@ class KeepTest : public testing::Test {
     const std::string known = contentOf(folder / "port");
     return known.empty() ? "0" : std::to_string(std::atoi(known.c_str()));
   }
-  void startBots() {
+  /// Two more; in this room, if it has a name.
+  void startBots(const std::string& room = {}) {
     std::vector<std::string> words{"dfbot", "--clients=2", "--random=1", "--seconds=300", "--rejoin"};
     std::istringstream join(contentOf(folder / "join"));
     for (std::string word; join >> word;) words.push_back(word);
-    bots = run(words, "bots.txt");
-    ASSERT_TRUE(waitUntil([this] { return status("players") == 2; })) << contentOf(folder / "bots.txt");
+    if (!room.empty()) words[5] += "/" + room;
+    bots.push_back(run(words, "bots.txt"));
+    const long players = 2 * static_cast<long>(bots.size());
+    ASSERT_TRUE(waitUntil([&] { return status("players") == players; })) << contentOf(folder / "bots.txt");
+  }
+  void endBots(int signal) {
+    for (const pid_t one : bots) kill(one, signal);
+    for (const pid_t one : std::exchange(bots, {})) waitpid(one, nullptr, 0);
   }
   std::pair<int, std::string> control(const std::string& command) const {
     return test::runProgram(NAIAD_BINARY_DIR "/dfctl --control " + (folder / "control.sock").string() + " " +
@@ -266,87 +274,78 @@ class KeepTest : public testing::Test {
     }
     return {};
   }
-  fs::path round() const {
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder / "rounds", error)) return entry.path();
-    return {};
+  /// The server, and none of the processes that it has started.
+  void expectToHoldAlone(const std::string& inode) const {
+    const std::string socket = "socket:[" + inode + "]";
+    EXPECT_EQ(descriptorsOf(server).count(socket), 1u) << socket;
+    for (const pid_t process : processesBelow(server))
+      EXPECT_EQ(descriptorsOf(process).count(socket), 0u)
+          << contentOf("/proc/" + std::to_string(process) + "/cmdline");
   }
   void expectOneWholeRound() {
-    kill(bots, SIGKILL);
-    waitpid(std::exchange(bots, 0), nullptr, 0);
+    endBots(SIGKILL);
     kill(server, SIGTERM);
     waitpid(std::exchange(server, 0), nullptr, 0);
-    fs::directory_iterator files(folder / "rounds");
-    EXPECT_EQ(std::distance(begin(files), end(files)), 1) << log();
-    const auto [code, said] = test::runProgram(NAIAD_BINARY_DIR "/dfreplay " + round().string() +
-                                               " --verify --game " + (folder / "mine.so").string() + " 2>&1");
+    expectOneWholeRound(folder / "rounds");
+  }
+  void expectOneWholeRound(const fs::path& rounds) const {
+    fs::directory_iterator files(rounds);
+    ASSERT_NE(files, fs::directory_iterator()) << log();
+    const std::string file = files->path().string();
+    EXPECT_EQ(std::distance(files, fs::directory_iterator()), 1) << log();
+    const auto [code, said] = test::runProgram(NAIAD_BINARY_DIR "/dfreplay " + file + " --verify --game " +
+                                               (folder / "mine.so").string() + " 2>&1");
     EXPECT_EQ(code, 0) << said << log();
   }
 
   fs::path folder;
   std::string dfserver = "dfserver";
   pid_t server = 0;
-  pid_t bots = 0;
+  std::vector<pid_t> bots;
 };
 
 TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
-  start("rounds");
-  startBots();
-  ASSERT_TRUE(playTicks(200));
-  const std::string streams = inodeOf(false);
-  const std::string datagrams = inodeOf(true);
-  EXPECT_NE(streams, "");
-  EXPECT_NE(datagrams, "");
-  Visitor visitor(std::atoi(port().c_str()));
-  const auto [code, said] = control("restart --keep");
-  EXPECT_EQ(code, 0) << said << log();
-  EXPECT_NE(said.find("The round goes on in the program that is installed."), std::string::npos) << said;
-  EXPECT_TRUE(areBack(2)) << log();
-  visitor.end();
-  EXPECT_EQ(visitor.refused(), 0) << "of " << visitor.streams() << " and " << visitor.datagrams();
-  EXPECT_GT(visitor.streams(), 3);
-  EXPECT_GT(visitor.datagrams(), 3);
-  EXPECT_TRUE(lives()) << "it is the same process";
-  EXPECT_EQ(inodeOf(false), streams) << "players who come meanwhile wait";
-  EXPECT_EQ(inodeOf(true), datagrams);
-  EXPECT_NE(log().find("the round is executed again in this program: "), std::string::npos) << log();
-  EXPECT_EQ(log().find("the server was killed"), std::string::npos) << log();
-  ASSERT_TRUE(playTicks(100));
-  EXPECT_EQ(control("restart --keep").first, 0) << log();
-  EXPECT_TRUE(areBack(4)) << "and again: " << log();
-  EXPECT_EQ(inodeOf(false), streams);
-  expectOneWholeRound();
-}
-
-TEST_F(KeepTest, NothingIsLeftOpenAndNoOtherProcessGetsTheSockets) {
   installPrograms("ls -l /proc/$$/fd > replay.fds; exec " NAIAD_BINARY_DIR "/dfreplay \"$@\"");
   start("rounds");
   startBots();
-  ASSERT_TRUE(playTicks(50));
-  std::size_t before = 0;
+  ASSERT_TRUE(playTicks(100));
+  const std::string streams = inodeOf(false);
+  const std::string datagrams = inodeOf(true);
+  ASSERT_NE(streams, "");
+  ASSERT_NE(datagrams, "");
+  std::size_t open_before = 0;
   for (int i = 1; i <= 2; ++i) {
-    ASSERT_EQ(control("restart --keep").first, 0) << log();
+    Visitor visitor(std::atoi(port().c_str()));
+    const auto [code, said] = control("restart --keep");
+    ASSERT_EQ(code, 0) << said << log();
+    EXPECT_NE(said.find("The round goes on in the program that is installed."), std::string::npos) << said;
     ASSERT_TRUE(areBack(2 * i)) << log();
-    ASSERT_TRUE(playTicks(50));
+    visitor.end();
+    EXPECT_EQ(visitor.refused(), 0) << "of " << visitor.streams() << " and " << visitor.datagrams();
+    EXPECT_GT(visitor.streams(), 3);
+    EXPECT_GT(visitor.datagrams(), 3);
+    EXPECT_TRUE(lives()) << "it is the same process";
+    EXPECT_EQ(inodeOf(false), streams) << "players who come meanwhile wait";
+    EXPECT_EQ(inodeOf(true), datagrams);
     EXPECT_EQ(contentOf(folder / "replay.fds").find("socket:"), std::string::npos)
         << contentOf(folder / "replay.fds");
-    for (const std::string& inode : {inodeOf(false), inodeOf(true)}) {
-      const std::string socket = "socket:[" + inode + "]";
-      EXPECT_EQ(descriptorsOf(server).count(socket), 1u) << socket;
-      for (const pid_t process : processesBelow(server))
-        EXPECT_EQ(descriptorsOf(process).count(socket), 0u) << contentOf(folder / "out.txt");
-    }
-    if (i == 1) before = descriptorsOf(server).size();
+    ASSERT_TRUE(playTicks(50));
+    expectToHoldAlone(streams);
+    expectToHoldAlone(datagrams);
+    if (i == 1) open_before = descriptorsOf(server).size();
   }
-  EXPECT_TRUE(waitUntil([&] { return descriptorsOf(server).size() <= before; }))
-      << before << ", and then " << descriptorsOf(server).size();
+  EXPECT_NE(log().find("the round is executed again in this program: "), std::string::npos) << log();
+  EXPECT_EQ(log().find("the server was killed"), std::string::npos) << log();
+  EXPECT_TRUE(waitUntil([&] { return descriptorsOf(server).size() <= open_before; }))
+      << open_before << ", and then " << descriptorsOf(server).size();
   for (const pid_t process : processesBelow(server)) EXPECT_NE(parentOf(process).second, 'Z') << process;
+  expectOneWholeRound();
 }
 
 TEST_F(KeepTest, AGameThatPlaysTheSameGoesOnWithTheRoundAndAlsoAfterAKill) {
   start("rounds");
   startBots();
-  ASSERT_TRUE(playTicks(200));
+  ASSERT_TRUE(playTicks(100));
   install(contentOf(folder / "mine.so") + "another build");
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 0) << said << log();
@@ -362,7 +361,7 @@ TEST_F(KeepTest, AGameThatPlaysTheSameGoesOnWithTheRoundAndAlsoAfterAKill) {
 TEST_F(KeepTest, AGameThatPlaysOtherwiseIsRefusedAndThePlayersFinish) {
   start("rounds");
   startBots();
-  ASSERT_TRUE(playTicks(200));
+  ASSERT_TRUE(playTicks(100));
   install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 1) << said;
@@ -371,10 +370,43 @@ TEST_F(KeepTest, AGameThatPlaysOtherwiseIsRefusedAndThePlayersFinish) {
   EXPECT_NE(said.find("The server restarts when all have left"), std::string::npos) << said;
   EXPECT_TRUE(playTicks(100)) << "the game goes on";
   EXPECT_EQ(status("players"), 2);
+  EXPECT_EQ(timesIn(log(), " hosts mine on "), 1);
+  endBots(SIGINT);
+  EXPECT_TRUE(waitUntil([this] { return timesIn(log(), " hosts mine on ") == 2; })) << log();
+  EXPECT_TRUE(lives());
+  EXPECT_TRUE(playTicks(50)) << "in the other game: " << log();
+}
+
+TEST_F(KeepTest, TheRoundsOfAllRoomsGoOn) {
+  start("rounds", {"--room=one=./mine.so", "--room=two=./mine.so", "--room=asleep=hello"});
+  startBots();
+  startBots("two");
+  ASSERT_TRUE(playTicks(100));
+  const auto [code, said] = control("restart --keep");
+  ASSERT_EQ(code, 0) << said << log();
+  EXPECT_TRUE(areBack(4)) << log();
+  for (const char* p_room : {"one", "two"}) {
+    const std::string line =
+        "room " + std::string(p_room) + ": the round is executed again in this program: ";
+    EXPECT_EQ(timesIn(log(), line), 1) << log();
+  }
+  EXPECT_EQ(status("players"), 4);
+  ASSERT_TRUE(playTicks(50));
+  install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));
+  const auto [other_code, other_said] = control("restart --keep");
+  EXPECT_EQ(other_code, 1);
+  EXPECT_NE(other_said.find("The round cannot go on in the program that is installed: room one: tick "),
+            std::string::npos)
+      << other_said;
   EXPECT_EQ(control("cancel").first, 0);
-  kill(bots, SIGKILL);
-  waitpid(std::exchange(bots, 0), nullptr, 0);
-  EXPECT_TRUE(playTicks(50)) << log();
+  EXPECT_TRUE(playTicks(50));
+  EXPECT_EQ(status("players"), 4);
+  install(contentOf(NAIAD_BINARY_DIR "/../lib/games/hello.so"));
+  endBots(SIGKILL);
+  kill(server, SIGTERM);
+  waitpid(std::exchange(server, 0), nullptr, 0);
+  expectOneWholeRound(folder / "rounds/one");
+  expectOneWholeRound(folder / "rounds/two");
 }
 
 TEST_F(KeepTest, WithoutAJournalASentenceSaysSo) {
