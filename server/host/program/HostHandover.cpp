@@ -9,8 +9,10 @@ namespace naiad {
 
 namespace {
 
+const std::string kCannotBeKept = "The round cannot be kept: ";
+
 /// Servers that end while they execute a round are counted in its file (Journals.h).
-constexpr const char* kIsRecovering = "The round cannot be kept: it is being executed again already";
+constexpr const char* kIsRecovering = "it is being executed again already";
 
 }  // namespace
 
@@ -18,11 +20,14 @@ void Host::keepRound(Reloading done) {
   if (m_p_handover == nullptr)
     return done(false, "No round can be kept here: that takes dfserver with --journal");
   if (const std::string why_not = m_p_handover->refusal(); !why_not.empty())
-    return done(false, "The round cannot be kept: " + why_not);
-  if (m_rooms.recovering()) return done(false, kIsRecovering);
+    return done(false, kCannotBeKept + why_not);
+  if (m_rooms.recovering()) return done(false, kCannotBeKept + kIsRecovering);
   m_log("the round is executed again by the program that is installed, beside the game");
-  m_p_handover->prove([this, done = std::move(done)](const std::string& problem) {
-    asio::post(m_io, [this, done, problem] { finishProof(problem, done); });
+  m_p_handover->prove([this, done = std::move(done)](const RoundHandover::Result& result) {
+    asio::post(m_io, [this, done, result] {
+      if (!result.starts) return done(false, kCannotBeKept + result.problem);  // nor could it be begun later
+      finishProof(result.problem, done);
+    });
   });
 }
 
@@ -30,8 +35,8 @@ void Host::finishProof(const std::string& problem, const Reloading& done) {
   if (m_is_draining) return done(false, "The server ends");
   if (!problem.empty()) return endWithoutRound(problem, done);
   if (const std::string change = m_p_handover->changeSinceProof(); !change.empty())
-    return done(false, "The round cannot be kept: " + change);
-  if (m_rooms.recovering()) return done(false, kIsRecovering);
+    return done(false, kCannotBeKept + change);
+  if (m_rooms.recovering()) return done(false, kCannotBeKept + kIsRecovering);
   const std::string text = "The round goes on in the program that is installed";
   m_log("restart: " + text);
   end({.begins_again = true, .at = Clock::time_point()});

@@ -105,7 +105,7 @@ class Journals {
   bool m_is_private = false;  ///< each player has a round of their own
   bool m_recovers = true;
   std::shared_ptr<bool> m_repeats = std::make_shared<bool>(true);  ///< the current round, as far as is known
-  std::unique_ptr<OpenRound> m_open;  ///< to go on with
+  std::unique_ptr<OpenRound> m_open;                               ///< to go on with
   std::shared_ptr<SharedJournals> m_shared;
 };
 

@@ -107,7 +107,7 @@ std::string RoundHandover::refusal() const {
 }
 
 // Signals are for the thread that ticks.
-void RoundHandover::prove(std::function<void(const std::string& problem)> done) {
+void RoundHandover::prove(std::function<void(const Result& result)> done) {
   if (m_thread.joinable()) m_thread.join();  // it has done its work
   m_proofs.clear();
   for (const Room& room : m_rooms) {
@@ -119,14 +119,20 @@ void RoundHandover::prove(std::function<void(const std::string& problem)> done) 
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   m_thread = std::thread([this, done = std::move(done)] {
-    std::string problem = problemOfProgram();
-    for (Proof& proof : m_proofs) {
-      if (problem.empty()) problem = inRoom(proof.p_room->name, problemOf(proof));
-    }
+    const Result result = execute();
     m_proving = false;
-    done(problem);
+    done(result);
   });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+RoundHandover::Result RoundHandover::execute() {
+  if (const std::string problem = problemOfProgram(); !problem.empty()) return {problem, false};
+  for (Proof& proof : m_proofs) {
+    if (const std::string problem = problemOf(proof); !problem.empty())
+      return {inRoom(proof.p_room->name, problem)};
+  }
+  return {};
 }
 
 // One that ends at once, for it cannot be loaded or has other options, would end the game.
@@ -144,8 +150,9 @@ std::string RoundHandover::problemOf(Proof& proof) {
   if (!journals.sync(kSyncTime)) return "the disk is too slow";
   proof.module_hash = hashOfModule(journals.module());
   const std::string replay = std::filesystem::path(m_command.program()).replace_filename("dfreplay").string();
-  return readVerdict(m_run.run(
-      replay, {proof.round.file, "--verify", "--for-server", "--game", journals.module()}, timeFor(proof.round)));
+  return readVerdict(m_run.run(replay,
+                               {proof.round.file, "--verify", "--for-server", "--game", journals.module()},
+                               timeFor(proof.round)));
 }
 
 std::string RoundHandover::changeSinceProof() const {

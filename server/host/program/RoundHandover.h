@@ -1,10 +1,10 @@
 // Rounds that go on in the program that is installed by now: dfctl restart --keep.
 //
-// dfreplay, which is installed beside the new dfserver, executes each round again with it, in processes beside
-// the game, and holds every answer against the file. When all are the same and both ends of the wire keep
-// their protocol, this process leaves the journals open, as if it had been killed, and runs the new program in
-// its own place, with the sockets that players come to. That one goes on with the rounds as after a crash
-// (Journals.h), and so players are back as the same players.
+// dfreplay, which is installed beside the new dfserver, executes each round again with it, in processes
+// beside the game, and holds every answer against the file. When all are the same and both ends of the wire
+// keep their protocol, this process leaves the journals open, as if it had been killed, and runs the new
+// program in its own place, with the sockets that players come to. That one goes on with the rounds as after
+// a crash (Journals.h), and so players are back as the same players.
 #pragma once
 
 #include <atomic>
@@ -38,6 +38,12 @@ class RoundHandover {
     std::shared_ptr<Journals> journals;
   };
 
+  /// What came of a proof.
+  struct Result {
+    std::string problem;  ///< why the rounds cannot go on, as the rest of a sentence; empty: they can
+    bool starts = true;   ///< the program does, so that it can be begun once the rounds are over
+  };
+
   /// `command`: that runs dfserver again; outlives this. What `done` of prove() uses outlives it, too.
   RoundHandover(const StartCommand& command, std::vector<Room> rooms);
   /// A proof that is under way ends.
@@ -49,9 +55,9 @@ class RoundHandover {
 
   /// Why no round can be kept now, as the rest of a sentence; empty: one can.
   std::string refusal() const;
-  /// Execute the rounds again. `done` gets why they cannot go on, as the rest of a sentence; empty: they can.
-  /// It is called once, on a thread of this, unless this ends before. Only without a refusal().
-  void prove(std::function<void(const std::string& problem)> done);
+  /// Execute the rounds again. `done` is called once, on a thread of this, unless this ends before. Only
+  /// without a refusal().
+  void prove(std::function<void(const Result& result)> done);
   /// After a proof without a problem: what has changed since, so that it says nothing any more; empty:
   /// nothing has.
   std::string changeSinceProof() const;
@@ -69,6 +75,7 @@ class RoundHandover {
     std::string module_hash = {};  ///< of the game that played it the same
   };
 
+  Result execute();
   std::string problemOfProgram();
   std::string problemOf(Proof& proof);
 
