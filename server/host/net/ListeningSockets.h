@@ -13,8 +13,8 @@ namespace naiad {
 /// without encryption. Reads /proc.
 std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port);
 
-/// Put them where the program that this process runs next looks for them, and say so in the environment. Once.
-/// Throws std::system_error.
+/// Put them where the program that this process runs next looks for them, and say so in the environment.
+/// Once. Throws std::system_error.
 void handOver(const InheritedSockets& sockets);
 
 /// Those that handOver() has left for this program; nothing if there are none, as when the sockets come from

@@ -1,5 +1,3 @@
-#include "host/program/ProgramRun.h"
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -9,6 +7,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "host/program/ProgramRun.h"
 
 namespace naiad {
 namespace {
@@ -76,7 +76,8 @@ TEST(ProgramRun, OneThatPrintsWithoutEndIsKilledAtItsTime) {
 TEST(ProgramRun, ItGetsNoFileOfThisProcess) {
   const int file = open("/dev/zero", O_RDONLY);  // without O_CLOEXEC
   ASSERT_GE(file, 0);
-  const ProgramEnd end = runShell("test -e /proc/self/fd/" + std::to_string(file) + " && echo there || echo gone");
+  const ProgramEnd end =
+      runShell("test -e /proc/self/fd/" + std::to_string(file) + " && echo there || echo gone");
   close(file);
   EXPECT_EQ(end.printed, "gone\n");
 }
