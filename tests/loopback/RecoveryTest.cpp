@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <random>
 #include <string>
@@ -47,10 +48,10 @@ TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
 
 // dfctl restart --keep: the same as for a kill is true of the program that goes on.
 TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNobodyAndNothing) {
-  constexpr int kRestarts = kSanitized ? 1 : 2;
+  const int restarts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1;
   std::mt19937_64 random(11);
   RecoveryRun run(GetParam(), 2, random());
-  for (int i = 0; i < kRestarts; ++i) {
+  for (int i = 0; i < restarts; ++i) {
     run.play(std::chrono::milliseconds(200 + random() % 300));
     ASSERT_TRUE(run.playUntilPictured()) << i;
     const KillResult result = run.keepRound();
