@@ -27,6 +27,7 @@ Journal::Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, con
       m_begun(goes_on.has_value()) {}
 
 bool Journal::add(std::string_view record) {
+  if (m_left) return false;
   if (m_stopped.load(std::memory_order_relaxed) || m_overflowed.load(std::memory_order_relaxed)) return false;
   if (m_ring.store(record)) return true;
   const std::lock_guard lock(m_mutex);
@@ -41,11 +42,17 @@ void Journal::addFacts(DfrFacts facts) {
 }
 
 void Journal::finish(const std::string& why) {
+  if (m_left) return;
   {
     const std::lock_guard lock(m_mutex);
     m_why = why;
   }
   m_finished = true;
+}
+
+void Journal::leaveOpen() {
+  m_left = true;
+  m_ring.leave();
 }
 
 std::optional<std::string> Journal::takeProblem() {
@@ -54,9 +61,9 @@ std::optional<std::string> Journal::takeProblem() {
   return std::exchange(m_problem, {});
 }
 
-bool Journal::flush() {
+bool Journal::flush(bool at_once) {
   if (m_stopped) return false;
-  if (mayWait()) return true;
+  if (!at_once && mayWait()) return true;
   const bool last = m_finished;  // before what there is is taken
   try {
     write();

@@ -37,8 +37,16 @@ class Journal {
   void addFacts(DfrFacts facts);
   /// The round is over.
   void finish(const std::string& why);
-  /// No player is in the world: only every kCalmTurns-th turn of the writer goes to the disk.
+  /// No player is in the world: only every kCalmTurns-th turn of the writer goes to the disk, unless it was
+  /// asked for.
   void setCalm(bool calm) { m_calm.store(calm, std::memory_order_relaxed); }
+  /// Another program goes on with the round: nothing more is added, and the file is not said to be at its
+  /// end. What was added is written.
+  void leaveOpen();
+  /// The round is not over, and all of it is written down.
+  bool isOpen() const { return !m_stopped && !m_finished && !m_overflowed && !m_left; }
+  /// It stopped before the round was over.
+  bool hasStopped() const { return (m_stopped && !m_finished) || m_overflowed; }
   /// Is the writer wanted before its time?
   bool isFilling() const { return m_ring.isFilling(); }
   /// Why the journal stopped, once; nothing while it goes on.
@@ -49,8 +57,9 @@ class Journal {
   /// Half a minute: a server that only waits for players would write and sync all day.
   static constexpr int kCalmTurns = 33;
 
-  /// Put what there is on the disk. False: there will be no more.
-  bool flush();
+  /// Put what there is on the disk; `at_once`: although no player is in the world. False: there will be no
+  /// more.
+  bool flush(bool at_once = false);
 
  private:
   bool mayWait();
@@ -74,6 +83,8 @@ class Journal {
   DfrTurnPacker m_packer;
   bool m_begun = false;
   int m_skipped = 0;  ///< turns since the last one that went to the disk
+
+  bool m_left = false;  ///< the tick thread's
 };
 
 }  // namespace naiad

@@ -35,11 +35,12 @@ void JournalWriter::Shared::run() {
     began = std::chrono::steady_clock::now();
     const bool last = ends;
     const std::uint64_t serving = asked;
+    const bool at_once = last || asked > served;
     const std::vector<std::shared_ptr<Journal>> now = journals;
     lock.unlock();
     std::vector<std::shared_ptr<Journal>> over;
     for (const auto& journal : now) {
-      if (!journal->flush()) over.push_back(journal);
+      if (!journal->flush(at_once)) over.push_back(journal);
     }
     lock.lock();
     std::erase_if(journals, [&over](const auto& journal) {

@@ -93,7 +93,7 @@ std::set<std::string> roundsIn(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<std::string> salvageRounds(const std::string& folder) {
+std::vector<std::string> salvageRounds(const std::string& folder, const std::set<std::string>& left) {
   std::vector<std::string> said;
   beginFiles(folder, roundsIn(folder));
   std::set<std::string> rounds;
@@ -110,6 +110,7 @@ std::vector<std::string> salvageRounds(const std::string& folder) {
     const auto added = complete(path, *ring);
     if (!added) continue;  // the next start may do better
     ring->remove();
+    if (left.contains(uuidText(header->uuid))) continue;
     said.push_back("the server was killed in the round " + path.string() +
                    ", which has all of its turns now");
   }
