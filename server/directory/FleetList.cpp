@@ -33,7 +33,7 @@ bool FleetList::put(const std::string& subject, std::string_view payload, Time n
 std::vector<std::string> FleetList::removeSilent(Time now) {
   std::vector<std::string> gone;
   for (auto at = m_servers.begin(); at != m_servers.end();) {
-    if (now - at->second.heard < kLife) {
+    if (now - at->second.heard < m_life) {
       ++at;
       continue;
     }

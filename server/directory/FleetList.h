@@ -31,8 +31,9 @@ class FleetList {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::size_t kMaxServers = 4096;
-  /// Of silence, after which a server is gone.
-  static constexpr std::chrono::seconds kLife = 3 * Presence::kInterval;
+
+  /// `interval`: between two times that a server says it is there; silent for three of them, it is gone.
+  explicit FleetList(std::chrono::milliseconds interval = Presence::kInterval) : m_life(3 * interval) {}
 
   /// What was said under this subject. True if the server is new.
   bool put(const std::string& subject, std::string_view payload, Time now);
@@ -78,6 +79,7 @@ class FleetList {
   static bool isCalm(const Entry& entry);
   static bool isBetter(const Entry& a, const Entry& b);
 
+  std::chrono::milliseconds m_life;
   std::map<std::string, Entry> m_servers;
   FleetCounters m_counters;
 };

@@ -1,4 +1,4 @@
-// What a server says of itself on the bus, every two seconds: where it is, which key it proves, who plays.
+// What a server says of itself on the bus, again and again: where it is, which key it proves, who plays.
 //
 //   naiad.presence.ID {"v":1,"id":"berlin-9876","name":"Berlin","game":"tron","host":"192.0.2.7","port":9876,
 //                       "key":"…64 hexadecimal digits…","protocol":4,"players":3,"max_players":64,
@@ -14,8 +14,11 @@
 namespace naiad {
 
 struct Presence {
-  /// Between two; a server that is silent for three of them is gone.
-  static constexpr std::chrono::seconds kInterval{2};
+  /// Between two, unless --bus-interval says another; a server that is silent for three of them is gone.
+  static constexpr std::chrono::milliseconds kInterval{2000};
+  static constexpr std::chrono::milliseconds kLeastInterval{50};  ///< so much each server costs the directory
+  static constexpr std::chrono::milliseconds kMostInterval{
+      60'000};                                 ///< players are sent to a dead server so long
   static constexpr std::size_t kMaxName = 64;  ///< characters of name and game
 
   std::string id;  ///< ServerId.h

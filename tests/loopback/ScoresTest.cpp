@@ -12,6 +12,7 @@
 
 #include "GameProgram.h"
 #include "Home.h"
+#include "RoomsFixture.h"
 #include "RunCtl.h"
 #include "TestClient.h"
 
@@ -83,6 +84,77 @@ TEST_F(Scores, TheLogCountsThem) {
   game->signal(SIGTERM);
   game->wait();
   EXPECT_NE(game->log().find("scores=1 scores_written=1"), std::string::npos) << game->log();
+}
+
+class RoomScores : public RoomsFixture {
+ protected:
+  std::pair<int, std::string> scores(const std::string& words) const {
+    return runCtl("--control " + server->control().string() + " scores " + words);
+  }
+  std::string replay(const std::string& recording, const std::string& words) const {
+    return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfreplay " + home.identity("rounds").string() + "/" +
+                      recording + " --game " + kRoomModule + " " + words + " 2>&1")
+        .second;
+  }
+  /// Behind "NAME":, without quotes.
+  static std::string valueIn(const std::string& json, const std::string& name) {
+    const std::string key = "\"" + name + "\":";
+    const std::size_t at = json.find(key);
+    if (at == std::string::npos) return "";
+    const std::size_t begin = json.find_first_not_of('"', at + key.size());
+    return json.substr(begin, json.find_first_of(",}\"", begin) - begin);
+  }
+};
+
+TEST_F(RoomScores, ARowOfARoomsGameIsFoundInItsRecording) {
+  start({"one", "two", "doors=lobby"}, {"--world-environment=ROOM_REPEATS"},
+        {{"ROOM_REPEATS", "1"},
+         {"NAIAD_STATE", home.identity("state")},
+         {"NAIAD_JOURNAL", home.identity("rounds")}});
+  auto ann = join("ann", "two");
+  press(*ann, df::Keyboard::X);
+  press(*ann, df::Keyboard::K);
+  press(*ann, df::Keyboard::X);
+  ASSERT_TRUE(serve([&] { return shown(*ann).keys == 3; })) << server->log();
+  const auto [code, row] = scores("--room two --json");
+  EXPECT_EQ(code, 0) << row;
+  EXPECT_NE(row.find(R"("table":"keys","place":1,"name":"teller","points":2)"), std::string::npos) << row;
+  const std::string recording = valueIn(row, "recording");
+  const std::string tick = valueIn(row, "tick");
+  EXPECT_TRUE(recording.starts_with("two/room_module-")) << row;
+  server->signal(SIGTERM);
+  server->wait();
+  EXPECT_NE(replay(recording, "--text " + tick).find("keys=2 "), std::string::npos) << row;
+  EXPECT_NE(
+      replay(recording, "--scores").find("tick=" + tick + " number=0 table=keys name=\"teller\" points=2\n"),
+      std::string::npos)
+      << replay(recording, "--scores");
+}
+
+TEST_F(RoomScores, WhereRoomsPlaySeveralGamesOneIsAskedFor) {
+  start({"one", "two", "doors=lobby"}, {}, {{"NAIAD_STATE", home.identity("state")}});
+  const auto expectRefusal = [&](const std::string& words, const std::string& sentence) {
+    const auto [code, said] = scores(words);
+    EXPECT_EQ(code, 1) << words;
+    EXPECT_NE(said.find(sentence), std::string::npos) << words << ": " << said;
+  };
+  expectRefusal("", "--game room_module  (rooms one, two)\n  --game lobby  (room doors)\n");
+  expectRefusal("keys 3", "--game or --room says which one is meant");
+  expectRefusal("--game loby", "did you mean \"lobby\"?");
+  expectRefusal("--game=zzz", "There are: room_module, lobby.");
+  expectRefusal("--room zzz", "There are: one, two, doors.");
+  expectRefusal("--room one --game lobby", "not both");
+  EXPECT_EQ(scores("--room two"), scores("--game room_module"));
+  EXPECT_EQ(scores("keys 3 --game lobby"), std::pair(0, std::string("No scores are kept.\n")));
+  EXPECT_EQ(scores("--rom one").first, 2);
+}
+
+TEST_F(Scores, AServerWithoutRoomsHasOneGame) {
+  start();
+  const std::string ctl = "--control " + game->control().string() + " scores ";
+  EXPECT_EQ(runCtl(ctl + "--game rounds_game").first, 0);
+  EXPECT_NE(runCtl(ctl + "--game tron").second.find("There are: rounds_game."), std::string::npos);
+  EXPECT_NE(runCtl(ctl + "--room one").second.find("This server has no rooms."), std::string::npos);
 }
 
 }  // namespace

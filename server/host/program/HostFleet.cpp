@@ -77,14 +77,15 @@ void HostFleet::begin() {
 
 void HostFleet::tick(Clock::time_point now) {
   m_platform->notifyTick(now);
+  if (m_bus && now - m_present >= interval()) {
+    m_present = now;
+    m_bus->publish({presenceSubject(m_id), presence().payload()});
+    hearDirectory(now);
+  }
   if (now - m_said < kSayPlayers) return;
   m_said = now;
   sayPlayers();
   if (m_platform->takeEnd()) m_setup.end();
-  if (m_bus && now - m_present >= Presence::kInterval) {
-    m_present = now;
-    m_bus->publish({presenceSubject(m_id), presence().payload()});
-  }
   hearDirectory(now);
   takeNews();
 }
@@ -101,7 +102,7 @@ void HostFleet::hearDirectory(Clock::time_point now) {
 }
 
 std::string HostFleet::linkToOther(Clock::time_point now) const {
-  const bool holds = m_other && now - m_other_heard < 3 * SendOn::kInterval;
+  const bool holds = m_other && now - m_other_heard < 3 * interval();
   return holds ? m_other->link.text() : "";
 }
 

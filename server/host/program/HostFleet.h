@@ -62,6 +62,9 @@ class HostFleet {
   void sayLast(std::chrono::milliseconds patience) { m_platform->finish(patience); }
 
  private:
+  std::chrono::milliseconds interval() const {
+    return std::chrono::milliseconds(m_setup.options.bus_interval_ms);
+  }
   void sayPlayers();
   Presence presence() const;
   void hearDirectory(Clock::time_point now);

@@ -2,6 +2,7 @@
 // it.
 //
 //   naiad_recovery kills GAME COUNT SEED   one line: what became of so many kills
+//   naiad_recovery scores COUNT SEED       the same with a game that adds scores: its server keeps them
 //   naiad_recovery worlds GAME COUNT SEED  the same, of worlds under a server that lives
 //   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
 #include <algorithm>
@@ -43,6 +44,9 @@ struct Total {
   std::uint64_t wrong_cells = 0;
   int verified = 0;
   int rounds = 0;
+  std::size_t scores = 0;
+  std::size_t missing = 0;
+  std::size_t foreign = 0;
   std::vector<long> took;  ///< milliseconds
 };
 
@@ -74,6 +78,11 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
   } else {
     std::fprintf(stderr, "naiad_recovery: %s\n", said.c_str());
   }
+  if (game != naiad::test::kScoresModule) return;
+  const naiad::test::ScoreCheck check = run.checkScores();
+  total.scores += check.kept;
+  total.missing += check.missing;
+  total.foreign += check.foreign;
 }
 
 long percentile(std::vector<long> values, std::size_t percent) {
@@ -82,17 +91,35 @@ long percentile(std::vector<long> values, std::size_t percent) {
   return values[std::min(values.size() - 1, values.size() * percent / 100)];
 }
 
-int kills(const std::string& game, int count, std::uint64_t seed) {
+/// False: it could not be done.
+bool killAll(const std::string& game, int count, std::uint64_t seed, Total& total) {
   std::mt19937_64 random(seed);
-  Total total;
   while (total.kills < count) {
     try {
       runRound(game, std::min(kKillsInARound, count - total.kills), random, total);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-      return 1;
+      return false;
     }
   }
+  return true;
+}
+
+int scores(int count, std::uint64_t seed) {
+  Total total;
+  if (!killAll(naiad::test::kScoresModule, count, seed, total)) return 1;
+  const bool good = total.scores > 0 && total.missing == 0 && total.foreign == 0 &&
+                    total.verified == total.rounds && total.returned == total.players;
+  std::printf(
+      "scores kills=%d players=%d returned=%d scores=%zu missing=%zu foreign=%zu rounds=%d verified=%d%s\n",
+      total.kills, total.players, total.returned, total.scores, total.missing, total.foreign, total.rounds,
+      total.verified, good ? "" : " failed=1");
+  return good ? 0 : 1;
+}
+
+int kills(const std::string& game, int count, std::uint64_t seed) {
+  Total total;
+  if (!killAll(game, count, seed, total)) return 1;
   std::printf(
       "recovery game=%s kills=%d players=%d returned=%d ticks_lost=%llu compared_cells=%llu wrong_cells=%llu "
       "p50_ms=%ld p99_ms=%ld rounds=%d verified=%d\n",
@@ -154,11 +181,14 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() == 4 && words[0] == "kills")
     return kills(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
+  if (words.size() == 3 && words[0] == "scores")
+    return scores(std::atoi(words[1].c_str()), std::strtoull(words[2].c_str(), nullptr, 10));
   if (words.size() == 4 && words[0] == "worlds")
     return worlds(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
   if (words.size() == 3 && words[0] == "journal")
     return journal(words[1], static_cast<std::uint32_t>(std::atoi(words[2].c_str())));
   std::fprintf(stderr,
-               "usage: naiad_recovery kills GAME COUNT SEED | worlds GAME COUNT SEED | journal GAME TICKS\n");
+               "usage: naiad_recovery kills GAME COUNT SEED | scores COUNT SEED | worlds GAME COUNT SEED | "
+               "journal GAME TICKS\n");
   return 2;
 }

@@ -10,6 +10,7 @@
 #include "EventKeyboard.h"
 #include "EventStep.h"
 #include "GameManager.h"
+#include "HighScores.h"
 #include "Object.h"
 
 using namespace df;
@@ -52,6 +53,7 @@ class Teller : public Object {
     if (p_k->getKey() == Keyboard::B) m_burns = true;
     if (p_k->getKey() == Keyboard::S) m_dozes = true;
     if (p_k->getKey() == Keyboard::C) abort();
+    if (p_k->getKey() == Keyboard::K) HighScores("keys").add("teller", m_keys);
     while (p_k->getKey() == Keyboard::H && g_hangs) {
     }
     return 1;
