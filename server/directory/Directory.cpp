@@ -125,11 +125,11 @@ void Directory::Loop::sendOn(Clock::time_point now) {
   if (now - said_room < settings.interval) return;
   said_room = now;
   for (const Presence& full : fleet.servers().crowded()) {
-    const Presence* p_other = fleet.servers().roomiest({full.game, full.protocol, full.id});
-    if (p_other == nullptr) continue;
-    const auto link = JoinLink::parse(linkOf(*p_other));
+    const FleetList::Place other = fleet.servers().roomiest({full.game, full.protocol, full.id});
+    if (!other) continue;
+    const auto link = JoinLink::parse(linkOf(*other.p_server, other.room));
     if (const auto* const p_link = std::get_if<JoinLink>(&link))
-      fleet.bus().publish({sendOnSubject(full.id), SendOn{p_other->id, *p_link}.payload()});
+      fleet.bus().publish({sendOnSubject(full.id), SendOn{other.p_server->id, *p_link}.payload()});
   }
 }
 

@@ -2,7 +2,7 @@
 // as servers say that they are there (Presence.h) while it holds; after three times that without a word it
 // does not.
 //
-//   naiad.sendon.ID  {"v":1,"to":"paris-9876","link":"naiad://192.0.2.8:9876#…26 characters…"}
+//   naiad.sendon.ID  {"v":1,"to":"paris-9876","link":"naiad://192.0.2.8:9876/duel#…26 characters…"}
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace naiad {
 
 struct SendOn {
   std::string to;  ///< the other server (ServerId.h)
-  JoinLink link;   ///< to it
+  JoinLink link;   ///< to it, and to a room of it where it has rooms
 
   std::string payload() const;
   /// Nothing for what no directory writes.

@@ -67,10 +67,11 @@ class LobbyTest : public testing::Test {
     ASSERT_TRUE(std::holds_alternative<JoinLink>(link)) << text;
     lobby = std::get<JoinLink>(link).where.port;
   }
-  std::unique_ptr<TestClient> join(std::uint16_t port, const std::string& name,
-                                   const std::string& game = "") {
+  std::unique_ptr<TestClient> join(std::uint16_t port, const std::string& name, const std::string& game = "",
+                                   const std::string& room = "") {
     ClientSetup setup = home.player(name);
     setup.options.game = game;
+    setup.options.room = room;
     auto client = std::make_unique<TestClient>(context, port, setup);
     client->keepPictures(false);
     EXPECT_TRUE(serve({client.get()}, [&] { return client->joined() || client->connection().isOver(); }));
@@ -103,6 +104,26 @@ TEST_F(LobbyTest, PlayersAreSentToAServerOfTheirGame) {
   EXPECT_EQ(directory->finish(), 0);
   EXPECT_NE(directory->printed().find(" hellos=3 sent_on=2 no_game=1"), std::string::npos)
       << directory->printed();
+}
+
+TEST_F(LobbyTest, PlayersAreSentToARoomOfTheirGame) {
+  const GameProgram rooms("dfserver",
+                          {{"NAIAD_BUS", bus.url()},
+                           {"NAIAD_BUS_ID", "rooms"},
+                           {"NAIAD_BUS_INTERVAL", kInterval},
+                           {"NAIAD_LINK_HOST", "127.0.0.1"}},
+                          {"--room=hall=hello", "--room=small=maze,max-players=1", "--room=large=maze"});
+  ASSERT_NE(rooms.port(), 0) << rooms.log();
+  ASSERT_NO_FATAL_FAILURE(startDirectory(1));
+  const auto ann = join(lobby, "ann", "", "small");
+  const auto bob = join(lobby, "bob", "maze");
+  ASSERT_TRUE(ann->joined() && bob->joined()) << ann->connection().sentence() << bob->connection().sentence();
+  EXPECT_EQ(ann->session().welcome().room, "small");
+  EXPECT_EQ(bob->session().welcome().room, "large") << "the other one is full";
+  EXPECT_EQ(bob->session().welcome().game, "maze");
+  const auto eve = join(lobby, "eve");
+  ASSERT_TRUE(eve->joined()) << eve->connection().sentence();
+  EXPECT_EQ(eve->session().welcome().room, "hall") << "the first";
 }
 
 TEST_F(LobbyTest, AServerThatIsFullSendsOnToOneThatIsNot) {
