@@ -32,6 +32,7 @@ struct ReplayOptions {
   bool inputs = false;
   bool scores = false;
   int text = 0;
+  int from = 1;
   int until = 0;
   bool debug = false;
   int player = 0;
@@ -53,6 +54,11 @@ std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
       {.name = "--text",
        .target = &replay.text,
        .help = "Print what is on the screen after this tick",
+       .range = naiad::OptionRange{1, 2e9},
+       .type = "TICK"},
+      {.name = "--from",
+       .target = &replay.from,
+       .help = "In the terminal: begin with this tick",
        .range = naiad::OptionRange{1, 2e9},
        .type = "TICK"},
       {.name = "--until",
@@ -100,7 +106,7 @@ int run(const ReplayOptions& replay) {
     return there ? kOk : fail(kNoRound, "there is no picture of that tick and player.");
   }
   if (!naiad::RoundPlayer::hasTerminal()) return fail(kNoTerminal, "playing a round takes a terminal.");
-  naiad::RoundPlayer(round, stage, player).run();
+  naiad::RoundPlayer(round, stage, player, static_cast<std::uint32_t>(replay.from)).run();
   return kOk;
 }
 

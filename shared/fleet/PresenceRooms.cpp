@@ -59,7 +59,8 @@ std::string roomsText(const std::vector<PresenceRoom>& rooms) {
   std::string text;
   for (const PresenceRoom& room : rooms) {
     if (!isGameWord(room.game)) continue;
-    const std::string entry = (text.empty() ? "" : " ") + entryOf(room);
+    std::string entry(text.empty() ? "" : " ");
+    entry += entryOf(room);
     if (text.size() + entry.size() > kMaxRoomsText) break;
     text += entry;
   }

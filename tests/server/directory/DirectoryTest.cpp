@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "QuickInterval.h"
 #include "client/lan/ServerListJson.h"
 #include "host/fleet/Bus.h"
 #include "shared/fleet/Presence.h"
@@ -26,9 +27,6 @@ namespace naiad::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// Milliseconds in which servers say that they are there.
-constexpr const char* kInterval = "100";
 
 class DirectoryTest : public testing::Test {
  protected:
@@ -61,11 +59,12 @@ class DirectoryTest : public testing::Test {
   }
   std::unique_ptr<RunningProgram> startDirectory(const NatsServer& bus) const {
     return std::make_unique<RunningProgram>(std::vector<std::string>{
-        "dfdir", "--bus", bus.url(), "--bus-interval", kInterval, "--list", folder / "servers.json"});
+        "dfdir", "--bus", bus.url(), "--bus-interval", kQuickInterval, "--list", folder / "servers.json"});
   }
   static std::map<std::string, std::string> serverOf(const NatsServer& bus, const std::string& id) {
-    return {{"NAIAD_GAME", "hello"},           {"NAIAD_BUS", bus.url()},  {"NAIAD_BUS_ID", id},
-            {"NAIAD_BUS_INTERVAL", kInterval}, {"NAIAD_SERVER_NAME", id}, {"NAIAD_LINK_HOST", "127.0.0.1"}};
+    return {{"NAIAD_GAME", "hello"},   {"NAIAD_BUS", bus.url()},
+            {"NAIAD_BUS_ID", id},      {"NAIAD_BUS_INTERVAL", kQuickInterval},
+            {"NAIAD_SERVER_NAME", id}, {"NAIAD_LINK_HOST", "127.0.0.1"}};
   }
 
   std::filesystem::path folder;

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "QuickInterval.h"
 #include "host/auth/ServerIdentity.h"
 #include "host/fleet/Bus.h"
 #include "server/directory/Lobby.h"
@@ -35,9 +36,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Milliseconds in which servers say that they are there.
-constexpr const char* kInterval = "100";
-
 class LobbyTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -51,14 +49,14 @@ class LobbyTest : public testing::Test {
         "dfserver", std::map<std::string, std::string>{{"NAIAD_GAME", game},
                                                        {"NAIAD_BUS", bus.url()},
                                                        {"NAIAD_BUS_ID", id},
-                                                       {"NAIAD_BUS_INTERVAL", kInterval},
+                                                       {"NAIAD_BUS_INTERVAL", kQuickInterval},
                                                        {"NAIAD_MAX_PLAYERS", std::to_string(places)},
                                                        {"NAIAD_LINK_HOST", "127.0.0.1"}});
   }
   /// dfdir with a lobby, once it knows so many servers.
   void startDirectory(int servers) {
     directory = std::make_unique<RunningProgram>(
-        std::vector<std::string>{"dfdir", "--bus", bus.url(), "--bus-interval", kInterval, "--listen",
+        std::vector<std::string>{"dfdir", "--bus", bus.url(), "--bus-interval", kQuickInterval, "--listen",
                                  "127.0.0.1:0", "--identity", home.identity("directory")});
     ASSERT_TRUE(directory->prints(" is there", servers)) << directory->printed();
     const std::string& text = directory->printed();
@@ -110,7 +108,7 @@ TEST_F(LobbyTest, PlayersAreSentToARoomOfTheirGame) {
   const GameProgram rooms("dfserver",
                           {{"NAIAD_BUS", bus.url()},
                            {"NAIAD_BUS_ID", "rooms"},
-                           {"NAIAD_BUS_INTERVAL", kInterval},
+                           {"NAIAD_BUS_INTERVAL", kQuickInterval},
                            {"NAIAD_LINK_HOST", "127.0.0.1"}},
                           {"--room=hall=hello", "--room=small=maze,max-players=1", "--room=large=maze"});
   ASSERT_NE(rooms.port(), 0) << rooms.log();
