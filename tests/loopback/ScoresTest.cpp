@@ -12,6 +12,7 @@
 
 #include "GameProgram.h"
 #include "Home.h"
+#include "RecoveryRun.h"
 #include "RoomsFixture.h"
 #include "RunCtl.h"
 #include "TestClient.h"
@@ -93,9 +94,11 @@ class RoomScores : public RoomsFixture {
   }
   std::string replay(const std::string& recording, const std::string& words) const {
     return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfreplay " + home.identity("rounds").string() + "/" +
-                      recording + " --game " + kRoomModule + " " + words + " 2>&1")
+                      recording + " --game " + kScoresModule + " " + words + " 2>&1")
         .second;
   }
+  /// What the game has drawn.
+  static int keysIn(const std::string& picture) { return numberAfter(picture, "keys=").value_or(-1); }
   /// Behind "NAME":, without quotes.
   static std::string valueIn(const std::string& json, const std::string& name) {
     const std::string key = "\"" + name + "\":";
@@ -107,28 +110,33 @@ class RoomScores : public RoomsFixture {
 };
 
 TEST_F(RoomScores, ARowOfARoomsGameIsFoundInItsRecording) {
-  start({"one", "two", "doors=lobby"}, {"--world-environment=ROOM_REPEATS"},
-        {{"ROOM_REPEATS", "1"},
-         {"NAIAD_STATE", home.identity("state")},
-         {"NAIAD_JOURNAL", home.identity("rounds")}});
-  auto ann = join("ann", "two");
-  press(*ann, df::Keyboard::X);
-  press(*ann, df::Keyboard::K);
-  press(*ann, df::Keyboard::X);
-  ASSERT_TRUE(serve([&] { return shown(*ann).keys == 3; })) << server->log();
-  const auto [code, row] = scores("--room two --json");
-  EXPECT_EQ(code, 0) << row;
-  EXPECT_NE(row.find(R"("table":"keys","place":1,"name":"teller","points":2)"), std::string::npos) << row;
-  const std::string recording = valueIn(row, "recording");
-  const std::string tick = valueIn(row, "tick");
-  EXPECT_TRUE(recording.starts_with("two/room_module-")) << row;
+  start({"one", std::string("two=") + kScoresModule, "doors=lobby"}, {},
+        {{"NAIAD_STATE", home.identity("state")}, {"NAIAD_JOURNAL", home.identity("rounds")}});
+  auto ann = connect("ann", "two");
+  const auto has_pressed = [&](int keys) {
+    return serve([&] {
+      return ann->joined() && row(*ann, 12).find("keys=" + std::to_string(keys) + ";") != std::string::npos;
+    });
+  };
+  ASSERT_TRUE(has_pressed(0)) << server->log();
+  for (int i = 0; i < 6; ++i) press(*ann, df::Keyboard::X);
+  ASSERT_TRUE(has_pressed(6)) << server->log();
+  const auto [code, listed] = scores("--room two --json");
+  EXPECT_EQ(code, 0) << listed;
+  EXPECT_NE(listed.find(R"("table":"odd","place":1,"name":"counter","points":4)"), std::string::npos)
+      << listed;
+  const std::string recording = valueIn(listed, "recording");
+  const std::string tick = valueIn(listed, "tick");
+  EXPECT_TRUE(recording.starts_with("two/scores_module-")) << listed;
   server->signal(SIGTERM);
   server->wait();
-  EXPECT_NE(replay(recording, "--text " + tick).find("keys=2 "), std::string::npos) << row;
-  EXPECT_NE(
-      replay(recording, "--scores").find("tick=" + tick + " number=0 table=keys name=\"teller\" points=2\n"),
-      std::string::npos)
-      << replay(recording, "--scores");
+  const std::string added = replay(recording, "--scores");
+  EXPECT_NE(added.find("tick=" + tick + " number=0 table=odd name=\"counter\" points=4\n"), std::string::npos)
+      << listed << added;
+  const std::string shown = replay(recording, "--text " + tick);
+  EXPECT_TRUE(keysIn(shown) >= 4) << listed << shown;
+  EXPECT_LT(keysIn(replay(recording, "--text " + std::to_string(std::stoi(tick) - 1))), 4)
+      << "it came in that tick";
 }
 
 TEST_F(RoomScores, WhereRoomsPlaySeveralGamesOneIsAskedFor) {

@@ -105,6 +105,8 @@ TEST_F(WebClientTest, TheRoomOfTheAddressIsInTheHelloIfItIsAName) {
                                      {"../x", ""},
                                      {std::string(33, 'a'), ""},
                                      {"", ""}}) {
+    client.reset();
+    page.streams.clear();
     make("", room);
     open();
     ASSERT_FALSE(page.streams[first].sent.empty());

@@ -10,7 +10,6 @@
 #include "EventKeyboard.h"
 #include "EventStep.h"
 #include "GameManager.h"
-#include "HighScores.h"
 #include "Object.h"
 
 using namespace df;
@@ -53,7 +52,6 @@ class Teller : public Object {
     if (p_k->getKey() == Keyboard::B) m_burns = true;
     if (p_k->getKey() == Keyboard::S) m_dozes = true;
     if (p_k->getKey() == Keyboard::C) abort();
-    if (p_k->getKey() == Keyboard::K) HighScores("keys").add("teller", m_keys);
     while (p_k->getKey() == Keyboard::H && g_hangs) {
     }
     return 1;
