@@ -38,7 +38,7 @@ struct ScoreCheck {
   std::size_t foreign = 0;  ///< of the file, that the round does not add, or that come twice
 };
 
-/// A module that adds a score for every fourth key (scores/game.cpp).
+/// A module that adds a score for every key (scores/game.cpp).
 inline constexpr const char* kScoresModule = NAIAD_BINARY_DIR "/../lib/scores_module.so";
 
 class RecoveryClient;

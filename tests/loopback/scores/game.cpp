@@ -1,4 +1,4 @@
-// A game that adds a score for every fourth key, whoever presses it. What it is good for is in
+// A game that adds a score for every key, whoever presses it. What it is good for is in
 // RecoveryTest.cpp.
 #include "DisplayManager.h"
 #include "EventKeyboard.h"
@@ -22,7 +22,7 @@ class Counter : public Object {
     const EventKeyboard* p_k = (const EventKeyboard*)p_e;
     if (p_k->getKeyboardAction() != KEY_PRESSED) return 1;
     m_keys++;
-    if (m_keys % 4 == 0) HighScores(m_keys % 8 == 0 ? "even" : "odd").add("counter", m_keys);
+    HighScores(m_keys % 2 == 0 ? "even" : "odd").add("counter", m_keys);
     return 1;
   }
   int draw() {
