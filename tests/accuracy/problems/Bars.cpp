@@ -120,6 +120,7 @@ Problem make() {
       "shots (the product: 10,000), each until two ticks after it must have arrived.";
   problem.reference =
       "every shot meets the wall, stays on its side, and gains no energy where the wall has none";
+  problem.why = "A bar that turns is harder than a ball: its ends are faster than its middle.";
   problem.cases = {against(Motion::FIXED, "static"), against(Motion::KINEMATIC, "kinematic"),
                    against(Motion::DYNAMIC, "dynamic")};
   return problem;

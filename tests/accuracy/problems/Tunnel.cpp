@@ -90,6 +90,7 @@ Problem make() {
       "them "
       "without a contact has been held back: it is counted as unmet.";
   problem.reference = "they cannot change sides: every shot meets its target within two ticks";
+  problem.why = "A bullet must not pass through what it hits, whatever the two are and however fast.";
   problem.cases = {against(Pair::FIXED, "static", "Chipmunk 82 % at 50 m/s"),
                    against(Pair::KINEMATIC, "kinematic", "Box2D 80–98 %"),
                    against(Pair::DYNAMIC, "dynamic", "Box2D 80–98 %"),
