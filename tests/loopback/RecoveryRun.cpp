@@ -208,6 +208,16 @@ bool RecoveryRun::playUntilPictured() {
   return true;
 }
 
+bool RecoveryRun::playUntilTurn(std::uint32_t turn, std::chrono::seconds patience) {
+  const auto end = Clock::now() + patience;
+  const auto is_there = [&](const auto& client) { return client->newestTick() >= m_first_tick + turn; };
+  while (!std::all_of(m_clients.begin(), m_clients.end(), is_there)) {
+    if (Clock::now() > end) return false;
+    play(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
 std::filesystem::path RecoveryRun::round() const {
   for (const auto& entry : std::filesystem::directory_iterator(m_rounds)) return entry.path();
   return {};
@@ -235,6 +245,12 @@ KillResult RecoveryRun::killTwice(std::chrono::milliseconds between) {
   m_log += m_server->log();
   for (const auto& client : m_clients) client->forgetSession();  // some may have been back there
   return comeBack();
+}
+
+KillResult RecoveryRun::killBoth() {
+  const pid_t world = worldOf(m_server->process());
+  if (world > 0) ::kill(world, SIGKILL);
+  return kill();
 }
 
 void RecoveryRun::killServer() {

@@ -50,6 +50,10 @@ class RecoveryRun {
   /// The same, but the next server is killed as well, so much later: while it executes the round again, or at
   /// some step of a client's return.
   KillResult killTwice(std::chrono::milliseconds between);
+  /// The same, but the world's process is killed just before the server is.
+  KillResult killBoth();
+  /// Let them play until the world has had so many turns since its first. False: it takes too long.
+  bool playUntilTurn(std::uint32_t turn, std::chrono::seconds patience);
   /// The two halves of kill().
   void killServer();
   KillResult comeBack();

@@ -331,7 +331,7 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
         std::to_string(took.count()) + " ms");
   };
   m_log("the server was killed in a round, which is executed again: " + path);
-  book.history = round->takeRecords();
+  book.history = round->records();
   book.first_tick =
       static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
   book.new_world = std::move(another);
