@@ -72,7 +72,8 @@ std::vector<int> substepCounts(const Options& options, const lab::Problem& probl
     const std::vector<int>& asked = options.substeps;
     const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), count) != asked.end();
     if (count < method.own_substeps) continue;  // ticks get shorter, not longer
-    if (problem.kind == lab::Problem::Kind::DIAGRAM && method.isProduct() && count > kMaxShorterTicks) continue;
+    if (problem.kind == lab::Problem::Kind::DIAGRAM && method.isProduct() && count > kMaxShorterTicks)
+      continue;
     if (is_asked && count <= its_case.most_substeps && (quick || !options.quick)) counts.push_back(count);
   }
   return counts;

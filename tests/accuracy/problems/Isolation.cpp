@@ -101,7 +101,8 @@ Problem make() {
   problem.title = "Groups do not see each other";
   problem.text =
       "Two boxes on a rod, on a spring, or on nothing fall onto a floor, alone and with another such pair "
-      "2000 m away that rests, moves by 0.01 to 1000 cells a tick, or lies on a floor of its own; 200 ticks. What rests may sleep.";
+      "2000 m away that rests, moves by 0.01 to 1000 cells a tick, or lies on a floor of its own; 200 ticks. "
+      "What rests may sleep.";
   problem.reference = "the same bits as alone";
   problem.why = "What happens at one end of a world must not change a bit at its other end.";
   problem.cases = {heldBy(Held::ROD, "rod"), heldBy(Held::SPRING, "spring"), heldBy(Held::NOTHING, "loose")};
