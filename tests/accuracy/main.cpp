@@ -17,7 +17,7 @@
 namespace {
 
 constexpr const char* kUsage =
-    "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--output DIR] [PROBLEM...]\n"
+    "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--runs N] [--output DIR] [PROBLEM...]\n"
     "       naiad_lab --list\n"
     "       naiad_lab --work PROBLEM CASE METHOD TICKS\n"
     "\n"
@@ -25,6 +25,7 @@ constexpr const char* kUsage =
     "  --quick        1, 4 and 16 sub-steps, and no long runs: to see that it works\n"
     "  --method NAME  only this one; may be repeated\n"
     "  --substeps N   only so many a tick; may be repeated\n"
+    "  --runs N       how often each point is timed, 2 or more (default: 5, and 3 with thousands of bodies)\n"
     "  --output DIR   where to put points.csv and problems.json (default: nowhere)\n"
     "  --list         the problems and methods there are\n"
     "  --work         runs one case for so many ticks and prints nothing: for valgrind\n"
@@ -32,12 +33,14 @@ constexpr const char* kUsage =
     "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
 
 constexpr int kRuns = 5;
+constexpr int kFewestRuns = 2;
 constexpr int kCrowdRuns = 3;  // of thousands of bodies
 constexpr int kMaxCpuSeconds = 120;
 constexpr int kMaxShorterTicks = 16;  // of the product's curves
 
 struct Options {
   bool quick = false;
+  int runs = 0;  // 0: as many as the case asks for
   std::string output;
   std::vector<const lab::Method*> methods;
   std::vector<int> substeps;  // none: all
@@ -148,8 +151,9 @@ void run(const Options& options, lab::Records& records) {
       progress.show(
           share * (static_cast<double>(i) + part),
           name + " " + run.its_case->name + ": " + run.method->label + " ×" + std::to_string(run.substeps));
+      const int usual = run.its_case->is_crowd ? kCrowdRuns : kRuns;
       run.measurement = lab::measureApart(*run.its_case, *run.method, run.substeps,
-                                          run.its_case->is_crowd ? kCrowdRuns : kRuns, kMaxCpuSeconds);
+                                          options.runs > 0 ? options.runs : usual, kMaxCpuSeconds);
       if (!run.measurement.expressed) continue;
       records.add(problem, *run.its_case, *run.method, run.substeps, run.measurement);
     }
@@ -187,6 +191,8 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       options.quick = true;
     } else if (argument == "--output" && has_value) {
       options.output = arguments[++i];
+    } else if (argument == "--runs" && has_value) {
+      options.runs = std::max(std::atoi(arguments[++i].c_str()), kFewestRuns);
     } else if (argument == "--substeps" && has_value) {
       options.substeps.push_back(std::atoi(arguments[++i].c_str()));
     } else if (argument == "--method" && has_value) {
@@ -202,7 +208,8 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       const auto all = lab::allProblems();
       const lab::ProblemEntry* found = findProblem(all, argument);
       if (found == nullptr) {
-        std::vector<std::string> names{"--help", "--list", "--method", "--output", "--quick", "--substeps"};
+        std::vector<std::string> names{"--help",  "--list", "--method",  "--output",
+                                       "--quick", "--runs", "--substeps"};
         for (const lab::ProblemEntry& entry : all) names.insert(names.end(), {entry.id, entry.name});
         sayUnknown("problem", argument, names);
         return false;
