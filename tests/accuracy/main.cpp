@@ -253,7 +253,7 @@ int main(int argc, char** argv) {
   if (!read(arguments, options)) return usage(stderr, 2);
   try {
     bench::reserveStdout();
-    lab::Records records(options.output);
+    lab::Records records(options.output, options.runs);
     run(options, records);
     return records.allMet() ? 0 : 1;
   } catch (const std::exception& e) {

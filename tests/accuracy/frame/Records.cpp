@@ -78,7 +78,7 @@ std::string metricName(const Case& its_case, const Metric& metric) {
   return its_case.name.empty() ? metric.name : metric.name + "_" + its_case.name;
 }
 
-Records::Records(const std::string& directory) {
+Records::Records(const std::string& directory, int runs) {
   if (directory.empty()) return;
   std::filesystem::create_directories(directory);
   m_points = open(directory + "/points.csv");
@@ -87,8 +87,8 @@ Records::Records(const std::string& directory) {
       "failure\n",
       m_points);
   m_problems = open(directory + "/problems.json");
-  std::fprintf(m_problems, "{\"build\": %s,\n\"methods\": [",
-               quoted("GCC " __VERSION__ " " NAIAD_LAB_FLAGS).c_str());
+  std::fprintf(m_problems, "{\"build\": %s,\n\"runs\": %d,\n\"methods\": [",
+               quoted("GCC " __VERSION__ " " NAIAD_LAB_FLAGS).c_str(), runs);
   const char* comma = "\n";
   for (const Method* method : Method::all()) {
     std::fprintf(m_problems, "%s  {\"name\": %s, \"label\": %s, \"version\": %s, \"kind\": \"%s\"}", comma,

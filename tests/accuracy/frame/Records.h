@@ -14,8 +14,8 @@ std::string metricName(const Case& its_case, const Metric& metric);
 class Records {
  public:
   /// Writes `points.csv` and `problems.json` in `directory`, which is made. Throws std::runtime_error if it
-  /// cannot. Empty: lines only.
-  explicit Records(const std::string& directory);
+  /// cannot. Empty: lines only. `runs`: how often each point is timed, if it is not as usual.
+  explicit Records(const std::string& directory, int runs = 0);
   ~Records();
   Records(const Records&) = delete;
   Records& operator=(const Records&) = delete;

@@ -115,6 +115,9 @@ Problem makeMeetings() {
   problem.cases = {meeting("point4", inwards(4, 3 * std::numbers::sqrt2, kDiagonal)),
                    meeting("point150", inwards(150, 30, 0)), meeting("block2", block(2, 1)),
                    meeting("block3", block(3, 2)), meeting("cradle100", heavierAndHeavier())};
+  const char* labels[] = {"4 boxes in a point", "150 boxes in a point", "2 × 2 boxes", "3 × 3 boxes",
+                          "100 circles in a row"};
+  for (std::size_t i = 0; i < problem.cases.size(); ++i) problem.cases[i].label = labels[i];
   problem.cases[1].scene.ticks = 300;
   problem.cases[1].long_run = true;
   return problem;

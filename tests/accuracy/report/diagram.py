@@ -111,7 +111,11 @@ def ticks(axis):
 
 def plain(value):
     """A number on an axis with numbers between its decades."""
-    return f"{value:g}" if 1e-4 <= value < 1e5 else f"{value / 10**math.floor(math.log10(value)):.0f}·{power_of_ten(math.floor(math.log10(value)))}"
+    if 1e-4 <= value < 1e5:
+        return f"{value:g}"
+    exponent = math.floor(math.log10(value) + 1e-9)
+    factor = f"{value / 10.0**exponent:.2g}"
+    return power_of_ten(exponent) if factor == "1" else f"{factor}·{power_of_ten(exponent)}"
 
 
 def edge_left(points, metric):
@@ -171,7 +175,7 @@ def goals(x, metric, has_left, has_right):
     right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
     out = []
     for row, (value, words) in enumerate(targets(metric)):
-        name = f"{words} {value:.2g}"
+        name = f"{words} {plain(float(f'{value:.2g}')) if value else 0}"
         half = 3.3 * len(name)
         if value > SMALLEST:
             at = x(value)
@@ -205,7 +209,9 @@ def guides(x, y, points):
     if len(drawn) == len(set(drawn)):
         return []  # no curve to compare with
     orders = [order for order in ORDERS if order * rise < 0.5 * wide]
-    reach = orders[-1] * rise if orders else 0
+    if not orders:
+        return []
+    reach = orders[-1] * rise
     crowd = samples(points)
 
     def crowded(foot):
