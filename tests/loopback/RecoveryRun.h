@@ -26,8 +26,9 @@ struct KillResult {
   std::uint32_t ticks_lost = 0;  ///< that a client had seen, and the round that goes on had not
   std::uint64_t cells = 0;       ///< compared: of the last picture that each client had whole
   std::uint64_t wrong_cells = 0;
-  std::chrono::milliseconds took{0};  ///< from the kill to the last client's new picture
-  std::string problem;                ///< the first, in words
+  std::chrono::milliseconds took{0};   ///< from the kill, or the command, to when the last client is back
+  std::chrono::milliseconds pause{0};  ///< of keepRound(): the longest between two pictures of a client
+  std::string problem;                 ///< the first, in words
 };
 
 class RecoveryClient;
@@ -57,6 +58,8 @@ class RecoveryRun {
   /// The two halves of kill().
   void killServer();
   KillResult comeBack();
+  /// dfctl restart --keep, while they play; then wait until all are back.
+  KillResult keepRound();
   /// Kill the world's process alone, and wait until its players see more of it, and go on to. How long it
   /// took to the last one's next picture; nothing: they do not go on, or not in the sessions that they had.
   std::optional<std::chrono::milliseconds> killWorld();
@@ -75,6 +78,7 @@ class RecoveryRun {
   void startServer();
   bool serveUntilJoined();
   void waitForFirstTick();
+  void judge(bool back, KillResult& result);
   void compare(KillResult& result);
   std::uint32_t recoveredTurns() const;
   bool isLogged(const std::string& text);
