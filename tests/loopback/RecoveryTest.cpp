@@ -47,7 +47,7 @@ TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
 }
 
 // dfctl restart --keep: the same as for a kill is true of the program that goes on.
-TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNobodyAndNothing) {
+TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNoPlayerAndNothing) {
   const int restarts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1;
   std::mt19937_64 random(11);
   RecoveryRun run(GetParam(), 2, random());
