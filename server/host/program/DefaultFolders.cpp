@@ -44,6 +44,10 @@ void useDefaultFolders(HostOptions& options) {
   useDefaultJournal(options);
 }
 
+void keepHome(HostOptions& options) {
+  if (options.insecure && options.address == HostOptions().address) options.address = "127.0.0.1";
+}
+
 HostOptions withUsableJournal(HostOptions options, const LogLine& log) {
   if (!options.default_journal || !wantsJournal(options)) return options;
   const std::error_code error = makeFolder(options.journal);

@@ -16,6 +16,9 @@ inline constexpr std::string_view kOff = "off";
 /// folders.
 void useDefaultFolders(HostOptions& options);
 
+/// Without encryption a server is on loopback, unless an address was given.
+void keepHome(HostOptions& options);
+
 /// The options to start worlds with: these, without a journal if its default folder cannot be made or
 /// written, which the log says then. A folder that was asked for is left to fail where it is used.
 HostOptions withUsableJournal(HostOptions options, const LogLine& log);

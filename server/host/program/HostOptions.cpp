@@ -14,6 +14,7 @@
 #include "host/program/HostFleet.h"
 #include "host/program/RoomList.h"
 #include "host/program/Worlds.h"
+#include "shared/fleet/Presence.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
 #include "shared/options/UnknownVariables.h"
@@ -113,17 +114,15 @@ std::vector<Row> tableOf(HostOptions& o) {
         "environment, beside the usual ones",
         "NAIAD_WORLD_ENVIRONMENT"}},
       {{"--in-process", &o.in_process,
-        "The game runs in the server's own process, for one in a debugger, and for one whose pictures are "
-        "too "
-        "large to be sent from process to process: without sandbox and without journal, and a crash ends the "
-        "server",
+        "The game runs in the server's own process, for a debugger, or where its pictures are too large for "
+        "another one: without sandbox and journal, and a crash ends the server",
         "NAIAD_IN_PROCESS"},
        UsedBy::kServer},
       {{"--journal", &o.journal,
-        "Write each round down in a file of this directory, as it is played, in little space: dfreplay plays "
-        "it and executes it again, and a server that was killed goes on with it. The game has clocks and "
-        "random devices then that can be repeated. off: none. Default: rounds in the folder of --state; none "
-        "with --players private, --in-process, and for games that are programs themselves",
+        "Write each round down in a file of this directory, as it is played: dfreplay executes it again, and "
+        "a server that was killed goes on with it. The game has clocks and random devices then that can be "
+        "repeated. off: none. Default: rounds in the folder of --state; none with --players private, "
+        "--in-process, and for games that are programs themselves",
         "NAIAD_JOURNAL"}},
       {{"--no-journal", &o.no_journal, "Write no round down, whatever environment or file say",
         "NAIAD_NO_JOURNAL"}},
@@ -261,6 +260,11 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--bus-id", &o.bus_id,
         "Name of this server on the bus, of a-z, 0-9 and '-'; default: of the machine and the port",
         "NAIAD_BUS_ID"}},
+      {{"--bus-interval", &o.bus_interval_ms,
+        "Milliseconds between two times that the server says it is there, as its directory's: one that is "
+        "silent for three of them is gone",
+        "NAIAD_BUS_INTERVAL",
+        OptionRange{Presence::kLeastInterval.count(), Presence::kMostInterval.count()}}},
       {{"--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it",
         "NAIAD_BUS_CREDENTIALS"}},
       {{"--bus-ca", &o.bus_ca,
@@ -428,10 +432,6 @@ CommandLine printConfig(const Printing& printing, const std::vector<Option>& all
     if (printing.config && isSetting(option)) std::cout << configLine(option) << "\n";
   }
   return CommandLine::kDone;
-}
-
-void keepHome(HostOptions& options) {
-  if (options.insecure && options.address == HostOptions().address) options.address = kLoopback;
 }
 
 }  // namespace
