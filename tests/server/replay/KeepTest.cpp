@@ -182,7 +182,7 @@ class KeepTest : public testing::Test {
         dfserver,         "--port=" + port(), "--port-file=port",  "--join-file=join",
         "--identity=key", "--state=off",      "--frame-time=5000", "--control=control.sock"};
     words.insert(words.end(), games.begin(), games.end());
-    if (!journal.empty()) words.push_back("--journal=" + journal);
+    words.push_back("--journal=" + (journal.empty() ? "off" : journal));
     server = run(words, "out.txt");
     ASSERT_TRUE(waitUntil([this] { return !contentOf(folder / "join").empty(); })) << log();
   }
