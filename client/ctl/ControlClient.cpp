@@ -61,7 +61,8 @@ AdminAnswer ControlClient::ask(const AdminRequest& request) {
     if (size > 0) sent += static_cast<std::size_t>(size);
   }
   AnswerReader reader;
-  for (std::string text; readLine(text, kPatience);) {
+  const bool takes_long = request.of("when") == "keep";
+  for (std::string text; readLine(text, takes_long ? kLongPatience : kPatience);) {
     const AnswerReader::Got got = reader.readLine(text);
     if (got == AnswerReader::Got::kAnswer) return reader.answer();
     if (got == AnswerReader::Got::kNonsense) throw NoServer("What answers there is no server of Naiad.");

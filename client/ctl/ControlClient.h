@@ -24,6 +24,8 @@ class ControlClient {
  public:
   /// For an answer: a server whose game hangs gives none.
   static constexpr std::chrono::seconds kPatience{10};
+  /// The same while a round is executed again (restart --keep).
+  static constexpr std::chrono::seconds kLongPatience{600};
 
   /// Throws NoServer.
   explicit ControlClient(const std::filesystem::path& path);

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "server/replay/Replay.h"
+#include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/replica/Limits.h"
 
@@ -161,8 +162,8 @@ bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostre
   const double real = secondsOf(round, replay.tick());
   out << "verified ticks=" << replay.tick() << " seconds=" << std::fixed << std::setprecision(1) << real
       << " took=" << std::setprecision(3) << took.count() << " times_real_time=" << std::setprecision(0)
-      << (took.count() > 0 ? real / took.count() : 0) << " read " << endText(replay.end())
-      << (replay.why().empty() ? "" : ": the game " + replay.why()) << "\n";
+      << (took.count() > 0 ? real / took.count() : 0) << " protocol=" << kProtocolVersion << " read "
+      << endText(replay.end()) << (replay.why().empty() ? "" : ": the game " + replay.why()) << "\n";
   return true;
 }
 

@@ -1,4 +1,8 @@
 // dfreplay: plays rounds that dfserver has written down (--journal), and executes them again to the same end.
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -15,6 +19,9 @@
 namespace {
 
 enum ExitCode { kOk = 0, kDiffers = 1, kUsage = 2, kNoRound = 3, kNoTerminal = 4 };
+
+/// Of --for-server.
+constexpr int kNice = 10;
 
 constexpr const char* kHelp =
     "In the terminal: space pauses, left and right go 5 s, . goes one tick, + and - change the speed (1/4 to "
@@ -36,6 +43,7 @@ struct ReplayOptions {
   int until = 0;
   bool debug = false;
   int player = 0;
+  bool for_server = false;
 };
 
 std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
@@ -76,7 +84,11 @@ std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
       {.name = "--game",
        .target = &replay.game,
        .help = "Execute this game: a name or the path of a module (default: the installed game that the file "
-               "names, if it is the same)"}};
+               "names, if it is the same)"},
+      {.name = "--for-server",
+       .target = &replay.for_server,
+       .help = "Stand back behind the server that has started this, and end with it",
+       .hidden = true}};
 }
 
 int fail(ExitCode code, const std::string& sentence) {
@@ -84,7 +96,14 @@ int fail(ExitCode code, const std::string& sentence) {
   return code;
 }
 
+/// Its game comes first. Before this process starts another one.
+void serveParent() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  setpriority(PRIO_PROCESS, 0, kNice);
+}
+
 int run(const ReplayOptions& replay) {
+  if (replay.for_server) serveParent();
   if (replay.debug != (replay.until > 0))
     return fail(kUsage, "--debug and --until TICK go together: --until says where the game stops.");
   const naiad::RecordedRound round(replay.file);

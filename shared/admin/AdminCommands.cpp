@@ -104,8 +104,9 @@ std::vector<AdminCommand> tableOfCommands() {
        {{"when",
          Kind::kChoice,
          false,
-         "now (so if left out), at-round-end, or in SPAN",
-         {"now", "at-round-end", "in"}},
+         "now (so if left out), at-round-end, in SPAN, or keep: the round goes on, if the program that is "
+         "installed plays it the same",
+         {"now", "at-round-end", "in", "keep"}},
         {"span", Kind::kSpan, false, "With in: how long to wait"}}},
       {"drain",
        Level::kAdmin,

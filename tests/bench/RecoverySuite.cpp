@@ -42,6 +42,7 @@ const Suite s_suite(
     [](const Options& options) {
       for (const std::string& game : kGames) {
         run("recovery", game, {"kills", game, options.quick ? "5" : "100", "1"});
+        run("long_round", game, {"long", game, options.quick ? "1" : "20", "1"});
         run("take_over", game, {"worlds", game, options.quick ? "3" : "30", "1"});
         run("journal", game, {"journal", game, options.quick ? "900" : "9000"});
       }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
+#include <future>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ProcessesBelow.h"
 #include "client/bot/BotPlayer.h"
 #include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
@@ -22,6 +23,7 @@
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Replay.h"
 #include "server/replay/Verify.h"
+#include "tests/server/host/admin/Talk.h"
 
 namespace naiad::test {
 
@@ -34,33 +36,6 @@ constexpr std::chrono::milliseconds kBetweenKeys{20};
 constexpr std::uint32_t kSeenTicks = 10;
 /// Of these, what a tick that was answered before a kill can be.
 constexpr std::uint32_t kOnTheWay = 3;
-
-/// The parent and the name of a process; nothing if there is none.
-std::optional<std::pair<pid_t, std::string>> factsOf(const std::string& process) {
-  std::ifstream file("/proc/" + process + "/stat");
-  std::string line;
-  if (!std::getline(file, line)) return std::nullopt;
-  const std::size_t name = line.find('(');
-  const std::size_t end = line.rfind(')');
-  if (name == std::string::npos || end == std::string::npos) return std::nullopt;
-  return std::pair(static_cast<pid_t>(std::atoi(line.c_str() + end + 4)),
-                   line.substr(name + 1, end - name - 1));
-}
-
-/// The processes below the server's that have this name.
-std::vector<pid_t> processesOf(pid_t server, const std::string& name) {
-  std::vector<pid_t> found;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string process = entry.path().filename().string();
-    const auto facts = factsOf(process);
-    if (!facts || facts->second != name) continue;
-    for (auto above = facts; above && above->first > 1; above = factsOf(std::to_string(above->first))) {
-      if (above->first == server) found.push_back(std::atoi(process.c_str()));
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 /// The one that executes its program; 0: there is none. A second world of the round, which is held against
 /// it, begins later.
@@ -82,12 +57,17 @@ class RecoveryClient {
       : m_connection(context, ServerAddress{"127.0.0.1", port}, setup.options, true, setup.trust),
         m_player(seed, 80, 24) {
     m_connection.onSession([this](ClientSession& session) {
+      ++m_sessions;
+      if (std::exchange(m_freezes, false)) freezeLastPicture();
       m_whole = WholePicture();
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
         if (tick != m_whole.tick()) keepPicture(session);
       });
       session.onAfterSnapshot([this, &session](const SnapshotHeader& header, const AckWindow& acks) {
         m_whole.addSnapshot(header, acks, session.welcome().continuation.value_or(Continuation()).snapshot);
+        const auto now = Clock::now();
+        if (m_pictured_at) m_pause = std::max(m_pause, now - *m_pictured_at);
+        m_pictured_at = now;
       });
     });
     m_connection.start();
@@ -107,8 +87,16 @@ class RecoveryClient {
   void leave() { m_connection.leave(); }
   bool isJoined() { return m_connection.state() == Connection::State::kJoined; }
   /// In another session than before forgetSession(), or the first one.
-  bool isBack() { return isJoined() && session() != m_p_before; }
-  void forgetSession() { m_p_before = session(); }
+  bool isBack() { return isJoined() && m_sessions != m_sessions_before; }
+  void forgetSession() { m_sessions_before = m_sessions; }
+  /// Do as forgetSession() now, and as freezePicture() when the next session begins.
+  void expectNextSession() {
+    forgetSession();
+    m_freezes = true;
+    m_pause = {};
+  }
+  /// Since expectNextSession(), the longest time between two pictures.
+  Clock::duration pause() const { return m_pause; }
   bool isOver() const { return m_connection.isOver(); }
   const std::string& sentence() const { return m_connection.sentence(); }
   const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
@@ -121,12 +109,18 @@ class RecoveryClient {
   std::uint32_t pictureTick() const { return m_frozen_tick; }
   void freezePicture() {
     if (const ClientSession* p_session = session()) keepPicture(*p_session);
-    m_frozen = std::exchange(m_picture, std::nullopt);
-    m_frozen_tick = m_picture_tick;
+    freezeLastPicture();
     m_whole = WholePicture();
   }
+  /// The newest that it had by then.
+  std::uint32_t frozenAfter() const { return m_frozen_after; }
 
  private:
+  void freezeLastPicture() {
+    m_frozen = std::exchange(m_picture, std::nullopt);
+    m_frozen_tick = m_picture_tick;
+    m_frozen_after = m_whole.tick();
+  }
   void keepPicture(const ClientSession& session) {
     if (!m_whole.isWhole()) return;
     m_picture = session.replica().render(m_whole.tick());
@@ -139,9 +133,14 @@ class RecoveryClient {
   WholePicture m_whole;
   std::optional<df::Canvas> m_picture;
   std::uint32_t m_picture_tick = 0;
-  const ClientSession* m_p_before = nullptr;
+  int m_sessions = 0;
+  int m_sessions_before = 0;
+  bool m_freezes = false;
+  std::optional<Clock::time_point> m_pictured_at;
+  Clock::duration m_pause{};
   std::optional<df::Canvas> m_frozen;
   std::uint32_t m_frozen_tick = 0;
+  std::uint32_t m_frozen_after = 0;
 };
 
 RecoveryRun::RecoveryRun(const std::string& game, int players, std::uint64_t seed,
@@ -213,6 +212,16 @@ bool RecoveryRun::playUntilPictured() {
   return true;
 }
 
+bool RecoveryRun::playUntilTurn(std::uint32_t turn, std::chrono::seconds patience) {
+  const auto end = Clock::now() + patience;
+  const auto is_there = [&](const auto& client) { return client->newestTick() >= m_first_tick + turn; };
+  while (!std::all_of(m_clients.begin(), m_clients.end(), is_there)) {
+    if (Clock::now() > end) return false;
+    play(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
 std::filesystem::path RecoveryRun::round() const {
   for (const auto& entry : std::filesystem::directory_iterator(m_rounds)) return entry.path();
   return {};
@@ -220,7 +229,7 @@ std::filesystem::path RecoveryRun::round() const {
 
 std::uint32_t RecoveryRun::recoveredTurns() const {
   const std::string log = m_server->log();
-  const std::size_t at = log.find(kGoesOn);
+  const std::size_t at = log.rfind(kGoesOn);
   return at == std::string::npos
              ? 0
              : static_cast<std::uint32_t>(std::atoi(log.c_str() + at + std::string_view(kGoesOn).size()));
@@ -240,6 +249,12 @@ KillResult RecoveryRun::killTwice(std::chrono::milliseconds between) {
   m_log += m_server->log();
   for (const auto& client : m_clients) client->forgetSession();  // some may have been back there
   return comeBack();
+}
+
+KillResult RecoveryRun::killBoth() {
+  const pid_t world = worldOf(m_server->process());
+  if (world > 0) ::kill(world, SIGKILL);
+  return kill();
 }
 
 void RecoveryRun::killServer() {
@@ -273,7 +288,40 @@ KillResult RecoveryRun::comeBack() {
   startServer();
   const bool back = serveUntilJoined();
   result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_killed_at);
-  if (!back) result.problem = "not all are back: " + m_server->log();
+  judge(back, result);
+  return result;
+}
+
+// The command is answered just before the server begins again.
+KillResult RecoveryRun::keepRound() {
+  m_before.clear();
+  for (const auto& client : m_clients) {
+    m_before.push_back(client->welcome());
+    client->expectNextSession();
+  }
+  const auto began = Clock::now();
+  auto answer = std::async(std::launch::async, [path = m_server->control()] {
+    return Talk(path).ask(R"({"command":"restart","arguments":{"when":"keep"}})");
+  });
+  while (answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    play(std::chrono::milliseconds(5));
+  KillResult result;
+  const std::string said = answer.get();
+  if (said.find("The round goes on") == std::string::npos) result.problem = said + m_server->log();
+  const bool back = result.problem.empty() && serveUntilJoined() && playUntilPictured();
+  result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
+  m_seen = 0;
+  for (const auto& client : m_clients) {
+    m_seen = std::max(m_seen, client->frozenAfter());
+    result.pause =
+        std::max(result.pause, std::chrono::duration_cast<std::chrono::milliseconds>(client->pause()));
+  }
+  judge(back, result);
+  return result;
+}
+
+void RecoveryRun::judge(bool back, KillResult& result) {
+  if (!back) result.problem += "not all are back: " + m_server->log();
   for (std::size_t i = 0; i < m_clients.size(); ++i) {
     RecoveryClient& client = *m_clients[i];
     ++result.players;
@@ -294,7 +342,6 @@ KillResult RecoveryRun::comeBack() {
                      "; there are " + std::to_string(turns) + " turns:\n" + m_log + log;
   }
   if (result.problem.empty()) compare(result);
-  return result;
 }
 
 std::optional<std::chrono::milliseconds> RecoveryRun::killWorld() {

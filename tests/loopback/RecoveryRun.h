@@ -27,8 +27,9 @@ struct KillResult {
   std::uint32_t ticks_lost = 0;  ///< that a client had seen, and the round that goes on had not
   std::uint64_t cells = 0;       ///< compared: of the last picture that each client had whole
   std::uint64_t wrong_cells = 0;
-  std::chrono::milliseconds took{0};  ///< from the kill to the last client's new picture
-  std::string problem;                ///< the first, in words
+  std::chrono::milliseconds took{0};   ///< from the kill, or the command, to when the last client is back
+  std::chrono::milliseconds pause{0};  ///< of keepRound(): the longest between two pictures of a client
+  std::string problem;                 ///< the first, in words
 };
 
 /// The server's file of scores, held against those that the round adds when it is executed again.
@@ -61,9 +62,15 @@ class RecoveryRun {
   /// The same, but the next server is killed as well, so much later: while it executes the round again, or at
   /// some step of a client's return.
   KillResult killTwice(std::chrono::milliseconds between);
+  /// The same, but the world's process is killed just before the server is.
+  KillResult killBoth();
+  /// Let them play until the world has had so many turns since its first. False: it takes too long.
+  bool playUntilTurn(std::uint32_t turn, std::chrono::seconds patience);
   /// The two halves of kill().
   void killServer();
   KillResult comeBack();
+  /// dfctl restart --keep, while they play; then wait until all are back.
+  KillResult keepRound();
   /// Kill the world's process alone, and wait until its players see more of it, and go on to. How long it
   /// took to the last one's next picture; nothing: they do not go on, or not in the sessions that they had.
   std::optional<std::chrono::milliseconds> killWorld();
@@ -86,6 +93,7 @@ class RecoveryRun {
   /// By which dfreplay finds the game.
   std::string replayedGame() const { return m_game.find('/') != std::string::npos ? m_game : ""; }
   void waitForFirstTick();
+  void judge(bool back, KillResult& result);
   void compare(KillResult& result);
   std::uint32_t recoveredTurns() const;
   bool isLogged(const std::string& text);

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <random>
 #include <string>
@@ -61,6 +62,27 @@ TEST(Recovery, ScoresOutliveKillsAndAreThoseOfTheRound) {
   EXPECT_GT(check.kept, 0u) << run.log();
   EXPECT_EQ(check.missing, 0u) << "none is lost";
   EXPECT_EQ(check.foreign, 0u) << "none is there that the round does not add, or twice";
+}
+
+// dfctl restart --keep: the same as for a kill is true of the program that goes on.
+TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNobodyAndNothing) {
+  const int restarts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1;
+  std::mt19937_64 random(11);
+  RecoveryRun run(GetParam(), 2, random());
+  for (int i = 0; i < restarts; ++i) {
+    run.play(std::chrono::milliseconds(200 + random() % 300));
+    ASSERT_TRUE(run.playUntilPictured()) << i;
+    const KillResult result = run.keepRound();
+    EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
+    EXPECT_EQ(result.ticks_lost, 0u) << i << ": " << result.problem;
+    EXPECT_GT(result.cells, 0u) << i;
+    EXPECT_EQ(result.wrong_cells, 0u) << i << " of " << result.cells << ": " << result.problem;
+    RecordProperty("took_ms_" + std::to_string(i), static_cast<int>(result.took.count()));
+    RecordProperty("pause_ms_" + std::to_string(i), static_cast<int>(result.pause.count()));
+    if (HasFailure()) return;
+  }
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
 TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {

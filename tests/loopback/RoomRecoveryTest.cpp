@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "LobbyFixture.h"
+#include "ProcessesBelow.h"
 #include "host/journal/DfrWriter.h"
 #include "host/journal/OpenRound.h"
 #include "host/program/Journals.h"
@@ -134,6 +135,45 @@ TEST_F(RoomRecovery, EachPlayerIsBackInTheirRoomAsTheSamePlayer) {
   EXPECT_TRUE(serve([&] {
     return cid->session().welcome().room == "two" && shown(*cid).keys == shown(*bob).keys;
   })) << server->log();
+}
+
+// Two copies of a world wait at most, so three are of both rooms.
+TEST_F(RoomRecovery, AWorldThatCrashesGoesOnFromACopyAndTheOtherRoomNoticesNothing) {
+  startJournaled();
+  auto ann = join("ann", "one");
+  auto bob = join("bob", "two");
+  type(*ann, 2);
+  type(*bob, 2);
+  ASSERT_TRUE(serve([&] { return processesOf(server->process(), "df-copy").size() >= 3; })) << server->log();
+  const std::size_t heard_by_bob = bob->session().chat().size();
+  const ClientSession* p_ann = &ann->session();
+  const ClientSession* p_bob = &bob->session();
+  const int seen_by_ann = shown(*ann).ticks;
+  int seen_by_bob = shown(*bob).ticks;
+  press(*ann, df::Keyboard::C);
+  ASSERT_TRUE(serve([&] {
+    EXPECT_GE(shown(*bob).ticks, seen_by_bob);
+    seen_by_bob = shown(*bob).ticks;
+    return server->log().find("room one: the game goes on: ") != std::string::npos &&
+           shown(*ann).ticks > seen_by_ann + 50;
+  })) << server->log();
+  EXPECT_NE(server->log().find("room one: the game goes on: a copy of its world executed "),
+            std::string::npos)
+      << server->log();
+  EXPECT_EQ(&ann->session(), p_ann);
+  EXPECT_EQ(&bob->session(), p_bob);
+  EXPECT_EQ(shown(*ann).keys, 2) << "without the one that it died of";
+  EXPECT_EQ(bob->session().chat().size(), heard_by_bob);
+  EXPECT_EQ(server->log().find("room two: the game"), std::string::npos) << server->log();
+  type(*ann, 1);
+  type(*bob, 1);
+  kill();
+  startJournaled();
+  ASSERT_TRUE(serveUntilBack()) << server->log();
+  ASSERT_TRUE(serve([&] { return returned() == 2; })) << server->log();
+  ASSERT_TRUE(serve([&] { return shown(*ann).process > 0 && shown(*bob).process > 0; }));
+  EXPECT_EQ(shown(*ann).keys, 3);
+  EXPECT_EQ(shown(*bob).keys, 3);
 }
 
 // What the lobby knows of rooms is part of its round.

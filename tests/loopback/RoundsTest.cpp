@@ -325,8 +325,9 @@ class Upgrade : public Rounds {
  protected:
   void start(std::map<std::string, std::string> environment) {
     fs::create_directory(m_libraries);
-    std::ifstream file(fs::path(NAIAD_BINARY_DIR).parent_path() / "lib" / kLibrary, std::ios::binary);
-    m_code.assign(std::istreambuf_iterator<char>(file), {});
+    const fs::path built = fs::path(NAIAD_BINARY_DIR).parent_path() / "lib" / kLibrary;
+    m_code.resize(fs::file_size(built));  // with a sanitizer far too long to be read byte by byte
+    std::ifstream(built, std::ios::binary).read(m_code.data(), static_cast<std::streamsize>(m_code.size()));
     write(m_code);
     environment["LD_LIBRARY_PATH"] = m_libraries;
     Rounds::start(std::move(environment));

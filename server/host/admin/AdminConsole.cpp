@@ -132,6 +132,8 @@ void AdminConsole::execute(const AdminRequest& request, const AdminCaller& calle
   if (command.name == "unban") return unban(request, done);
   if (command.name == "password") return changePassword(request, std::move(done));
   if (command.name == "reload") return reload(std::move(done));
+  if (command.name == "restart" && request.of("when") == "keep" && !request.has("span"))
+    return m_setup.target.keepRound(std::move(done));
   if (command.name == "scores") return scores(request, std::move(done));
   done(answerNow(request, caller));
 }

@@ -65,6 +65,9 @@ class AdminTarget {
 
   virtual AdminAnswer stop(const std::string& sentence) = 0;
   virtual AdminAnswer restart(const AdminRestart& restart) = 0;
+  /// Begin again in the program that is installed by now, and go on with the round there, if that can be.
+  /// `done` is called once, on the host's thread: now, or when it has been tried out.
+  virtual void keepRound(std::function<void(AdminAnswer)> done) = 0;
   /// Nothing: as long as the server's own option says.
   virtual AdminAnswer drain(std::optional<std::chrono::seconds> most) = 0;
   virtual AdminAnswer cancel() = 0;

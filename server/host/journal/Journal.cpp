@@ -24,6 +24,7 @@ Journal::Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, Dfr
       m_begun(goes_on.has_value()) {}
 
 bool Journal::add(std::string_view record) {
+  if (m_left) return false;
   if (m_stopped.load(std::memory_order_relaxed) || m_overflowed.load(std::memory_order_relaxed)) return false;
   if (m_ring.store(record)) return true;
   const std::lock_guard lock(m_mutex);
@@ -38,11 +39,17 @@ void Journal::addFacts(DfrFacts facts) {
 }
 
 void Journal::finish(const std::string& why) {
+  if (m_left) return;
   {
     const std::lock_guard lock(m_mutex);
     m_why = why;
   }
   m_finished = true;
+}
+
+void Journal::leaveOpen() {
+  m_left = true;
+  m_ring.leave();
 }
 
 std::optional<std::string> Journal::takeProblem() {

@@ -35,6 +35,13 @@ class Journal {
   void addFacts(DfrFacts facts);
   /// The round is over.
   void finish(const std::string& why);
+  /// Another program goes on with the round: nothing more is added, and the file is not said to be at its
+  /// end. What was added is written.
+  void leaveOpen();
+  /// The round is not over, and all of it is written down.
+  bool isOpen() const { return !m_stopped && !m_finished && !m_overflowed && !m_left; }
+  /// It stopped before the round was over.
+  bool hasStopped() const { return (m_stopped && !m_finished) || m_overflowed; }
   /// Is the writer wanted before its time?
   bool isFilling() const { return m_ring.isFilling(); }
   /// Why the journal stopped, once; nothing while it goes on.
@@ -64,6 +71,8 @@ class Journal {
   std::unique_ptr<JournalSink> m_sink;
   DfrTurnPacker m_packer;
   bool m_begun = false;
+
+  bool m_left = false;  ///< the tick thread's
 };
 
 }  // namespace naiad

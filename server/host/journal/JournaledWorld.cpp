@@ -157,7 +157,7 @@ void JournaledWorld::checkProcess(std::uint32_t tick) {
     m_repeating = true;
     const std::string difference = m_book.find_difference ? m_book.find_difference() : std::string();
     begin();
-    difference.empty() ? repeatNextTurn() : endRecovery(difference);
+    difference.empty() ? repeatTurns() : endRecovery(difference);
   }
   if (const auto end = m_world->end(); end && !m_unrecovered) {
     if (takeOver(*end)) return;
@@ -195,9 +195,22 @@ void JournaledWorld::noteSession(const KeptSession& session) {
   store();
 }
 
-void JournaledWorld::repeatNextTurn() {
-  const auto turn = m_book.recovery->nextTurn();
-  turn ? sendTurn(*turn) : closeRecovery();
+// Several are under way at once: neither end waits for the other then. Behind the first one, for which a
+// world has longer than for the others.
+void JournaledWorld::repeatTurns() {
+  const std::uint32_t limit = m_book.recovery->turns() == 0 ? 1 : m_world->turnsAhead();
+  while (m_unanswered < limit) {
+    const auto turn = m_book.recovery->nextTurn();
+    if (!turn) break;
+    ++m_unanswered;
+    sendTurn(*turn);
+  }
+  if (m_unanswered == 0) closeRecovery();
+}
+
+// The one that the world is at.
+std::uint32_t JournaledWorld::currentTick() const {
+  return m_ticks - (std::max(m_unanswered, 1u) - 1);
 }
 
 void JournaledWorld::sendTurn(const WorldTurn& turn) {
@@ -208,7 +221,6 @@ void JournaledWorld::sendTurn(const WorldTurn& turn) {
     input.seen.drawn += m_later;
     m_world->addInput(std::move(input));
   }
-  m_world->takeLeavers();  // of the tick before, who have been dismissed
   m_world->setHeard(turn.heard_player);
   if (turn.ends_game) m_world->endGame();
   m_world->setPictured(turn.pictured);
@@ -242,12 +254,15 @@ void JournaledWorld::endRepeatedTick() {
     storeResult();
     return endRecovery({});
   }
+  const std::uint32_t tick = currentTick();
+  --m_unanswered;
   const std::string difference = m_book.recovery->compareResult(*m_world);
-  if (!difference.empty() && m_by_copy) return m_world->giveUp("is other in tick " + std::to_string(m_ticks));
+  if (!m_book.recovery->isAtEnd()) m_world->takeLeavers();  // who have been dismissed
+  if (!difference.empty() && m_by_copy) return m_world->giveUp("is other in tick " + std::to_string(tick));
   if (!difference.empty())
     return endRecovery("in tick " + std::to_string(m_book.recovery->turns()) + " " + difference);
   if (m_book.recovery->isResultMissing() && !isTakingOver()) storeResult();
-  m_world->isGameOver() ? endRecovery({}) : repeatNextTurn();
+  m_world->isGameOver() ? endRecovery({}) : repeatTurns();
 }
 
 // A world that takes over is then where its players are.
@@ -280,7 +295,7 @@ void JournaledWorld::endRecovery(const std::string& problem) {
 bool JournaledWorld::takeOver(const WorldEnd& end) {
   const bool failed = end.why == WorldEnd::kCrashed || end.why == WorldEnd::kHung;
   if (!failed || !m_book.new_world || !m_goes_on || !m_began) return false;
-  const auto tick = m_ticks;
+  const std::uint32_t tick = currentTick();
   if (m_by_copy && !m_book.recovery->isAtUnknownResult()) {
     say("a copy of the game's world " + end.text + " before it was where the world had been");
     return beginAgain(false);
@@ -324,7 +339,7 @@ bool JournaledWorld::repeatByCopy() {
   m_by_copy = m_repeating = true;
   m_ticks = mark->ticks;
   m_players = mark->players;
-  repeatNextTurn();
+  repeatTurns();
   return true;
 }
 
@@ -350,7 +365,7 @@ void JournaledWorld::prepareToRepeat(std::size_t records) {
   m_book.find_difference = {};  // of the world before
   m_book.recovery = std::make_unique<RoundRecovery>(std::make_shared<const OpenRound>(
       m_book.journal->header(), std::string_view(m_history).substr(records)));
-  m_ticks = 0;
+  m_ticks = m_unanswered = 0;
   m_players.clear();
   m_scores.clear();
   m_repeating = m_closing = false;

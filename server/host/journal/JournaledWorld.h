@@ -118,7 +118,7 @@ class JournaledWorld : public WorldPort {
   void store();
   void finish(const std::string& why);
   void noteInput(const df::InputQueue::Input& input);
-  void repeatNextTurn();
+  void repeatTurns();
   void sendTurn(const WorldTurn& turn);
   void closeRecovery();
   void endRepeatedTick();
@@ -126,6 +126,7 @@ class JournaledWorld : public WorldPort {
   void endRecovery(const std::string& problem);
   void listenToWorld();
   bool isTakingOver() const { return m_death.has_value(); }
+  std::uint32_t currentTick() const;
   bool takeOver(const WorldEnd& end);
   bool beginAgain(bool drops_keys);
   bool repeatByCopy();
@@ -150,8 +151,9 @@ class JournaledWorld : public WorldPort {
   std::string m_record;
 
   // Of a recovery.
-  bool m_repeating = false;  ///< it has begun
-  bool m_closing = false;    ///< the world has been sent the turn behind those of the file
+  bool m_repeating = false;        ///< it has begun
+  std::uint32_t m_unanswered = 0;  ///< turns that the world was sent
+  bool m_closing = false;          ///< the world has been sent the turn behind those of the file
   std::optional<std::vector<KeptSession>> m_sessions;
   std::vector<df::AddedScore> m_scores;  ///< of repeated turns, which the server may not know
   std::optional<WorldEnd> m_unrecovered;

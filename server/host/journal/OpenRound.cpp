@@ -24,16 +24,14 @@ std::string bytesOf(const std::string& path) {
 
 }  // namespace
 
-OpenRound::OpenRound(std::string path) : m_path(std::move(path)), m_bytes(bytesOf(m_path)) {
+OpenRound::OpenRound(std::string path) : m_path(std::move(path)) {
   std::error_code ignored;
   m_written_at = std::filesystem::last_write_time(m_path, ignored);
-  readAll();
+  readAll(bytesOf(m_path));
 }
 
-OpenRound::OpenRound(const DfrHeader& header, std::string_view records)
-    : m_bytes(spellDfrHeader(header) + spellDfrTurns(records, 0)) {
-  readAll();
-  m_records.clear();
+OpenRound::OpenRound(const DfrHeader& header, std::string_view records) {
+  readAll(spellDfrHeader(header) + spellDfrTurns(records, 0));
 }
 
 std::string OpenRound::fact(const std::string& name) const {
@@ -43,29 +41,24 @@ std::string OpenRound::fact(const std::string& name) const {
 
 // A file may end in the middle of a record, of which the next chunk had the rest: the journal goes on behind
 // the last chunk that ends with a record.
-void OpenRound::readAll() {
-  std::size_t whole = 0;
-  {
-    DfrReader reader(m_bytes);
-    if (!reader.problem().empty()) throw OpenRoundError(reader.problem());
-    m_header = reader.header();
-    reader.copyRecordsTo(m_records);
-    while (const auto record = reader.next()) {
-      if (const auto* p_turn = std::get_if<WorldTurn>(&*record)) noteTurn(*p_turn);
-      m_has_last_result = std::holds_alternative<TickResult>(*record) ||
-                          (m_has_last_result && !std::holds_alternative<WorldTurn>(*record));
-      if (const auto* p_session = std::get_if<KeptSession>(&*record)) noteSession(*p_session);
-    }
-    whole = reader.bytesOfWholeRecords();
-    m_facts = reader.facts();
-    m_over = reader.end() == DfrEnd::kDone;
-    if (m_over || whole == reader.wholeBytes()) {
-      m_place.emplace(reader.takePlace());
-      m_bytes.resize(whole);
-      return;
-    }
+void OpenRound::readAll(std::string_view bytes) {
+  DfrReader reader(bytes);
+  if (!reader.problem().empty()) throw OpenRoundError(reader.problem());
+  m_header = reader.header();
+  reader.copyRecordsTo(m_records);
+  while (const auto record = reader.next()) {
+    if (const auto* p_turn = std::get_if<WorldTurn>(&*record)) noteTurn(*p_turn);
+    m_has_last_result = std::holds_alternative<TickResult>(*record) ||
+                        (m_has_last_result && !std::holds_alternative<WorldTurn>(*record));
+    if (const auto* p_session = std::get_if<KeptSession>(&*record)) noteSession(*p_session);
   }
-  m_bytes.resize(whole);
+  m_whole_bytes = reader.bytesOfWholeRecords();
+  m_facts = reader.facts();
+  m_over = reader.end() == DfrEnd::kDone;
+  if (m_over || m_whole_bytes == reader.wholeBytes()) {
+    m_place.emplace(reader.takePlace());
+    return;
+  }
   m_turns = 0;
   m_last_turn = {};
   m_has_last_result = false;
@@ -73,7 +66,7 @@ void OpenRound::readAll() {
   m_sessions.clear();
   m_players.clear();
   m_down.clear();
-  readAll();
+  readAll(bytes.substr(0, m_whole_bytes));
 }
 
 void OpenRound::noteTurn(const WorldTurn& turn) {

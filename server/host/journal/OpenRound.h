@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -42,9 +41,9 @@ class OpenRound {
   bool isOver() const { return m_over; }
 
   /// Bytes of the file up to the end of its last whole record.
-  std::size_t wholeBytes() const { return m_bytes.size(); }
-  /// Its stream of records. Not of one from memory.
-  std::string takeRecords() { return std::move(m_records); }
+  std::size_t wholeBytes() const { return m_whole_bytes; }
+  /// Its stream of records, unpacked (TurnRecordReader).
+  const std::string& records() const { return m_records; }
   /// The file says what came of the last turn.
   bool hasLastResult() const { return m_has_last_result; }
   /// Turns that the world got.
@@ -66,17 +65,14 @@ class OpenRound {
   /// Where its journal goes on. Once.
   JournalPlace takePlace() { return std::move(*std::exchange(m_place, std::nullopt)); }
 
-  /// Reads it from the beginning. This outlives it.
-  std::unique_ptr<DfrReader> read() const { return std::make_unique<DfrReader>(m_bytes); }
-
  private:
-  void readAll();
+  void readAll(std::string_view bytes);
   void noteTurn(const WorldTurn& turn);
   void noteInput(const df::InputQueue::Input& input);
   void noteSession(const KeptSession& session);
 
   std::string m_path;
-  std::string m_bytes;
+  std::size_t m_whole_bytes = 0;
   std::string m_records;
   bool m_has_last_result = false;
   DfrHeader m_header;

@@ -4,8 +4,9 @@
 
 namespace naiad {
 
-RoundRecovery::RoundRecovery(std::shared_ptr<const OpenRound> round)
-    : m_round(std::move(round)), m_reader(m_round->read()) {}
+RoundRecovery::RoundRecovery(std::shared_ptr<const OpenRound> round) : m_round(std::move(round)) {
+  m_records.add(m_round->records());
+}
 
 int RoundRecovery::percent() const {
   const std::uint64_t all = m_round->turns();
@@ -14,7 +15,7 @@ int RoundRecovery::percent() const {
 
 std::optional<TurnRecord> RoundRecovery::nextRecord() {
   if (m_ahead) return std::exchange(m_ahead, std::nullopt);
-  while (auto record = m_reader->next()) {
+  while (auto record = m_records.next()) {
     if (!std::holds_alternative<RecordedPicture>(*record) && !std::holds_alternative<KeptSession>(*record))
       return record;
   }
@@ -25,11 +26,15 @@ std::optional<WorldTurn> RoundRecovery::nextTurn() {
   while (auto record = nextRecord()) {
     auto* p_turn = std::get_if<WorldTurn>(&*record);
     if (p_turn == nullptr) continue;
-    ++m_turns;
     m_ahead = nextRecord();
     if (m_ahead && std::holds_alternative<InputsDropped>(*m_ahead)) {
-      m_ahead.reset();
       dropKeys(*p_turn);
+      m_ahead = nextRecord();
+    }
+    auto& result = m_results.emplace_back();
+    if (m_ahead && std::holds_alternative<TickResult>(*m_ahead)) {
+      result = std::get<TickResult>(*m_ahead);
+      m_ahead.reset();
     }
     return std::move(*p_turn);
   }
@@ -37,18 +42,21 @@ std::optional<WorldTurn> RoundRecovery::nextTurn() {
 }
 
 std::string RoundRecovery::compareResult(const WorldPort& world) {
-  auto record = nextRecord();
-  const auto* p_result = record ? std::get_if<TickResult>(&*record) : nullptr;
-  m_result_missing = p_result == nullptr;
-  if (m_result_missing) {
-    m_ahead = std::move(record);
-    return {};
-  }
-  if (p_result->game_over != world.isGameOver())
+  ++m_turns;
+  const std::optional<TickResult> result = m_results.front();
+  m_results.pop_front();
+  m_result_missing = !result;
+  const std::string difference = result ? findDifference(*result, world) : std::string();
+  m_differs = m_differs || !difference.empty();
+  return difference;
+}
+
+std::string RoundRecovery::findDifference(const TickResult& result, const WorldPort& world) {
+  if (result.game_over != world.isGameOver())
     return world.isGameOver() ? "the game is over, and was not" : "the game goes on, and was over";
-  if (p_result->state_hash && p_result->state_hash != world.stateHash())
+  if (result.state_hash && result.state_hash != world.stateHash())
     return "the state of the world is another one";
-  if (p_result->has_check && p_result->check != checkOf(world.answerHash()))
+  if (result.has_check && result.check != checkOf(world.answerHash()))
     return "what the world answers is other than it was";
   return {};
 }

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/journal/OpenRound.h"
+#include "host/journal/TurnRecord.h"
 #include "host/world/WorldPort.h"
 
 namespace naiad {
@@ -17,20 +19,25 @@ class RoundRecovery {
  public:
   explicit RoundRecovery(std::shared_ptr<const OpenRound> round);
 
-  /// It has had the last one, and the file does not say what came of it.
-  bool isAtUnknownResult() const { return m_turns == m_round->turns() && !m_round->hasLastResult(); }
+  /// It is at the last one or has had it, the file does not say what came of it, and all before was the same.
+  bool isAtUnknownResult() const {
+    return m_turns + 1 >= m_round->turns() && !m_round->hasLastResult() && !m_differs;
+  }
+  /// It has had all of them.
+  bool isAtEnd() const { return m_turns == m_round->turns(); }
 
   const OpenRound& round() const { return *m_round; }
   /// How far it is, in percent.
   int percent() const;
 
-  /// The next turn of the file; nothing: the world has had all of them.
+  /// The next turn of the file; nothing: there is none. Several may be taken before the first is answered.
   std::optional<WorldTurn> nextTurn();
-  /// Hold what came of that turn against the file. Return what is other, as words; empty: nothing is.
+  /// Hold what came of the oldest turn that was not answered against the file. Return what is other, as
+  /// words; empty: nothing is.
   std::string compareResult(const WorldPort& world);
   /// The file does not say what came of that turn: the server was killed before it knew.
   bool isResultMissing() const { return m_result_missing; }
-  /// Turns that the world has had.
+  /// Turns that the world has answered.
   std::uint32_t turns() const { return m_turns; }
 
   /// The turn behind all of them (OpenRound::closingInputs). It is not watched, so that the next one that is
@@ -40,14 +47,18 @@ class RoundRecovery {
   std::vector<KeptSession> sessions() const;
 
  private:
+  static std::string findDifference(const TickResult& result, const WorldPort& world);
   /// The next record that says something of a turn.
   std::optional<TurnRecord> nextRecord();
 
   std::shared_ptr<const OpenRound> m_round;
-  std::unique_ptr<DfrReader> m_reader;
+  TurnRecordReader m_records;
   std::optional<TurnRecord> m_ahead;  ///< read while a result was looked for
+  /// Of the turns that are not answered; nothing: the file does not say it.
+  std::deque<std::optional<TickResult>> m_results;
   std::uint32_t m_turns = 0;
   bool m_result_missing = false;
+  bool m_differs = false;
 };
 
 }  // namespace naiad

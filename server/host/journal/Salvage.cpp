@@ -53,7 +53,7 @@ std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) 
 
 }  // namespace
 
-std::vector<std::string> salvageRounds(const std::string& folder) {
+std::vector<std::string> salvageRounds(const std::string& folder, const std::set<std::string>& left) {
   std::vector<std::string> said;
   std::set<std::string> rounds;
   std::error_code error;
@@ -69,6 +69,7 @@ std::vector<std::string> salvageRounds(const std::string& folder) {
     const auto added = complete(path, *ring);
     if (!added) continue;  // the next start may do better
     ring->remove();
+    if (left.contains(uuidText(header->uuid))) continue;
     said.push_back("the server was killed in the round " + path.string() +
                    ", which has all of its turns now");
   }

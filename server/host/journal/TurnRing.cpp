@@ -73,7 +73,7 @@ TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uui
 
 TurnRing::~TurnRing() {
   munmap(m_p_head, sizeof(Head) + m_capacity);
-  if (!m_path.empty()) unlink(m_path.c_str());
+  if (!m_path.empty() && !m_left) unlink(m_path.c_str());
   if (m_file >= 0) close(m_file);
 }
 

@@ -28,7 +28,7 @@ class TurnRing {
   /// unknown.
   TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
            std::uint64_t position = 0, std::uint64_t folder = 0);
-  /// The shared memory is removed.
+  /// The shared memory is removed, unless leave() was called.
   ~TurnRing();
   TurnRing(const TurnRing&) = delete;
   TurnRing& operator=(const TurnRing&) = delete;
@@ -36,6 +36,9 @@ class TurnRing {
   bool isShared() const { return !m_path.empty(); }
   /// Of the shared memory; empty if it is not shared.
   const std::string& path() const { return m_path; }
+
+  /// Another process goes on with the round, and takes what is in the shared memory from there (LeftRing).
+  void leave() { m_left = true; }
 
   /// Store bytes, for one thread. False, and none are stored: there is no room.
   bool store(std::string_view bytes);
@@ -67,6 +70,7 @@ class TurnRing {
 
   std::size_t m_capacity;
   std::string m_path;
+  bool m_left = false;
   int m_file = -1;  ///< of the shared memory, locked: as long as this process lives
   Head* m_p_head = nullptr;
 };

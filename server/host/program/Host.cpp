@@ -16,6 +16,7 @@
 #include "host/program/CrashReport.h"
 #include "host/program/NetworkReport.h"
 #include "host/program/Places.h"
+#include "host/program/RoundHandover.h"
 #include "host/program/StopSignals.h"
 #include "host/session/LookAlikes.h"
 #include "naiad.pb.h"
@@ -144,7 +145,9 @@ void Host::makePlaces() {
 AdminControls Host::adminControls() {
   return {[this](Ending::Plan plan) { end(std::move(plan)); },
           [this](std::function<void()> job) { asio::post(m_io, std::move(job)); },
-          [this] { return cancelEnd(); }, [this](Reloading done) { reload(std::move(done)); },
+          [this] { return cancelEnd(); },
+          [this](Reloading done) { reload(std::move(done)); },
+          [this](Reloading done) { keepRound(std::move(done)); },
           [this](const HostOptions& options) {
             takeOver(options, m_options);
             makePlaces();
@@ -236,6 +239,7 @@ void Host::end(Ending::Plan plan) {
   if (plan.at_round_end && (m_rooms.isPrivate() || m_rooms.isNamed()))
     plan.at_round_end = !(plan.when_empty = true);
   m_rooms.setLastRound(plan.at_round_end);
+  m_keeps_round = false;
   m_ending.setPlan(std::move(plan), Clock::now());
   if (m_metrics && !m_ending.isOpen()) m_metrics->beginDrain(true);
 }
@@ -243,6 +247,7 @@ void Host::end(Ending::Plan plan) {
 bool Host::cancelEnd() {
   m_rooms.setLastRound(false);
   m_rooms.forgetUpgrade();
+  m_keeps_round = false;
   if (m_metrics) m_metrics->cancelDrain();
   return m_ending.cancel();
 }
@@ -503,7 +508,10 @@ bool Host::isOver() const {
   return m_rooms.isOver() || is_due || counted_out || isDeserted(now);
 }
 
+// Players of a round that is kept lose the server, as if it had been killed.
 void Host::drain() {
+  m_is_draining = true;
+  if (keepsRound()) m_p_handover->leaveOpen(port());
   m_fleet.noteStopping();
   if (m_metrics) m_metrics->beginDrain(false);
   m_network.closeListener();
@@ -512,11 +520,12 @@ void Host::drain() {
   if (sentence.empty() || m_ending.beginsAgain()) sentence = m_ending.sentence();
   if (sentence.empty()) sentence = "The game is over.";
   const auto again = m_ending.beginsAgain() ? Ending::kLookAgain : std::chrono::seconds(0);
-  m_sessions.forEach([&](Session& session) { session.goodbye(sentence, again); });
+  if (!keepsRound()) m_sessions.forEach([&](Session& session) { session.goodbye(sentence, again); });
   m_rooms.closeWorlds();
   m_network.flush();
   const Clock::time_point end = Clock::now() + kDrainTime;
-  while ((!m_sessions.isEmpty() || !m_rooms.isEmpty()) && Clock::now() < end) {
+  const auto are_players_left = [this] { return !keepsRound() && !m_sessions.isEmpty(); };
+  while ((are_players_left() || !m_rooms.isEmpty()) && Clock::now() < end) {
     m_io.restart();
     m_io.run_one_until(m_rooms.isEmpty() ? end : std::min(end, Clock::now() + kDrainStep));
     sweep();

@@ -49,6 +49,8 @@
 
 namespace naiad {
 
+class RoundHandover;
+
 class Host : public df::Runner {
  public:
   using Log = LogLine;
@@ -130,6 +132,15 @@ class Host : public df::Runner {
   void reload(Reloading done);
   /// For lines of its game, which those who watch the server read, too (WatchFeed.h). Outlives what it gives.
   LogLine watchedGame(LogLine log) { return m_feed.watchedGame(std::move(log)); }
+  /// What `restart --keep` works with; outlives run(). Before run().
+  void setHandover(RoundHandover& handover) { m_p_handover = &handover; }
+  /// Begin again in the program that is installed by now, with the round that is being played. `done` is
+  /// called on the host's thread once that has been tried out: whether it can be, and a sentence without its
+  /// end. If not, the server begins again when all have left; or nothing has changed, for there is no round
+  /// to try it with. On the host's thread.
+  void keepRound(Reloading done);
+  /// run() has ended so that another program goes on with the round.
+  bool keepsRound() const { return m_keeps_round && beginsAgain(); }
   /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests inspect a
   /// running world with it).
   void post(std::function<void(df::World&)> job);
@@ -162,6 +173,8 @@ class Host : public df::Runner {
   void heedUpgrade();
   void sayToAll(const std::string& text);
   void adoptReloaded(Reloaded reloaded, const Reloading& done);
+  void finishProof(const std::string& problem, const Reloading& done);
+  void endWithoutRound(const std::string& problem, const Reloading& done);
   AdminControls adminControls();
   void makePlaces();
   void useIdentity(std::optional<ServerIdentity> identity);
@@ -206,6 +219,9 @@ class Host : public df::Runner {
   df::World* m_p_world = nullptr;
   Ending m_ending;
   std::optional<Reload> m_reload;
+  RoundHandover* m_p_handover = nullptr;  ///< null: no round can be kept
+  bool m_keeps_round = false;
+  bool m_is_draining = false;
   int m_heeded_signals = 0;
   Clock::time_point m_empty_since;
   Clock::time_point m_tick_began;

@@ -192,6 +192,13 @@ AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
   return AdminAnswer::done("The server restarts " + when + ".");
 }
 
+void HostAdmin::keepRound(std::function<void(AdminAnswer)> done) {
+  m_setup.controls.keep_round([done = std::move(done)](bool is_done, const std::string& sentence) {
+    const std::string text = sentence + ".";
+    done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
+  });
+}
+
 // Without a time of its own, or of the server's option: until the last one leaves.
 AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
   Ending::Plan plan{.when_empty = true};

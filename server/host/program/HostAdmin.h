@@ -25,6 +25,7 @@ struct AdminControls {
   std::function<void(std::function<void()> job)> post;  ///< run it on the host's thread; from any
   std::function<bool()> cancel_end;                     ///< false: nothing was planned
   std::function<void(std::function<void(bool is_done, const std::string& sentence)> done)> reload;
+  std::function<void(std::function<void(bool is_done, const std::string& sentence)> done)> keep_round;
   std::function<void(const HostOptions& options)> take_over;  ///< those that may change while it runs
 };
 
@@ -53,6 +54,7 @@ class HostAdmin : public AdminTarget {
   void setMuted(std::uint64_t session, bool muted) override;
   AdminAnswer stop(const std::string& sentence) override;
   AdminAnswer restart(const AdminRestart& restart) override;
+  void keepRound(std::function<void(AdminAnswer)> done) override;
   AdminAnswer drain(std::optional<std::chrono::seconds> most) override;
   AdminAnswer cancel() override;
   void reload(std::function<void(AdminAnswer)> done) override;

@@ -115,15 +115,20 @@ std::vector<fs::path> roundsOf(const std::string& folder, const std::string& gam
 }
 
 /// What of a round is not as this server would play it, in words; empty: nothing is.
-std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::uint64_t frame_nanos) {
+std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::uint64_t frame_nanos,
+                         const KeptRounds& kept) {
   if ((round.header().flags & kDfrStopped) != 0) return "its journal had stopped before";
   if ((round.header().flags & kDfrInProcess) != 0) return "the game ran in the server's own process";
   if (round.fact(kFactRepeatable) == "no") return "the game is not repeatable";
   if (round.header().frame_nanos != frame_nanos) return "its ticks have another length";
   if (round.fact(kFactClocks) != "repeatable") return "its clocks were real";
+  const auto proven = kept.find(uuidText(round.header().uuid));
   for (const char* p_name : {kFactModule, kFactPlayers, kFactGameOver, kFactSettings, kFactClocks}) {
     const auto here = expected.find(p_name);
-    if (round.fact(p_name) != (here != expected.end() ? here->second : std::string()))
+    const std::string value = here != expected.end() ? here->second : std::string();
+    const bool is_proven =
+        proven != kept.end() && std::string_view(p_name) == kFactModule && value == proven->second;
+    if (round.fact(p_name) != value && !is_proven)
       return "of its facts, " + std::string(p_name) + " is another one here";
   }
   for (const auto& [name, value] : expected) {
@@ -137,13 +142,14 @@ std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::
 
 // Only the newest one: from those before, players have gone on already.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
-                                         std::uint64_t frame_nanos, std::string& said) {
+                                         std::uint64_t frame_nanos, std::string& said,
+                                         const KeptRounds& kept) {
   for (const fs::path& path : roundsOf(folder, expected.at(kFactGame))) {
     try {
       auto round = std::make_unique<OpenRound>(path.string());
       if (round->fact(kFactPort) != expected.at(kFactPort)) continue;  // another server's
       if (round->isOver() || round->turns() == 0) return nullptr;
-      const std::string difference = differenceOf(*round, expected, frame_nanos);
+      const std::string difference = differenceOf(*round, expected, frame_nanos, kept);
       if (difference.empty()) return round;
       said = path.string() + ": " + difference;
     } catch (const OpenRoundError& error) {
@@ -197,6 +203,8 @@ Journals::Journals(const HostOptions& options, std::string game, const std::stri
       m_copies(options.players != "private"),
       m_facts(factsOfMachine()),
       m_log(std::move(log)),
+      m_is_private(options.players == "private"),
+      m_recovers(options.recover == "on"),
       m_shared(p_shared != nullptr ? std::move(p_shared) : std::make_shared<SharedJournals>()) {
   m_facts[kFactGame] = m_game;
   m_facts[kFactVersion] = kVersion;
@@ -210,7 +218,9 @@ Journals::Journals(const HostOptions& options, std::string game, const std::stri
     const std::size_t equals = entry.find('=');
     if (isGameVariable(entry)) m_facts[kFactVariable + entry.substr(0, equals)] = entry.substr(equals + 1);
   }
-  for (const std::string& sentence : salvageRounds(m_folder)) m_log(sentence);
+  std::set<std::string> left;
+  for (const auto& [uuid, hash] : m_shared->kept) left.insert(uuid);
+  for (const std::string& sentence : salvageRounds(m_folder, left)) m_log(sentence);
   findRound(options);
   m_log("each round is written down in " + m_folder);
   if (repeatPreload().empty())
@@ -244,7 +254,7 @@ std::string Journals::pathOf(const DfrHeader& header) const {
 void Journals::findRound(const HostOptions& options) {
   if (options.recover != "on") return;
   std::string why_not;
-  m_open = findOpenRound(m_folder, m_facts, m_frame_nanos, why_not);
+  m_open = findOpenRound(m_folder, m_facts, m_frame_nanos, why_not, m_shared->kept);
   if (m_open != nullptr && options.players == "private") {
     why_not = m_open->path() + ": worlds of single players are not gone on with";
     m_open.reset();
@@ -310,14 +320,17 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
     m_log({LogEvent::Level::kError, "the round cannot go on: " + std::string(error.what())});
   }
   if (book.journal == nullptr) return nullptr;
-  book.find_difference = [p_world = world.get(), round] {
-    for (const auto& [name, value] : factsOfStart(*p_world)) {
-      const std::string before = round->fact(name);
-      if (name.starts_with(kFactFile) && !before.empty() && before != value)
-        return "it reads another " + name + " than it did";
-    }
-    return std::string();
-  };
+  const bool is_kept = isKept(*round);
+  if (is_kept) book.journal->addFacts(m_facts);  // its game is this one from now on
+  if (!is_kept)
+    book.find_difference = [p_world = world.get(), round] {
+      for (const auto& [name, value] : factsOfStart(*p_world)) {
+        const std::string before = round->fact(name);
+        if (name.starts_with(kFactFile) && !before.empty() && before != value)
+          return "it reads another " + name + " than it did";
+      }
+      return std::string();
+    };
   book.on_recovered = [log = m_log, path, began = std::chrono::steady_clock::now(),
                        on_recovered = std::move(on_recovered)](std::uint32_t ticks,
                                                                const std::string& problem) {
@@ -331,13 +344,16 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
     log("the round goes on after " + std::to_string(ticks) + " ticks, which were executed again in " +
         std::to_string(took.count()) + " ms");
   };
-  m_log("the server was killed in a round, which is executed again: " + path);
-  book.history = round->takeRecords();
+  m_log((is_kept ? "the round is executed again in this program: "
+                 : "the server was killed in a round, which is executed again: ") +
+        path);
+  book.history = round->records();
   book.first_tick =
       static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
   book.new_world = std::move(another);
   book.recovery = std::make_unique<RoundRecovery>(round);
   m_shared->writer->add(book.journal);
+  noteCurrent(book.journal, path);
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
 }
 
@@ -388,14 +404,72 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
   book.new_world = std::move(another);
   if (again && m_shared->checked.insert(m_game).second) {
     book.check = std::make_unique<RepeatCheck>(
-        std::move(again), [log = m_log, journal = book.journal](const std::string& sentence) {
+        std::move(again),
+        [log = m_log, journal = book.journal, repeats = m_repeats](const std::string& sentence) {
+          *repeats = false;
           journal->addFacts({{kFactRepeatable, "no"}});
           log(LogEvent::warning(sentence));
         });
   }
   m_shared->writer->add(book.journal);
+  noteCurrent(book.journal, path);
   m_shared->writer->wake();  // a server that is killed within the first second leaves a file, too
   return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
+}
+
+// ---- a program that goes on in this one's place -----------------------------------------------------------
+
+namespace {
+
+/// Not an option: it is of one start, and no configuration.
+constexpr const char* kKeptVariable = "DF_KEPT_ROUNDS";
+
+}  // namespace
+
+KeptRounds takeKeptRounds() {
+  KeptRounds rounds;
+  const char* p_value = std::getenv(kKeptVariable);
+  std::istringstream words(p_value != nullptr ? p_value : "");
+  for (std::string uuid, hash; words >> uuid >> hash;) rounds[uuid] = hash;
+  unsetenv(kKeptVariable);
+  return rounds;
+}
+
+void Journals::announceKept(const KeptRounds& rounds) {
+  std::string text;
+  for (const auto& [uuid, hash] : rounds) text += uuid + " " + hash + " ";
+  setenv(kKeptVariable, text.c_str(), 1);
+}
+
+void Journals::noteCurrent(const std::shared_ptr<Journal>& journal, const std::string& file) {
+  m_current = journal;
+  m_current_file = file;
+}
+
+std::optional<Journals::CurrentRound> Journals::currentRound() const {
+  const auto journal = m_current.lock();
+  if (journal == nullptr || !journal->isOpen()) return std::nullopt;
+  return CurrentRound{uuidText(journal->header().uuid), m_current_file, journal->header().start_nanos};
+}
+
+std::string Journals::whyNotKept() const {
+  if (m_is_private) return "each player has a world of their own";
+  if (!m_recovers) return "--recover is off";
+  if (m_module.empty()) return "the game is a program of its own";
+  if (!*m_repeats) return "the game is not repeatable";
+  const auto journal = m_current.lock();
+  if (journal != nullptr && journal->hasStopped()) return "its journal has stopped";
+  const auto clocks = m_facts.find(kFactClocks);
+  return clocks == m_facts.end() || clocks->second != "repeatable" ? "the game's clocks are real"
+                                                                   : std::string();
+}
+
+void Journals::leaveOpen() {
+  if (const auto journal = m_current.lock()) journal->leaveOpen();
+}
+
+bool Journals::isKept(const OpenRound& round) const {
+  return m_shared->kept.contains(uuidText(round.header().uuid));
 }
 
 }  // namespace naiad

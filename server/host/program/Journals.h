@@ -1,8 +1,10 @@
 // The journals of a server's worlds: what is said of each round beside its turns, and where its file is.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -17,10 +19,18 @@
 
 namespace naiad {
 
+/// Rounds that a program which this process ran before has left open for this one: the uuid of each, and the
+/// hash of the module that has executed it again, to the same answers.
+using KeptRounds = std::map<std::string, std::string>;
+
+/// What Journals::announceKept() has said, once.
+KeptRounds takeKeptRounds();
+
 /// What the journals of a server's rooms have in common (RoomJournals.h).
 struct SharedJournals {
   std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
   std::set<std::string> checked = {};  ///< games of which a round has been held against another, or is
+  KeptRounds kept = takeKeptRounds();
 };
 
 class Journals {
@@ -51,7 +61,31 @@ class Journals {
   std::unique_ptr<WorldPort> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
                                   RepeatCheck::NewWorld again = {}, NewWorld another = {});
 
+  // For a program that goes on with the round in this one's place (RoundHandover.h).
+
+  /// A round that is being played and written down.
+  struct CurrentRound {
+    std::string uuid;
+    std::string file;
+    std::uint64_t start_nanos = 0;  ///< since 1970
+  };
+  /// Nothing: none is.
+  std::optional<CurrentRound> currentRound() const;
+  /// Why its rounds cannot go on elsewhere, as the rest of a sentence; empty: they can, if there are any.
+  std::string whyNotKept() const;
+  /// The path of the game's module; empty: it is a program of its own.
+  const std::string& module() const { return m_module; }
+  /// Wait until all that was added is on the disk, or for so long. Return whether it is. From any thread.
+  bool sync(std::chrono::milliseconds most) { return m_shared->writer->drain(most); }
+  /// Its journal is left as by a server that was killed. From now on nothing is written down.
+  void leaveOpen();
+  /// Say in the environment of the program that this process runs next that these rounds were executed again
+  /// by modules with these hashes (hashOfModule), and were the same: what those were before does not count.
+  static void announceKept(const KeptRounds& rounds);
+
  private:
+  bool isKept(const OpenRound& round) const;
+  void noteCurrent(const std::shared_ptr<Journal>& journal, const std::string& file);
   void findRound(const HostOptions& options);
   std::string pathOf(const DfrHeader& header) const;
   std::shared_ptr<Journal> goOnWriting(OpenRound& round) const;
@@ -67,14 +101,21 @@ class Journals {
   const bool m_copies;  ///< of worlds: three processes for each are too many where each player has one
   DfrFacts m_facts;
   LogLine m_log;
-  std::unique_ptr<OpenRound> m_open;  ///< to go on with
+  std::weak_ptr<Journal> m_current;
+  std::string m_current_file;
+  bool m_is_private = false;  ///< each player has a round of their own
+  bool m_recovers = true;
+  std::shared_ptr<bool> m_repeats = std::make_shared<bool>(true);  ///< the current round, as far as is known
+  std::unique_ptr<OpenRound> m_open;                               ///< to go on with
   std::shared_ptr<SharedJournals> m_shared;
 };
 
 /// The round that a server of this folder was killed in, if this one can go on with it: the same game with
 /// the same settings, on the same port, by `expected` facts. Else null, and `said` has why, if there is one.
+/// `kept`: rounds for which the game may be another version than it was.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
-                                         std::uint64_t frame_nanos, std::string& said);
+                                         std::uint64_t frame_nanos, std::string& said,
+                                         const KeptRounds& kept = {});
 
 /// The hash of a file by which a round says which game it was; empty if it cannot be read.
 std::string hashOfModule(const std::string& path);

@@ -58,6 +58,10 @@ StartCommand StartCommand::ofProcess() {
   return StartCommand(std::move(arguments));
 }
 
+std::vector<std::string> StartCommand::arguments() const {
+  return m_arguments.empty() ? m_arguments : std::vector(m_arguments.begin() + 1, m_arguments.end());
+}
+
 std::vector<const char*> StartCommand::argv() const {
   return pointersTo(m_arguments);
 }

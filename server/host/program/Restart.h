@@ -16,6 +16,10 @@ class StartCommand {
   /// The same, read from the process.
   static StartCommand ofProcess();
 
+  /// Its path.
+  const std::string& program() const { return m_program; }
+  /// Behind the program's name.
+  std::vector<std::string> arguments() const;
   int argc() const { return static_cast<int>(m_arguments.size()); }
   /// Ends with null; valid as long as this.
   std::vector<const char*> argv() const;

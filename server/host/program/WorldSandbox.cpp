@@ -270,6 +270,19 @@ void hidePassword(int argc, char** argv) {
   }
 }
 
+std::vector<std::string> withoutPasswords(const std::vector<std::string>& words) {
+  std::vector<std::string> left;
+  bool is_value = false;
+  for (const std::string& word : words) {
+    const bool follows = std::exchange(is_value, false);
+    const std::string name = word.substr(0, word.find('='));
+    const bool is_one = std::find(std::begin(kPasswords), std::end(kPasswords), name) != std::end(kPasswords);
+    is_value = is_one && name == word;
+    if (!follows && !is_one) left.push_back(word);
+  }
+  return left;
+}
+
 std::string configFileOf(int argc, const char* const* argv) {
   constexpr std::string_view kConfig = "--config";
   for (int i = 1; i < argc; ++i) {

@@ -45,6 +45,8 @@ bool isGameVariable(const std::string& entry);
 /// Overwrite the values of --password and --admin-password, which every process of this machine can read in a
 /// command line.
 void hidePassword(int argc, char** argv);
+/// The words of a command line without its passwords: for a program that is run beside this one.
+std::vector<std::string> withoutPasswords(const std::vector<std::string>& words);
 
 /// The file of --config; empty if there is none.
 std::string configFileOf(int argc, const char* const* argv);

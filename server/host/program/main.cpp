@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/auth/Seed.h"
+#include "host/net/ListeningSockets.h"
 #include "host/program/Announcement.h"
 #include "host/program/CrashReport.h"
 #include "host/program/GameModule.h"
@@ -21,6 +23,7 @@
 #include "host/program/Restart.h"
 #include "host/program/RoomJournals.h"
 #include "host/program/RoomLaunch.h"
+#include "host/program/RoundHandover.h"
 #include "host/program/WorldSandbox.h"
 #include "host/program/Worlds.h"
 #include "host/world/WorldServer.h"
@@ -133,9 +136,12 @@ struct Start {
   std::string config;                                ///< file of --config
   std::optional<std::uint16_t> again = {};           ///< to be run again on this port
   std::optional<naiad::InheritedSockets> kept = {};  ///< that it would be run again with
+  /// The same for one time, so that players of a round that goes on come to sockets that were open all along.
+  std::optional<naiad::InheritedSockets> handed_over = {};
 };
 
 void takeSockets(Start& start) {
+  if (const auto handed_over = naiad::takeHandedOver()) return naiad::useSockets(*handed_over, start.options);
   const auto sockets = naiad::InheritedSockets::take();
   if (!sockets) return;
   naiad::useSockets(*sockets, start.options);
@@ -144,6 +150,7 @@ void takeSockets(Start& start) {
 
 [[noreturn]] void runAgain(const Start& start) {
   if (start.kept) start.kept->putBack();
+  if (!start.kept && start.handed_over) naiad::handOver(*start.handed_over);
   start.command.run(*start.again);
 }
 
@@ -158,6 +165,14 @@ void watchReloads(const Start& start, naiad::Host& host, naiad::LineLog& lines) 
 
 void noteEnd(const naiad::Host& host, Start& start) {
   if (host.beginsAgain()) start.again = host.port();
+}
+
+/// The same of a host that may keep its rounds.
+void noteEnd(const naiad::Host& host, const naiad::RoundHandover& handover, Start& start) {
+  noteEnd(host, start);
+  if (!host.keepsRound()) return;
+  start.handed_over = handover.sockets();
+  handover.announce();
 }
 
 /// The game is loaded in its worlds alone: here it would have this process's key before it begins.
@@ -186,8 +201,10 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
       ", in worlds of their own");
   df::World& world = df::World::current();
   setUp(world, *preview.ready);
+  naiad::RoundHandover handover(start.command, {{"", journals}});
+  if (journals) host.setHandover(handover);
   host.run(world);
-  noteEnd(host, start);
+  noteEnd(host, handover, start);
   return host.failure().empty() ? kOk : failGame(host.failure());
 }
 
@@ -198,11 +215,10 @@ naiad::LogLine roomLog(naiad::LineLog& log, const std::string& room) {
   };
 }
 
-std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host, const naiad::HostOptions& options,
+std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host,
                                             const std::vector<naiad::LaunchedRoom>& launched,
+                                            const std::vector<std::shared_ptr<naiad::Journals>>& journals,
                                             naiad::LineLog& lines) {
-  const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
-  const auto journals = naiad::openRoomJournals(options, host.port(), launched, log);
   std::vector<naiad::Host::NamedRoom> rooms;
   rooms.reserve(launched.size());
   for (std::size_t i = 0; i < launched.size(); ++i) {
@@ -217,6 +233,17 @@ std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host, const naiad::Host
   return rooms;
 }
 
+/// What keeps the rounds of rooms; nothing: they are not written down.
+std::vector<naiad::RoundHandover::Room> keptRooms(
+    const std::vector<naiad::LaunchedRoom>& launched,
+    const std::vector<std::shared_ptr<naiad::Journals>>& journals) {
+  std::vector<naiad::RoundHandover::Room> rooms;
+  for (std::size_t i = 0; i < launched.size(); ++i) {
+    if (journals[i] != nullptr) rooms.push_back({launched[i].plan.name, journals[i]});
+  }
+  return rooms;
+}
+
 /// Each room has its game in worlds of its own.
 int serveRooms(Start& start, naiad::LineLog& lines) {
   const naiad::HostOptions& options = start.options;
@@ -225,15 +252,18 @@ int serveRooms(Start& start, naiad::LineLog& lines) {
   const std::vector<naiad::LaunchedRoom> launched = naiad::launchRooms(options, start.config, log, print);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   naiad::Host host(options, launched.front().plan.game, log);
-  host.setRooms(roomsOf(host, options, launched, lines));
+  const auto journals = naiad::openRoomJournals(options, host.port(), launched, log);
+  host.setRooms(roomsOf(host, launched, journals, lines));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) +
       " rooms on " + host.address());
   df::World& world = df::World::current();
   setUp(world, launched.front().plan.ready);
+  naiad::RoundHandover handover(start.command, keptRooms(launched, journals));
+  if (naiad::wantsJournal(options)) host.setHandover(handover);
   host.run(world);
-  noteEnd(host, start);
+  noteEnd(host, handover, start);
   return kOk;
 }
 

@@ -106,6 +106,8 @@ class WorldPort {
 
   // A round of a server that was killed, which is executed again until it is where it was.
 
+  /// So many ticks may be begun before the first of them has ended, once the world has ended one.
+  virtual std::uint32_t turnsAhead() const { return 1; }
   /// How far that is, in percent; nothing: there is no such round, or its sessions have been taken.
   virtual std::optional<int> recovering() const { return std::nullopt; }
   /// Once, when recovering() has come to its end: the sessions that its players had.

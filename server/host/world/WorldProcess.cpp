@@ -138,22 +138,45 @@ std::uint32_t WorldProcess::addInput(df::InputQueue::Input input) {
 }
 
 void WorldProcess::tick(bool watched, bool truth) {
+  if (m_state >= State::kEnding) return;  // one of those sent ahead has failed
   if (!std::exchange(m_began, true)) {
     m_later = m_next_tick - 1;
     m_views.emplace(m_later);
   }
   ++m_next_tick;
-  m_in_tick = true;
   m_turn.watched = watched;
   m_turn.wants_truth = truth;
   m_turn.pictured = m_pictured;
-  if (!writeTurn(std::exchange(m_turn, {}), m_out)) return fail(WorldEnd::kBroken, "was asked too much");
+  if (!writeTurn(std::exchange(m_turn, {}), m_frame)) return fail(WorldEnd::kBroken, "was asked too much");
+  m_sent.push_back({std::exchange(m_hashes, false), std::exchange(m_copies_now, false)});
+  if (m_sent.size() == 1) beginTick();
+  m_unsent += m_frame;
+  sendTurns();
+}
+
+void WorldProcess::beginTick() {
   m_state = State::kTicking;
   m_waited = {};
   m_effort.restart();
   m_warned = m_stop_noted = false;
-  // A failure shows when the answer is read.
-  asio::async_write(m_socket, asio::buffer(m_out), [](const asio::error_code&, std::size_t) {});
+}
+
+// A failure shows when the answer is read.
+void WorldProcess::sendTurns() {
+  if (m_unsent.empty() || std::exchange(m_sending, true)) return;
+  m_out.swap(m_unsent);
+  m_unsent.clear();
+  asio::async_write(m_socket, asio::buffer(m_out),
+                    [self = std::weak_ptr(m_self)](const asio::error_code& error, std::size_t) {
+                      const auto p_self = self.lock();
+                      if (p_self == nullptr || error) return;
+                      (*p_self)->m_sending = false;
+                      (*p_self)->sendTurns();
+                    });
+}
+
+std::uint32_t WorldProcess::currentTick() const {
+  return m_next_tick - std::max<std::uint32_t>(static_cast<std::uint32_t>(m_sent.size()), 1);
 }
 
 // ---- up ---------------------------------------------------------------------------------------------------
@@ -192,12 +215,15 @@ void WorldProcess::onFrame() {
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
     answer->leavers.insert(answer->leavers.begin(), m_answer.leavers.begin(), m_answer.leavers.end());
     m_answer = *std::move(answer);
-    m_answer_hash = std::exchange(m_hashes, false) ? hashAnswer(m_in) : 0;
-    m_in_tick = false;
-    if (std::exchange(m_copies_now, false)) m_copies.add({m_next_tick, *m_views, m_view});
+    const SentTurn sent = m_sent.front();
+    const std::uint32_t next_tick = currentTick() + 1;
+    m_sent.pop_front();
+    m_answer_hash = sent.hashed ? hashAnswer(m_in) : 0;
+    if (sent.copied) m_copies.add({next_tick, *m_views, m_view});
   }
   m_state = State::kReady;
   m_waited = {};
+  if (!m_sent.empty()) beginTick();
   readHead();
   if (m_answer.game_over) {
     m_state = State::kEnding;
@@ -309,7 +335,7 @@ void WorldProcess::countTime(Clock::time_point now) {
 
 void WorldProcess::warnOfHang() {
   if (m_state != State::kTicking) return;
-  const std::string tick = "tick " + std::to_string(m_next_tick - 1);
+  const std::string tick = "tick " + std::to_string(currentTick());
   if (m_effort.stopped() >= m_hang_time && !std::exchange(m_stop_noted, true))
     m_warning = "the game is stopped in " + tick + ", by a debugger or a signal, and all players wait";
   if (m_waited < m_hang_time || std::exchange(m_warned, true)) return;
@@ -383,7 +409,9 @@ void WorldProcess::become(WorldCopy copy) {
   m_failure.reset();
   m_end.reset();
   m_warning.reset();
-  m_in_tick = m_expected = m_copies_now = false;
+  m_expected = m_copies_now = m_hashes = m_sending = false;
+  m_sent.clear();
+  m_unsent.clear();
   m_repeats = true;
   m_waited = {};
   m_state = State::kReady;
@@ -401,14 +429,14 @@ WorldEnd WorldProcess::endOf(int status) const {
   if (WIFEXITED(status) && WEXITSTATUS(status) != 0)
     return {WorldEnd::kCrashed, "ended with code " + std::to_string(WEXITSTATUS(status)),
             WEXITSTATUS(status)};
-  return {WorldEnd::kGameOver, m_in_tick && !m_expected && WIFEXITED(status) ? kExited : "is over"};
+  return {WorldEnd::kGameOver, !m_sent.empty() && !m_expected && WIFEXITED(status) ? kExited : "is over"};
 }
 
 // By the host's numbers, as the log's other lines have them.
 std::string WorldProcess::when() const {
   if (!m_began) return {};
-  const std::string number = std::to_string(m_next_tick - 1);
-  return m_in_tick ? "in tick " + number + activity("handled") : "after tick " + number;
+  const std::string number = std::to_string(currentTick());
+  return !m_sent.empty() ? "in tick " + number + activity("handled") : "after tick " + number;
 }
 
 std::string WorldProcess::activity(std::string_view verb) const {

@@ -8,6 +8,7 @@
 #include <asio/io_context.hpp>
 #include <asio/local/stream_protocol.hpp>
 #include <chrono>
+#include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -40,6 +41,8 @@ class WorldProcess : public WorldPort {
   static constexpr std::chrono::seconds kEndTime{1};
   /// Keys and clicks that wait for a world, at most; those beyond are dropped.
   static constexpr std::size_t kMaxInputs = 16'384;
+  /// Of turnsAhead(): some milliseconds of most games.
+  static constexpr std::uint32_t kTurnsAhead = 32;
 
   /// Takes over the process and the descriptors. `home` runs its handlers. `print`: gets the lines that it
   /// prints, from checkProcess(); empty: they are dropped.
@@ -60,6 +63,7 @@ class WorldProcess : public WorldPort {
   }
   std::uint64_t answerHash() const override { return m_answer_hash; }
   std::optional<std::uint64_t> stateHash() const override { return m_answer.state_hash; }
+  std::uint32_t turnsAhead() const override { return kTurnsAhead; }
   void tick(bool watched, bool truth) override;
   /// Before the first tick: that of the host's. From there on it counts its own.
   std::uint32_t nextTick() const override { return m_next_tick; }
@@ -94,6 +98,8 @@ class WorldProcess : public WorldPort {
     kEnded,
   };
 
+  void beginTick();
+  void sendTurns();
   void readHead();
   void readFields();
   void onFrame();
@@ -109,7 +115,9 @@ class WorldProcess : public WorldPort {
   template <class Message>
   std::optional<Message> takeFromKeeper(int patience_millis);
   std::chrono::nanoseconds patience() const;
-  bool isInFirstTick() const { return m_next_tick == m_later + 2; }
+  bool isInFirstTick() const { return currentTick() == m_later + 1; }
+  /// The one that the world is at, or was at last.
+  std::uint32_t currentTick() const;
   void countTime(Clock::time_point now);
   void warnOfHang();
   void kill();
@@ -139,21 +147,29 @@ class WorldProcess : public WorldPort {
   std::uint32_t m_pictured = 0;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
-  bool m_in_tick = false;     ///< one was sent, and not answered
   bool m_warned = false;      ///< of this tick, that it hangs
   bool m_stop_noted = false;  ///< of this tick, that it is stopped
   std::optional<std::string> m_warning;
   bool m_expected = false;  ///< to end: the game is over, or the host closed it
-  bool m_hashes = false;    ///< the next answer is hashed
+  bool m_hashes = false;    ///< the next turn's answer is to be hashed
   std::uint64_t m_answer_hash = 0;
   WorldTurn m_turn;  ///< the next one
-  std::string m_out;
+  /// Of a turn that was sent and not answered.
+  struct SentTurn {
+    bool hashed = false;
+    bool copied = false;
+  };
+  std::deque<SentTurn> m_sent;
+  std::string m_frame;
+  std::string m_unsent;
+  std::string m_out;  ///< that is being sent
+  bool m_sending = false;
   std::string m_in;
   std::optional<ViewReader> m_views;
   df::WorldView m_view;
   WorldAnswer m_answer;
   WorldCopies m_copies;
-  bool m_copies_now = false;  ///< behind the tick that is under way
+  bool m_copies_now = false;  ///< behind the next turn
   bool m_repeats = false;     ///< what it prints was printed
   std::shared_ptr<WorldProcess*> m_self = std::make_shared<WorldProcess*>(this);  ///< handlers may come later
 };

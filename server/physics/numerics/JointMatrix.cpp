@@ -123,6 +123,10 @@ void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointM
   m_is_chain = m_size > 0 && filled() == m_size - 1;
   for (int j = 0; j + 1 < m_size && m_is_chain; ++j)
     m_is_chain = m_begin[at(j)] == j && m_row[at(j)] == j + 1;
+  bool is_band = m_size > 1;
+  for (int j = 0; j < m_size && is_band; ++j)
+    is_band = m_begin[at(j)] == m_begin[at(j) + 1] || m_row[at(m_begin[at(j) + 1]) - 1] <= j + kBand;
+  m_band.assign(is_band ? at(kBand * (m_size + kBand)) : 0, 0);
   m_targets.clear();
   for (const std::vector<int>& column : columns) {
     for (std::size_t p = 0; p < column.size(); ++p) {
@@ -195,6 +199,12 @@ int JointMatrix::factor(const JointRow* rows, const JointMass* masses, const std
     }
     m_inverse[at(j)] = inverse;
   }
+  if (isBand()) {
+    for (int j = 0; j < m_size; ++j) {
+      for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p)
+        m_band[at(kBand * (j + kBand) + m_row[at(p)] - j - 1)] = m_lower[at(p)];
+    }
+  }
   return dependent;
 }
 
@@ -206,6 +216,7 @@ void JointMatrix::solve(double* x) const {
     for (int j = m_size - 2; j >= 0; --j) x[j] = x[j] * m_inverse[at(j)] - lower[j] * x[j + 1];
     return;
   }
+  if (isBand()) return solveBand(x);
   for (int j = 0; j < m_size; ++j) {
     const double value = x[j];
     for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p) x[m_row[at(p)]] -= m_lower[at(p)] * value;
@@ -214,6 +225,28 @@ void JointMatrix::solve(double* x) const {
     double value = x[j] * m_inverse[at(j)];
     for (int p = m_begin[at(j)]; p < m_begin[at(j) + 1]; ++p) value -= m_lower[at(p)] * x[m_row[at(p)]];
     x[j] = value;
+  }
+}
+
+// The same operations in the same order. What the next row waits for stays in registers: in memory, a value
+// that was just stored takes longer to come back than a row takes to be computed.
+void JointMatrix::solveBand(double* x) const {
+  const double* column = m_band.data();  // begins with kBand columns of zeros
+  double last = 0, second = 0, third = 0;
+  for (int j = 0; j < m_size; ++j, column += kBand) {
+    const double value = ((x[j] - column[2] * third) - column[kBand + 1] * second) - column[2 * kBand] * last;
+    third = second;
+    second = last;
+    x[j] = last = value;
+  }
+  last = second = third = 0;
+  column = m_band.data() + at(kBand * (m_size + kBand - 1));
+  for (int j = m_size - 1; j >= 0; --j, column -= kBand) {
+    const double value =
+        ((x[j] * m_inverse[at(j)] - column[0] * last) - column[1] * second) - column[2] * third;
+    third = second;
+    second = last;
+    x[j] = last = value;
   }
 }
 

@@ -49,11 +49,17 @@ class JointMatrix {
 
   /// Does each row share a body with the next one, and with no other?
   bool isChain() const { return m_is_chain; }
+  /// Is no entry more than kBand rows below the diagonal? So it is for chains of hinges.
+  bool isBand() const { return !m_band.empty(); }
   /// Entries below the diagonal that are not zero in the factor, and in the matrix.
   int filled() const { return static_cast<int>(m_row.size()); }
   int entries() const { return m_entries; }
 
  private:
+  static constexpr int kBand = 3;
+
+  void solveBand(double* x) const;
+
   struct Term {  // of an entry: rows i and k meet at a body
     int at, i, k, body;
     double sign;
@@ -70,6 +76,7 @@ class JointMatrix {
   std::vector<double> m_lower;
   std::vector<double> m_inverse;  // of the pivots
   std::vector<double> m_pivot;
+  std::vector<double> m_band;  // by column, the entries below the diagonal; empty: some are further below
 };
 
 }  // namespace naiad::physics

@@ -204,7 +204,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
         contact = old;
         old = m_contacts[at(old)].next;
       }
-      Manifold manifold;
+      Manifold& manifold = m_manifold;
       const ReferenceFace kept = contact >= 0 ? m_contacts[at(contact)].reference : ReferenceFace{};
       if (!collide(a.turned[at(i)], b.turned[at(j)], offset, margin, kept, manifold)) {
         if (contact >= 0) {

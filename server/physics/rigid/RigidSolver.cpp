@@ -16,15 +16,34 @@ constexpr double kBend =
     1e-6;  // of an impact's speed: a larger share of turning bends the path off its parabola
 constexpr double kAnySpeed = -1e12;  // a target that no contact reaches: it does not push
 
-double normalSpeed(const ContactPoint& p, Vec2 n, const RigidState& a, const RigidState& b) {
+/// What a contact changes of a body, and by how much: kept in registers while it is solved.
+struct Pushed {
+  explicit Pushed(const RigidState& state)
+      : velocity(state.velocity),
+        spin(state.spin),
+        inverse_mass(state.inverse_mass),
+        inverse_inertia(state.inverse_inertia) {}
+  void store(RigidState& state) const {
+    state.velocity = velocity;
+    state.spin = spin;
+  }
+
+  Vec2 velocity;
+  double spin, inverse_mass, inverse_inertia;
+};
+
+template <class Body>
+double normalSpeed(const ContactPoint& p, Vec2 n, const Body& a, const Body& b) {
   return dot(n, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin);
 }
 
-double slipSpeed(const ContactPoint& p, Vec2 t, const RigidState& a, const RigidState& b) {
+template <class Body>
+double slipSpeed(const ContactPoint& p, Vec2 t, const Body& a, const Body& b) {
   return dot(t, b.velocity - a.velocity) + (p.tangent_b * b.spin - p.tangent_a * a.spin);
 }
 
-void push(RigidState& a, RigidState& b, Vec2 direction, double lever_a, double lever_b, double impulse) {
+template <class Body>
+void push(Body& a, Body& b, Vec2 direction, double lever_a, double lever_b, double impulse) {
   a.velocity -= (a.inverse_mass * impulse) * direction;
   a.spin -= a.inverse_inertia * lever_a * impulse;
   b.velocity += (b.inverse_mass * impulse) * direction;
@@ -48,6 +67,7 @@ void setLevers(ContactPoint& p, Vec2 n, Vec2 arm_a, Vec2 arm_b, const RigidState
   const double tangent =
       mass + a.inverse_inertia * p.tangent_a * p.tangent_a + b.inverse_inertia * p.tangent_b * p.tangent_b;
   p.normal_mass = normal > 0 ? 1 / normal : 0;
+  p.normal_resistance = p.normal_mass > 0 ? 1 / p.normal_mass : 0;
   p.tangent_mass = tangent > 0 ? 1 / tangent : 0;
 }
 
@@ -92,7 +112,7 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   p.target = ((leaving + 0.5 * gain * left) * left - p.separation) / h;
 }
 
-void solveFriction(ContactConstraint& c, RigidState& a, RigidState& b) {
+[[gnu::always_inline]] inline void solveFriction(ContactConstraint& c, Pushed& a, Pushed& b) {
   const Vec2 t = perpendicular(c.normal);
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
@@ -104,7 +124,7 @@ void solveFriction(ContactConstraint& c, RigidState& a, RigidState& b) {
   }
 }
 
-double solveOne(ContactConstraint& c, ContactPoint& p, double target, RigidState& a, RigidState& b) {
+[[gnu::always_inline]] inline double solveOne(ContactConstraint& c, ContactPoint& p, double target, Pushed& a, Pushed& b) {
   const double missing = target - normalSpeed(p, c.normal, a, b);
   const double impulse = std::max(p.normal_impulse + p.normal_mass * missing, 0.0);
   const double more = impulse - p.normal_impulse;
@@ -114,9 +134,9 @@ double solveOne(ContactConstraint& c, ContactPoint& p, double target, RigidState
 }
 
 // The complementarity problem of two points, by looking at its four cases.
-double solveTwo(ContactConstraint& c, double target_p, double target_q, RigidState& a, RigidState& b) {
+[[gnu::always_inline]] inline double solveTwo(ContactConstraint& c, double target_p, double target_q, Pushed& a, Pushed& b) {
   ContactPoint &p = c.points[0], &q = c.points[1];
-  const double kp = 1 / p.normal_mass, kq = 1 / q.normal_mass;
+  const double kp = p.normal_resistance, kq = q.normal_resistance;
   const double missing_p = target_p - normalSpeed(p, c.normal, a, b);
   const double missing_q = target_q - normalSpeed(q, c.normal, a, b);
   // What is missing if neither pushed.
@@ -142,7 +162,7 @@ double solveTwo(ContactConstraint& c, double target_p, double target_q, RigidSta
   return std::max(std::fabs(more_p) * kp, std::fabs(more_q) * kq);
 }
 
-double solveNormals(ContactConstraint& c, RigidState& a, RigidState& b, bool is_second) {
+[[gnu::always_inline]] inline double solveNormals(ContactConstraint& c, Pushed& a, Pushed& b, bool is_second) {
   const auto target = [&](std::size_t i) { return is_second ? c.points[i].after : c.points[i].target; };
   if (c.inverse_determinant > 0) return solveTwo(c, target(0), target(1), a, b);
   double change = 0;
@@ -292,13 +312,17 @@ void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double 
 }
 
 double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_second) {
-  RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  RigidState &state_a = bodies[at(c.a)], &state_b = bodies[at(c.b)];
+  Pushed a(state_a), b(state_b);
   if (c.friction > 0) {
     // Friction needs something to press on.
     if (c.points[0].normal_warm + c.points[1].normal_warm == 0) solveNormals(c, a, b, is_second);
     solveFriction(c, a, b);
   }
-  return solveNormals(c, a, b, is_second);
+  const double change = solveNormals(c, a, b, is_second);
+  a.store(state_a);
+  b.store(state_b);
+  return change;
 }
 
 }  // namespace naiad::physics

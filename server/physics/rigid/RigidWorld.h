@@ -323,7 +323,8 @@ class RigidWorld final : public RigidStepper {
   std::vector<RigidEvent> m_events;
   std::vector<RigidEvent> m_earlier_events;  // of a long step's earlier parts
   RigidCounters m_counters;
-  double m_time = 0;  // within the step
+  double m_time = 0;    // within the step
+  Manifold m_manifold;  // of the pair at hand: one on the stack would be set to zero first
   double m_deepest = 0;
   double m_h = 0;
   bool m_active_changed = false;

@@ -2,6 +2,7 @@
 // it.
 //
 //   naiad_recovery kills GAME COUNT SEED   one line: what became of so many kills
+//   naiad_recovery long GAME COUNT SEED    the same, in a round of ten minutes
 //   naiad_recovery scores COUNT SEED       the same with a game that adds scores: its server keeps them
 //   naiad_recovery worlds GAME COUNT SEED  the same, of worlds under a server that lives
 //   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,7 +32,11 @@ using std::chrono::milliseconds;
 constexpr int kPlayers = 4;
 /// Kills in one round: each of them compares pictures by executing the round from its beginning.
 constexpr int kKillsInARound = 10;
-constexpr milliseconds kMostPlay{1500};
+constexpr milliseconds kMaxPlay{1500};
+/// Ticks of ten minutes, which here take 2 ms each.
+constexpr std::uint32_t kLongTurns = 18'000;
+constexpr std::chrono::microseconds kShortFrame{2'000};
+constexpr std::chrono::seconds kLongPatience{300};
 /// Two deaths of a world within a second are the same one, which ends the round.
 constexpr milliseconds kBetweenDeaths{1500};
 constexpr milliseconds kBetweenCopies{10'000};
@@ -61,16 +67,7 @@ void add(const KillResult& result, Total& total) {
   if (!result.problem.empty()) std::fprintf(stderr, "naiad_recovery: %s\n", result.problem.c_str());
 }
 
-/// Kills in one round, which is verified then.
-void runRound(const std::string& game, int kills, std::mt19937_64& random, Total& total) {
-  RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
-  for (int i = 0; i < kills; ++i) {
-    run.play(milliseconds(random() % static_cast<std::uint64_t>(kMostPlay.count())));
-    // One in three meets a server that has hardly begun.
-    const KillResult result = random() % 3 == 0 ? run.killTwice(milliseconds(random() % 700)) : run.kill();
-    add(result, total);
-    if (result.returned < result.players) return;
-  }
+void verify(RecoveryRun& run, Total& total) {
   ++total.rounds;
   std::string said;
   if (run.verify(said)) {
@@ -78,11 +75,50 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
   } else {
     std::fprintf(stderr, "naiad_recovery: %s\n", said.c_str());
   }
-  if (game != naiad::test::kScoresModule) return;
+}
+
+void checkScores(const RecoveryRun& run, Total& total) {
   const naiad::test::ScoreCheck check = run.checkScores();
   total.scores += check.kept;
   total.missing += check.missing;
   total.foreign += check.foreign;
+}
+
+/// The server, the server and the one after it, or the server with its world.
+KillResult killSomehow(RecoveryRun& run, std::mt19937_64& random) {
+  switch (random() % 4) {
+    case 0:
+      return run.killBoth();
+    case 1:
+      // It has hardly begun, or clients are on their way back.
+      return run.killTwice(milliseconds(random() % 700));
+    default:
+      return run.kill();
+  }
+}
+
+/// Kills in one round, which is verified then.
+void runRound(const std::string& game, int kills, std::mt19937_64& random, Total& total) {
+  RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
+  for (int i = 0; i < kills; ++i) {
+    run.play(milliseconds(random() % static_cast<std::uint64_t>(kMaxPlay.count())));
+    const KillResult result = killSomehow(run, random);
+    add(result, total);
+    if (result.returned < result.players) return;
+  }
+  verify(run, total);
+  if (game == naiad::test::kScoresModule) checkScores(run, total);
+}
+
+/// All of it is executed again after each kill.
+void runLongRound(const std::string& game, int kills, std::uint64_t seed, Total& total) {
+  RecoveryRun run(game, kPlayers, seed, kShortFrame);
+  if (!run.playUntilTurn(kLongTurns, kLongPatience)) throw std::runtime_error("the round does not get on");
+  for (int i = 0; i < kills; ++i) {
+    run.play(milliseconds(300));
+    add(run.kill(), total);
+  }
+  verify(run, total);
 }
 
 long percentile(std::vector<long> values, std::size_t percent) {
@@ -91,18 +127,34 @@ long percentile(std::vector<long> values, std::size_t percent) {
   return values[std::min(values.size() - 1, values.size() * percent / 100)];
 }
 
+int report(const char* suite, const std::string& game, const Total& total) {
+  std::printf(
+      "%s game=%s kills=%d players=%d returned=%d ticks_lost=%llu compared_cells=%llu wrong_cells=%llu "
+      "p50_ms=%ld p99_ms=%ld rounds=%d verified=%d\n",
+      suite, game.c_str(), total.kills, total.players, total.returned,
+      static_cast<unsigned long long>(total.ticks_lost), static_cast<unsigned long long>(total.cells),
+      static_cast<unsigned long long>(total.wrong_cells), percentile(total.took, 50),
+      percentile(total.took, 99), total.rounds, total.verified);
+  const bool good = total.returned == total.players && total.ticks_lost == 0 && total.wrong_cells == 0 &&
+                    total.verified == total.rounds;
+  return good ? 0 : 1;
+}
+
 /// False: it could not be done.
 bool killAll(const std::string& game, int count, std::uint64_t seed, Total& total) {
   std::mt19937_64 random(seed);
-  while (total.kills < count) {
-    try {
-      runRound(game, std::min(kKillsInARound, count - total.kills), random, total);
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-      return false;
-    }
+  try {
+    while (total.kills < count) runRound(game, std::min(kKillsInARound, count - total.kills), random, total);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
+    return false;
   }
   return true;
+}
+
+int kills(const std::string& game, int count, std::uint64_t seed) {
+  Total total;
+  return killAll(game, count, seed, total) ? report("recovery", game, total) : 1;
 }
 
 int scores(int count, std::uint64_t seed) {
@@ -117,19 +169,15 @@ int scores(int count, std::uint64_t seed) {
   return good ? 0 : 1;
 }
 
-int kills(const std::string& game, int count, std::uint64_t seed) {
+int longRound(const std::string& game, int count, std::uint64_t seed) {
   Total total;
-  if (!killAll(game, count, seed, total)) return 1;
-  std::printf(
-      "recovery game=%s kills=%d players=%d returned=%d ticks_lost=%llu compared_cells=%llu wrong_cells=%llu "
-      "p50_ms=%ld p99_ms=%ld rounds=%d verified=%d\n",
-      game.c_str(), total.kills, total.players, total.returned,
-      static_cast<unsigned long long>(total.ticks_lost), static_cast<unsigned long long>(total.cells),
-      static_cast<unsigned long long>(total.wrong_cells), percentile(total.took, 50),
-      percentile(total.took, 99), total.rounds, total.verified);
-  const bool good = total.returned == total.players && total.ticks_lost == 0 && total.wrong_cells == 0 &&
-                    total.verified == total.rounds;
-  return good ? 0 : 1;
+  try {
+    runLongRound(game, count, seed, total);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
+    return 1;
+  }
+  return report("long_round", game, total);
 }
 
 /// Worlds of one round are killed at any time since their newest copy.
@@ -181,6 +229,8 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() == 4 && words[0] == "kills")
     return kills(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
+  if (words.size() == 4 && words[0] == "long")
+    return longRound(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
   if (words.size() == 3 && words[0] == "scores")
     return scores(std::atoi(words[1].c_str()), std::strtoull(words[2].c_str(), nullptr, 10));
   if (words.size() == 4 && words[0] == "worlds")
@@ -188,7 +238,7 @@ int main(int argc, char** argv) {
   if (words.size() == 3 && words[0] == "journal")
     return journal(words[1], static_cast<std::uint32_t>(std::atoi(words[2].c_str())));
   std::fprintf(stderr,
-               "usage: naiad_recovery kills GAME COUNT SEED | scores COUNT SEED | worlds GAME COUNT SEED | "
-               "journal GAME TICKS\n");
+               "usage: naiad_recovery kills GAME COUNT SEED | long GAME COUNT SEED | scores COUNT SEED | "
+               "worlds GAME COUNT SEED | journal GAME TICKS\n");
   return 2;
 }

@@ -222,6 +222,21 @@ TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {
   EXPECT_TRUE(playTicks(10)) << "in another round";
 }
 
+// Nothing of it can go on elsewhere, and nothing ends for that.
+TEST_F(DiskTest, ARoundThatAFullDiskEndedTheJournalOfIsNotKept) {
+  start();
+  ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
+  set("full");
+  for (int i = 0; i < 2; ++i) {  // found by the proof, and known before it
+    const std::string said =
+        test::Talk(folder / "control.sock").ask(R"({"command":"restart","arguments":{"when":"keep"}})");
+    EXPECT_NE(said.find("The round cannot be kept: its journal has stopped"), std::string::npos) << said;
+  }
+  EXPECT_TRUE(playTicks(100));
+  const std::string cancelled = test::Talk(folder / "control.sock").ask(R"({"command":"cancel"})");
+  EXPECT_NE(cancelled.find("\"ok\":false"), std::string::npos) << "nothing was planned: " << cancelled;
+}
+
 TEST_F(DiskTest, ADiskThatCannotBeWrittenIsSaidAndTheGameGoesOn) {
   set("read-only");
   start();

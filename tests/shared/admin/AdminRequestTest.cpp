@@ -80,7 +80,7 @@ TEST(AdminRequest, SaysWhatIsWrong) {
   EXPECT_EQ(complaintAbout({"kick", ""}), "kick: player is empty.");
   EXPECT_EQ(complaintAbout({"who", "now"}), "Usage: who");
   EXPECT_EQ(complaintAbout({"vote", "ban", "Ann"}), "vote: \"ban\" is none of: kick.");
-  EXPECT_EQ(complaintAbout({"restart", "soon"}), "Usage: restart [now|at-round-end|in] [SPAN]");
+  EXPECT_EQ(complaintAbout({"restart", "soon"}), "Usage: restart [now|at-round-end|in|keep] [SPAN]");
   EXPECT_EQ(complaintAbout({"say", std::string(2000, 'x')}), "say: text is too long.");
 }
 

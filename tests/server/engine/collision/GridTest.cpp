@@ -6,6 +6,7 @@
 #include "engine/collision/Grid.h"
 #include "engine/collision/GridSteps.h"
 #include "engine/world/Random.h"
+#include "tests/support/Sanitizers.h"
 
 namespace df::test {
 namespace {
@@ -89,7 +90,7 @@ TEST(Grid, ABoxStepsWhereItTouchesNothing) {
   for (const int spread : {12, 60, 700, 2000000000}) {
     for (const int others : {0, 25, 100}) {  // percent: none, some, nearly all
       Filed it(1500);                        // so many that the level grows under way
-      for (int round = 0; round < 6000; ++round) {
+      for (int round = 0; round < 6000 / naiad::test::kShare; ++round) {
         const auto slot = static_cast<Grid::Slot>(random.below(1500));
         if (!it.filed[slot]) {
           it.put(slot, randomPosition(random, spread),

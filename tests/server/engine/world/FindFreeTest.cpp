@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/server/engine/Probe.h"
+#include "tests/support/Sanitizers.h"
 
 namespace df::test {
 namespace {
@@ -123,7 +124,7 @@ TEST_F(FindFree, FindsWhatATestOfAllObjectsFinds) {
   const auto within = [&](double low, double high) {
     return std::uniform_real_distribution<>(low, high)(random);
   };
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 60 / naiad::test::kShare; ++round) {
     world.shutDown();
     WM.setBoundary(Box(Vector(within(-30, -5), within(-30, -5)), within(10, 50), within(10, 50)));
     const int count = static_cast<int>(within(0, 250));

@@ -233,9 +233,11 @@ TEST_F(AdminConsoleTest, AMutedPlayerTellsNobodyAnything) {
 TEST_F(AdminConsoleTest, ARestartHasItsTime) {
   EXPECT_TRUE(give({"restart", "--in", "60s"}).ok);
   EXPECT_TRUE(give({"restart", "--at-round-end"}).ok);
+  EXPECT_TRUE(give({"restart", "--keep"}).ok);
+  EXPECT_FALSE(give({"restart", "keep", "5s"}).ok);
   EXPECT_FALSE(give({"restart", "in"}).ok);
   EXPECT_FALSE(give({"restart", "now", "60s"}).ok);
-  EXPECT_EQ(target.done, (std::vector<std::string>{"restart 2 60", "restart 1 0"}));
+  EXPECT_EQ(target.done, (std::vector<std::string>{"restart 2 60", "restart 1 0", "keep"}));
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ class FakeTarget : public AdminTarget {
     return note("restart " + std::to_string(static_cast<int>(restart.when)) + " " +
                 std::to_string(restart.in.count()));
   }
+  void keepRound(std::function<void(AdminAnswer)> done_trying) override { done_trying(note("keep")); }
   AdminAnswer drain(std::optional<std::chrono::seconds> most) override {
     return note("drain " + (most ? std::to_string(most->count()) : "as usual"));
   }

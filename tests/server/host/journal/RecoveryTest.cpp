@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -42,7 +43,7 @@ KeptSession sessionOf(std::uint32_t player) {
           .redeemed = {}};
 }
 
-/// Answers each turn at once, as it did when the round was recorded.
+/// Answers each turn as it did when the round was recorded.
 class EchoWorld : public WorldPort {
  public:
   std::uint32_t addInput(Input input) override {
@@ -52,17 +53,24 @@ class EchoWorld : public WorldPort {
   void setHeard(std::uint32_t player) override { heard = player; }
   void endGame() override {}
   bool isReady() const override { return ready && !ended; }
-  std::uint64_t answerHash() const override { return std::uint64_t{turns.size() % 200 + 1} << 56; }
+  std::uint64_t answerHash() const override { return std::uint64_t{answered % 200 + 1} << 56; }
+  std::uint32_t turnsAhead() const override { return ahead; }
   void tick(bool is_watched, bool /*truth*/) override {
     watched.push_back(is_watched);
     turns.push_back(std::exchange(m_inputs, {}));
-    m_scores = {{"arcade", {"ann", 5}, static_cast<std::uint32_t>(turns.size()), 0}};
-    pending = turns.size() != dies_at;
-    if (turns.size() == dies_at) ended = WorldEnd{WorldEnd::kCrashed, "crashed (SIGSEGV)"};
+    most_ahead = std::max(most_ahead, turns.size() - answered);
   }
   /// What a world in another process does: the tick ends later.
   void answer() {
-    while (std::exchange(pending, false)) reportTick();
+    while (answered < turns.size()) {
+      if (answered + 1 == dies_at) {
+        ended = WorldEnd{WorldEnd::kCrashed, "crashed (SIGSEGV)"};
+        return;
+      }
+      ++answered;
+      m_scores = {{"arcade", {"ann", 5}, static_cast<std::uint32_t>(answered), 0}};
+      reportTick();
+    }
   }
   std::uint32_t nextTick() const override { return 11 + static_cast<std::uint32_t>(turns.size()); }
   const df::WorldView& view() const override { return m_view; }
@@ -74,7 +82,9 @@ class EchoWorld : public WorldPort {
   std::optional<WorldEnd> end() const override { return ended; }
 
   bool ready = false;
-  bool pending = false;
+  std::uint32_t ahead = 1;
+  std::size_t answered = 0;
+  std::size_t most_ahead = 0;  ///< turns that were not answered at a time
   std::size_t dies_at = 0;
   std::uint32_t heard = 0;
   std::optional<WorldEnd> ended;
@@ -314,6 +324,38 @@ TEST_F(RecoveryTest, AWorldThatEndsMeanwhileIsNotGoneOnWith) {
   EXPECT_NE(said.find("crashed (SIGSEGV)"), std::string::npos) << said;
   ASSERT_TRUE(world->end());
   EXPECT_EQ(world->end()->why, WorldEnd::kNotRecovered);
+}
+
+TEST_F(RecoveryTest, SeveralTurnsAreUnderWayAtOnceBehindTheFirst) {
+  play();
+  goOn();
+  p_echo->ready = true;
+  p_echo->ahead = 8;
+  world->checkProcess(1);
+  EXPECT_EQ(p_echo->turns.size(), 1u) << "a world has longer for its first tick";
+  p_echo->answer();
+  EXPECT_EQ(p_echo->most_ahead, 8u);
+  EXPECT_EQ(recovered, 53u);
+  EXPECT_EQ(said, "");
+  ASSERT_EQ(p_echo->turns.size(), 54u);
+  EXPECT_EQ(p_echo->turns.back().size(), 1u) << "the closing turn comes when all are answered";
+}
+
+TEST_F(RecoveryTest, WhatIsOtherIsFoundAtItsTurnThoughMoreAreUnderWay) {
+  turn({joinOf(1)});
+  for (int i = 0; i < 9; ++i) turn({});
+  turn({}, false);
+  TickResult other;
+  other.has_check = true;
+  other.check = 255;
+  writer.write(other, records);
+  for (int i = 0; i < 9; ++i) turn({});
+  goOn();
+  p_echo->ready = true;
+  p_echo->ahead = 8;
+  world->checkProcess(1);
+  p_echo->answer();
+  EXPECT_NE(said.find("in tick 11 "), std::string::npos) << said;
 }
 
 TEST_F(RecoveryTest, TwoServersDoNotWriteOneFile) {

@@ -5,6 +5,7 @@
 
 #include "SimulatedWorld.h"
 #include "host/snapshot/Interest.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad {
 namespace {
@@ -77,7 +78,7 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
 
 TEST(Interest, EqualsThePlainRuleInEveryTick) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+  for (std::uint64_t seed = 0; seed < 120 / test::kShare; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     test::WorldConfig config;
     config.objects = 20 + 5 * (seed % 30);
@@ -85,12 +86,12 @@ TEST(Interest, EqualsThePlainRuleInEveryTick) {
     expectPlain(config, seed, seed % 3 == 0, compared);
     if (testing::Test::HasFatalFailure()) return;
   }
-  EXPECT_GT(compared, 100'000u);
+  EXPECT_GT(compared, 100'000u / test::kShare);
 }
 
 TEST(Interest, EqualsThePlainRuleWhereNothingEverTurns) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40 / test::kShare; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     test::WorldConfig config;
     config.objects = 150;

@@ -10,6 +10,7 @@
 #include "host/snapshot/SnapshotSender.h"
 #include "shared/replica/Replica.h"
 #include "shared/replica/UpdateCodec.h"
+#include "tests/support/Sanitizers.h"
 #include "tests/support/net/LossyLink.h"
 #include "tests/support/net/VirtualClock.h"
 
@@ -159,7 +160,7 @@ TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {
   std::uint64_t resent = 0;
   std::size_t reuses = 0;
   std::size_t checks = 0;
-  for (std::uint64_t seed = 0; seed < 240; ++seed) {
+  for (std::uint64_t seed = 0; seed < 240 / test::kShare; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     SplitMix64 rng(seed);
     LinkConditions bad;

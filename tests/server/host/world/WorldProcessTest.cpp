@@ -42,7 +42,7 @@ class WorldProcessTest : public testing::Test {
     program.sandbox.on = false;
     return program;
   }
-  /// Start it, and give it a turn when it is ready, until it has ended. How it did.
+  /// Start it, and give it a turn, or so many ahead, when it is ready, until it has ended. How it did.
   WorldEnd play(const std::string& script) { return play(shell(script)); }
   WorldEnd play(const WorldProgram& program) {
     const WorldLauncher launcher(program);
@@ -54,7 +54,7 @@ class WorldProcessTest : public testing::Test {
       m_io.run_one_for(std::chrono::milliseconds(5));
       world.checkProcess(1);
       if (auto warning = world.takeWarning()) warnings.push_back(*std::move(warning));
-      if (world.isReady()) world.tick(true, false);
+      for (int i = 0; i < ahead && (i > 0 || world.isReady()); ++i) world.tick(true, false);
     }
     return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there", 0, {}, {}});
   }
@@ -72,6 +72,7 @@ class WorldProcessTest : public testing::Test {
   }
   static std::string takesTurn() { return "dd bs=8 count=1 <&3 2>/dev/null >/dev/null; "; }
 
+  int ahead = 1;
   int ticks = 0;
   std::vector<std::string> printed;
   std::vector<std::string> warnings;
@@ -96,6 +97,16 @@ TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
   EXPECT_EQ(play(isReady() + takesTurn() + answer + takesTurn() + crash).when, "in tick 2");
   EXPECT_EQ(play(isReady() + takesTurn() + answer + "exit 0").when, "");
   EXPECT_EQ(play(isReady() + takesTurn() + answers(true) + crash).when, "after tick 1");
+}
+
+TEST_F(WorldProcessTest, SeveralTurnsAreAnsweredOneByOneAndACrashIsInTheFirstThatWasNot) {
+  ahead = 3;
+  const std::string turn = takesTurn() + answers();
+  EXPECT_EQ(play(isReady() + turn + turn + turn + takesTurn() + "kill -SEGV $$").when, "in tick 4");
+  EXPECT_EQ(ticks, 3);
+  EXPECT_EQ(play(isReady() + turn + turn + "kill -SEGV $$").when, "in tick 3");
+  EXPECT_EQ(ticks, 5);
+  EXPECT_EQ(play(isReady() + turn + takesTurn() + takesTurn() + "kill -SEGV $$").when, "in tick 2");
 }
 
 TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {

@@ -1,0 +1,95 @@
+#include "host/net/ListeningSockets.h"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <asio/ip/tcp.hpp>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace naiad {
+
+namespace {
+
+using Endpoint = asio::ip::tcp::endpoint;
+
+/// Of sockets that a server leaves for itself.
+constexpr std::string_view kNames = "naiad-streams:naiad-datagrams";
+
+int socketOption(int socket, int option) {
+  int value = -1;
+  socklen_t size = sizeof value;
+  return getsockopt(socket, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
+}
+
+/// Nothing for what is no socket of the Internet.
+std::optional<Endpoint> boundTo(int socket) {
+  Endpoint endpoint;
+  auto size = static_cast<socklen_t>(endpoint.capacity());
+  if (getsockname(socket, endpoint.data(), &size) != 0) return std::nullopt;
+  const int family = endpoint.data()->sa_family;
+  if (family != AF_INET && family != AF_INET6) return std::nullopt;
+  endpoint.resize(size);
+  return endpoint;
+}
+
+std::vector<int> openDescriptors() {
+  std::vector<int> numbers;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
+    const std::string name = entry.path().filename().string();
+    int number = -1;
+    std::from_chars(name.data(), name.data() + name.size(), number);
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+/// The socket of this type on that port, and on that address if one is given; -1: there is none.
+int findSocket(int type, std::uint16_t port, const std::optional<Endpoint>& address) {
+  for (const int socket : openDescriptors()) {
+    const auto endpoint = boundTo(socket);
+    if (!endpoint || endpoint->port() != port || socketOption(socket, SO_TYPE) != type) continue;
+    if (type == SOCK_STREAM && socketOption(socket, SO_ACCEPTCONN) != 1) continue;
+    if (!address || *endpoint == *address) return socket;
+  }
+  return -1;
+}
+
+}  // namespace
+
+std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
+  InheritedSockets sockets;
+  sockets.streams = findSocket(SOCK_STREAM, port, std::nullopt);
+  if (sockets.streams < 0) return std::nullopt;
+  const auto endpoint = boundTo(sockets.streams);
+  sockets.datagrams = findSocket(SOCK_DGRAM, port, endpoint);
+  if (sockets.datagrams < 0) return std::nullopt;
+  sockets.address = endpoint->address().to_string();
+  sockets.port = port;
+  return sockets.duplicate();
+}
+
+// In the way of a service manager (sd_listen_fds(3)), under names of our own.
+void handOver(const InheritedSockets& sockets) {
+  sockets.putBack();
+  setenv("LISTEN_PID", std::to_string(getpid()).c_str(), 1);
+  setenv("LISTEN_FDS", "2", 1);
+  setenv("LISTEN_FDNAMES", kNames.data(), 1);
+}
+
+std::optional<InheritedSockets> takeHandedOver() {
+  const char* p_names = std::getenv("LISTEN_FDNAMES");
+  if (p_names == nullptr || std::string_view(p_names) != kNames) return std::nullopt;
+  const auto sockets = InheritedSockets::take();
+  for (const char* p_name : {"LISTEN_PID", "LISTEN_FDS", "LISTEN_FDNAMES"}) unsetenv(p_name);
+  return sockets;
+}
+
+}  // namespace naiad

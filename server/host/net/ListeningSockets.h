@@ -1,0 +1,25 @@
+// The sockets by which this process is reached, for a program that it runs next in its own place.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "host/net/InheritedSockets.h"
+
+namespace naiad {
+
+/// Copies of the socket that listens on this TCP port and of the one for datagrams on the same address, which
+/// stay open when those are closed; the caller's to close. Nothing if this process does not have both, as
+/// without encryption. Reads /proc.
+std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port);
+
+/// Put them where the program that this process runs next looks for them, and say so in the environment.
+/// Once. Throws std::system_error.
+void handOver(const InheritedSockets& sockets);
+
+/// Those that handOver() has left for this program; nothing if there are none, as when the sockets come from
+/// a service manager (InheritedSockets::take). The environment does not say so any more. Once in a process.
+/// Throws as InheritedSockets::take().
+std::optional<InheritedSockets> takeHandedOver();
+
+}  // namespace naiad

@@ -1,0 +1,493 @@
+// dfctl restart --keep with the programs as they are: the round goes on in the program and the game that are
+// installed by then, if they play it the same.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <iomanip>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "host/program/RoundHandover.h"
+#include "shared/net/base/Limits.h"
+#include "tests/server/host/admin/Talk.h"
+#include "tests/support/RunProgram.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kIsBack = "is back, in the round that goes on";
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+int timesIn(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
+  return count;
+}
+
+/// The parent of a process, and its state; 0: it is gone.
+std::pair<pid_t, char> parentOf(pid_t process) {
+  const std::string text = contentOf("/proc/" + std::to_string(process) + "/stat");
+  const std::size_t end = text.rfind(')');
+  if (end == std::string::npos || end + 4 >= text.size()) return {0, 'X'};
+  return {std::atoi(text.c_str() + end + 4), text[end + 2]};
+}
+
+bool isGone(pid_t process) {
+  const char state = parentOf(process).second;
+  return state == 'X' || state == 'Z';
+}
+
+/// All that are below this one.
+std::vector<pid_t> processesBelow(pid_t top) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const pid_t process = std::atoi(entry.path().filename().c_str());
+    for (pid_t above = parentOf(process).first; above > 1; above = parentOf(above).first) {
+      if (above != top) continue;
+      found.push_back(process);
+      break;
+    }
+  }
+  return found;
+}
+
+/// What the descriptors of a process are.
+std::multiset<std::string> descriptorsOf(pid_t process) {
+  std::multiset<std::string> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator("/proc/" + std::to_string(process) + "/fd", error))
+    found.insert(fs::read_symlink(entry.path(), error).string());
+  return found;
+}
+
+/// Comes to a port again and again, from an address of its own, as players do: was it ever closed?
+class Visitor {
+ public:
+  explicit Visitor(int port) : m_port(static_cast<std::uint16_t>(port)), m_thread([this] { run(); }) {}
+  ~Visitor() { end(); }
+  Visitor(const Visitor&) = delete;
+  Visitor& operator=(const Visitor&) = delete;
+
+  void end() {
+    m_ends = true;
+    if (m_thread.joinable()) m_thread.join();
+  }
+  int streams() const { return m_streams; }
+  int datagrams() const { return m_datagrams; }
+  int refused() const { return m_refused; }
+
+ private:
+  static sockaddr_in at(const char* p_host, std::uint16_t port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    inet_pton(AF_INET, p_host, &address.sin_addr);
+    return address;
+  }
+  int connectedSocket(int type) {
+    const int socket = ::socket(AF_INET, type | SOCK_CLOEXEC, 0);
+    const sockaddr_in from = at("127.0.9.9", 0);
+    const sockaddr_in to = at("127.0.0.1", m_port);
+    bind(socket, reinterpret_cast<const sockaddr*>(&from), sizeof from);
+    if (connect(socket, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0 && errno == ECONNREFUSED)
+      ++m_refused;
+    return socket;
+  }
+  // That a datagram was refused shows in the next call.
+  void run() {
+    const int datagrams = connectedSocket(SOCK_DGRAM);
+    while (!m_ends) {
+      if (send(datagrams, "x", 1, 0) == 1) ++m_datagrams;
+      char answer[16];
+      if (recv(datagrams, answer, sizeof answer, MSG_DONTWAIT) < 0 && errno == ECONNREFUSED) ++m_refused;
+      close(connectedSocket(SOCK_STREAM));
+      ++m_streams;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // not to be one too many
+    }
+    close(datagrams);
+  }
+
+  const std::uint16_t m_port;
+  std::atomic<bool> m_ends{false};
+  std::atomic<int> m_streams{0};
+  std::atomic<int> m_datagrams{0};
+  std::atomic<int> m_refused{0};
+  std::thread m_thread;
+};
+
+/// A dfreplay that does not come to its end.
+constexpr const char* kHangs = "echo $$ > replay.pid; exec sleep 300";
+
+class KeepTest : public testing::Test {
+ public:
+  static constexpr std::chrono::seconds kPatience{60};
+
+ protected:
+  void SetUp() override {
+    char name[] = "/tmp/naiad-keep-XXXXXX";
+    ASSERT_NE(mkdtemp(name), nullptr);
+    folder = name;
+    fs::copy_file(NAIAD_BINARY_DIR "/../lib/games/hello.so", folder / "mine.so");
+  }
+  void TearDown() override {
+    endBots(SIGKILL);
+    if (server > 0 && kill(server, SIGKILL) == 0) waitpid(server, nullptr, 0);
+    if (const pid_t one = replay(); one > 0) kill(one, SIGKILL);
+    if (!folder.empty()) fs::remove_all(folder);
+  }
+
+  pid_t run(std::vector<std::string> words, const char* p_output) const {
+    const pid_t process = fork();
+    if (process != 0) return process;
+    if (chdir(folder.c_str()) != 0) _exit(126);
+    [[maybe_unused]] const bool out = freopen(p_output, "a", stdout) != nullptr;
+    [[maybe_unused]] const bool err = freopen(p_output, "a", stderr) != nullptr;
+    setenv("HOME", folder.c_str(), 1);
+    if (words.front().front() != '/') words.front() = NAIAD_BINARY_DIR "/" + words.front();
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    execv(pointers[0], pointers.data());
+    _exit(127);
+  }
+  /// `games`: options that say what is played.
+  void start(const std::string& journal, const std::vector<std::string>& games = {"--game=./mine.so"}) {
+    fs::remove(folder / "join");
+    std::vector<std::string> words{
+        dfserver,         "--port=" + port(), "--port-file=port",  "--join-file=join",
+        "--identity=key", "--state=off",      "--frame-time=5000", "--control=control.sock"};
+    words.insert(words.end(), games.begin(), games.end());
+    if (!journal.empty()) words.push_back("--journal=" + journal);
+    server = run(words, "out.txt");
+    ASSERT_TRUE(waitUntil([this] { return !contentOf(folder / "join").empty(); })) << log();
+  }
+  std::string port() const {
+    const std::string known = contentOf(folder / "port");
+    return known.empty() ? "0" : std::to_string(std::atoi(known.c_str()));
+  }
+  /// Two more; in this room, if it has a name.
+  void startBots(const std::string& room = {}) {
+    std::vector<std::string> words{"dfbot", "--clients=2", "--random=1", "--seconds=300", "--rejoin"};
+    std::istringstream join(contentOf(folder / "join"));
+    for (std::string word; join >> word;) words.push_back(word);
+    if (!room.empty()) words[5] += "/" + room;
+    bots.push_back(run(words, "bots.txt"));
+    const long players = 2 * static_cast<long>(bots.size());
+    ASSERT_TRUE(waitUntil([&] { return status("players") == players; })) << contentOf(folder / "bots.txt");
+  }
+  void endBots(int signal) {
+    for (const pid_t one : bots) kill(one, signal);
+    for (const pid_t one : std::exchange(bots, {})) waitpid(one, nullptr, 0);
+  }
+  std::pair<int, std::string> control(const std::string& command) const {
+    return test::runProgram(NAIAD_BINARY_DIR "/dfctl --control " + (folder / "control.sock").string() + " " +
+                            command + " 2>&1 </dev/null");
+  }
+  template <class Done>
+  static bool waitUntil(Done done) {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // before it is looked at again
+    }
+    return true;
+  }
+  long status(const std::string& name) const {
+    const std::string answer = test::Talk(folder / "control.sock").ask(R"({"command":"status"})");
+    const std::size_t at = answer.find("\"" + name + "\":");
+    return at == std::string::npos ? -1 : std::atol(answer.c_str() + at + name.size() + 3);
+  }
+  bool playTicks(long count) const {
+    const long end = status("ticks") + count;
+    return waitUntil([&] { return status("ticks") >= end; });
+  }
+  /// Another version of the game is installed.
+  void install(const std::string& bytes) const {
+    std::ofstream(folder / "new.so", std::ios::binary) << bytes;
+    fs::rename(folder / "new.so", folder / "mine.so");
+  }
+  std::string log() const { return contentOf(folder / "out.txt"); }
+  bool areBack(int times) const {
+    return waitUntil([&] { return timesIn(log(), kIsBack) >= times; });
+  }
+  bool isLogged(const std::string& text) const {
+    return waitUntil([&] { return log().find(text) != std::string::npos; });
+  }
+  /// The server's program, and the dfreplay beside it, are these from now on.
+  void installPrograms(const std::string& replay_script) {
+    fs::create_directories(folder / "bin");
+    fs::copy_file(NAIAD_BINARY_DIR "/dfserver", folder / "bin/dfserver");
+    dfserver = (folder / "bin/dfserver").string();
+    installScript("dfreplay", replay_script);
+  }
+  void installScript(const std::string& name, const std::string& script) const {
+    const fs::path path = folder / "bin" / name;
+    fs::remove(path);
+    std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
+    fs::permissions(path, fs::perms::owner_all);
+  }
+  /// The process of a dfreplay of installPrograms() that has noted it; 0: it has not.
+  pid_t replay() const { return std::atoi(contentOf(folder / "replay.pid").c_str()); }
+  bool lives() const { return waitpid(server, nullptr, WNOHANG) == 0; }
+  /// By which the kernel knows the socket that listens on the port; with `datagrams` the one for these.
+  std::string inodeOf(bool datagrams) const {
+    std::ostringstream place;
+    place << ":" << std::hex << std::uppercase << std::setw(4) << std::setfill('0')
+          << std::atoi(port().c_str()) << " ";
+    const std::string state = datagrams ? " 07 " : " 0A ";
+    const std::string tables = datagrams ? "/proc/net/udp" : "/proc/net/tcp";
+    for (const std::string& table : {tables, tables + "6"}) {
+      std::istringstream lines(contentOf(table));
+      for (std::string line; std::getline(lines, line);) {
+        const std::size_t at = line.find(place.str());
+        if (at == std::string::npos || line.find(state) == std::string::npos) continue;
+        std::istringstream fields(line);
+        std::string field;
+        for (int i = 0; i < 10; ++i) fields >> field;
+        return field;
+      }
+    }
+    return {};
+  }
+  /// The server, and none of the processes that it has started.
+  void expectToHoldAlone(const std::string& inode) const {
+    const std::string socket = "socket:[" + inode + "]";
+    EXPECT_EQ(descriptorsOf(server).count(socket), 1u) << socket;
+    for (const pid_t process : processesBelow(server))
+      EXPECT_EQ(descriptorsOf(process).count(socket), 0u)
+          << contentOf("/proc/" + std::to_string(process) + "/cmdline");
+  }
+  void expectOneWholeRound() {
+    endBots(SIGKILL);
+    kill(server, SIGTERM);
+    waitpid(std::exchange(server, 0), nullptr, 0);
+    expectOneWholeRound(folder / "rounds");
+  }
+  void expectOneWholeRound(const fs::path& rounds) const {
+    fs::directory_iterator files(rounds);
+    ASSERT_NE(files, fs::directory_iterator()) << log();
+    const std::string file = files->path().string();
+    EXPECT_EQ(std::distance(files, fs::directory_iterator()), 1) << log();
+    const auto [code, said] = test::runProgram(NAIAD_BINARY_DIR "/dfreplay " + file + " --verify --game " +
+                                               (folder / "mine.so").string() + " 2>&1");
+    EXPECT_EQ(code, 0) << said << log();
+  }
+
+  fs::path folder;
+  std::string dfserver = "dfserver";
+  pid_t server = 0;
+  std::vector<pid_t> bots;
+};
+
+TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
+  installPrograms("ls -l /proc/$$/fd > replay.fds; exec " NAIAD_BINARY_DIR "/dfreplay \"$@\"");
+  start("rounds");
+  startBots();
+  ASSERT_TRUE(playTicks(100));
+  const std::string streams = inodeOf(false);
+  const std::string datagrams = inodeOf(true);
+  ASSERT_NE(streams, "");
+  ASSERT_NE(datagrams, "");
+  std::size_t open_before = 0;
+  for (int i = 1; i <= 2; ++i) {
+    Visitor visitor(std::atoi(port().c_str()));
+    const auto [code, said] = control("restart --keep");
+    ASSERT_EQ(code, 0) << said << log();
+    EXPECT_NE(said.find("The round goes on in the program that is installed."), std::string::npos) << said;
+    ASSERT_TRUE(areBack(2 * i)) << log();
+    visitor.end();
+    EXPECT_EQ(visitor.refused(), 0) << "of " << visitor.streams() << " and " << visitor.datagrams();
+    EXPECT_GT(visitor.streams(), 3);
+    EXPECT_GT(visitor.datagrams(), 3);
+    EXPECT_TRUE(lives()) << "it is the same process";
+    EXPECT_EQ(inodeOf(false), streams) << "players who come meanwhile wait";
+    EXPECT_EQ(inodeOf(true), datagrams);
+    EXPECT_EQ(contentOf(folder / "replay.fds").find("socket:"), std::string::npos)
+        << contentOf(folder / "replay.fds");
+    ASSERT_TRUE(playTicks(50));
+    expectToHoldAlone(streams);
+    expectToHoldAlone(datagrams);
+    if (i == 1) open_before = descriptorsOf(server).size();
+  }
+  EXPECT_NE(log().find("the round is executed again in this program: "), std::string::npos) << log();
+  EXPECT_EQ(log().find("the server was killed"), std::string::npos) << log();
+  EXPECT_TRUE(waitUntil([&] { return descriptorsOf(server).size() <= open_before; }))
+      << open_before << ", and then " << descriptorsOf(server).size();
+  for (const pid_t process : processesBelow(server)) EXPECT_NE(parentOf(process).second, 'Z') << process;
+  expectOneWholeRound();
+}
+
+TEST_F(KeepTest, AGameThatPlaysTheSameGoesOnWithTheRoundAndAlsoAfterAKill) {
+  start("rounds");
+  startBots();
+  ASSERT_TRUE(playTicks(100));
+  install(contentOf(folder / "mine.so") + "another build");
+  const auto [code, said] = control("restart --keep");
+  EXPECT_EQ(code, 0) << said << log();
+  EXPECT_TRUE(areBack(2)) << log();
+  ASSERT_TRUE(playTicks(100));
+  kill(server, SIGKILL);
+  waitpid(server, nullptr, 0);
+  start("rounds");
+  EXPECT_TRUE(areBack(4)) << log();
+  expectOneWholeRound();
+}
+
+TEST_F(KeepTest, AGameThatPlaysOtherwiseIsRefusedAndThePlayersFinish) {
+  start("rounds", {"--game=./mine.so", "--grace=1"});
+  startBots();
+  ASSERT_TRUE(playTicks(100));
+  install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));
+  const auto [code, said] = control("restart --keep");
+  EXPECT_EQ(code, 1) << said;
+  EXPECT_NE(said.find("The round cannot go on in the program that is installed: tick "), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("The server restarts when all have left"), std::string::npos) << said;
+  EXPECT_TRUE(playTicks(100)) << "the game goes on";
+  EXPECT_EQ(status("players"), 2);
+  EXPECT_EQ(timesIn(log(), " hosts mine on "), 1);
+  endBots(SIGKILL);
+  EXPECT_TRUE(waitUntil([this] { return timesIn(log(), " hosts mine on ") == 2; })) << log();
+  EXPECT_TRUE(lives());
+  EXPECT_TRUE(playTicks(50)) << "in the other game: " << log();
+}
+
+TEST_F(KeepTest, TheRoundsOfAllRoomsGoOn) {
+  start("rounds", {"--room=one=./mine.so", "--room=two=./mine.so", "--room=asleep=hello"});
+  startBots();
+  startBots("two");
+  ASSERT_TRUE(playTicks(100));
+  const auto [code, said] = control("restart --keep");
+  ASSERT_EQ(code, 0) << said << log();
+  EXPECT_TRUE(areBack(4)) << log();
+  for (const char* p_room : {"one", "two"}) {
+    const std::string line =
+        "room " + std::string(p_room) + ": the round is executed again in this program: ";
+    EXPECT_EQ(timesIn(log(), line), 1) << log();
+  }
+  EXPECT_EQ(status("players"), 4);
+  ASSERT_TRUE(playTicks(50));
+  install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));
+  const auto [other_code, other_said] = control("restart --keep");
+  EXPECT_EQ(other_code, 1);
+  EXPECT_NE(other_said.find("The round cannot go on in the program that is installed: room one: tick "),
+            std::string::npos)
+      << other_said;
+  EXPECT_EQ(control("cancel").first, 0);
+  EXPECT_TRUE(playTicks(50));
+  EXPECT_EQ(status("players"), 4);
+  install(contentOf(NAIAD_BINARY_DIR "/../lib/games/hello.so"));
+  endBots(SIGKILL);
+  kill(server, SIGTERM);
+  waitpid(std::exchange(server, 0), nullptr, 0);
+  expectOneWholeRound(folder / "rounds/one");
+  expectOneWholeRound(folder / "rounds/two");
+}
+
+TEST_F(KeepTest, WithoutAJournalASentenceSaysSo) {
+  start("");
+  const auto [code, said] = control("restart keep");
+  EXPECT_EQ(code, 1) << said;
+  EXPECT_NE(said.find("No round can be kept here: that takes dfserver with --journal."), std::string::npos)
+      << said;
+  EXPECT_TRUE(playTicks(10));
+}
+
+TEST_F(KeepTest, ADfreplayThatIsKilledIsSaidAndTheGameGoesOn) {
+  installPrograms(kHangs);
+  start("rounds");
+  startBots();
+  auto first = std::async(std::launch::async, [this] { return control("restart --keep"); });
+  ASSERT_TRUE(waitUntil([this] { return replay() > 0; })) << log();
+  EXPECT_TRUE(playTicks(50)) << "the game goes on beside it";
+  const auto [code, said] = control("restart --keep");
+  EXPECT_EQ(code, 1);
+  EXPECT_NE(said.find("The round cannot be kept: that is being tried already."), std::string::npos) << said;
+  kill(replay(), SIGKILL);
+  const auto [first_code, first_said] = first.get();
+  EXPECT_EQ(first_code, 1);
+  EXPECT_NE(first_said.find("dfreplay, which tries that out, was ended by signal 9"), std::string::npos)
+      << first_said;
+  EXPECT_TRUE(playTicks(50));
+  EXPECT_EQ(status("players"), 2);
+  EXPECT_EQ(control("cancel").first, 0) << "it was to begin again when all have left";
+}
+
+TEST_F(KeepTest, AServerThatEndsDuringTheProofEndsIt) {
+  installPrograms(kHangs);
+  start("rounds");
+  startBots();
+  auto first = std::async(std::launch::async, [this] { return control("restart --keep"); });
+  ASSERT_TRUE(waitUntil([this] { return replay() > 0; })) << log();
+  kill(server, SIGINT);
+  EXPECT_EQ(waitpid(std::exchange(server, 0), nullptr, 0) > 0, true);
+  EXPECT_NE(first.get().first, 0);
+  EXPECT_TRUE(isGone(replay()));
+}
+
+TEST_F(KeepTest, AProgramThatDoesNotTakeTheOptionsIsRefused) {
+  installPrograms("exit 0");
+  start("rounds");
+  ASSERT_TRUE(playTicks(10));
+  installScript("dfserver", "echo 'dfserver: there is no option --journal' >&2; exit 2");
+  const auto [code, said] = control("restart --keep");
+  EXPECT_EQ(code, 1);
+  EXPECT_NE(said.find("dfserver does not start with the options of this server: dfserver: there is no option "
+                      "--journal"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("The round cannot be kept: "), std::string::npos) << said;
+  EXPECT_NE(control("cancel").first, 0) << "nor is it begun later";
+  EXPECT_TRUE(playTicks(10));
+  EXPECT_TRUE(lives());
+}
+
+ProgramEnd ended(int code, const std::string& printed) {
+  return {.code = code, .printed = printed};
+}
+
+TEST(RoundHandoverTest, TheVerdictIsAsDfreplaySaysIt) {
+  const std::string good = "note: x\nverified ticks=9 times_real_time=9 protocol=";
+  const std::string ours = std::to_string(kProtocolVersion);
+  EXPECT_EQ(readVerdict(ended(0, good + ours + " read to its end\n")), "");
+  EXPECT_EQ(readVerdict(ended(0, good + "9000 read to its end\n")),
+            "it speaks protocol 9000, and the players' clients speak " + ours);
+  EXPECT_EQ(readVerdict(ended(0, "verified ticks=9\n")), "it does not say which protocol it speaks");
+  EXPECT_EQ(
+      readVerdict(ended(1, "note: x\ntick 51: the state is not as it was recorded\nWhat player 1 saw\n")),
+      "tick 51: the state is not as it was recorded");
+  EXPECT_EQ(readVerdict(ended(3, "dfreplay: the file is damaged.\n")), "dfreplay: the file is damaged");
+  EXPECT_EQ(readVerdict(ended(3, "")), "dfreplay ended with code 3");
+  EXPECT_EQ(readVerdict(ended(ProgramEnd::kNotStarted, "")),
+            "dfreplay, which tries that out, cannot be started");
+  EXPECT_EQ(readVerdict({.is_late = true, .printed = {}}),
+            "dfreplay, which tries that out, does not come to its end");
+}
+
+}  // namespace
+}  // namespace naiad
