@@ -46,26 +46,8 @@ TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
-// The long form: deploy/bench recovery, a hundred kills.
-TEST(Recovery, ScoresOutliveKillsAndAreThoseOfTheRound) {
-  RecoveryRun run(kScoresModule, 2, 11);
-  for (int i = 0; i < 2; ++i) {
-    run.play(std::chrono::milliseconds(400));
-    ASSERT_TRUE(run.playUntilPictured()) << i;
-    const KillResult result = run.kill();
-    EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
-  }
-  run.play(std::chrono::milliseconds(300));
-  std::string said;
-  EXPECT_TRUE(run.verify(said)) << said << run.log();
-  const ScoreCheck check = run.checkScores();
-  EXPECT_GT(check.kept, 0u) << run.log();
-  EXPECT_EQ(check.missing, 0u) << "none is lost";
-  EXPECT_EQ(check.foreign, 0u) << "none is there that the round does not add, or twice";
-}
-
 // dfctl restart --keep: the same as for a kill is true of the program that goes on.
-TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNobodyAndNothing) {
+TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNoPlayerAndNothing) {
   const int restarts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1;
   std::mt19937_64 random(11);
   RecoveryRun run(GetParam(), 2, random());
@@ -83,6 +65,24 @@ TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNobodyAndNothing) {
   }
   std::string said;
   EXPECT_TRUE(run.verify(said)) << said << run.log();
+}
+
+// The long form: deploy/bench recovery, a hundred kills.
+TEST(Recovery, ScoresOutliveKillsAndAreThoseOfTheRound) {
+  RecoveryRun run(kScoresModule, 2, 11);
+  for (int i = 0; i < 2; ++i) {
+    run.play(std::chrono::milliseconds(400));
+    ASSERT_TRUE(run.playUntilPictured()) << i;
+    const KillResult result = run.kill();
+    EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
+  }
+  run.play(std::chrono::milliseconds(300));
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
+  const ScoreCheck check = run.checkScores();
+  EXPECT_GT(check.kept, 0u) << run.log();
+  EXPECT_EQ(check.missing, 0u) << "none is lost";
+  EXPECT_EQ(check.foreign, 0u) << "none is there that the round does not add, or twice";
 }
 
 TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {

@@ -29,6 +29,7 @@ std::optional<WorldTurn> RoundRecovery::nextTurn() {
     m_ahead = nextRecord();
     if (m_ahead && std::holds_alternative<InputsDropped>(*m_ahead)) {
       dropKeys(*p_turn);
+      m_ahead.reset();
       m_ahead = nextRecord();
     }
     auto& result = m_results.emplace_back();

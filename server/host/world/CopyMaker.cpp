@@ -8,12 +8,11 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
+#include "host/world/DescriptorMessage.h"
 #include "host/world/WorldStart.h"
 
 namespace naiad {
@@ -28,20 +27,8 @@ bool isSocket(int descriptor) {
 /// Below 0: there is none. Does not wait: the front has sent it before the turn that speaks of it.
 int receiveDescriptor(int from) {
   char byte = 0;
-  iovec data{&byte, 1};
   int number = -1;
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof number)> room{};
-  msghdr message{};
-  message.msg_iov = &data;
-  message.msg_iovlen = 1;
-  message.msg_control = room.data();
-  message.msg_controllen = room.size();
-  ssize_t got = 0;
-  while ((got = recvmsg(from, &message, MSG_CMSG_CLOEXEC | MSG_DONTWAIT)) < 0 && errno == EINTR) continue;
-  const cmsghdr* p_head = got == 1 ? CMSG_FIRSTHDR(&message) : nullptr;
-  if (p_head == nullptr || p_head->cmsg_len != CMSG_LEN(sizeof number)) return -1;
-  std::memcpy(&number, CMSG_DATA(p_head), sizeof number);
-  return number;
+  return receiveDescriptors(from, &byte, 1, {&number, 1}, MSG_DONTWAIT) == 1 ? number : -1;
 }
 
 // Not by fork(): what a library has asked to be called then is for programs that go on in both. The front

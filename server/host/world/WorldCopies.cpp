@@ -4,10 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstring>
 #include <utility>
+
+#include "host/world/DescriptorMessage.h"
 
 namespace naiad {
 
@@ -43,22 +43,8 @@ void WorldCopies::dropOrdered() {
 }
 
 bool WorldCopies::send(int descriptor) const {
-  char byte = 0;
-  iovec data{&byte, 1};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof descriptor)> room{};
-  msghdr message{};
-  message.msg_iov = &data;
-  message.msg_iovlen = 1;
-  message.msg_control = room.data();
-  message.msg_controllen = room.size();
-  cmsghdr* p_head = CMSG_FIRSTHDR(&message);
-  p_head->cmsg_level = SOL_SOCKET;
-  p_head->cmsg_type = SCM_RIGHTS;
-  p_head->cmsg_len = CMSG_LEN(sizeof descriptor);
-  std::memcpy(CMSG_DATA(p_head), &descriptor, sizeof descriptor);
-  ssize_t sent = 0;
-  while ((sent = sendmsg(m_orders, &message, MSG_NOSIGNAL | MSG_DONTWAIT)) < 0 && errno == EINTR) continue;
-  return sent == 1;
+  const char byte = 0;
+  return sendDescriptors(m_orders, &byte, 1, {&descriptor, 1}, MSG_DONTWAIT);
 }
 
 // A copy has one thread, whatever the others hold: of a game with threads none is good, nor are those from

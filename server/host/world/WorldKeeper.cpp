@@ -11,14 +11,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstring>
 #include <optional>
 #include <set>
 #include <string>
 
 #include "host/world/Descendants.h"
+#include "host/world/DescriptorMessage.h"
 #include "host/world/FixedStart.h"
 #include "host/world/Repeatable.h"
 #include "host/world/Succession.h"
@@ -66,22 +65,14 @@ void standInFront() {
 
 /// Nothing if the front has gone.
 std::optional<WorldDescriptors> receiveOrder(int from, WorldOrder& order) {
-  iovec data{&order, sizeof order};
-  WorldDescriptors numbers;
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof numbers)> room{};
-  msghdr message{};
-  message.msg_iov = &data;
-  message.msg_iovlen = 1;
-  message.msg_control = room.data();
-  message.msg_controllen = room.size();
-  ssize_t got = 0;
-  while ((got = recvmsg(from, &message, MSG_CMSG_CLOEXEC)) < 0 && errno == EINTR) continue;
-  const cmsghdr* p_head = CMSG_FIRSTHDR(&message);
-  if (got != sizeof order || p_head == nullptr) return std::nullopt;
-  const std::size_t size = sizeof numbers - (order.copies ? 0 : sizeof numbers.copies);
-  if (p_head->cmsg_len != CMSG_LEN(size)) return std::nullopt;
-  std::memcpy(&numbers, CMSG_DATA(p_head), size);
-  return numbers;
+  WorldDescriptors::List list;
+  list.fill(-1);
+  const int count = receiveDescriptors(from, &order, sizeof order, list);
+  if (count < 0) return std::nullopt;
+  const WorldDescriptors numbers{list[0], list[1], list[2], list[3], list[4]};
+  if (static_cast<std::size_t>(count) == WorldDescriptors::kMost - (order.copies ? 0 : 1)) return numbers;
+  numbers.closeAll();
+  return std::nullopt;
 }
 
 // ---- the world's process, before it executes its program --------------------------------------------------

@@ -1,6 +1,7 @@
 // The launcher's and the keepers' side of a WorldLauncher: what their processes do.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "host/world/WorldLauncher.h"
@@ -15,8 +16,11 @@ struct WorldDescriptors {
   int page = -1;
   int copies = -1;  ///< of a world that makes copies
 
-  /// Of those that are there: they come first.
-  std::size_t bytes() const { return sizeof *this - (copies < 0 ? sizeof copies : 0); }
+  /// As they are sent: those that are there.
+  static constexpr std::size_t kMost = 5;
+  using List = std::array<int, kMost>;
+  List list() const { return {world, keeper, output, page, copies}; }
+  std::size_t count() const { return copies < 0 ? kMost - 1 : kMost; }
   void closeAll() const;
 };
 

@@ -9,13 +9,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstring>
+#include <span>
 #include <system_error>
 #include <utility>
 
 #include "engine/world/ActivityPage.h"
+#include "host/world/DescriptorMessage.h"
 #include "host/world/WorldKeeper.h"
 
 namespace naiad {
@@ -72,23 +72,9 @@ Descriptor sharedPage(const char* what) {
   return page;
 }
 
-bool sendOrder(int to, WorldOrder order, const WorldDescriptors& numbers) {
-  iovec data{&order, sizeof order};
-  const std::size_t size = numbers.bytes();
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof numbers)> room{};
-  msghdr message{};
-  message.msg_iov = &data;
-  message.msg_iovlen = 1;
-  message.msg_control = room.data();
-  message.msg_controllen = CMSG_SPACE(size);
-  cmsghdr* p_head = CMSG_FIRSTHDR(&message);
-  p_head->cmsg_level = SOL_SOCKET;
-  p_head->cmsg_type = SCM_RIGHTS;
-  p_head->cmsg_len = CMSG_LEN(size);
-  std::memcpy(CMSG_DATA(p_head), &numbers, size);
-  ssize_t sent = 0;
-  while ((sent = sendmsg(to, &message, MSG_NOSIGNAL)) < 0 && errno == EINTR) continue;
-  return sent == sizeof order;
+bool sendOrder(int to, const WorldOrder& order, const WorldDescriptors& descriptors) {
+  const WorldDescriptors::List list = descriptors.list();
+  return sendDescriptors(to, &order, sizeof order, std::span(list).first(descriptors.count()));
 }
 
 /// False: too late, or the other end was closed.

@@ -67,7 +67,7 @@ void add(const KillResult& result, Total& total) {
   if (!result.problem.empty()) std::fprintf(stderr, "naiad_recovery: %s\n", result.problem.c_str());
 }
 
-void verify(RecoveryRun& run, Total& total) {
+void verify(RecoveryRun& run, const std::string& game, Total& total) {
   ++total.rounds;
   std::string said;
   if (run.verify(said)) {
@@ -75,9 +75,7 @@ void verify(RecoveryRun& run, Total& total) {
   } else {
     std::fprintf(stderr, "naiad_recovery: %s\n", said.c_str());
   }
-}
-
-void checkScores(const RecoveryRun& run, Total& total) {
+  if (game != naiad::test::kScoresModule) return;
   const naiad::test::ScoreCheck check = run.checkScores();
   total.scores += check.kept;
   total.missing += check.missing;
@@ -106,8 +104,7 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
     add(result, total);
     if (result.returned < result.players) return;
   }
-  verify(run, total);
-  if (game == naiad::test::kScoresModule) checkScores(run, total);
+  verify(run, game, total);
 }
 
 /// All of it is executed again after each kill.
@@ -118,7 +115,7 @@ void runLongRound(const std::string& game, int kills, std::uint64_t seed, Total&
     run.play(milliseconds(300));
     add(run.kill(), total);
   }
-  verify(run, total);
+  verify(run, game, total);
 }
 
 long percentile(std::vector<long> values, std::size_t percent) {

@@ -115,10 +115,13 @@ class RecoveryTest : public testing::Test {
     turn.inputs = std::move(inputs);
     writer.write(turn, records);
     ++count;
-    if (!with_result) return;
+    if (with_result) writeResult(count);
+  }
+  /// What EchoWorld answers to the turn of that number.
+  void writeResult(std::uint32_t turn) {
     TickResult result;
     result.has_check = true;
-    result.check = static_cast<std::uint8_t>(count % 200 + 1);
+    result.check = static_cast<std::uint8_t>(turn % 200 + 1);
     writer.write(result, records);
   }
   void session(const KeptSession& one) { writer.write(one, records); }
@@ -155,6 +158,20 @@ class RecoveryTest : public testing::Test {
     disk = book.writer;
     world = std::make_unique<JournaledWorld>(std::move(echo), std::move(book));
     world->setOnTick([this] { ++reported; });
+  }
+
+  /// A round in whose second turn a world crashed; the one that took over answered as to that number. It is
+  /// executed again.
+  void crashInSecondTurn(std::uint32_t answered_as) {
+    turn({joinOf(1)});
+    turn({keyOf(1, df::Keyboard::A, df::KEY_PRESSED)}, false);
+    writer.write(InputsDropped(), records);
+    writeResult(answered_as);
+    turn({});
+    goOn();
+    p_echo->ready = true;
+    world->checkProcess(1);
+    p_echo->answer();
   }
 
   fs::path folder;
@@ -294,6 +311,25 @@ TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
   EXPECT_EQ(reader.end(), DfrEnd::kTorn);
   EXPECT_EQ(turns, 55u) << "the closing one, and the one after it";
   EXPECT_EQ(results, 55u) << "also that of the tick that the server was killed in";
+}
+
+TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedHasOneResult) {
+  crashInSecondTurn(2);
+  EXPECT_EQ(said, "");
+  ASSERT_GE(p_echo->turns.size(), 2u);
+  EXPECT_TRUE(p_echo->turns[1].empty()) << "without the key that the world before died of";
+  ASSERT_TRUE(disk->drain(std::chrono::seconds(60)));
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  DfrReader reader(bytes);
+  int results = 0;
+  while (const auto record = reader.next()) results += std::holds_alternative<TickResult>(*record) ? 1 : 0;
+  EXPECT_EQ(results, 4) << "of three turns and the closing one";
+}
+
+TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedIsHeldAgainstTheFile) {
+  crashInSecondTurn(3);
+  EXPECT_EQ(said, "in tick 2 what the world answers is other than it was");
 }
 
 TEST_F(RecoveryTest, AWorldThatAnswersOtherwiseIsNotGoneOnWith) {
