@@ -88,7 +88,7 @@ bool FleetList::isOfKind(const Entry& entry, const Wish& wish) {
   return wish.room.empty() && (wish.game.empty() || there.game == wish.game);
 }
 
-// Rooms are in the server's order, so that who wishes for nothing begins where players begin there.
+// Rooms are in the order of the server: without a wish players begin where they begin there.
 const PresenceRoom* FleetList::findRoom(const Entry& entry, const Wish& wish) {
   const PresenceRoom* p_best = nullptr;
   for (const PresenceRoom& room : entry.presence.rooms) {

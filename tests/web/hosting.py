@@ -53,7 +53,7 @@ class Hosting:
     def players_of(self, room):
         """As dfctl counts them."""
         answer = subprocess.run([self.ctl, "--control", self.control, "rooms", "--json"], capture_output=True, text=True, check=True)
-        return next(row["players"] for row in json.loads(answer.stdout.splitlines()[-1])["rows"] if row["room"] == room)
+        return next(row["players"] for row in json.loads(answer.stdout) if row["room"] == room)
 
     def text(self, log):
         with open(os.path.join(self.folder, log), errors="replace") as file:

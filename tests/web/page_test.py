@@ -158,7 +158,6 @@ class PageTest(unittest.TestCase):
         with Hosting(BUILD, page(), *games) as hosting:
             join(self.browser, hosting, search="?room=arcade")
             self.begin()
-            self.assertIn("/arcade#", self.browser.run("return document.querySelector('#terminal').textContent"))
             hosting.wait_for_line("server.log", "Ada")
             self.assertEqual(hosting.players_of("arcade"), 1)
             # Loaded again it is the same player, in the room where they were.

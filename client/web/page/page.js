@@ -346,7 +346,7 @@ async function begin() {
   if (room !== "" && !isRoomName(room)) {
     return say("The address of this page names no room: 1 to 32 of a-z, A-Z, 0-9, '-', '_' and '.', beginning with a letter or digit, are wanted behind room=.");
   }
-  if (server.link) element("terminal").textContent = `dfclient ${room === "" ? server.link : server.link.replace("#", `/${room}#`)}`;
+  if (server.link) element("terminal").textContent = `dfclient ${server.link}`;
   if (isOtherServer()) return say("This address was made for another game than the one that is here now.");
   await Promise.all([document.fonts.load('16px "Naiad Mono"'), claimTab()]);
   // A tab that was loaded again plays on.

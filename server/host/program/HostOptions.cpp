@@ -14,7 +14,6 @@
 #include "host/program/HostFleet.h"
 #include "host/program/RoomList.h"
 #include "host/program/Worlds.h"
-#include "shared/fleet/Presence.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
 #include "shared/options/UnknownVariables.h"
@@ -261,10 +260,8 @@ std::vector<Row> tableOf(HostOptions& o) {
         "Name of this server on the bus, of a-z, 0-9 and '-'; default: of the machine and the port",
         "NAIAD_BUS_ID"}},
       {{"--bus-interval", &o.bus_interval_ms,
-        "Milliseconds between two times that the server says it is there, as its directory's: one that is "
-        "silent for three of them is gone",
-        "NAIAD_BUS_INTERVAL",
-        OptionRange{Presence::kLeastInterval.count(), Presence::kMostInterval.count()}}},
+        "Milliseconds after which the server says again that it is there, as its directory's",
+        "NAIAD_BUS_INTERVAL", OptionRange{50, 60'000}}},  // Presence.h
       {{"--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it",
         "NAIAD_BUS_CREDENTIALS"}},
       {{"--bus-ca", &o.bus_ca,

@@ -33,6 +33,7 @@ struct alignas(64) SubstepBody {
   double reach = 0;        ///< of all shapes, from the centre
   double thickness = 0;    ///< the least half width of a shape
   double margin = 0;       ///< how far around it contacts are searched for in this step
+  double push = 0;         ///< its speed that the pushes of the last step gave, corners included
   double roll = 0;         ///< how far its spin moves a corner in this step
   Bounds box = {};         ///< around its shapes at the start of the step
   Vec2 drift;              ///< its displacement in this step if nothing pushes it
@@ -44,13 +45,14 @@ struct alignas(64) SubstepBody {
   float pull = 0;                               ///< of joints, times the sub-step squared
   bool is_busy = true;                          ///< it hardly moves, or something pushed it in the last step
   bool exists = false, is_asleep = false, is_frozen = false;
-  bool is_changed = false;  ///< it cannot be moved, and was set or removed since the last step
-  double turn = 0;          ///< rad, in this step
-  double part = 1;          ///< of its motion in this step: less than 1 if it is stopped
-  double still = 0;         ///< ticks
-  double first_speed = 0;   ///< when it began to be still
-  std::int32_t ring = -1;   ///< the next body that fell asleep with it
-  std::int32_t proxy = -1;  ///< in the broad phase
+  bool is_changed = false;   ///< it cannot be moved, and was set or removed since the last step
+  bool is_diverted = false;  ///< in this step another fast body changed its path
+  double turn = 0;           ///< rad, in this step
+  double part = 1;           ///< of its motion in this step: less than 1 if it is stopped
+  double still = 0;          ///< ticks
+  double first_speed = 0;    ///< when it began to be still
+  std::int32_t ring = -1;    ///< the next body that fell asleep with it
+  std::int32_t proxy = -1;   ///< in the broad phase
   std::uint64_t order = 0;
   std::int64_t pushed_at = -1;       ///< in which step something pushed it last
   std::int32_t form = -1;            ///< its shapes

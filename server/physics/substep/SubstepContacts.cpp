@@ -26,6 +26,7 @@ constexpr std::size_t kCacheLine = 64;  // bytes
 constexpr std::size_t kFetchedOfBody = 5 * kCacheLine;
 // In what acceleration adds to a speed in a tick: slower impacts do not bounce.
 constexpr float kRest = 2;
+constexpr double kPushedAgain = 0.5;   // of what pushed a body in the last step: it may again
 constexpr double kEverywhere = 1e300;  // metric cells
 constexpr double kLarge = 4;           // times the size of another body
 // Of the speed at which two bodies meet: by how much the speed of either may change. What bounces off
@@ -199,7 +200,7 @@ double SubstepWorld::gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset) {
 // How far around two bodies their contacts are searched for.
 double SubstepWorld::marginOf(const SubstepBody& a, const SubstepBody& b) const {
   const double full = a.margin + b.margin;
-  if (a.is_busy && b.is_busy) return full;
+  if (a.is_busy && b.is_busy) return std::min(full, calmMargin(a, b) + kPushedAgain * (a.push + b.push));
   return std::min(full, calmMargin(a, b) + m_stirs[at(a.state)] + m_stirs[at(b.state)]);
 }
 
@@ -217,7 +218,10 @@ bool SubstepWorld::mayMeet(Pair& pair) {
   if (!is_met || (!isMovable(a) && !isMovable(b))) return false;
   const Vec2 offset = b.body.place - a.body.place;
   if (a.is_busy && b.is_busy) {  // they mostly do
-    if (gapBetween(a.box, b.box, offset) > a.margin + b.margin) return false;
+    const double margin = marginOf(a, b);
+    if (gapBetween(a.box, b.box, offset) > margin) return false;
+    // However they turn, they stay within their circles.
+    if (length(offset) > margin - a.roll - b.roll + a.reach + b.reach) return false;
     const bool are_slow = a.margin <= kSlowMargin * a.thickness && b.margin <= kSlowMargin * b.thickness;
     const double by = are_slow ? 0 : kStir * calmMargin(a, b);
     stir(a, by);

@@ -9,6 +9,9 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kCreep = 1e-6;  // cells per tick that a group at rest may gain while it is watched
+// Cells per tick: what floats at rest and touching in free space is left with by rounding. What drifts does
+// so faster, and never sleeps.
+constexpr double kAdrift = 1e-12;
 
 bool isMoving(const SubstepBody& b) {
   return b.body.velocity != Vec2{} || b.body.spin != 0;
@@ -78,7 +81,7 @@ void SubstepWorld::sleep() {
     group.still = std::min(group.still, b.still);
     group.speed_before = std::max(group.speed_before, b.first_speed);
     group.speed = std::max(group.speed, speed);
-    group.is_adrift = group.is_adrift || isMoving(b);
+    group.is_adrift = group.is_adrift || speed > kAdrift;
   }
   for (const std::int32_t id : m_active) {
     SubstepBody& b = m_bodies[at(id)];

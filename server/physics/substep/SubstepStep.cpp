@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "physics/geometry/TimeOfImpact.h"
 #include "physics/substep/SubstepWorld.h"
 
 namespace naiad::physics {
@@ -18,6 +17,7 @@ constexpr double kSlack = 0.02;       // least margin of the search for contacts
 constexpr double kSlow = 0.1;         // in a step: contacts are searched for as far as it and others may get
 constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched: its centre passes nothing
 constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
+constexpr std::size_t kFewFast = 4;   // of so many bodies one: then what is slow is asked by what is fast
 constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
 
 constexpr double kHeld = 0.05;  // of a magnet's push on a body, that is left
@@ -35,6 +35,12 @@ Vec2 accelerationOf(const RigidBody& body) {
 }
 double spinGainOf(const RigidBody& body) {
   return body.inverse_inertia > 0 ? body.inverse_inertia * body.torque : 0;
+}
+
+// By what it was pushed in this step: of its velocity, corners included.
+double pushOn(const SubstepBody& b, const SubstepState& s) {
+  const double spun = double{s.spin} - b.body.spin - spinGainOf(b.body);
+  return length(Vec2{s.vx, s.vy} - accelerationOf(b.body)) + std::min(std::fabs(spun), 2.0) * b.reach;
 }
 
 SweptBox relativeTo(const Place& origin, const GridBounds& bounds) {
@@ -80,6 +86,7 @@ void SubstepWorld::begin(int id) {
   state.spin = static_cast<float>(body.spin);
   b.turn = 0;
   b.part = 1;
+  b.is_diverted = false;
   b.colours = b.held_colours = 0;
   b.inverse_mass = inverseOf(body.inverse_mass);
   b.inverse_inertia = inverseOf(body.inverse_inertia);
@@ -100,7 +107,9 @@ void SubstepWorld::forecast(SubstepBody& b) const {
   b.roll = std::min(angle, 2.0) * b.reach;
   const double movement = length(b.drift) + b.roll;
   b.margin = std::min(movement, b.thickness) + kSlack * b.thickness;
-  b.is_busy = !isMovable(b) || movement <= kSlow * b.thickness || b.pushed_at + 1 == m_counters.ticks;
+  const bool was_pushed = b.pushed_at + 1 == m_counters.ticks;
+  if (!was_pushed) b.push = 0;
+  b.is_busy = !isMovable(b) || movement <= kSlow * b.thickness || was_pushed;
 }
 
 // Two bodies whose gap is wider do not meet, unless something pushes one of them.
@@ -233,23 +242,60 @@ void SubstepWorld::stopFast() {
     if (b.proxy >= 0 && isFast(b)) m_fast.push_back({movedBy(b), rollOf(b), b.thickness, id});
   }
   if (m_fast.empty()) return;
-  m_paths.clear();
-  m_path_ids.clear();
-  m_fastness.assign(m_bodies.size(), Fastness::kSlow);
-  const Place& origin = m_bodies[at(m_fast[0].id)].body.place;
-  for (const Fast& fast : m_fast) {  // so that they find one another
-    m_fastness[at(fast.id)] = Fastness::kFast;
-    m_path_ids.push_back(static_cast<int>(m_paths.size()));
-    m_paths.push_back(relativeTo(origin, sweptBounds(m_bodies[at(fast.id)])));
-  }
-  m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()));
+  treePaths();
   for (std::size_t i = 0; i < m_fast.size(); ++i) {
-    if (isMovable(m_bodies[at(m_fast[i].id)])) stop(m_fast[i], m_paths[i]);
+    if (!isMovable(m_bodies[at(m_fast[i].id)])) continue;
+    findNear(m_fast[i], m_path_tree.box(static_cast<int>(i)));
+    stop(m_fast[i]);
   }
 }
 
-GridBounds SubstepWorld::sweptBounds(const SubstepBody& b) const {
-  const Vec2 path = movedBy(b);
+// So that they find one another, and what is slow if they are many: as seen by one who flies along with them,
+// for whom the paths are short. All that matters is how bodies move against each other.
+void SubstepWorld::treePaths() {
+  m_paths.clear();
+  m_path_ids.clear();
+  m_slow.clear();
+  m_fast_numbers.assign(m_bodies.size(), kSlowNumber);
+  m_along = middlePath();
+  for (const Fast& fast : m_fast) {
+    m_fast_numbers[at(fast.id)] = static_cast<std::int32_t>(m_paths.size());
+    m_paths.push_back(seenPath(fast));
+  }
+  const Place& origin = m_bodies[at(m_fast[0].id)].body.place;
+  m_are_many = m_fast.size() * kFewFast >= m_bodies.size();
+  for (std::int32_t id = 0; m_are_many && id < idLimit(); ++id) {
+    const SubstepBody& b = m_bodies[at(id)];
+    if (b.proxy < 0 || m_fast_numbers[at(id)] != kSlowNumber) continue;
+    m_slow.push_back({m_broad.bounds(b.proxy), id});
+    SweptBox swept = relativeTo(origin, m_broad.bounds(b.proxy));
+    const Vec2 back = double{-kGridUnits} * m_along;
+    swept.low += {std::min(back.x, 0.0), std::min(back.y, 0.0)};
+    swept.high += {std::max(back.x, 0.0), std::max(back.y, 0.0)};
+    m_paths.push_back(swept);
+  }
+  for (std::size_t i = 0; i < m_paths.size(); ++i) m_path_ids.push_back(static_cast<int>(i));
+  m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()));
+}
+
+SweptBox SubstepWorld::seenPath(const Fast& fast) const {
+  const Place& origin = m_bodies[at(m_fast[0].id)].body.place;
+  return relativeTo(origin, sweptBounds(m_bodies[at(fast.id)], fast.path - m_along));
+}
+
+// The median of the fast bodies' paths: one that is very fast does not count for more.
+Vec2 SubstepWorld::middlePath() {
+  m_path_order.resize(m_fast.size());
+  const auto middle = m_path_order.begin() + static_cast<std::ptrdiff_t>(m_fast.size() / 2);
+  const auto middleOf = [&](double Vec2::*axis) {
+    for (std::size_t i = 0; i < m_fast.size(); ++i) m_path_order[i] = m_fast[i].path.*axis;
+    std::nth_element(m_path_order.begin(), middle, m_path_order.end());
+    return *middle;
+  };
+  return {middleOf(&Vec2::x), middleOf(&Vec2::y)};
+}
+
+GridBounds SubstepWorld::sweptBounds(const SubstepBody& b, Vec2 path) {
   return gridBounds(b.body.place,
                     {{std::min(path.x, 0.0) - b.reach, std::min(path.y, 0.0) - b.reach},
                      {std::max(path.x, 0.0) + b.reach, std::max(path.y, 0.0) + b.reach}},
@@ -265,29 +311,57 @@ bool SubstepWorld::areDeep(const SubstepBody& a, const SubstepBody& b) const {
 // What may be in its way. Of fast bodies that fly together none is.
 void SubstepWorld::findNear(const Fast& fast, const SweptBox& swept) {
   m_near.clear();
-  m_broad.query(sweptBounds(m_bodies[at(fast.id)]), [&](std::uint32_t other) {
-    if (m_fastness[other] == Fastness::kSlow) m_near.push_back(static_cast<std::int32_t>(other));
-  });
+  const GridBounds way = sweptBounds(m_bodies[at(fast.id)], fast.path);
+  if (!m_are_many) {
+    m_broad.query(way, [&](std::uint32_t other) {
+      if (m_fast_numbers[other] == kSlowNumber) m_near.push_back(static_cast<std::int32_t>(other));
+    });
+  }
+  const auto fast_ones = static_cast<int>(m_fast.size());
   m_path_tree.query(swept, [&](int number) {
+    if (number >= fast_ones) {
+      const Slow& slow = m_slow[at(number - fast_ones)];
+      if (overlap(slow.bounds, way)) m_near.push_back(slow.id);
+      return;
+    }
     const Fast& other = m_fast[at(number)];
     if (other.id == fast.id) return;
-    const Vec2 its = m_fastness[at(other.id)] == Fastness::kStopped ? Vec2{} : other.path;
+    const Vec2 its = other.is_stopped ? Vec2{} : other.path;
     const double nearer = length(fast.path - its) + fast.roll + other.roll;
     if (nearer > kMaxPass * std::min(fast.thickness, other.thickness)) m_near.push_back(other.id);
   });
 }
 
-// Two fast ones that meet both stop there.
-void SubstepWorld::stop(const Fast& fast, const SweptBox& swept) {
+// Does nothing touch it on this path that cannot be pushed, nor does now?
+bool SubstepWorld::isClear(const SubstepBody& b, Vec2 path) {
+  bool is_clear = true;
+  const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
+  m_broad.query(sweptBounds(b, path), [&](std::uint32_t id) {
+    const SubstepBody& other = m_bodies[id];
+    if (!is_clear || isMovable(other)) return;
+    const RigidMotion its = motionOf(other);
+    for (const ConvexShape& own : m_forms[b.form].shapes) {
+      for (const ConvexShape& that : m_forms[other.form].shapes) {
+        const TimeOfImpact impact = timeOfImpact(own, motion, that, its, other.body.place - b.body.place);
+        is_clear = is_clear && impact.status == TimeOfImpactStatus::kApart && !impact.touched_before;
+      }
+    }
+  });
+  return is_clear;
+}
+
+// From where it is, or from where it stops.
+RigidMotion SubstepWorld::motionOf(const SubstepBody& b) const {
+  if (b.state == 0) return {{}, b.body.rotation, 0};
+  if (b.part < 1) return {{}, turned(b.body.rotation, b.part * b.turn), 0};
+  return {movedBy(b), b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
+}
+
+// Where it first touches any of m_near.
+void SubstepWorld::stop(Fast& fast) {
   const std::int32_t id = fast.id;
   SubstepBody& b = m_bodies[at(id)];
   const Vec2 path = fast.path;
-  findNear(fast, swept);
-  const auto motionOf = [&](const SubstepBody& of) -> RigidMotion {
-    if (of.state == 0) return {{}, of.body.rotation, 0};
-    if (of.part < 1) return {{}, turned(of.body.rotation, of.part * of.turn), 0};  // where it stops
-    return {movedBy(of), of.body.rotation, std::clamp(of.turn, -kMaxTurn, kMaxTurn)};
-  };
   const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
   double first = b.part;
   std::int32_t met = -1;
@@ -297,11 +371,13 @@ void SubstepWorld::stop(const Fast& fast, const SweptBox& swept) {
     const SubstepBody& other = m_bodies[at(near)];
     const RigidMotion its = motionOf(other);
     const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
-    if (nearer <= marginOf(b, other) + kMaxPass * std::min(b.thickness, other.thickness)) continue;
+    const double pass = kMaxPass * std::min(b.thickness, other.thickness);
+    if (nearer <= marginOf(b, other) + pass) continue;
     if ((is_thinned || m_broad.isThinned(other.proxy)) && areDeep(b, other)) continue;
     const auto pair = findPair(id, near);
-    const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
     if (pair != m_pairs.end() && pair->is_jointed) continue;
+    const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
+    if (is_pushing && nearer <= b.margin + other.margin + pass) continue;
     const Vec2 offset = other.body.place - b.body.place +
                         (other.state > 0 && other.part < 1 ? other.part * movedBy(other) : Vec2{});
     // The rows keep the points apart that they know, yet others may come down in the same tick: what is
@@ -320,13 +396,40 @@ void SubstepWorld::stop(const Fast& fast, const SweptBox& swept) {
     }
   }
   if (first >= b.part) return;
-  b.part = first;
-  m_fastness[at(id)] = Fastness::kStopped;
   ++m_counters.stopped;
-  SubstepBody& other = m_bodies[at(met)];  // what comes the other way stops, too
-  if (m_fastness[at(met)] == Fastness::kSlow || !isMovable(other)) return;
-  other.part = std::min(other.part, first);
-  m_fastness[at(met)] = Fastness::kStopped;
+  const std::int32_t number = m_fast_numbers[at(met)];
+  Fast* const p_met = number == kSlowNumber || !isMovable(m_bodies[at(met)]) ? nullptr : &m_fast[at(number)];
+  if (p_met != nullptr && !p_met->is_stopped && goOnTogether(fast, *p_met, first)) return;
+  for (Fast* const p_fast : {&fast, p_met}) {  // what comes the other way stops, too
+    if (p_fast == nullptr) continue;
+    double& part = m_bodies[at(p_fast->id)].part;
+    part = std::min(part, first);
+    p_fast->is_stopped = true;
+  }
+}
+
+// Two fast bodies that meet at `time` go on together from there: if they stopped, what flies behind them
+// would run over them. Not where something is near that cannot be pushed, which they might get into.
+bool SubstepWorld::goOnTogether(Fast& one, Fast& other, double time) {
+  const double mass_of_other = m_bodies[at(one.id)].body.inverse_mass;  // as parts of their sum
+  const double mass_of_one = m_bodies[at(other.id)].body.inverse_mass;
+  const double sum = mass_of_one + mass_of_other;
+  if (!(sum > 0)) return false;
+  const Vec2 common = (mass_of_one * one.path + mass_of_other * other.path) / sum;
+  const auto pathOf = [&](const Fast& fast) { return time * fast.path + (1 - time) * common; };
+  for (const Fast* const p_fast : {&one, &other}) {
+    if (!isClear(m_bodies[at(p_fast->id)], pathOf(*p_fast))) return false;
+  }
+  for (Fast* const p_fast : {&one, &other}) {
+    SubstepBody& b = m_bodies[at(p_fast->id)];
+    const Vec2 gained = pathOf(*p_fast) - b.body.velocity;
+    SubstepState& s = m_states[at(b.state)];
+    s.x = static_cast<float>(gained.x), s.y = static_cast<float>(gained.y);
+    p_fast->path = movedBy(b);
+    b.is_diverted = true;
+    m_path_tree.grow(m_fast_numbers[at(p_fast->id)], seenPath(*p_fast));
+  }
+  return true;
 }
 
 // Impulses are floats, which the two bodies of a contact do not feel exactly alike. A group that nothing
@@ -370,6 +473,7 @@ void SubstepWorld::finish() {
     b.body.place = b.body.place + moved;
     if (b.turn != 0) b.body.rotation = turned(b.body.rotation, b.part * b.turn);
     if (!isMovable(b)) continue;
+    b.push = pushOn(b, s);
     b.body.velocity += Vec2{s.vx, s.vy};
     const Group& group = groupOf(b);
     if (group.mass > 0 && isFinite(group.missing)) b.body.velocity += group.missing / group.mass;

@@ -13,6 +13,7 @@
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/broadphase/ImpactTree.h"
 #include "physics/geometry/Index.h"
+#include "physics/geometry/TimeOfImpact.h"
 #include "physics/rigid/MagnetTurn.h"
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
@@ -53,7 +54,10 @@ class SubstepWorld final : public RigidStepper {
   const RigidBody& body(int id) const override { return m_bodies[at(id)].body; }
   bool exists(int id) const { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
   bool isFrozen(int id) const override { return m_bodies[at(id)].is_frozen; }
-  bool isStopped(int id) const override { return m_bodies[at(id)].state > 0 && m_bodies[at(id)].part < 1; }
+  bool isStopped(int id) const override {
+    const SubstepBody& b = m_bodies[at(id)];
+    return b.state > 0 && (b.part < 1 || b.is_diverted);
+  }
   bool isAsleep(int id) const { return m_bodies[at(id)].is_asleep; }
   int idLimit() const { return static_cast<int>(m_bodies.size()); }
 
@@ -101,10 +105,15 @@ class SubstepWorld final : public RigidStepper {
     double nearer;  // the gap that is left between them then, negative
     std::int32_t pair;
   };
-  enum class Fastness : std::uint8_t { kSlow, kFast, kStopped };
   struct Fast {  // a body that goes farther in this step than contacts were searched for
     Vec2 path;
     double roll, thickness;
+    std::int32_t id;
+    bool is_stopped = false;
+  };
+  static constexpr std::int32_t kSlowNumber = -1;
+  struct Slow {
+    GridBounds bounds;  // in the broad phase
     std::int32_t id;
   };
   struct Turn {  // in the order in which contacts are solved for
@@ -155,10 +164,16 @@ class SubstepWorld final : public RigidStepper {
   void finish();
   bool isFast(const SubstepBody& body) const;
   void stopFast();
-  GridBounds sweptBounds(const SubstepBody& body) const;
+  void treePaths();
+  Vec2 middlePath();
+  SweptBox seenPath(const Fast& fast) const;
+  static GridBounds sweptBounds(const SubstepBody& body, Vec2 path);
   bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
   void findNear(const Fast& fast, const SweptBox& swept);
-  void stop(const Fast& fast, const SweptBox& swept);
+  RigidMotion motionOf(const SubstepBody& body) const;
+  bool isClear(const SubstepBody& body, Vec2 path);
+  void stop(Fast& fast);
+  bool goOnTogether(Fast& one, Fast& other, double time);
   void forecast(SubstepBody& body) const;
   static double calmMargin(const SubstepBody& a, const SubstepBody& b);
   static GridBounds wideBounds(const SubstepBody& body);
@@ -208,8 +223,13 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_changed;
   std::vector<std::int32_t> m_near;
   std::vector<Fast> m_fast;
-  std::vector<Fastness> m_fastness;  // by id
-  std::vector<SweptBox> m_paths;     // of those, in grid units about the first of them
+  std::vector<std::int32_t> m_fast_numbers;  // by id: which of these
+  std::vector<Slow> m_slow;                  // the others, if the fast ones are many
+  // Of those, then of these: in grid units about the first of them, as seen by one who flies along.
+  std::vector<SweptBox> m_paths;
+  Vec2 m_along;  // how that one flies
+  std::vector<double> m_path_order;
+  bool m_are_many = false;
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
   std::vector<SubstepKick> m_kicks;  // by state

@@ -115,6 +115,34 @@ TEST(SubstepFast, AFastOneWakesAndPushesWhatItHits) {
   EXPECT_GT(scene.world.body(crate).velocity.x, 5);
 }
 
+// What is hit flies on with what it meets in its way: the ram behind it, just as fast, does not run over it.
+TEST(SubstepFast, ARamDoesNotRunOverWhatItPushes) {
+  SubstepScene scene;
+  const ConvexShape block = boxShape(4, 4);
+  RigidBody ram = movable({-80.0 / 3, 0}, block, 3200);
+  ram.velocity = {4.0 / 3, 0};
+  ram.acceleration = {};
+  const int ram_id = scene.add(ram, block);
+  const ConvexShape crate = boxShape(0.2, 0.2);
+  std::vector<int> crates;
+  for (int i = 0; i < 20 * 40; ++i) {
+    RigidBody body = movable({4.67 + 0.4 * (i / 40), 0.4 * (i % 40 - 19.5)}, crate);
+    body.acceleration = {};
+    crates.push_back(scene.add(body, crate));
+  }
+  scene.ticks(20);
+  double deepest = 0;  // of the crates' middles in the ram
+  for (int tick = 0; tick < 12; ++tick) {
+    scene.ticks(1);
+    for (const int id : crates) {
+      const Vec2 apart = scene.at(id) - scene.at(ram_id);
+      deepest = std::max(deepest, 4 - std::max(std::fabs(apart.x), std::fabs(apart.y)));
+    }
+  }
+  EXPECT_GT(scene.world.counters().stopped, 0);
+  EXPECT_LT(deepest, 0.2);
+}
+
 TEST(SubstepFast, SpeedsBeyondCalculationAreFrozen) {
   SubstepScene scene;
   const ConvexShape disc = circleShape(0.3);

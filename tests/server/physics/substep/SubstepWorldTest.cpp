@@ -57,6 +57,26 @@ TEST(SubstepWorld, APyramidStandsAndSleeps) {
   for (const int id : ids) EXPECT_TRUE(scene.world.isAsleep(id)) << id;
 }
 
+// Where nothing holds them: rounding leaves them a speed, but what drifts goes on.
+TEST(SubstepWorld, WhatFloatsAtRestSleepsAndWhatDriftsDoesNot) {
+  for (const double drift : {0.0, 1e-9}) {
+    SubstepScene scene;
+    const ConvexShape shape = boxShape(0.2, 0.2);
+    for (int i = 0; i < 36; ++i) {
+      RigidBody body = movable({30 + 0.4 * (i / 6), 0.4 * (i % 6 - 2.5)}, shape);
+      body.acceleration = {};
+      body.velocity = {drift, 0};
+      scene.add(body, shape);
+    }
+    scene.ticks(2);
+    double fastest = 0;
+    for (int id = 0; id < 36; ++id) fastest = std::max(fastest, scene.speed(id));
+    EXPECT_GT(fastest, 0);
+    scene.ticks(38);
+    for (int id = 0; id < 36; ++id) EXPECT_EQ(scene.world.isAsleep(id), drift == 0) << id;
+  }
+}
+
 TEST(SubstepWorld, SleepingCanBeSwitchedOff) {
   SubstepScene scene;
   scene.addFloor();
