@@ -73,7 +73,9 @@ std::vector<int> substepCounts(const Options& options, const lab::Problem& probl
   for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
     const bool quick = count == 1 || count == 4 || count == 16;
     const std::vector<int>& asked = options.substeps;
-    const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), count) != asked.end();
+    // What a level is judged at is always measured.
+    const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), count) != asked.end() ||
+                          (problem.kind == lab::Problem::Kind::DIAGRAM && count == method.own_substeps);
     if (count < method.own_substeps) continue;  // ticks get shorter, not longer
     if (problem.kind == lab::Problem::Kind::DIAGRAM && method.isProduct() && count > kMaxShorterTicks)
       continue;

@@ -175,7 +175,7 @@ def goals(x, metric, has_left, has_right):
     right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
     out = []
     for row, (value, words) in enumerate(targets(metric)):
-        name = f"{words} {plain(float(f'{value:.2g}')) if value else 0}"
+        name = f"{words} {plain(float(f'{value:.3g}')) if value else 0}"
         half = 3.3 * len(name)
         if value > SMALLEST:
             at = x(value)
