@@ -20,11 +20,14 @@ std::string names() {
   return all;
 }
 
-/// What the first argument of a command may be, if that is a choice.
+/// What the first argument of a command may be, if that is a choice, and the names of those that have one.
 std::string choices(const AdminCommand& command) {
   std::string all;
   if (command.arguments.empty()) return all;
   for (const std::string& one : command.arguments.front().one_of) all += (all.empty() ? "" : " ") + one;
+  for (const AdminArgument& argument : command.arguments) {
+    if (argument.named) all += (all.empty() ? "--" : " --") + argument.name;
+  }
   return all;
 }
 

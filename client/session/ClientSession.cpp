@@ -43,7 +43,7 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
   m_liveness.startStream(now);
   m_timing.noteAttached(now);
   if (!m_welcome.resumed || m_welcome.continuation) openDatagrams(now);
-  const std::string& wanted = m_link.options().room;
+  const std::string wanted = m_link.options().stays_in_room ? "" : m_link.options().room;
   if (fresh && m_welcome.resumed && !wanted.empty() && wanted != m_welcome.room) enterRoom(wanted);
   update(now);
 }
@@ -54,6 +54,7 @@ void ClientSession::handle(RefusedMessage&& message, Time) {
   m_password_refused = message.password;
   m_refused_as_full = message.full;
   m_redirect = std::move(message.redirect);
+  m_redirect_room = std::move(message.redirect_room);
   finish(State::kRefused, message.sentence.empty() ? "The server refused." : std::move(message.sentence));
 }
 

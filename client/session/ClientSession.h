@@ -112,6 +112,8 @@ class ClientSession {
   bool isRefusedAsFull() const { return m_refused_as_full; }
   /// Refused, and sent to another server: a link, as a stranger wrote it. Empty: none.
   const std::string& redirect() const { return m_redirect; }
+  /// The room to begin in there; empty: any.
+  const std::string& redirectRoom() const { return m_redirect_room; }
   /// A session that was lost: the server has said that it is back within this time; 0: it has not.
   std::chrono::seconds returnsIn() const { return m_returns_in; }
   /// Neither waiting for the server nor playing any more.
@@ -206,6 +208,7 @@ class ClientSession {
   bool m_password_refused = false;
   bool m_refused_as_full = false;
   std::string m_redirect;
+  std::string m_redirect_room;
   std::string m_sentence;
   std::chrono::seconds m_returns_in{0};
   std::uint64_t m_revision = 0;

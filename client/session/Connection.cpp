@@ -211,7 +211,7 @@ void Connection::checkPending() {
 }
 
 void Connection::checkRefusal(const ClientSession& refused) {
-  if (!refused.redirect().empty() && followRedirect(refused.redirect())) return;
+  if (!refused.redirect().empty() && followRedirect(refused.redirect(), refused.redirectRoom())) return;
   if (m_asks_first && m_state == State::kSearching) return attemptFailed(refused.sentence());
   if (refused.isRefusedForNow()) return waitForServer(refused.sentence());
   if (refused.isRefusedAsFull() && askFirstAgain()) return;
@@ -222,7 +222,7 @@ void Connection::checkRefusal(const ClientSession& refused) {
 
 // Who sends the client there may lie. So the other server gets its name, and nothing that was meant for this
 // one.
-bool Connection::followRedirect(const std::string& link) {
+bool Connection::followRedirect(const std::string& link, const std::string& room) {
   if (m_state != State::kJoining && !m_asks_first) return false;
   StreamOpener::Next next = m_opener->follow(link);
   if (!next.opener) return false;
@@ -236,7 +236,7 @@ bool Connection::followRedirect(const std::string& link) {
   m_options.password.clear();
   m_options.resume_token.clear();
   m_options.fresh = false;
-  m_options.room.clear();  // there, rooms have other names
+  m_options.room = room;  // there, rooms have other names
   m_p_tokens = nullptr;
   m_key.reset();
   m_put_off = m_busy = false;

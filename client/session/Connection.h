@@ -113,7 +113,7 @@ class Connection {
   void tryLater(Time now);
   void checkPending();
   void checkRefusal(const ClientSession& refused);
-  bool followRedirect(const std::string& link);
+  bool followRedirect(const std::string& link, const std::string& room);
   bool askFirstAgain();
   void swapServers();
   bool isTimeToAskFirst(Time now) const;

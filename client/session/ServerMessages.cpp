@@ -66,6 +66,7 @@ std::optional<ServerMessageValue> check(const wire::Refused& wire) {
                          safeText(wire.sentence(), kMaxSentenceLength)};
   const bool may_redirect = wire.reason() == wire::Refused::FULL || wire.reason() == wire::Refused::REDIRECT;
   if (may_redirect && wire.redirect().size() <= kMaxRedirect) message.redirect = wire.redirect();
+  if (isRoomName(wire.redirect_room())) message.redirect_room = wire.redirect_room();
   message.full = wire.reason() == wire::Refused::FULL;
   return message;
 }

@@ -79,7 +79,8 @@ struct RefusedMessage {
   std::string sentence;
   /// To another server that has a place: a link (JoinLink.h), as the server wrote it. Empty: none.
   std::string redirect = {};
-  bool full = false;  ///< it has no place
+  std::string redirect_room = {};  ///< of that server: a name of a room, or empty
+  bool full = false;               ///< it has no place
 };
 
 struct GoodbyeMessage {

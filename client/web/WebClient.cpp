@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shared/net/base/RoomName.h"
 #include "shared/replica/Limits.h"
 
 namespace naiad {
@@ -16,6 +17,8 @@ SessionOptions sessionOptions(const WebClient::Options& options) {
   session.columns = options.columns;
   session.rows = options.rows;
   session.two_streams = true;
+  if (isRoomName(options.room)) session.room = options.room;
+  session.stays_in_room = true;  // a page that is loaded again has the address of before
   return session;
 }
 

@@ -32,6 +32,7 @@ class WebClient {
     std::string token;    ///< what the page kept for this tab
     std::string program;  ///< for the server's log
     std::string server;   ///< what the page calls the server
+    std::string room;     ///< of the page's address, to begin in; what is no name of one counts as none
     int columns = 0;      ///< of the picture, in cells
     int rows = 0;
   };

@@ -113,11 +113,12 @@ NAIAD_EXPORT(buffer) char* webBuffer() {
   return module().in.data();
 }
 
-/// The next start()'s options, of buffer(): 0 name, 1 password, 2 token, 3 what the server is called.
+/// The next start()'s options, of buffer(): 0 name, 1 password, 2 token, 3 what the server is called, 4 room.
 NAIAD_EXPORT(option) void webOption(int which, std::size_t size) {
   WebClient::Options& options = module().options;
-  std::string* const texts[] = {&options.name, &options.password, &options.token, &options.server};
-  if (which >= 0 && which < 4) *texts[which] = input(0, size);
+  std::string* const texts[] = {&options.name, &options.password, &options.token, &options.server,
+                                &options.room};
+  if (which >= 0 && which < 5) *texts[which] = input(0, size);
 }
 
 /// Join, with a picture of so many cells; the client before is gone.

@@ -1,5 +1,6 @@
 #include "server/directory/Directory.h"
 
+#include <algorithm>
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
 #include <asio/steady_timer.hpp>
@@ -24,7 +25,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTurn{250};
+constexpr std::chrono::milliseconds kMostTurn{250};
+
+/// Servers that come and go are seen soon, in each of their intervals a few times.
+std::chrono::milliseconds turnOf(const DirectorySettings& settings) {
+  return std::min(kMostTurn, settings.interval / 4);
+}
 
 BusSettings listening(BusSettings settings) {
   settings.subjects = {presenceSubject("*")};
@@ -68,7 +74,8 @@ Directory::Loop::Loop(DirectorySettings given, LogLine line)
     : settings(std::move(given)),
       log(std::move(line)),
       fleet(
-          connectBus(listening(settings.bus)), [this](const std::string& text) { log(text); }, Clock::now()) {
+          connectBus(listening(settings.bus)), [this](const std::string& text) { log(text); }, Clock::now(),
+          settings.interval) {
   if (!settings.list.empty()) file.emplace(settings.list, serverListText({}));
   openLobby();
   awaitTurn();
@@ -97,7 +104,7 @@ void Directory::Loop::reload() {
 }
 
 void Directory::Loop::awaitTurn() {
-  timer.expires_after(kTurn);
+  timer.expires_after(turnOf(settings));
   timer.async_wait([this](const std::error_code& error) {
     if (error) return;
     takeTurn(Clock::now());
@@ -115,14 +122,14 @@ void Directory::Loop::takeTurn(Clock::time_point now) {
 
 /// Servers that fill up are said where there is room.
 void Directory::Loop::sendOn(Clock::time_point now) {
-  if (now - said_room < SendOn::kInterval) return;
+  if (now - said_room < settings.interval) return;
   said_room = now;
   for (const Presence& full : fleet.servers().crowded()) {
-    const Presence* p_other = fleet.servers().roomiest({full.game, full.protocol, full.id});
-    if (p_other == nullptr) continue;
-    const auto link = JoinLink::parse(linkOf(*p_other));
+    const FleetList::Place other = fleet.servers().roomiest({full.game, full.protocol, full.id});
+    if (!other) continue;
+    const auto link = JoinLink::parse(linkOf(*other.p_server, other.room));
     if (const auto* const p_link = std::get_if<JoinLink>(&link))
-      fleet.bus().publish({sendOnSubject(full.id), SendOn{p_other->id, *p_link}.payload()});
+      fleet.bus().publish({sendOnSubject(full.id), SendOn{other.p_server->id, *p_link}.payload()});
   }
 }
 

@@ -7,6 +7,14 @@
 
 namespace naiad {
 
+namespace {
+
+bool isWished(const PresenceRoom& room, const FleetList::Wish& wish) {
+  return (wish.room.empty() || room.name == wish.room) && (wish.game.empty() || room.game == wish.game);
+}
+
+}  // namespace
+
 bool FleetList::put(const std::string& subject, std::string_view payload, Time now) {
   auto presence = Presence::parse(payload);
   if (!presence) {
@@ -27,13 +35,19 @@ bool FleetList::put(const std::string& subject, std::string_view payload, Time n
   entry.presence = *std::move(presence);
   entry.heard = now;
   entry.sent = {0, entry.sent[0], entry.sent[1]};
+  std::map<std::string, Sent> sent_to;
+  for (const PresenceRoom& room : entry.presence.rooms) {
+    if (const auto found = entry.sent_to.find(room.name); found != entry.sent_to.end())
+      sent_to[room.name] = {0, found->second[0], found->second[1]};
+  }
+  entry.sent_to = std::move(sent_to);
   return is_new;
 }
 
 std::vector<std::string> FleetList::removeSilent(Time now) {
   std::vector<std::string> gone;
   for (auto at = m_servers.begin(); at != m_servers.end();) {
-    if (now - at->second.heard < kLife) {
+    if (now - at->second.heard < m_life) {
       ++at;
       continue;
     }
@@ -48,44 +62,83 @@ void FleetList::forgiveSilence(Time now) {
   for (auto& [id, entry] : m_servers) entry.heard = now;
 }
 
+bool FleetList::Load::isBetterThan(const Load& other) const {
+  if (isCalm() != other.isCalm()) return isCalm();
+  return isCalm() ? taken > other.taken : free() > other.free();
+}
+
+FleetList::Load FleetList::Entry::load() const {
+  return {presence.players + sent[0] + sent[1] + sent[2], presence.max_players};
+}
+
+FleetList::Load FleetList::Entry::load(const PresenceRoom& room) const {
+  const auto found = sent_to.find(room.name);
+  const Sent on_the_way = found != sent_to.end() ? found->second : Sent();
+  return {room.players + on_the_way[0] + on_the_way[1] + on_the_way[2], room.max_players};
+}
+
 bool FleetList::isOfKind(const Entry& entry, const Wish& wish) {
   const Presence& there = entry.presence;
-  return !there.asks_password && !there.host.empty() && !there.key.empty() && there.port >= kLeastFleetPort &&
-         there.protocol == wish.protocol && there.id != wish.not_id &&
-         (wish.game.empty() || there.game == wish.game);
+  const bool may = !there.asks_password && !there.host.empty() && !there.key.empty() &&
+                   there.port >= kLeastFleetPort && there.protocol == wish.protocol &&
+                   there.id != wish.not_id;
+  if (!may) return false;
+  if (!there.rooms.empty())
+    return std::ranges::any_of(there.rooms, [&wish](const auto& room) { return isWished(room, wish); });
+  return wish.room.empty() && (wish.game.empty() || there.game == wish.game);
 }
 
-bool FleetList::fits(const Entry& entry, const Wish& wish) {
-  return isOfKind(entry, wish) && entry.presence.is_open && entry.taken() < entry.presence.max_players;
+// Rooms are in the server's order, so that who wishes for nothing begins where players begin there.
+const PresenceRoom* FleetList::findRoom(const Entry& entry, const Wish& wish) {
+  const PresenceRoom* p_best = nullptr;
+  for (const PresenceRoom& room : entry.presence.rooms) {
+    if (!isWished(room, wish) || entry.load(room).free() == 0) continue;
+    if (p_best == nullptr || (!wish.game.empty() && entry.load(room).isBetterThan(entry.load(*p_best))))
+      p_best = &room;
+  }
+  return p_best;
 }
 
-bool FleetList::isCalm(const Entry& entry) {
-  return entry.taken() < entry.presence.max_players / 4 * 3;
+std::optional<FleetList::Load> FleetList::loadFor(const Entry& entry, const Wish& wish) {
+  if (!isOfKind(entry, wish) || !entry.presence.is_open || entry.load().free() == 0) return std::nullopt;
+  if (entry.presence.rooms.empty()) return entry.load();
+  const PresenceRoom* const p_room = findRoom(entry, wish);
+  if (p_room == nullptr) return std::nullopt;
+  return wish.game.empty() && wish.room.empty() ? entry.load() : entry.load(*p_room);
 }
 
-bool FleetList::isBetter(const Entry& a, const Entry& b) {
-  const auto free = [](const Entry& entry) { return entry.presence.max_players - entry.taken(); };
-  if (isCalm(a) != isCalm(b)) return isCalm(a);
-  return isCalm(a) ? a.taken() > b.taken() : free(a) > free(b);
+FleetList::Place FleetList::placeIn(const Entry& entry, const Wish& wish) {
+  const PresenceRoom* const p_room = findRoom(entry, wish);
+  return {&entry.presence, p_room != nullptr ? p_room->name : ""};
 }
 
-const Presence* FleetList::choose(const Wish& wish) {
+FleetList::Place FleetList::choose(const Wish& wish) {
   Entry* p_best = nullptr;
+  std::optional<Load> best;
   for (auto& [id, entry] : m_servers) {
-    if (fits(entry, wish) && (p_best == nullptr || isBetter(entry, *p_best))) p_best = &entry;
+    const auto load = loadFor(entry, wish);
+    if (!load || (best && !load->isBetterThan(*best))) continue;
+    p_best = &entry;
+    best = load;
   }
-  if (p_best == nullptr) return nullptr;
+  if (p_best == nullptr) return {};
+  Place place = placeIn(*p_best, wish);
   ++p_best->sent[0];
-  return &p_best->presence;
+  if (!place.room.empty()) ++p_best->sent_to[place.room][0];
+  return place;
 }
 
-const Presence* FleetList::roomiest(const Wish& wish) const {
-  const auto free = [](const Entry& entry) { return entry.presence.max_players - entry.taken(); };
+FleetList::Place FleetList::roomiest(const Wish& wish) const {
   const Entry* p_best = nullptr;
+  std::uint32_t most = 0;
   for (const auto& [id, entry] : m_servers) {
-    if (fits(entry, wish) && (p_best == nullptr || free(entry) > free(*p_best))) p_best = &entry;
+    const auto load = loadFor(entry, wish);
+    const std::uint32_t free = load ? std::min(load->free(), entry.load().free()) : 0;
+    if (free <= most) continue;
+    p_best = &entry;
+    most = free;
   }
-  return p_best != nullptr ? &p_best->presence : nullptr;
+  return p_best != nullptr ? placeIn(*p_best, wish) : Place();
 }
 
 bool FleetList::plays(const Wish& wish) const {
@@ -96,7 +149,7 @@ bool FleetList::plays(const Wish& wish) const {
 std::vector<Presence> FleetList::crowded() const {
   std::vector<Presence> found;
   for (const auto& [id, entry] : m_servers) {
-    if (!entry.presence.is_open || !isCalm(entry)) found.push_back(entry.presence);
+    if (!entry.presence.is_open || !entry.load().isCalm()) found.push_back(entry.presence);
   }
   return found;
 }

@@ -4,11 +4,13 @@
 // its subject has, and ends by itself.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +33,9 @@ class FleetList {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::size_t kMaxServers = 4096;
-  /// Of silence, after which a server is gone.
-  static constexpr std::chrono::seconds kLife = 3 * Presence::kInterval;
+
+  /// `interval`: between two times that a server says it is there; silent for three of them, it is gone.
+  explicit FleetList(std::chrono::milliseconds interval = Presence::kInterval) : m_life(3 * interval) {}
 
   /// What was said under this subject. True if the server is new.
   bool put(const std::string& subject, std::string_view payload, Time now);
@@ -46,16 +49,24 @@ class FleetList {
     std::string game;            ///< empty: any
     std::uint32_t protocol = 0;  ///< that the client speaks
     std::string not_id = {};     ///< the server that sends them on
+    std::string room = {};       ///< by name; empty: any
+  };
+  /// Where a player is sent.
+  struct Place {
+    const Presence* p_server = nullptr;  ///< null: there is none
+    std::string room = {};               ///< of that server; empty: it has said nothing of rooms
+    explicit operator bool() const { return p_server != nullptr; }
   };
   /// A server that lets the player in: it is open, without a password, known by address and key, on a port
   /// that no system service has, and has a free place. The fullest below three quarters, for players look for
-  /// company, else the one with most places. The place is taken from then on, until the server has counted
-  /// the player. Null: there is none.
-  const Presence* choose(const Wish& wish);
+  /// company, else the one with most places. Of a server with rooms, a room of that game or name which has a
+  /// free place, chosen in the same way; without such a wish the first one that has. The place is taken from
+  /// then on, until the server has counted the player.
+  Place choose(const Wish& wish);
 
   /// The same for the players of a server that is about to be full: the one with most places, and none is
   /// taken.
-  const Presence* roomiest(const Wish& wish) const;
+  Place roomiest(const Wish& wish) const;
   /// Is there a server for such players, be it full or closed?
   bool plays(const Wish& wish) const;
   /// Those of which three quarters are taken, or which let no players in.
@@ -66,18 +77,33 @@ class FleetList {
   const FleetCounters& counters() const { return m_counters; }
 
  private:
+  /// Players: since the server was heard, and in the intervals before, for they may still be on their way.
+  using Sent = std::array<std::uint32_t, 3>;
+  /// Of a server, or of a room.
+  struct Load {
+    std::uint32_t taken = 0;
+    std::uint32_t places = 0;
+    std::uint32_t free() const { return places - std::min(taken, places); }
+    bool isCalm() const { return taken < places / 4 * 3; }
+    /// For a player who looks for company.
+    bool isBetterThan(const Load& other) const;
+  };
   struct Entry {
     Presence presence;
     Time heard{};
-    /// Players: since it was heard, and in the intervals before, for they may still be on their way.
-    std::array<std::uint32_t, 3> sent{};
-    std::uint32_t taken() const { return presence.players + sent[0] + sent[1] + sent[2]; }
+    Sent sent{};
+    std::map<std::string, Sent> sent_to;  ///< by room
+    Load load() const;
+    Load load(const PresenceRoom& room) const;
   };
   static bool isOfKind(const Entry& entry, const Wish& wish);
-  static bool fits(const Entry& entry, const Wish& wish);
-  static bool isCalm(const Entry& entry);
-  static bool isBetter(const Entry& a, const Entry& b);
+  /// The room that is wished for; null: none has a free place.
+  static const PresenceRoom* findRoom(const Entry& entry, const Wish& wish);
+  /// Of what the player is sent to; nothing: it has no place for them.
+  static std::optional<Load> loadFor(const Entry& entry, const Wish& wish);
+  static Place placeIn(const Entry& entry, const Wish& wish);
 
+  std::chrono::milliseconds m_life;
   std::map<std::string, Entry> m_servers;
   FleetCounters m_counters;
 };

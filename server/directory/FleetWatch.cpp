@@ -6,8 +6,9 @@
 
 namespace naiad {
 
-FleetWatch::FleetWatch(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log, Time now)
-    : m_bus(std::move(bus)), m_log(std::move(log)), m_connected_at(now) {}
+FleetWatch::FleetWatch(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log, Time now,
+                       std::chrono::milliseconds interval)
+    : m_bus(std::move(bus)), m_log(std::move(log)), m_servers(interval), m_connected_at(now) {}
 
 void FleetWatch::update(Time now) {
   if (const std::string line = m_bus->takeNews(); !line.empty()) m_log(line);

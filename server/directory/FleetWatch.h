@@ -24,8 +24,9 @@ class FleetWatch {
   /// Lines about servers that come and go: names may come from a server that only pretends.
   static constexpr BucketRate kNewsRate{5, 100};
 
-  /// `bus` listens to presence. `log`: a line for people.
-  FleetWatch(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log, Time now);
+  /// `bus` listens to presence. `log`: a line for people. `interval`: as FleetList's.
+  FleetWatch(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log, Time now,
+             std::chrono::milliseconds interval = Presence::kInterval);
 
   /// Some times a second.
   void update(Time now);

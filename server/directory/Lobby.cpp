@@ -31,6 +31,7 @@ struct Lobby::State : std::enable_shared_from_this<State> {
 
   State(asio::io_context& io, const LobbySettings& settings, FleetList& list)
       : context(io),
+        hello_time(settings.hello_time),
         servers(list),
         handshakes(PrefixRates::handshakes(settings.max_per_address)),
         limit({kMaxGuests, std::clamp<std::size_t>(static_cast<std::size_t>(settings.max_per_address), 1,
@@ -44,6 +45,7 @@ struct Lobby::State : std::enable_shared_from_this<State> {
   void release(Id id, Guest& guest);
 
   asio::io_context& context;
+  const std::chrono::milliseconds hello_time;
   FleetList& servers;
   PrefixAllowance handshakes;
   HalfOpenLimit limit;
@@ -77,7 +79,7 @@ void Lobby::State::meet(std::unique_ptr<ReliableChannel> channel) {
   const Id id = next++;
   limit.admit(id, prefix);
   Guest& guest = guests.try_emplace(id, context, std::move(channel)).first->second;
-  guest.deadline.expires_after(kHelloTime);
+  guest.deadline.expires_after(hello_time);
   guest.deadline.async_wait([self = shared_from_this(), id](const std::error_code& error) {
     if (error) return;
     ++self->counters.late;

@@ -19,9 +19,10 @@
 namespace naiad {
 
 struct LobbySettings {
-  std::string address = "::";  ///< numeric
-  std::uint16_t port = 0;      ///< 0: any free one
-  int max_per_address = 64;    ///< players who come at once from one IPv4 address or IPv6 /64
+  std::string address = "::";                   ///< numeric
+  std::uint16_t port = 0;                       ///< 0: any free one
+  std::chrono::milliseconds hello_time{5'000};  ///< after which a connection without a hello is ended
+  int max_per_address = 64;  ///< players who come at once from one IPv4 address or IPv6 /64
 };
 
 struct LobbyCounters {
@@ -37,7 +38,6 @@ struct LobbyCounters {
 /// Thread: the one that runs the context, which must outlive it, as `servers` must.
 class Lobby {
  public:
-  static constexpr std::chrono::seconds kHelloTime{5};
   static constexpr std::size_t kMaxGuests = 1024;  ///< connections without a hello
 
   /// Listens from now on. Throws ListenError.

@@ -2,6 +2,7 @@
 // sends players to them.
 #include <asio/ip/address.hpp>
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "server/directory/Directory.h"
+#include "shared/fleet/Presence.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/Options.h"
@@ -22,9 +24,10 @@ namespace {
 enum ExitCode { kUsage = 2, kCannotListen = 4, kFile = 5 };
 
 constexpr const char* kHelp =
-    "Servers say on the bus that they are there (dfserver --bus). One that says nothing for 6 s is left out; "
-    "while the\n"
-    "bus itself is gone the list stays as it is, for 10 minutes. SIGHUP opens the log again; SIGTERM and "
+    "Servers say on the bus that they are there (dfserver --bus). One that says nothing for three intervals "
+    "is left out;\n"
+    "while the bus itself is gone the list stays as it is, for 10 minutes. SIGHUP opens the log again; "
+    "SIGTERM and "
     "SIGINT end it,\n"
     "and remove the list.\n\n"
     "With --listen it is a lobby: dfclient joins it as any server, and is sent to one that has a place "
@@ -39,6 +42,7 @@ struct CommandLine {
   naiad::DirectorySettings settings;
   std::string link_host;
   int max_per_address = 64;
+  int interval_ms = static_cast<int>(naiad::Presence::kInterval.count());
   std::string port_file;
   std::string log_file;
 };
@@ -85,6 +89,13 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .help = "Certificates (PEM) by which that of a tls:// bus is judged; default: the system's",
        .environment = "NAIAD_BUS_CA",
        .type = "FILE"},
+      {.name = "--bus-interval",
+       .target = &line.interval_ms,
+       .help = "Milliseconds between two times that a server says it is there, as the servers'",
+       .environment = "NAIAD_BUS_INTERVAL",
+       .range = naiad::OptionRange{naiad::Presence::kLeastInterval.count(),
+                                   naiad::Presence::kMostInterval.count()},
+       .shows_default = true},
       {.name = "--list",
        .target = &settings.list,
        .help = "Write the list of servers to this file, for a web server and dfclient --list-url",
@@ -156,6 +167,7 @@ void announce(const CommandLine& line, const naiad::Directory& directory, const 
 void serve(CommandLine& line) {
   const auto lines = std::make_shared<naiad::LineLog>(line.log_file);
   const naiad::LogLine log = [lines](const naiad::LogEvent& event) { (*lines)(event); };
+  line.settings.interval = std::chrono::milliseconds(line.interval_ms);
   if (line.settings.lobby) line.settings.lobby->max_per_address = line.max_per_address;
   naiad::allowOpenFiles(kOpenFiles);
   naiad::Directory directory(line.settings, log);

@@ -50,6 +50,7 @@ bool Replay::step(bool pictures) {
   ++m_tick;
   m_differs = false;
   m_pictures.clear();
+  m_scores.clear();
   m_recorded.reset();
   const bool exact = !pictures || (m_turn.wants_truth && m_turn.pictured == 0);
   WorldTurn turn = m_turn;
@@ -67,8 +68,11 @@ bool Replay::step(bool pictures) {
     return false;
   }
   takeRest(*answer, exact);
-  if (turn.wants_truth) {
-    if (auto head = readAnswerHead(*answer)) m_pictures = std::move(head->pictures);
+  if (turn.wants_truth || m_reads_scores) {
+    if (auto head = readAnswerHead(*answer)) {
+      m_pictures = std::move(head->pictures);
+      m_scores = std::move(head->scores);
+    }
   }
   return true;
 }

@@ -24,6 +24,8 @@ class Replay {
   bool hasNextTurn() const { return m_next && std::holds_alternative<WorldTurn>(*m_next); }
   /// In this tick the world gets the keys and clicks that were left out later, because it died by them.
   void keepDroppedKeys(std::uint32_t tick) { m_kept_tick = tick; }
+  /// Read the scores of each tick's answer, too.
+  void readScores() { m_reads_scores = true; }
   /// Ticks executed so far.
   std::uint32_t tick() const { return m_tick; }
 
@@ -32,6 +34,8 @@ class Replay {
   const WorldTurn& turn() const { return m_turn; }
   /// What the players saw, as far as it was asked for.
   const std::vector<WorldPicture>& pictures() const { return m_pictures; }
+  /// What the game added, after readScores().
+  const std::vector<df::AddedScore>& scores() const { return m_scores; }
   /// What the file has of it.
   const std::optional<RecordedPicture>& recordedPicture() const { return m_recorded; }
   /// Was it other than the file says?
@@ -66,6 +70,8 @@ class Replay {
   std::uint32_t m_kept_tick = 0;  ///< 0: none
   WorldTurn m_turn;
   std::vector<WorldPicture> m_pictures;
+  bool m_reads_scores = false;
+  std::vector<df::AddedScore> m_scores;
   std::optional<RecordedPicture> m_recorded;
   bool m_differs = false;
   std::uint32_t m_first_difference = 0;

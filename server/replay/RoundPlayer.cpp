@@ -26,12 +26,13 @@ constexpr std::chrono::milliseconds kBetweenFrames{16};
 
 }  // namespace
 
-RoundControls::RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now)
+RoundControls::RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now,
+                             std::uint32_t from)
     : m_reel(reel),
       m_frame_nanos(std::max<std::uint64_t>(frame_nanos, 1'000'000)),
       m_player(player),
       m_since(now) {
-  m_reel.seek(1);
+  m_from = std::max(m_reel.seek(std::max(from, 1u)), 1u);
 }
 
 double RoundControls::ticksPerNano() const {
@@ -160,7 +161,7 @@ void RoundPlayer::run() {
   guard.installHandlers();
   guard.enterModes();
   InputDecoder decoder;
-  RoundControls controls(reel, m_round.header().frame_nanos, m_player, Clock::now());
+  RoundControls controls(reel, m_round.header().frame_nanos, m_player, Clock::now(), m_from);
   Clock::time_point shown_at;
   bool goes_on = true;
   bool changed = true;

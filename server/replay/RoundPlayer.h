@@ -21,8 +21,9 @@ class RoundControls {
   static constexpr int kFastest = 6;   ///< 64 times
   static constexpr std::uint64_t kJumpNanos = 5'000'000'000;
 
-  /// `player`: whose eyes; 0: the first there is. Begins with the first tick.
-  RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now);
+  /// `player`: whose eyes; 0: the first there is. Begins with tick `from`, or the last one before it.
+  RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now,
+                std::uint32_t from = 1);
 
   /// False: the player wants to end it.
   bool takeKey(const KeyEvent& key, Time now);
@@ -57,8 +58,9 @@ class RoundControls {
 
 class RoundPlayer {
  public:
-  RoundPlayer(const RecordedRound& round, const RoundStage& stage, std::uint32_t player)
-      : m_round(round), m_stage(stage), m_player(player) {}
+  /// As RoundControls.
+  RoundPlayer(const RecordedRound& round, const RoundStage& stage, std::uint32_t player, std::uint32_t from)
+      : m_round(round), m_stage(stage), m_player(player), m_from(from) {}
   /// Until a key or a signal ends it. Throws std::runtime_error with a sentence if the terminal cannot show
   /// it.
   void run();
@@ -69,6 +71,7 @@ class RoundPlayer {
   const RecordedRound& m_round;
   const RoundStage& m_stage;
   std::uint32_t m_player;
+  std::uint32_t m_from;
 };
 
 }  // namespace naiad

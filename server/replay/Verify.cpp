@@ -185,6 +185,26 @@ void printInputs(const RecordedRound& round, std::ostream& out) {
       << (reader->why().empty() ? "" : ": the game " + reader->why()) << "\n";
 }
 
+bool printScores(const RecordedRound& round, const RoundStage& stage, std::ostream& out) {
+  Replay replay(round, stage);
+  replay.readScores();
+  std::size_t count = 0;
+  while (replay.firstDifference() == 0 && replay.step()) {
+    for (const df::AddedScore& added : replay.scores()) {
+      out << "tick=" << added.tick << " number=" << added.number << " table=" << safeText(added.table, 100)
+          << " name=\"" << safeText(added.score.name, 100) << "\" points=" << added.score.points << "\n";
+      ++count;
+    }
+  }
+  if (replay.firstDifference() != 0) {
+    out << "tick " << replay.firstDifference() << ": " << replay.whatDiffers()
+        << " is not as it was recorded\n";
+    return false;
+  }
+  out << "ticks=" << replay.tick() << " scores=" << count << " read " << endText(replay.end()) << "\n";
+  return true;
+}
+
 bool printPicture(const RecordedRound& round, const RoundStage& stage, std::uint32_t tick,
                   std::uint32_t player, std::ostream& out) {
   Replay replay(round, stage);

@@ -27,7 +27,8 @@ constexpr const char* kHelp =
     "In the terminal: space pauses, left and right go 5 s, . goes one tick, + and - change the speed (1/4 to "
     "64\n"
     "times), Tab changes whose eyes, q ends it.\n\n"
-    "Exit codes: 0 in order; 1 --verify: it is not the same; 2 wrong usage; 3 the file or its game cannot "
+    "Exit codes: 0 in order; 1 --verify, --scores: it is not the same; 2 wrong usage; 3 the file or its game "
+    "cannot "
     "be\n"
     "used; 4 there is no terminal to play in.\n";
 
@@ -36,7 +37,9 @@ struct ReplayOptions {
   std::string game;
   bool verify = false;
   bool inputs = false;
+  bool scores = false;
   int text = 0;
+  int from = 1;
   int until = 0;
   bool debug = false;
   int player = 0;
@@ -53,9 +56,17 @@ std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
        .target = &replay.verify,
        .help = "Execute it again and compare: the ticks and the speed, or the first tick that differs"},
       {.name = "--inputs", .target = &replay.inputs, .help = "Print what players pressed, tick by tick"},
+      {.name = "--scores",
+       .target = &replay.scores,
+       .help = "Execute it again, and print the scores that the game adds, as dfctl scores names them"},
       {.name = "--text",
        .target = &replay.text,
        .help = "Print what is on the screen after this tick",
+       .range = naiad::OptionRange{1, 2e9},
+       .type = "TICK"},
+      {.name = "--from",
+       .target = &replay.from,
+       .help = "In the terminal: begin with this tick",
        .range = naiad::OptionRange{1, 2e9},
        .type = "TICK"},
       {.name = "--until",
@@ -103,6 +114,7 @@ int run(const ReplayOptions& replay) {
   const naiad::RoundStage stage(round, replay.game);
   const auto player = static_cast<std::uint32_t>(replay.player);
   if (replay.verify) return naiad::verifyRound(round, stage, std::cout) ? kOk : kDiffers;
+  if (replay.scores) return naiad::printScores(round, stage, std::cout) ? kOk : kDiffers;
   if (replay.debug) {
     naiad::debugRound(round, stage, static_cast<std::uint32_t>(replay.until), std::cout);
     return kOk;
@@ -113,7 +125,7 @@ int run(const ReplayOptions& replay) {
     return there ? kOk : fail(kNoRound, "there is no picture of that tick and player.");
   }
   if (!naiad::RoundPlayer::hasTerminal()) return fail(kNoTerminal, "playing a round takes a terminal.");
-  naiad::RoundPlayer(round, stage, player).run();
+  naiad::RoundPlayer(round, stage, player, static_cast<std::uint32_t>(replay.from)).run();
   return kOk;
 }
 

@@ -79,7 +79,9 @@ std::vector<AdminCommand> tableOfCommands() {
        Place::kSocket,
        "List the best scores that are on disk, of one table or of all",
        {{"table", Kind::kWord, false, "Name of a table of the game"},
-        {"count", Kind::kWord, false, "Rows of a table, at most 10000; else 10"}},
+        {"count", Kind::kWord, false, "Rows of a table, at most 10000; else 10"},
+        {"room", Kind::kWord, false, "Of the game that is played in this room", {}, true},
+        {"game", Kind::kWord, false, "Of this game, where rooms play several", {}, true}},
        true},
       {"mute", Level::kAdmin, Place::kBoth, "Send a player's lines to nobody", {kOnePlayer}},
       {"unmute", Level::kAdmin, Place::kBoth, "Let a muted player talk again", {kOnePlayer}},
@@ -129,6 +131,7 @@ std::string upper(std::string text) {
 }
 
 std::string placeholder(const AdminArgument& argument) {
+  if (argument.named) return "--" + argument.name + " " + upper(argument.name);
   if (argument.kind != Kind::kChoice) return upper(argument.name);
   std::string all;
   for (const std::string& one : argument.one_of) all += (all.empty() ? "" : "|") + one;

@@ -24,6 +24,7 @@ struct AdminArgument {
   bool required = true;
   std::string help;
   std::vector<std::string> one_of{};
+  bool named = false;  ///< given as --NAME VALUE or --NAME=VALUE, anywhere behind the command
 };
 
 struct AdminCommand {

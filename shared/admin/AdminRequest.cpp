@@ -50,8 +50,45 @@ void checkArgument(const AdminCommand& command, const AdminArgument& argument, c
     for (const std::string& one : argument.one_of) all += (all.empty() ? "" : ", ") + one;
     throw AdminUsageError(where + " is none of: " + all + ".");
   }
-  if (value.empty() && argument.required && argument.kind != Kind::kSecret)
+  if (value.empty() && (argument.required || argument.named) && argument.kind != Kind::kSecret)
     throw AdminUsageError(command.name + ": " + argument.name + " is empty.");
+}
+
+/// Of --NAME or --NAME=VALUE; null if it is neither.
+const AdminArgument* findNamed(const AdminCommand& command, const std::string& word) {
+  const std::string name = undashed(word.substr(0, word.find('=')));
+  const auto found = std::find_if(
+      command.arguments.begin(), command.arguments.end(),
+      [&name](const AdminArgument& argument) { return argument.named && argument.name == name; });
+  return word.starts_with("--") && found != command.arguments.end() ? &*found : nullptr;
+}
+
+bool hasNamed(const AdminCommand& command) {
+  return std::any_of(command.arguments.begin(), command.arguments.end(),
+                     [](const AdminArgument& argument) { return argument.named; });
+}
+
+/// Move the named arguments into the request. Return the other words.
+std::vector<std::string> takeNamed(AdminRequest& request, const std::vector<std::string>& words) {
+  if (!hasNamed(*request.command)) return words;
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const AdminArgument* p_argument = findNamed(*request.command, word);
+    if (p_argument == nullptr && word.starts_with("--"))
+      throw AdminUsageError(request.command->name + " has no option " + word +
+                            ". Usage: " + adminUsage(*request.command));
+    if (p_argument == nullptr) {
+      others.push_back(word);
+    } else if (const std::size_t equals = word.find('='); equals != std::string::npos) {
+      request.arguments[p_argument->name] = word.substr(equals + 1);
+    } else if (i + 1 < words.size()) {
+      request.arguments[p_argument->name] = words[++i];
+    } else {
+      throw AdminUsageError(word + " wants a value.");
+    }
+  }
+  return others;
 }
 
 AdminRequest check(AdminRequest request) {
@@ -84,12 +121,14 @@ std::string AdminRequest::redacted() const {
   return text;
 }
 
-AdminRequest readAdminRequest(const std::vector<std::string>& words) {
-  if (words.empty()) throw AdminUsageError("A command is missing.");
-  AdminRequest request{&commandOf(words.front()), {}};
+AdminRequest readAdminRequest(const std::vector<std::string>& line) {
+  if (line.empty()) throw AdminUsageError("A command is missing.");
+  AdminRequest request{&commandOf(line.front()), {}};
+  const std::vector<std::string> words = takeNamed(request, line);
   std::size_t next = 1;
   for (const AdminArgument& argument : request.command->arguments) {
     if (next == words.size()) break;
+    if (argument.named) continue;
     if (!argument.required && !fits(argument, words[next])) continue;
     std::string& value = request.arguments[argument.name];
     value = argument.kind == Kind::kChoice ? undashed(words[next]) : words[next];

@@ -22,6 +22,8 @@ class BusFields {
   bool ok() const { return m_ok; }
   void fail() { m_ok = false; }
 
+  bool has(const std::string& name) const { return m_values.contains(name); }
+
   // Of a member; fails, and is empty, for one that is not so.
 
   std::int64_t number(const std::string& name, std::int64_t least, std::int64_t most);

@@ -24,18 +24,19 @@ bool isHost(const std::string& host) {
 }  // namespace
 
 std::string Presence::payload() const {
-  const nlohmann::ordered_json all{{"v", kPresenceFormat},
-                                   {"id", id},
-                                   {"name", name},
-                                   {"game", game},
-                                   {"host", host},
-                                   {"port", port},
-                                   {"key", key},
-                                   {"protocol", protocol},
-                                   {"players", players},
-                                   {"max_players", max_players},
-                                   {"password", asks_password},
-                                   {"open", is_open}};
+  nlohmann::ordered_json all{{"v", kPresenceFormat},
+                             {"id", id},
+                             {"name", name},
+                             {"game", game},
+                             {"host", host},
+                             {"port", port},
+                             {"key", key},
+                             {"protocol", protocol},
+                             {"players", players},
+                             {"max_players", max_players},
+                             {"password", asks_password},
+                             {"open", is_open}};
+  if (const std::string text = roomsText(rooms); !text.empty()) all["rooms"] = text;
   return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -54,8 +55,11 @@ std::optional<Presence> Presence::parse(std::string_view payload) {
   presence.max_players = static_cast<std::uint32_t>(fields.number("max_players", 0, kMaxCounted));
   presence.asks_password = fields.flag("password");
   presence.is_open = fields.flag("open");
+  auto rooms =
+      fields.has("rooms") ? readRooms(fields.line("rooms", kMaxRoomsText)) : std::vector<PresenceRoom>();
+  if (rooms) presence.rooms = *std::move(rooms);
   const auto key = Fingerprint::parse(presence.key);
-  const bool good = fields.ok() && isServerId(presence.id) &&
+  const bool good = fields.ok() && rooms && isServerId(presence.id) &&
                     (presence.key.empty() || (key && key->text() == presence.key)) &&
                     (presence.host.empty() || isHost(presence.host));
   return good ? std::optional(presence) : std::nullopt;

@@ -1,8 +1,8 @@
-// What a server says of itself on the bus, every two seconds: where it is, which key it proves, who plays.
+// What a server says of itself on the bus, again and again: where it is, which key it proves, who plays.
 //
 //   naiad.presence.ID {"v":1,"id":"berlin-9876","name":"Berlin","game":"tron","host":"192.0.2.7","port":9876,
 //                       "key":"…64 hexadecimal digits…","protocol":4,"players":3,"max_players":64,
-//                       "password":false,"open":true}
+//                       "password":false,"open":true,"rooms":"lobby=lobby:3/64 duel=tron:0/2"}
 #pragma once
 
 #include <chrono>
@@ -10,17 +10,23 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "shared/fleet/PresenceRooms.h"
 
 namespace naiad {
 
 struct Presence {
-  /// Between two; a server that is silent for three of them is gone.
-  static constexpr std::chrono::seconds kInterval{2};
+  /// Between two, unless --bus-interval says another; a server that is silent for three of them is gone.
+  static constexpr std::chrono::milliseconds kInterval{2000};
+  static constexpr std::chrono::milliseconds kLeastInterval{50};  ///< so much each server costs the directory
+  static constexpr std::chrono::milliseconds kMostInterval{
+      60'000};                                 ///< players are sent to a dead server so long
   static constexpr std::size_t kMaxName = 64;  ///< characters of name and game
 
   std::string id;  ///< ServerId.h
   std::string name;
-  std::string game;
+  std::string game;        ///< of several that of the first room
   std::string host;        ///< name or numeric address for players; empty: it does not know
   std::uint16_t port = 0;  ///< 1 to 65535
   std::string key;         ///< Fingerprint::text(); empty: without encryption
@@ -29,6 +35,9 @@ struct Presence {
   std::uint32_t max_players = 0;
   bool asks_password = false;
   bool is_open = true;  ///< lets players in: it neither drains nor ends
+  /// Those that have names, in the server's order, as many as fit (kMaxRoomsText). A server without them has
+  /// none, and says nothing of rooms.
+  std::vector<PresenceRoom> rooms = {};
 
   std::string payload() const;
   /// Nothing for what no server writes.

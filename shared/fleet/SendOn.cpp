@@ -28,8 +28,7 @@ std::optional<SendOn> SendOn::parse(std::string_view payload) {
   const std::string text = fields.word("link", kMaxLink);
   const auto parsed = JoinLink::parse(text);
   const auto* const p_link = std::get_if<JoinLink>(&parsed);
-  const bool good =
-      fields.ok() && isServerId(to) && p_link != nullptr && p_link->text() == text && p_link->room.empty();
+  const bool good = fields.ok() && isServerId(to) && p_link != nullptr && p_link->text() == text;
   return good ? std::optional(SendOn{to, *p_link}) : std::nullopt;
 }
 

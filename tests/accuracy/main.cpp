@@ -1,6 +1,7 @@
 // naiad_lab: runs problems with every method and number of sub-steps, prints a line per point and metric, and
 // writes what the report is drawn from.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -16,7 +17,7 @@
 namespace {
 
 constexpr const char* kUsage =
-    "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--output DIR] [PROBLEM...]\n"
+    "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--runs N] [--output DIR] [PROBLEM...]\n"
     "       naiad_lab --list\n"
     "       naiad_lab --work PROBLEM CASE METHOD TICKS\n"
     "\n"
@@ -24,6 +25,7 @@ constexpr const char* kUsage =
     "  --quick        1, 4 and 16 sub-steps, and no long runs: to see that it works\n"
     "  --method NAME  only this one; may be repeated\n"
     "  --substeps N   only so many a tick; may be repeated\n"
+    "  --runs N       how often each point is timed, 2 or more (default: 5, and 3 with thousands of bodies)\n"
     "  --output DIR   where to put points.csv and problems.json (default: nowhere)\n"
     "  --list         the problems and methods there are\n"
     "  --work         runs one case for so many ticks and prints nothing: for valgrind\n"
@@ -31,10 +33,14 @@ constexpr const char* kUsage =
     "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
 
 constexpr int kRuns = 5;
+constexpr int kFewestRuns = 2;
+constexpr int kCrowdRuns = 3;  // of thousands of bodies
 constexpr int kMaxCpuSeconds = 120;
+constexpr int kMaxShorterTicks = 16;  // of the product's curves
 
 struct Options {
   bool quick = false;
+  int runs = 0;  // 0: as many as the case asks for
   std::string output;
   std::vector<const lab::Method*> methods;
   std::vector<int> substeps;  // none: all
@@ -60,12 +66,17 @@ int list() {
 
 std::vector<int> substepCounts(const Options& options, const lab::Problem& problem, const lab::Case& its_case,
                                const lab::Method& method) {
-  if (method.own_substeps > 0 && problem.kind != lab::Problem::Kind::MAP) return {method.own_substeps};
+  if (its_case.is_crowd && !method.isProduct() && method.kind != lab::Method::Kind::PEER) return {};
+  const bool is_curve = problem.kind == lab::Problem::Kind::MAP || its_case.draws_levels;
+  if (method.own_substeps > 0 && !is_curve) return {method.own_substeps};
   std::vector<int> counts;
   for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
     const bool quick = count == 1 || count == 4 || count == 16;
     const std::vector<int>& asked = options.substeps;
     const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), count) != asked.end();
+    if (count < method.own_substeps) continue;  // ticks get shorter, not longer
+    if (problem.kind == lab::Problem::Kind::DIAGRAM && method.isProduct() && count > kMaxShorterTicks)
+      continue;
     if (is_asked && count <= its_case.most_substeps && (quick || !options.quick)) counts.push_back(count);
   }
   return counts;
@@ -92,16 +103,34 @@ std::vector<Run> runsOf(const Options& options, const lab::Problem& problem) {
   return runs;
 }
 
-// What is asked for in terms of another method's time, once that is known.
+const Run* findRun(const std::vector<Run>& runs, const std::string& case_name, const std::string& method,
+                   int substeps) {
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const Run& run) {
+    return run.its_case->name == case_name && run.method->name == method && run.substeps == substeps &&
+           run.measurement.expressed;
+  });
+  return found == runs.end() ? nullptr : &*found;
+}
+
+// NaN: what is compared with was not measured.
+double partOf(const lab::CpuBound& bound, const Run& run, const std::vector<Run>& runs) {
+  const double own = run.measurement.cpu.median;
+  if (bound.is_of_later) return run.measurement.cpu.first_part;
+  if (bound.unit_us > 0) return own / bound.unit_us;
+  const Run* compared = bound.method.empty()
+                            ? findRun(runs, bound.of_case, run.method->name, run.substeps)
+                            : findRun(runs, run.its_case->name, bound.method, bound.substeps);
+  return compared == nullptr ? std::nan("") : own / compared->measurement.cpu.median;
+}
+
+// What is asked for in terms of other times, once those are known.
 void compareTimes(const lab::Problem& problem, const std::vector<Run>& runs, lab::Records& records) {
-  for (const Run& compared : runs) {
-    for (const lab::CpuBound& bound : compared.its_case->cpu_bounds) {
-      if (compared.method->name != bound.method || compared.substeps != bound.substeps) continue;
-      for (const Run& run : runs) {
-        if (run.its_case != compared.its_case || !run.measurement.expressed) continue;
-        records.add(problem, *run.its_case, bound, *run.method, run.substeps, run.measurement,
-                    compared.measurement.cpu);
-      }
+  for (const Run& run : runs) {
+    if (!run.measurement.expressed) continue;
+    for (const lab::CpuBound& bound : run.its_case->cpu_bounds) {
+      const double part = partOf(bound, run, runs);
+      if (std::isnan(part)) continue;
+      records.add(problem, *run.its_case, bound, *run.method, run.substeps, run.measurement, part);
     }
   }
 }
@@ -122,7 +151,9 @@ void run(const Options& options, lab::Records& records) {
       progress.show(
           share * (static_cast<double>(i) + part),
           name + " " + run.its_case->name + ": " + run.method->label + " ×" + std::to_string(run.substeps));
-      run.measurement = lab::measureApart(*run.its_case, *run.method, run.substeps, kRuns, kMaxCpuSeconds);
+      const int usual = run.its_case->is_crowd ? kCrowdRuns : kRuns;
+      run.measurement = lab::measureApart(*run.its_case, *run.method, run.substeps,
+                                          options.runs > 0 ? options.runs : usual, kMaxCpuSeconds);
       if (!run.measurement.expressed) continue;
       records.add(problem, *run.its_case, *run.method, run.substeps, run.measurement);
     }
@@ -160,6 +191,8 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       options.quick = true;
     } else if (argument == "--output" && has_value) {
       options.output = arguments[++i];
+    } else if (argument == "--runs" && has_value) {
+      options.runs = std::max(std::atoi(arguments[++i].c_str()), kFewestRuns);
     } else if (argument == "--substeps" && has_value) {
       options.substeps.push_back(std::atoi(arguments[++i].c_str()));
     } else if (argument == "--method" && has_value) {
@@ -175,7 +208,8 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
       const auto all = lab::allProblems();
       const lab::ProblemEntry* found = findProblem(all, argument);
       if (found == nullptr) {
-        std::vector<std::string> names{"--help", "--list", "--method", "--output", "--quick", "--substeps"};
+        std::vector<std::string> names{"--help",  "--list", "--method",  "--output",
+                                       "--quick", "--runs", "--substeps"};
         for (const lab::ProblemEntry& entry : all) names.insert(names.end(), {entry.id, entry.name});
         sayUnknown("problem", argument, names);
         return false;
@@ -219,7 +253,7 @@ int main(int argc, char** argv) {
   if (!read(arguments, options)) return usage(stderr, 2);
   try {
     bench::reserveStdout();
-    lab::Records records(options.output);
+    lab::Records records(options.output, options.runs);
     run(options, records);
     return records.allMet() ? 0 : 1;
   } catch (const std::exception& e) {

@@ -78,6 +78,8 @@ void busPayloads(Folder folder) {
   presence.key = std::string(64, 'a');
   presence.protocol = kProtocolVersion;
   folder.add(std::string(1, '\0') + presence.payload());
+  presence.rooms = {{"lobby", "lobby", 3, 64}, {"duel", "tron", 2, 2}};
+  folder.add(std::string(1, '\0') + presence.payload());
   presence.host = "-o";
   folder.add(std::string(1, '\0') + presence.payload());
   presence.host = "2001:db8::7";

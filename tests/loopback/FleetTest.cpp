@@ -115,7 +115,7 @@ TEST_F(Fleet, ABusThatIsKilledCostsPlayersNothingAndIsFoundAgain) {
   if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
   NatsServer bus;
   ASSERT_TRUE(bus.start()) << bus.log();
-  start({{"NAIAD_BUS", bus.url()}, {"NAIAD_BUS_ID", "berlin"}});
+  start({{"NAIAD_BUS", bus.url()}, {"NAIAD_BUS_ID", "berlin"}, {"NAIAD_BUS_INTERVAL", "100"}});
   auto ann = join("ann");
   if (game->log().find("without NATS") != std::string::npos) GTEST_SKIP() << "built without libnats";
   EXPECT_TRUE(logs(*ann, "the bus is connected"));

@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <future>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "ProcessesBelow.h"
@@ -16,8 +18,10 @@
 #include "client/session/Connection.h"
 #include "host/journal/OpenRound.h"
 #include "host/program/Journals.h"
+#include "host/scores/ScoreStore.h"
 #include "server/replay/PictureReel.h"
 #include "server/replay/RecordedRound.h"
+#include "server/replay/Replay.h"
 #include "server/replay/Verify.h"
 #include "tests/server/host/admin/Talk.h"
 
@@ -170,6 +174,7 @@ void RecoveryRun::startServer() {
                                                      {"NAIAD_PORT", std::to_string(m_port)},
                                                      {"NAIAD_IDENTITY", m_home.identity("key").string()},
                                                      {"NAIAD_JOURNAL", m_rounds.string()},
+                                                     {"NAIAD_STATE", m_home.identity("state").string()},
                                                      {"NAIAD_GAME", m_game},
                                                      {"DRAGONFLY_CONFIG", m_home.identity("none").string()}});
   m_port = m_server->port();
@@ -372,7 +377,7 @@ std::vector<pid_t> RecoveryRun::copies() const {
 // The world that goes on was executed from the file; executed again, it shows what its players saw.
 void RecoveryRun::compare(KillResult& result) {
   const RecordedRound recorded(round());
-  const RoundStage stage(recorded, "");
+  const RoundStage stage(recorded, replayedGame());
   PictureReel reel(recorded, stage);
   for (const auto& client : m_clients) {
     if (!client->picture()) continue;
@@ -408,11 +413,35 @@ bool RecoveryRun::verify(std::string& said) {
   m_server->wait();
   m_log += m_server->log();
   const RecordedRound recorded(round());
-  const RoundStage stage(recorded, "");
+  const RoundStage stage(recorded, replayedGame());
   std::ostringstream out;
   const bool same = verifyRound(recorded, stage, out);
   said = out.str();
   return same;
+}
+
+ScoreCheck RecoveryRun::checkScores() const {
+  using Row = std::tuple<std::uint32_t, int, std::string, std::string, std::int64_t>;
+  const RecordedRound recorded(round());
+  const RoundStage stage(recorded, replayedGame());
+  Replay replay(recorded, stage);
+  replay.readScores();
+  std::set<Row> added;
+  while (replay.step()) {
+    for (const df::AddedScore& one : replay.scores())
+      added.insert({one.tick, one.number, one.table, one.score.name, one.score.points});
+  }
+  const std::string game = std::filesystem::path(m_game).stem().string();
+  ScoreStore store(m_home.identity("state") / "scores.sqlite3", game);
+  const std::vector<ScoreRow> kept = store.best("", ScoreStore::kMaxRows);
+  ScoreCheck check{.kept = kept.size()};
+  for (const ScoreRow& row : kept) {
+    const bool is_here = row.recording == round().filename();
+    check.foreign +=
+        is_here && added.erase({row.tick, row.number, row.table, row.name, row.points}) == 1 ? 0 : 1;
+  }
+  check.missing = added.size();
+  return check;
 }
 
 }  // namespace naiad::test

@@ -6,6 +6,7 @@
 
 #include <asio/io_context.hpp>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -30,6 +31,16 @@ struct KillResult {
   std::chrono::milliseconds pause{0};  ///< of keepRound(): the longest between two pictures of a client
   std::string problem;                 ///< the first, in words
 };
+
+/// The server's file of scores, held against those that the round adds when it is executed again.
+struct ScoreCheck {
+  std::size_t kept = 0;     ///< rows of the file
+  std::size_t missing = 0;  ///< that the round adds, and the file does not have
+  std::size_t foreign = 0;  ///< of the file, that the round does not add, or that come twice
+};
+
+/// A module that adds a score for every key (scores/game.cpp).
+inline constexpr const char* kScoresModule = NAIAD_BINARY_DIR "/../lib/scores_module.so";
 
 class RecoveryClient;
 
@@ -68,6 +79,8 @@ class RecoveryRun {
   /// End the server, and execute its round from the beginning. Is it the same, tick by tick? `said`: what
   /// dfreplay --verify prints.
   bool verify(std::string& said);
+  /// After verify(). All rows have to be of this round.
+  ScoreCheck checkScores() const;
   /// The next server plays this one.
   void setGame(const std::string& game) { m_game = game; }
   /// What the servers logged.
@@ -77,6 +90,8 @@ class RecoveryRun {
  private:
   void startServer();
   bool serveUntilJoined();
+  /// By which dfreplay finds the game.
+  std::string replayedGame() const { return m_game.find('/') != std::string::npos ? m_game : ""; }
   void waitForFirstTick();
   void judge(bool back, KillResult& result);
   void compare(KillResult& result);

@@ -67,6 +67,24 @@ TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNoPlayerAndNothing) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
+// The long form: deploy/bench recovery, a hundred kills.
+TEST(Recovery, ScoresOutliveKillsAndAreThoseOfTheRound) {
+  RecoveryRun run(kScoresModule, 2, 11);
+  for (int i = 0; i < 2; ++i) {
+    run.play(std::chrono::milliseconds(400));
+    ASSERT_TRUE(run.playUntilPictured()) << i;
+    const KillResult result = run.kill();
+    EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
+  }
+  run.play(std::chrono::milliseconds(300));
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
+  const ScoreCheck check = run.checkScores();
+  EXPECT_GT(check.kept, 0u) << run.log();
+  EXPECT_EQ(check.missing, 0u) << "none is lost";
+  EXPECT_EQ(check.foreign, 0u) << "none is there that the round does not add, or twice";
+}
+
 TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {
   RecoveryRun run("saucershoot", 2, 3);
   for (int i = 0; i < 3; ++i) {

@@ -12,6 +12,8 @@
 
 #include "GameProgram.h"
 #include "Home.h"
+#include "RecoveryRun.h"
+#include "RoomsFixture.h"
 #include "RunCtl.h"
 #include "TestClient.h"
 
@@ -83,6 +85,86 @@ TEST_F(Scores, TheLogCountsThem) {
   game->signal(SIGTERM);
   game->wait();
   EXPECT_NE(game->log().find("scores=1 scores_written=1"), std::string::npos) << game->log();
+}
+
+class RoomScores : public RoomsFixture {
+ protected:
+  std::pair<int, std::string> scores(const std::string& words) const {
+    return runCtl("--control " + server->control().string() + " scores " + words);
+  }
+  std::string replay(const std::string& recording, const std::string& words) const {
+    return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfreplay " + home.identity("rounds").string() + "/" +
+                      recording + " --game " + kScoresModule + " " + words + " 2>&1")
+        .second;
+  }
+  /// What the game has drawn.
+  static int keysIn(const std::string& picture) { return numberAfter(picture, "keys=").value_or(-1); }
+  /// Behind "NAME":, without quotes.
+  static std::string valueIn(const std::string& json, const std::string& name) {
+    const std::string key = "\"" + name + "\":";
+    const std::size_t at = json.find(key);
+    if (at == std::string::npos) return "";
+    const std::size_t begin = json.find_first_not_of('"', at + key.size());
+    return json.substr(begin, json.find_first_of(",}\"", begin) - begin);
+  }
+};
+
+TEST_F(RoomScores, ARowOfARoomsGameIsFoundInItsRecording) {
+  start({"one", std::string("two=") + kScoresModule, "doors=lobby"}, {},
+        {{"NAIAD_STATE", home.identity("state")}, {"NAIAD_JOURNAL", home.identity("rounds")}});
+  auto ann = connect("ann", "two");
+  const auto has_pressed = [&](int keys) {
+    return serve([&] {
+      return ann->joined() && row(*ann, 12).find("keys=" + std::to_string(keys) + ";") != std::string::npos;
+    });
+  };
+  ASSERT_TRUE(has_pressed(0)) << server->log();
+  for (int i = 0; i < 6; ++i) press(*ann, df::Keyboard::X);
+  ASSERT_TRUE(has_pressed(6)) << server->log();
+  const auto [code, listed] = scores("--room two --json");
+  EXPECT_EQ(code, 0) << listed;
+  EXPECT_NE(listed.find(R"("table":"even","place":1,"name":"counter","points":6)"), std::string::npos)
+      << listed;
+  const std::string recording = valueIn(listed, "recording");
+  const std::string tick = valueIn(listed, "tick");
+  const std::string number = valueIn(listed, "number");
+  EXPECT_TRUE(recording.starts_with("two/scores_module-")) << listed;
+  server->signal(SIGTERM);
+  server->wait();
+  const std::string added = replay(recording, "--scores");
+  EXPECT_NE(added.find("tick=" + tick + " number=" + number + " table=even name=\"counter\" points=6\n"),
+            std::string::npos)
+      << listed << added;
+  const std::string shown = replay(recording, "--text " + tick);
+  EXPECT_GE(keysIn(shown), 6) << listed << shown;
+  EXPECT_LT(keysIn(replay(recording, "--text " + std::to_string(std::stoi(tick) - 1))), 6)
+      << "it came in that tick";
+}
+
+TEST_F(RoomScores, WhereRoomsPlaySeveralGamesOneIsAskedFor) {
+  start({"one", "two", "doors=lobby"}, {}, {{"NAIAD_STATE", home.identity("state")}});
+  const auto expectRefusal = [&](const std::string& words, const std::string& sentence) {
+    const auto [code, said] = scores(words);
+    EXPECT_EQ(code, 1) << words;
+    EXPECT_NE(said.find(sentence), std::string::npos) << words << ": " << said;
+  };
+  expectRefusal("", "--game room_module  (rooms one, two)\n  --game lobby  (room doors)\n");
+  expectRefusal("keys 3", "--game or --room says which one is meant");
+  expectRefusal("--game loby", "did you mean \"lobby\"?");
+  expectRefusal("--game=zzz", "There are: room_module, lobby.");
+  expectRefusal("--room zzz", "There are: one, two, doors.");
+  expectRefusal("--room one --game lobby", "not both");
+  EXPECT_EQ(scores("--room two"), scores("--game room_module"));
+  EXPECT_EQ(scores("keys 3 --game lobby"), std::pair(0, std::string("No scores are kept.\n")));
+  EXPECT_EQ(scores("--rom one").first, 2);
+}
+
+TEST_F(Scores, AServerWithoutRoomsHasOneGame) {
+  start();
+  const std::string ctl = "--control " + game->control().string() + " scores ";
+  EXPECT_EQ(runCtl(ctl + "--game rounds_game").first, 0);
+  EXPECT_NE(runCtl(ctl + "--game tron").second.find("There are: rounds_game."), std::string::npos);
+  EXPECT_NE(runCtl(ctl + "--room one").second.find("This server has no rooms."), std::string::npos);
 }
 
 }  // namespace

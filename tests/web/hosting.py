@@ -1,5 +1,6 @@
 """A real dfserver with a real dfweb in front of it, on free ports of loopback."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -16,8 +17,10 @@ class Hosting:
         bin_ = os.path.join(build, "bin")
         environment = {**os.environ, "XDG_CONFIG_HOME": self.folder, "XDG_DATA_HOME": self.folder, "XDG_STATE_HOME": self.folder}
         self.visitors = os.path.join(self.folder, "visitors")
+        self.control = os.path.join(self.folder, "control.sock")
+        self.ctl = os.path.join(bin_, "dfctl")
         self.server = self._start([os.path.join(bin_, "dfserver"), "--address", "127.0.0.1", "--port", "0", "--visitors", self.visitors,
-                                   *arguments], "server.log", environment)
+                                   "--control", self.control, *arguments], "server.log", environment)
         self.link = self._wait_for("server.log", "naiad://")
         self.key = self.link.split("#")[1]
         port_file = os.path.join(self.folder, "port")
@@ -45,6 +48,11 @@ class Hosting:
         self.programs.remove(self.gateway)
         os.remove(self._port_file)
         self._start_gateway(self.port)
+
+    def players_of(self, room):
+        """As dfctl counts them."""
+        answer = subprocess.run([self.ctl, "--control", self.control, "rooms", "--json"], capture_output=True, text=True, check=True)
+        return next(row["players"] for row in json.loads(answer.stdout.splitlines()[-1])["rows"] if row["room"] == room)
 
     def text(self, log):
         with open(os.path.join(self.folder, log), errors="replace") as file:

@@ -153,6 +153,32 @@ class PageTest(unittest.TestCase):
             self.browser.wait("return document.querySelector('#said').textContent.includes('another game')")
             self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"))
 
+    def test_the_address_names_the_room(self):
+        games = ("--room", "hall=lobby", "--room", "arcade=saucershoot")
+        with Hosting(BUILD, page(), *games) as hosting:
+            join(self.browser, hosting, search="?room=arcade")
+            self.begin()
+            self.assertIn("/arcade#", self.browser.run("return document.querySelector('#terminal').textContent"))
+            hosting.wait_for_line("server.log", "Ada")
+            self.assertEqual(hosting.players_of("arcade"), 1)
+            # Loaded again it is the same player, in the room where they were.
+            self.browser.call("POST", "/refresh", {})
+            wait_for(self.browser, "You are back")
+            self.assertEqual(hosting.players_of("arcade"), 1)
+            self.no_complaints()
+
+    def test_a_room_that_is_none_is_said(self):
+        with Hosting(BUILD, page(), "--room", "hall=lobby", "--room", "arcade=hello") as hosting:
+            for name in ("..%2Fetc", "a%20b", "%3Cscript%3E", "a" * 33, "-x"):
+                self.browser.open(hosting.address + "?room=" + name + "#" + hosting.key)
+                self.browser.wait("return document.querySelector('#said').textContent.includes('names no room')")
+                self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"), name)
+            self.browser.open(hosting.address + "?room=arcad#" + hosting.key)
+            self.browser.wait("return document.querySelector('#play').disabled === false")
+            self.browser.run("document.querySelector('#name').value = 'Ada'")
+            self.browser.click("#play")
+            self.browser.wait("return document.querySelector('#said').textContent.includes('did you mean \"arcade\"')")
+
     def test_a_browser_without_webassembly_gets_a_sentence(self):
         with Hosting(BUILD, page(), "--game", "hello") as hosting:
             self.browser.devtools("Page.addScriptToEvaluateOnNewDocument", source="delete globalThis.WebAssembly")

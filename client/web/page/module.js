@@ -74,8 +74,8 @@ export async function loadClient(source, page) {
     return size;
   };
   return {
-    start({name, password, token, server, columns, rows}) {
-      [name, password, token, server].forEach((value, which) => exports.option(which, put(value ?? "")));
+    start({name, password, token, server, room, columns, rows}) {
+      [name, password, token, server, room].forEach((value, which) => exports.option(which, put(value ?? "")));
       exports.start(columns, rows);
     },
     opened: (stream) => exports.opened(stream),

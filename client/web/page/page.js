@@ -9,7 +9,9 @@ const picture = new Picture(element("picture"));
 const sounds = new Sounds();
 const door = element("door");
 const line = element("line");
-const touch = matchMedia("(pointer: coarse)").matches || new URLSearchParams(location.search).has("touch");
+const address = new URLSearchParams(location.search);
+const touch = matchMedia("(pointer: coarse)").matches || address.has("touch");
+const room = address.get("room") ?? "";  // ?room=NAME: where to begin
 
 let client = null;
 let joined = false;  // there has been a picture of the game
@@ -174,6 +176,7 @@ async function join() {
     password: element("password").value,
     token: sessionStorage.getItem("naiad.token") ?? "",
     server: server.name || location.host,
+    room,
     columns: size.columns,
     rows: size.rows,
   });
@@ -321,6 +324,11 @@ function isOtherServer() {
   return key !== "" && server.key !== "" && key !== server.key;
 }
 
+/** As dfclient takes HOST/ROOM (RoomName.h). */
+function isRoomName(name) {
+  return /^[A-Za-z0-9][A-Za-z0-9._-]{0,31}$/.test(name);
+}
+
 async function begin() {
   element("unable").remove();
   element("sound").setAttribute("aria-pressed", String(sounds.on));
@@ -335,7 +343,10 @@ async function begin() {
   }
   element("title").textContent = server.name || "Naiad";
   document.title = server.name ? `${server.name} – Naiad` : "Naiad";
-  if (server.link) element("terminal").textContent = `dfclient ${server.link}`;
+  if (room !== "" && !isRoomName(room)) {
+    return say("The address of this page names no room: 1 to 32 of a-z, A-Z, 0-9, '-', '_' and '.', beginning with a letter or digit, are wanted behind room=.");
+  }
+  if (server.link) element("terminal").textContent = `dfclient ${room === "" ? server.link : server.link.replace("#", `/${room}#`)}`;
   if (isOtherServer()) return say("This address was made for another game than the one that is here now.");
   await Promise.all([document.fonts.load('16px "Naiad Mono"'), claimTab()]);
   // A tab that was loaded again plays on.

@@ -303,6 +303,8 @@ AdminAnswer AdminConsole::set(const AdminRequest& request) {
 
 void AdminConsole::scores(const AdminRequest& request, Done done) {
   std::size_t count = kScoresOfATable;
+  if (request.has("room") && request.has("game"))
+    return done(AdminAnswer::refused("A room has one game: --room or --game, not both."));
   if (request.has("count")) {
     const std::string& text = request.of("count");
     const char* p_end = text.data() + text.size();
@@ -311,7 +313,8 @@ void AdminConsole::scores(const AdminRequest& request, Done done) {
       return done(AdminAnswer::refused("\"" + text + "\" is no number from 1 to " +
                                        std::to_string(kMaxScoresOfATable) + "."));
   }
-  m_setup.target.scores(request.of("table"), count, std::move(done));
+  m_setup.target.scores({request.of("table"), count, request.of("room"), request.of("game")},
+                        std::move(done));
 }
 
 // A hash takes as long as a guess.

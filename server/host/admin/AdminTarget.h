@@ -35,6 +35,14 @@ struct AdminRestart {
   std::chrono::seconds in{0};  ///< for kIn
 };
 
+/// Which scores.
+struct AdminScores {
+  std::string table;      ///< empty: of all tables of the game
+  std::size_t count = 0;  ///< of each table
+  std::string room;       ///< that of its game; empty: not said
+  std::string game;       ///< the same
+};
+
 /// All of it on the host's thread, between two ticks; nothing of it waits.
 class AdminTarget {
  public:
@@ -67,9 +75,9 @@ class AdminTarget {
   virtual void reload(std::function<void(AdminAnswer)> done) = 0;
   /// Nothing: none is needed any more.
   virtual AdminAnswer changePassword(std::optional<PasswordHash> hash) = 0;
-  /// Rows of the file of scores, best first; of all tables if `table` is empty. `done` is called once, on the
-  /// host's thread: now, or when the file has been read.
-  virtual void scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> done) = 0;
+  /// Rows of the file of scores, best first. `done` is called once, on the host's thread: now, or when the
+  /// file has been read.
+  virtual void scores(const AdminScores& which, std::function<void(AdminAnswer)> done) = 0;
   /// `option` without dashes.
   virtual AdminAnswer set(const std::string& option, const std::string& value) = 0;
   /// Those that set() knows, with their values.

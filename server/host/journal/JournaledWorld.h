@@ -65,7 +65,7 @@ class JournaledWorld : public WorldPort {
     /// Of a recovery, at its end: in how many ticks; or why the round cannot go on, and in which tick that
     /// showed.
     std::function<void(std::uint32_t ticks, const std::string& problem)> on_recovered = {};
-    std::string recording = {};    ///< the name of the file
+    std::string recording = {};    ///< the file, from the folder of --journal
     std::string history = {};      ///< records of a recovery's round
     std::uint32_t first_tick = 0;  ///< the number that the host gave to its first tick; 0: unknown
     /// Starts one; throws std::system_error. Empty: the round ends with its world.

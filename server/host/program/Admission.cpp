@@ -389,11 +389,11 @@ bool Admission::checkLimits(Session& session) {
 
 // Another server of the fleet may have a place.
 void Admission::refuseFull(Session& session, const std::string& sentence) {
-  const std::string link = m_setup.send_on ? m_setup.send_on() : "";
-  if (link.empty()) return session.refuse(wire::Refused::FULL, sentence);
+  const auto link = m_setup.send_on ? m_setup.send_on() : std::nullopt;
+  if (!link) return session.refuse(wire::Refused::FULL, sentence);
   ++m_counters.sent_on;
-  session.refuse(wire::Refused::FULL, safeText(sentence + " There is a place at " + link, kMaxSentenceLength),
-                 link);
+  const std::string said = safeText(sentence + " There is a place at " + link->text(), kMaxSentenceLength);
+  session.refuse(wire::Refused::FULL, said, JoinLink{link->where, "", link->key}.text(), link->room);
 }
 
 // Null: the session was refused. A client that leaves and joins again has fresh allowances each time, so how

@@ -22,6 +22,7 @@
 #include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "shared/net/base/PrefixAllowance.h"
+#include "shared/net/stream/JoinLink.h"
 #include "shared/program/LogEvent.h"
 
 namespace naiad {
@@ -50,8 +51,9 @@ class Admission {
     std::function<bool()> is_open = [] { return true; };
     /// A session without a stream, waiting for its client. Null: there are none.
     std::function<Session&(const wire::Welcome& welcome)> restore_session = {};
-    /// A link to another server that has places; empty: none is known. Null: there are no others.
-    std::function<std::string()> send_on = {};
+    /// A link to another server that has places, or to a room of it; nothing: none is known. Null: there are
+    /// no others.
+    std::function<std::optional<JoinLink>()> send_on = {};
   };
 
   /// `executor` runs what is left of a judgement once a password has been checked.

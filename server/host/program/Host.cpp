@@ -395,6 +395,7 @@ HostFleet::Setup Host::fleetSetup() {
           m_identity ? m_identity->fingerprint().text() : "",
           m_log,
           [this] { return m_ending.isOpen(); },
+          [this] { return presenceOfRooms(m_rooms); },
           [this] {
             m_log("the platform shuts the server down");
             endWhenEmpty(m_options.drain_time);

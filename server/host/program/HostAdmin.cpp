@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/program/RoomList.h"
 #include "naiad.pb.h"
 #include "shared/admin/TimeSpan.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/options/NearestName.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
@@ -57,9 +59,26 @@ AdminAnswer listOf(const std::vector<ScoreRow>& scores) {
                            {"at", timeText(at)},
                            {"recording", row.recording},
                            {"round", row.round},
-                           {"tick", std::int64_t{row.tick}}});
+                           {"tick", std::int64_t{row.tick}},
+                           {"number", std::int64_t{row.number}}});
   }
   return answer;
+}
+
+/// "rooms one, two".
+std::string listed(const std::vector<std::string>& rooms) {
+  std::string text = rooms.size() == 1 ? "room " : "rooms ";
+  for (std::size_t i = 0; i < rooms.size(); ++i) text += (i > 0 ? ", " : "") + rooms[i];
+  return text;
+}
+
+std::string unknownGame(const std::string& typed, const std::vector<std::string>& games) {
+  const std::string near = nearestName(typed, games);
+  const std::string sentence = "No game \"" + safeText(typed, 100) + "\" is played here";
+  if (!near.empty()) return sentence + "; did you mean \"" + near + "\"?";
+  std::string all;
+  for (const std::string& game : games) all += (all.empty() ? "" : ", ") + game;
+  return sentence + ". There are: " + all + ".";
 }
 
 double millis(std::chrono::microseconds time) {
@@ -215,14 +234,58 @@ AdminAnswer HostAdmin::changePassword(std::optional<PasswordHash> hash) {
                                   : "New players need no password any more.");
 }
 
-void HostAdmin::scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> done) {
-  ScoreKeeper& scores = m_setup.scores;
+std::vector<HostAdmin::Board> HostAdmin::boards() const {
+  if (!m_setup.rooms.isNamed()) return {{m_setup.admission.game(), &m_setup.scores, {}}};
+  std::vector<Board> boards;
+  m_setup.rooms.forEachRoom([&boards](const Room& room) {
+    const RoomPlan& plan = *room.plan();
+    auto board = std::find_if(boards.begin(), boards.end(),
+                              [&plan](const Board& one) { return one.game == plan.game; });
+    if (board == boards.end()) board = boards.insert(board, {plan.game, plan.p_scores, {}});
+    board->rooms.push_back(plan.name);
+  });
+  return boards;
+}
+
+const HostAdmin::Board* HostAdmin::findBoard(const std::vector<Board>& boards, const AdminScores& which,
+                                             AdminAnswer& refusal) {
+  std::vector<std::string> games;
+  std::vector<std::string> rooms;
+  for (const Board& board : boards) {
+    games.push_back(board.game);
+    rooms.insert(rooms.end(), board.rooms.begin(), board.rooms.end());
+    const bool has_room = std::find(board.rooms.begin(), board.rooms.end(), which.room) != board.rooms.end();
+    const bool is_meant = which.game.empty() ? has_room : board.game == which.game;
+    if (is_meant) return &board;
+  }
+  if (which.game.empty() && which.room.empty() && boards.size() == 1) return &boards.front();
+  if (!which.game.empty()) {
+    refusal = AdminAnswer::refused(unknownGame(which.game, games));
+  } else if (!which.room.empty()) {
+    refusal =
+        AdminAnswer::refused(rooms.empty() ? "This server has no rooms." : unknownRoom(which.room, rooms));
+  } else {
+    refusal =
+        AdminAnswer::refused("Each game has tables of its own; --game or --room says which one is meant:");
+    for (const Board& board : boards)
+      refusal.candidates.push_back("--game " + board.game + "  (" + listed(board.rooms) + ")");
+  }
+  return nullptr;
+}
+
+void HostAdmin::scores(const AdminScores& which, std::function<void(AdminAnswer)> done) {
+  const std::vector<Board> all = boards();
+  AdminAnswer refusal;
+  const Board* const p_board = findBoard(all, which, refusal);
+  if (p_board == nullptr) return done(refusal);
+  ScoreKeeper& scores = *p_board->p_scores;
   if (!scores.hasFile())
     return done(AdminAnswer::refused("This server keeps no scores on disk (--state, or see its log)."));
-  const bool reads = scores.read(table, count, [this, done](const auto& rows, const std::string& problem) {
-    const AdminAnswer answer = problem.empty() ? listOf(rows) : AdminAnswer::refused(problem);
-    m_setup.controls.post([answer, done] { done(answer); });
-  });
+  const auto answer = [this, done](const auto& rows, const std::string& problem) {
+    const AdminAnswer read = problem.empty() ? listOf(rows) : AdminAnswer::refused(problem);
+    m_setup.controls.post([read, done] { done(read); });
+  };
+  const bool reads = scores.read(which.table, which.count, answer);
   if (!reads) done(AdminAnswer::refused("Too much waits to be done. Try again in a moment."));
 }
 

@@ -59,11 +59,21 @@ class HostAdmin : public AdminTarget {
   AdminAnswer cancel() override;
   void reload(std::function<void(AdminAnswer)> done) override;
   AdminAnswer changePassword(std::optional<PasswordHash> hash) override;
-  void scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> done) override;
+  void scores(const AdminScores& which, std::function<void(AdminAnswer)> done) override;
   AdminAnswer set(const std::string& option, const std::string& value) override;
   AdminRow settings() const override;
 
  private:
+  /// The tables of a game, and the rooms that play it; without rooms those of the one game.
+  struct Board {
+    std::string game;
+    ScoreKeeper* p_scores = nullptr;
+    std::vector<std::string> rooms;
+  };
+  std::vector<Board> boards() const;
+  /// Null: `refusal` says why there is none, or that there are several.
+  static const Board* findBoard(const std::vector<Board>& boards, const AdminScores& which,
+                                AdminAnswer& refusal);
   Session* findPlaying(std::uint64_t session) const;
 
   Setup m_setup;

@@ -50,6 +50,17 @@ std::string busId(const HostOptions& options, std::uint16_t port) {
 
 }  // namespace
 
+std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms) {
+  std::vector<PresenceRoom> all;
+  if (!rooms.isNamed()) return all;
+  rooms.forEachRoom([&all](const Room& room) {
+    const RoomPlan& plan = *room.plan();
+    all.push_back({plan.name, plan.game, static_cast<std::uint32_t>(room.countPlaying()),
+                   static_cast<std::uint32_t>(plan.max_players)});
+  });
+  return all;
+}
+
 std::string fleetComplaint(const HostOptions& options) {
   if (options.bus.empty()) {
     if (!options.bus_credentials.empty() || !options.bus_ca.empty() || !options.bus_id.empty())
@@ -77,14 +88,15 @@ void HostFleet::begin() {
 
 void HostFleet::tick(Clock::time_point now) {
   m_platform->notifyTick(now);
+  if (m_bus && now - m_present >= interval()) {
+    m_present = now;
+    m_bus->publish({presenceSubject(m_id), presence().payload()});
+    hearDirectory(now);
+  }
   if (now - m_said < kSayPlayers) return;
   m_said = now;
   sayPlayers();
   if (m_platform->takeEnd()) m_setup.end();
-  if (m_bus && now - m_present >= Presence::kInterval) {
-    m_present = now;
-    m_bus->publish({presenceSubject(m_id), presence().payload()});
-  }
   hearDirectory(now);
   takeNews();
 }
@@ -100,9 +112,9 @@ void HostFleet::hearDirectory(Clock::time_point now) {
   }
 }
 
-std::string HostFleet::linkToOther(Clock::time_point now) const {
-  const bool holds = m_other && now - m_other_heard < 3 * SendOn::kInterval;
-  return holds ? m_other->link.text() : "";
+std::optional<JoinLink> HostFleet::linkToOther(Clock::time_point now) const {
+  const bool holds = m_other && now - m_other_heard < 3 * interval();
+  return holds ? std::optional(m_other->link) : std::nullopt;
 }
 
 void HostFleet::sayPlayers() {
@@ -131,6 +143,7 @@ Presence HostFleet::presence() const {
   presence.max_players = static_cast<std::uint32_t>(options.max_players);
   presence.asks_password = !options.password.empty();
   presence.is_open = m_setup.is_open();
+  presence.rooms = m_setup.rooms();
   return presence;
 }
 

@@ -8,11 +8,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/fleet/Bus.h"
 #include "host/fleet/HostPlatform.h"
 #include "host/net/NetworkThread.h"
 #include "host/program/HostOptions.h"
+#include "host/program/Rooms.h"
 #include "host/program/SessionTable.h"
 #include "host/scores/ScoreKeeper.h"
 #include "host/session/Counters.h"
@@ -37,7 +39,8 @@ class HostFleet {
     std::string key;  ///< of the server, as its fingerprint; empty: without encryption
     LogLine log;
     std::function<bool()> is_open;  ///< does it let players in?
-    std::function<void()> end;      ///< the platform wants the server to end
+    std::function<std::vector<PresenceRoom>()> rooms;
+    std::function<void()> end;  ///< the platform wants the server to end
   };
   explicit HostFleet(Setup setup);
   ~HostFleet();
@@ -50,8 +53,8 @@ class HostFleet {
   void noteReloading(Clock::time_point now) { m_platform->notifyReloading(now); }
   /// Once a tick, at its end.
   void tick(Clock::time_point now);
-  /// A link to another server of the fleet that has places, as the directory says; empty: none is known.
-  std::string linkToOther(Clock::time_point now) const;
+  /// A link to another server of the fleet that has places, as the directory says; nothing: none is known.
+  std::optional<JoinLink> linkToOther(Clock::time_point now) const;
   /// A row that is about to be written. None twice.
   void noteScore(const ScoreRow& row, const std::string& game);
   /// The server is about to end: players' goodbyes come next.
@@ -62,6 +65,9 @@ class HostFleet {
   void sayLast(std::chrono::milliseconds patience) { m_platform->finish(patience); }
 
  private:
+  std::chrono::milliseconds interval() const {
+    return std::chrono::milliseconds(m_setup.options.bus_interval_ms);
+  }
   void sayPlayers();
   Presence presence() const;
   void hearDirectory(Clock::time_point now);
@@ -76,6 +82,9 @@ class HostFleet {
   std::optional<SendOn> m_other;  ///< the newest that the directory has said
   Clock::time_point m_other_heard{};
 };
+
+/// The rooms of a server, where they have names.
+std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms);
 
 /// What is wrong with the options of platform and bus; empty if nothing is.
 std::string fleetComplaint(const HostOptions& options);

@@ -12,6 +12,7 @@
 #include "host/program/Announcement.h"
 #include "host/program/HostFleet.h"
 #include "host/program/RoomList.h"
+#include "shared/fleet/Presence.h"
 #include "shared/net/base/UserDirectory.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
@@ -252,6 +253,11 @@ std::vector<Row> tableOf(HostOptions& o) {
       {{"--bus-id", &o.bus_id,
         "Name of this server on the bus, of a-z, 0-9 and '-'; default: of the machine and the port",
         "NAIAD_BUS_ID"}},
+      {{"--bus-interval", &o.bus_interval_ms,
+        "Milliseconds between two times that the server says it is there, as its directory's: one that is "
+        "silent for three of them is gone",
+        "NAIAD_BUS_INTERVAL",
+        OptionRange{Presence::kLeastInterval.count(), Presence::kMostInterval.count()}}},
       {{"--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it",
         "NAIAD_BUS_CREDENTIALS"}},
       {{"--bus-ca", &o.bus_ca,

@@ -72,6 +72,7 @@ struct HostOptions {
   std::string platform = "auto";    ///< what runs it: "auto", "none", "systemd" or "agones" (HostPlatform.h)
   std::string bus;                  ///< nats:// or tls:// address of the fleet's bus (Bus.h); empty: none
   std::string bus_id;               ///< how it is called there; empty: by machine and port
+  int bus_interval_ms = 2000;       ///< between two times that it says it is there; as its directory's
   std::string bus_credentials;      ///< file with what proves that; empty: none
   std::string bus_ca;               ///< PEM file that the bus's certificate is judged by; empty: the system's
   std::string state;                ///< folder of the files of bans and scores; empty: none

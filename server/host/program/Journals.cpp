@@ -191,6 +191,7 @@ std::shared_ptr<Journals> Journals::open(const HostOptions& options, const std::
 Journals::Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log,
                    std::shared_ptr<SharedJournals> p_shared)
     : m_folder(fs::absolute(options.journal).string()),
+      m_of_room(p_shared != nullptr),
       m_game(std::move(game)),
       m_module(module),
       m_seed(options.seed),
@@ -359,7 +360,8 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
 JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProcess& world) const {
   JournaledWorld::Book book;
   book.writer = m_shared->writer;
-  book.recording = std::filesystem::path(path).filename().string();
+  const fs::path file(path);
+  book.recording = (m_of_room ? file.parent_path().filename() / file.filename() : file.filename()).string();
   book.late_facts = [&world] { return factsOfStart(world); };
   book.on_problem = [log = m_log, path](const std::string& problem) {
     log({LogEvent::Level::kError,

@@ -92,6 +92,7 @@ class Journals {
   JournaledWorld::Book makeBook(const std::string& path, const WorldProcess& world) const;
 
   const std::string m_folder;
+  const bool m_of_room;  ///< the folder is a room's, in that of --journal
   const std::string m_game;
   const std::string m_module;  ///< path; empty: a game that is a program
   const std::int64_t m_seed;

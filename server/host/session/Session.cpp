@@ -31,12 +31,14 @@ void Session::start(Events events) {
 
 // ---- the welcome or refusal -------------------------------------------------------------------------------
 
-void Session::refuse(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect) {
+void Session::refuse(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect,
+                     const std::string& room) {
   if (m_events.on_refused) m_events.on_refused(*this, sentence);
   wire::ServerMessage message;
   message.mutable_refused()->set_reason(reason);
   message.mutable_refused()->set_sentence(sentence);
   message.mutable_refused()->set_redirect(redirect);
+  message.mutable_refused()->set_redirect_room(room);
   send(message);
   end();
 }

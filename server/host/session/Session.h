@@ -82,8 +82,10 @@ class Session {
   /// Begin to receive. Not in the constructor: callbacks need a finished session.
   void start(Events events);
 
-  /// Answer the hello with a refusal; the connection ends. `redirect`: a link to where there is a place.
-  void refuse(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect = "");
+  /// Answer the hello with a refusal; the connection ends. `redirect`: a link to where there is a place,
+  /// `room`: in which of its rooms.
+  void refuse(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect = "",
+              const std::string& room = "");
   /// Answer the hello: the client plays from now on. With `datagrams` if there are to be any.
   void welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams = nullptr);
   /// Instead of start(): it has no stream, and its client knows nothing of it but a token. So are sessions of

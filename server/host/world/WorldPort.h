@@ -43,7 +43,7 @@ struct WorldEnd {
 /// A round that is written down.
 struct RoundName {
   std::string id;    ///< 32 hexadecimal digits that no other round has; empty: it is not written down
-  std::string file;  ///< the name of its recording
+  std::string file;  ///< its recording, from the folder of --journal
 };
 
 /// Another world goes on in place of one that died.

@@ -96,7 +96,7 @@ ContactScene::ContactScene(const Scene& scene) : gravity(length(scene.gravity)) 
 }
 
 bool ContactScene::canExpress(const Scene& scene) {
-  if (!scene.rigid() || scene.field || !scene.joints.empty()) return false;
+  if (!scene.rigid() || scene.field || !scene.joints.empty() || !scene.collides) return false;
   return std::all_of(scene.bodies.begin(), scene.bodies.end(),
                      [](const Body& body) { return isSound(body) && body.restitution == 0; });
 }

@@ -15,10 +15,10 @@ physics::Vec2 down(Vec v) {
   return {v.x, -v.y};
 }
 
-physics::RigidOptions withSubsteps(int substeps) {
+physics::RigidOptions optionsFor(const Scene& scene, int substeps) {
   physics::RigidOptions options;
   options.substeps = substeps;
-  options.may_sleep = false;
+  options.may_sleep = scene.may_sleep;
   return options;
 }
 
@@ -27,7 +27,8 @@ class Rigid : public Simulation {
   explicit Rigid(const Scene& scene) : m_scene(scene) {}
 
   static bool canExpress(const Scene& scene) {
-    if (!scene.rigid() || scene.field || !scene.joints.empty() || scene.tick != kTick) return false;
+    if (!scene.rigid() || scene.field || !scene.joints.empty() || !scene.collides || scene.tick != kTick)
+      return false;
     for (const Body& body : scene.bodies) {
       if (body.shapes.empty()) return false;
     }
@@ -59,7 +60,7 @@ class Rigid : public Simulation {
   // The number of sub-steps is known only now.
   void make(int substeps) {
     m_is_made = true;
-    m_world = physics::RigidWorld(withSubsteps(substeps));
+    m_world = physics::RigidWorld(optionsFor(m_scene, substeps));
     m_origin = physics::placeAt(down(m_scene.origin));
     for (const Body& body : m_scene.bodies) {
       std::vector<physics::ConvexShape> shapes;
@@ -98,7 +99,7 @@ class Rigid : public Simulation {
   bool m_is_made = false;
 };
 
-const RegisteredMethod method({"rigid", "rigid, no sleep", "1", Method::Kind::CANDIDATE,
+const RegisteredMethod method({"rigid", "rigid solver alone", "1", Method::Kind::CANDIDATE,
                                [](const Scene& scene) -> SimulationPtr {
                                  return Rigid::canExpress(scene) ? std::make_unique<Rigid>(scene) : nullptr;
                                }});

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "ElapsedTime.h"
 #include "Measurement.h"
 #include "Records.h"
 #include "Systems.h"
@@ -101,9 +102,69 @@ TEST(Laboratory, TimesAreJudgedAgainstAnotherMethods) {
   measurement.cpu = {2, 2, 2};
   for (const double compared : {3.0, 5.0}) {
     Records records("");
-    records.add(problem, problem.cases[0], bound, product, 1, measurement, {compared, compared, compared});
+    records.add(problem, problem.cases[0], bound, product, 1, measurement, 2 / compared);
     EXPECT_EQ(records.allMet(), compared == 5);
   }
+}
+
+TEST(Laboratory, EachLevelIsJudgedByItsOwnTargetAtItsOwnSubsteps) {
+  Problem problem = problemOf("1");
+  Case& flight = problem.cases[0];
+  flight.metrics.resize(1);
+  flight.metrics[0].target = 1e-3;
+  flight.metrics[0].fast_target = 1e-1;
+  Measurement measurement;
+  measurement.errors = {1e-2};
+  for (const Method::Kind kind : {Method::Kind::PRODUCT, Method::Kind::FAST}) {
+    Method level = integrator(Rule::VERLET, kind);
+    level.own_substeps = 4;
+    for (const int substeps : {4, 8}) {
+      Records records("");
+      records.add(problem, flight, level, substeps, measurement);
+      EXPECT_EQ(records.allMet(), kind == Method::Kind::FAST || substeps == 8) << substeps;
+    }
+  }
+}
+
+// Takes 3 ms of CPU time in its third tick.
+class Stumbling : public Simulation {
+ public:
+  explicit Stumbling(double impacts) : m_impacts(impacts) {}
+  void step(double, int) override {
+    if (++m_tick != 3) return;
+    const double start = bench::cpuNanoseconds();
+    while (bench::cpuNanoseconds() - start < 3e6) {
+    }
+  }
+  BodyState body(int) const override { return {}; }
+  std::optional<Work> work() const override { return Work{0, m_tick < 3 ? 0 : m_impacts}; }
+
+ private:
+  double m_impacts;
+  int m_tick = 0;
+};
+
+TEST(Laboratory, TheDearestTickIsHeldAgainstWhatItMayCost) {
+  const Problem problem = problemOf("1");
+  Case flight = problem.cases[0];
+  flight.metrics.clear();
+  flight.judge = [](const Trial&) { return std::vector<double>(); };
+  for (const double impacts : {0.0, 10'000.0}) {
+    const Method method{"stumbling", "stumbling", "1", Method::Kind::PRODUCT,
+                        [=](const Scene&) { return std::make_unique<Stumbling>(impacts); }};
+    const Measurement measurement = measure(flight, method, 1, 1);
+    EXPECT_GE(measurement.cpu.worst, 3000);
+    Records records("");
+    records.add(problem, flight, method, 1, measurement);
+    EXPECT_EQ(records.allMet(), impacts > 0) << measurement.cpu.worst_part;
+  }
+}
+
+TEST(Laboratory, WhatATickMayCostGrowsWithWhatIsInIt) {
+  const TickBound bound;
+  EXPECT_EQ(bound.allowedUs(0, 0, 0, 0), 1000);
+  EXPECT_EQ(bound.allowedUs(100, 200, 50, 300), 1000 + 5 * 350 + 300);
+  EXPECT_EQ(bound.allowedUs(2, 0, 0, 1e9), 1000 + 10 + 20'000);  // the reserve
 }
 
 TEST(Laboratory, OnlyTheProductIsJudged) {
@@ -170,7 +231,7 @@ TEST(Laboratory, WhatAMethodCannotSayIsNotMeasured) {
 
 // Every engine starts from the scene's own state.
 TEST(Laboratory, PeersStartWhereTheSceneSays) {
-  for (const char* id : {"1", "5", "7", "8", "9", "11", "12", "17"}) {
+  for (const char* id : {"1", "5", "7", "8", "9", "11", "12", "17", "25", "27"}) {
     for (const Case& its_case : problemOf(id).cases) {
       for (const char* name : {"box2d", "chipmunk"}) {
         const SimulationPtr simulation = methodOf(name).build(its_case.scene);

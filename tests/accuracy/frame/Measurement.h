@@ -1,6 +1,7 @@
 // One method in one case at one number of sub-steps: how far off, and how long it took.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,9 @@ struct CpuTime {
   double median = 0;
   double least = 0;
   double most = 0;
-  double worst = 0;  ///< the dearest tick of a run, the first one too: of two runs the smaller
+  double worst = 0;  ///< the dearest tick, the first one too: of two runs of each tick the cheaper
+  double worst_part = std::numeric_limits<double>::quiet_NaN();  ///< the largest part of what a tick may cost
+  double first_part = std::numeric_limits<double>::quiet_NaN();  ///< the first tick, in median ticks
 };
 
 struct Measurement {

@@ -21,7 +21,33 @@ std::tuple<bool, long, std::string> order(const std::string& id) {
   return {rest == id.c_str(), number, rest};
 }
 
+std::string labelOf(const std::string& method) {
+  for (const Method* other : Method::all()) {
+    if (other->name == method) return other->label;
+  }
+  return method;
+}
+
+std::string timeOf(const CpuBound& bound) {
+  if (!bound.unit_label.empty()) return bound.unit_label;
+  if (bound.is_of_later) return "a later tick";
+  return labelOf(bound.method) + " at ×" + std::to_string(bound.substeps);
+}
+
 }  // namespace
+
+Metric CpuBound::metric() const {
+  const std::string what = is_of_later ? "time of the first tick" : "time per tick";
+  return {name, what + " ÷ that of " + timeOf(*this), target, 0, peers, fast_target};
+}
+
+double TickBound::allowedUs(double bodies, double contacts, double joints, double impacts) const {
+  return base_us + each_us * (bodies + contacts + joints) + impact_us * std::min(impacts, most_impacts);
+}
+
+Metric Case::worstTick() {
+  return {"worst_tick", "dearest tick ÷ what it may cost", 1, 0, "", 1};
+}
 
 std::vector<ProblemEntry> allProblems() {
   std::vector<ProblemEntry> problems = registry();

@@ -2,11 +2,18 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "Scene.h"
 
 namespace lab {
+
+/// What the cost of a tick is held against.
+struct Work {
+  double contacts = 0;  ///< that were solved for, once per tick each
+  double impacts = 0;   ///< that were handled at their moment
+};
 
 class Simulation {
  public:
@@ -21,6 +28,10 @@ class Simulation {
   virtual std::span<const double> coordinates() const { return {}; }
   /// How many contacts have begun so far; −1: not counted.
   virtual long contacts() const { return -1; }
+  /// How many bodies it has given up moving.
+  virtual long frozen() const { return 0; }
+  /// What all ticks so far had to do; empty: not counted.
+  virtual std::optional<Work> work() const { return {}; }
   /// How often an iteration inside the method did not converge.
   virtual long failures() const { return 0; }
 };

@@ -1,6 +1,7 @@
 // Box2D 2.4.1 as Debian builds it. `substeps` are whole steps of tick / substeps, with the velocity and
-// position iterations that its manual recommends. Its defaults stay, but nothing sleeps; boxes are made
-// smaller by the skin that it puts around polygons, so that they touch where the scene says.
+// position iterations that its manual recommends. Its defaults stay, but nothing sleeps unless the scene says
+// so; boxes are made smaller by the skin that it puts around polygons, so that they touch where the scene
+// says, unless it asks for full sides.
 #include <box2d/box2d.h>
 
 #include <algorithm>
@@ -31,8 +32,10 @@ class Box2d : public Simulation {
   explicit Box2d(const Scene& scene)
       : m_world({single(scene.gravity.x), single(scene.gravity.y)}),
         m_field(scene.field),
-        m_origin(scene.origin) {
-    m_world.SetAllowSleeping(false);
+        m_origin(scene.origin),
+        m_collides(scene.collides),
+        m_skin(scene.has_full_sides ? 0 : b2_polygonRadius) {
+    m_world.SetAllowSleeping(scene.may_sleep);
     m_world.SetContactListener(&m_contacts);
     const b2BodyDef nothing;
     m_ground = m_world.CreateBody(&nothing);
@@ -85,8 +88,9 @@ class Box2d : public Simulation {
   }
 
   // Returns the moment of inertia per mass.
-  static double addShape(b2Body& made, const Body& body, const Shape& shape) {
+  double addShape(b2Body& made, const Body& body, const Shape& shape) const {
     b2FixtureDef fixture;
+    if (!m_collides) fixture.filter.maskBits = 0;
     fixture.friction = single(body.friction);
     fixture.restitution = single(body.restitution);
     fixture.density = 1;
@@ -99,8 +103,8 @@ class Box2d : public Simulation {
       return shape.radius * shape.radius / 2;
     }
     b2PolygonShape polygon;
-    polygon.SetAsBox(std::max(single(shape.half.x) - b2_polygonRadius, b2_linearSlop),
-                     std::max(single(shape.half.y) - b2_polygonRadius, b2_linearSlop),
+    polygon.SetAsBox(std::max(single(shape.half.x) - m_skin, b2_linearSlop),
+                     std::max(single(shape.half.y) - m_skin, b2_linearSlop),
                      {single(shape.centre.x), single(shape.centre.y)}, 0);
     fixture.shape = &polygon;
     made.CreateFixture(&fixture);
@@ -108,6 +112,12 @@ class Box2d : public Simulation {
   }
 
   void add(const Joint& joint) {
+    if (joint.kind == Joint::Kind::HINGE) {
+      b2RevoluteJointDef definition;
+      definition.Initialize(bodyOf(joint.a), bodyOf(joint.b), at(joint.anchor_a));
+      m_world.CreateJoint(&definition);
+      return;
+    }
     b2DistanceJointDef definition;
     definition.Initialize(bodyOf(joint.a), bodyOf(joint.b), at(joint.anchor_a), at(joint.anchor_b));
     if (joint.kind == Joint::Kind::SPRING) {
@@ -134,6 +144,8 @@ class Box2d : public Simulation {
   ContactCounter m_contacts;
   Field m_field;
   Vec m_origin;
+  bool m_collides;
+  float m_skin;
   double m_time = 0;
   b2Body* m_ground = nullptr;
   std::vector<b2Body*> m_bodies;  // the world's, by index

@@ -1,6 +1,6 @@
 // Chipmunk 7.0.3 as Debian builds it. `substeps` are whole steps of tick / substeps with its 10 iterations.
 // Its collision slop is set to Box2D's, for its own is a tenth of a body of these scenes; other defaults
-// stay.
+// stay: by these nothing sleeps.
 #include <chipmunk/chipmunk.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ cpBool countContact(cpArbiter*, cpSpace*, cpDataPointer count) {
 class Chipmunk : public Simulation {
  public:
   explicit Chipmunk(const Scene& scene)
-      : m_space(cpSpaceNew()), m_field(scene.field), m_origin(scene.origin) {
+      : m_space(cpSpaceNew()), m_field(scene.field), m_origin(scene.origin), m_collides(scene.collides) {
     cpSpaceSetGravity(m_space, vect(scene.gravity));
     cpSpaceSetCollisionSlop(m_space, kSlop);
     cpCollisionHandler* handler = cpSpaceAddDefaultCollisionHandler(m_space);
@@ -107,6 +107,7 @@ class Chipmunk : public Simulation {
             : cpBoxShapeNew2(made, cpBBNewForExtents(vect(shape.centre), shape.half.x, shape.half.y), 0);
     cpShapeSetFriction(its_shape, std::sqrt(body.friction));
     cpShapeSetElasticity(its_shape, std::sqrt(body.restitution));
+    if (!m_collides) cpShapeSetFilter(its_shape, CP_SHAPE_FILTER_NONE);
     cpSpaceAddShape(m_space, its_shape);
     m_shapes.push_back(its_shape);
   }
@@ -117,8 +118,9 @@ class Chipmunk : public Simulation {
     const cpVect anchor_a = cpBodyWorldToLocal(a, vect(m_origin + joint.anchor_a));
     const cpVect anchor_b = cpBodyWorldToLocal(b, vect(m_origin + joint.anchor_b));
     cpConstraint* constraint =
-        joint.kind == Joint::Kind::ROD
-            ? cpPinJointNew(a, b, anchor_a, anchor_b)
+        joint.kind == Joint::Kind::ROD ? cpPinJointNew(a, b, anchor_a, anchor_b)
+        : joint.kind == Joint::Kind::HINGE
+            ? cpPivotJointNew2(a, b, anchor_a, anchor_b)
             : cpDampedSpringNew(a, b, anchor_a, anchor_b, joint.rest_length, joint.stiffness, joint.damping);
     cpSpaceAddConstraint(m_space, constraint);
     m_constraints.push_back(constraint);
@@ -134,6 +136,7 @@ class Chipmunk : public Simulation {
   cpSpace* m_space;
   Field m_field;
   Vec m_origin;
+  bool m_collides;
   double m_time = 0;
   long m_contacts = 0;
   std::vector<cpBody*> m_bodies;  // by index

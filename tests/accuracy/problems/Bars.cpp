@@ -74,6 +74,7 @@ double energyOf(const Body& body, const BodyState& state) {
 Case against(Motion motion, const std::string& name) {
   Case shots;
   shots.name = name;
+  shots.label = "a " + name + " wall";
   naiad::SplitMix64 first(1);
   shots.scene = shot(motion, 1, first);
   shots.metrics = {{"through", "part of the shots that go through", 0, 1e-6, ""},
@@ -120,6 +121,7 @@ Problem make() {
       "shots (the product: 10,000), each until two ticks after it must have arrived.";
   problem.reference =
       "every shot meets the wall, stays on its side, and gains no energy where the wall has none";
+  problem.why = "A bar that turns is harder than a ball: its ends are faster than its middle.";
   problem.cases = {against(Motion::FIXED, "static"), against(Motion::KINEMATIC, "kinematic"),
                    against(Motion::DYNAMIC, "dynamic")};
   return problem;

@@ -32,6 +32,7 @@ Case dying() {
   constexpr double kSlow = 1e-3;  // m/s: rest
   Case bouncing;
   bouncing.name = "e0.8";
+  bouncing.label = "restitution 0.8";
   bouncing.scene = ballOverGround(kHeight, kRestitution, 450);
   const double stop = std::sqrt(2 * kHeight / kGravity) * (1 + kRestitution) / (1 - kRestitution);
   bouncing.metrics = {{"first_peak", "relative error of the first peak", 1e-9, 1e-15,
@@ -70,6 +71,7 @@ Case forever() {
   constexpr double kHeight = 5;
   Case bouncing;
   bouncing.name = "e1";
+  bouncing.label = "restitution 1";
   bouncing.scene = ballOverGround(kHeight, 1, 3000);
   bouncing.metrics = {{"peak", "relative error of the height after 100 s", 1e-9, 1e-14,
                        "Box2D 3.95 of 5 m (0.21), Chipmunk ×4 5.000"}};
@@ -89,6 +91,7 @@ Problem makeBouncing() {
       "it, for 100 s.";
   problem.reference =
       "peaks h e^(2k); it stops at √(2h/g) (1 + e)/(1 − e) = 12.7279 s, after infinitely many bounces";
+  problem.why = "A ball that is to bounce for ever does, and one that is to stop stops when it should.";
   problem.cases = {dying(), forever()};
   return problem;
 }
@@ -102,6 +105,7 @@ Problem makeFast() {
   problem.text =
       "A ball at 200 m/s meets a wall after 2.3 ticks and goes back with all of its speed; after 4 ticks:";
   problem.reference = "the mirrored path";
+  problem.why = "The rest of the step after an impact is part of the motion, too.";
   Case bounce;
   const double gap = 2.3 * kTick * kSpeed;
   Body flying = ball({0, 0}, {kSpeed, 0}, kRadius);

@@ -16,6 +16,7 @@ constexpr double kQuadratic = kGravity / (kTerminal * kTerminal);
 Case linear() {
   Case gliding;
   gliding.name = "linear";
+  gliding.label = "linear drag";
   Body body;
   body.velocity = {kStart, 0};
   body.linear_drag = kLinear;
@@ -43,6 +44,7 @@ Case linear() {
 Case quadratic() {
   Case falling;
   falling.name = "quadratic";
+  falling.label = "quadratic drag";
   falling.scene.bodies = {Body()};
   falling.scene.gravity = {0, -kGravity};
   falling.scene.ticks = kTicks;
@@ -82,6 +84,9 @@ Problem make() {
       "with "
       "a terminal speed of 5 m/s.";
   problem.reference = "(v₀/c)(1 − e^(−ct)); (v_t²/g) ln cosh(gt/v_t) and v_t tanh(gt/v_t), in quad precision";
+  problem.why =
+      "Anything that slows down, from a leaf to a car. The closed form costs no more than a step, and is "
+      "right at any tick.";
   problem.cases = {linear(), quadratic()};
   return problem;
 }

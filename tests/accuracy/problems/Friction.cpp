@@ -93,6 +93,7 @@ Problem makeFriction() {
       "slides in 2 s "
       "at 40°; how far it gets on a floor from 10 m/s.";
   problem.reference = "atan µ = 26.565°; g(sin θ − µ cos θ); v²/2µg";
+  problem.why = "A crate begins to slide at the angle that its friction says, and stops where it should.";
   problem.cases = {threshold(), sliding(), stopping()};
   return problem;
 }
@@ -104,6 +105,7 @@ Problem makeRolling() {
   problem.title = "Rolling disc";
   problem.text = "A disc rolls down a slope of 30° with µ = 0.5 for 2 s.";
   problem.reference = "⅔ g sin θ, without slip while tan θ < 3µ";
+  problem.why = "Wheels roll without slipping, as fast as the book says.";
   Case slope;
   slope.scene = onSlope(kAngle, ball({}, {}, kRadius), kRadius, 60);
   slope.metrics = {{"way", "relative error of the way in 2 s", 1e-3, 1e-15, ""},

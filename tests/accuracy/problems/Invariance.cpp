@@ -29,6 +29,7 @@ Scene farScene(double distance) {
 Case away(double distance, const std::string& peers) {
   Case moved;
   moved.name = power(distance);
+  moved.label = power(distance) + " m away";
   moved.scene = farScene(distance);
   moved.metrics = {
       {"slow_path", "largest distance from the path at the origin, of its length", 0, 1e-16, peers},
@@ -58,6 +59,7 @@ Problem makeFar() {
   problem.title = "Far from the origin";
   problem.text = "A body at 1 m/s and a bouncing ball, 5 s, at a distance in x and y from the origin.";
   problem.reference = "the same method's run at the origin: translation changes nothing";
+  problem.why = "A map may be as large as it likes, and physics must be the same everywhere in it.";
   problem.cases = {away(1e4, "Box2D 5 %"), away(1e6, "Box2D frozen"), away(1e9, "")};
   return problem;
 }
@@ -95,6 +97,9 @@ Problem makeClosed() {
       "100 discs of 1 kg that spin and rush together, with restitution 0.5 and friction 0.5, without "
       "gravity: 1000 ticks.";
   problem.reference = "momentum and angular momentum stay; energy does not grow";
+  problem.why =
+      "What no force acts upon keeps its momentum; what drifts over minutes shows in a server that runs for "
+      "weeks.";
   Case swarm;
   std::mt19937_64 bits(17);
   const auto random = [&bits] { return static_cast<double>(bits() >> 11) * 0x1p-52 - 1; };

@@ -47,6 +47,7 @@ Scene alone(Held held) {
   Scene scene;
   scene.gravity = {0, -10};
   scene.ticks = kTicks;
+  scene.may_sleep = true;  // one group may, while the other goes on
   addPair(scene, held, {0, 3}, {1, 0});
   addFloor(scene, 0);
   return scene;
@@ -68,9 +69,10 @@ bool areEqual(const BodyState& a, const BodyState& b) {
 Case heldBy(Held held, const std::string& name) {
   Case beside;
   beside.name = name;
+  beside.label = held == Held::NOTHING ? "two boxes" : "two boxes on a " + name;
   beside.scene = accompanied(held, 30, false);
   beside.most_substeps = 16;
-  beside.metrics = {{"differing", "part of the ticks in which a bit differs", 0, 1e-6, ""}};
+  beside.metrics = {{"differing", "part of the ticks in which a bit differs", 0, 1e-6, "", 0}};
   beside.judge = [held](const Trial& trial) {
     std::vector<BodyState> path;
     trial.run(alone(held), [&](int /*tick*/, const Simulation& simulation) {
@@ -100,8 +102,10 @@ Problem make() {
   problem.title = "Groups do not see each other";
   problem.text =
       "Two boxes on a rod, on a spring, or on nothing fall onto a floor, alone and with another such pair "
-      "2000 m away that rests, moves by 0.01 to 1000 cells a tick, or lies on a floor of its own; 200 ticks.";
+      "2000 m away that rests, moves by 0.01 to 1000 cells a tick, or lies on a floor of its own; 200 ticks. "
+      "What rests may sleep.";
   problem.reference = "the same bits as alone";
+  problem.why = "What happens at one end of a world must not change a bit at its other end.";
   problem.cases = {heldBy(Held::ROD, "rod"), heldBy(Held::SPRING, "spring"), heldBy(Held::NOTHING, "loose")};
   return problem;
 }

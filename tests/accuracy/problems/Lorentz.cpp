@@ -85,6 +85,7 @@ Problem make() {
       "onto which the field presses it, and on a rod of 5 m; 100 ticks, no gravity, no friction.";
   problem.reference =
       "a circle of v/ω, the floor's line, the rod's circle at constant speed: the force does no work";
+  problem.why = "A force that turns a motion must not brake it or make it faster.";
   for (const double rate : {1.0, 10.0, 1e3, 1e4}) {
     problem.cases.push_back(freely(rate, "free" + std::to_string(static_cast<int>(rate))));
   }

@@ -109,9 +109,15 @@ Problem makeMeetings() {
       "and "
       "e = 1. No gravity, and boxes do not turn.";
   problem.reference = "momentum stays, and no impact gives energy";
+  problem.why =
+      "Four crates that meet in a corner are the first thing that happens in a game; no tick may take a "
+      "second for it.";
   problem.cases = {meeting("point4", inwards(4, 3 * std::numbers::sqrt2, kDiagonal)),
                    meeting("point150", inwards(150, 30, 0)), meeting("block2", block(2, 1)),
                    meeting("block3", block(3, 2)), meeting("cradle100", heavierAndHeavier())};
+  const char* labels[] = {"4 boxes in a point", "150 boxes in a point", "2 × 2 boxes", "3 × 3 boxes",
+                          "100 circles in a row"};
+  for (std::size_t i = 0; i < problem.cases.size(); ++i) problem.cases[i].label = labels[i];
   problem.cases[1].scene.ticks = 300;
   problem.cases[1].long_run = true;
   return problem;
@@ -125,6 +131,8 @@ Case offset(int boxes, const char* peers) {
   standing.scene.gravity = {0, -10};
   standing.scene.ticks = 300;
   standing.most_substeps = 16;
+  standing.draws_levels = true;
+  standing.label = std::to_string(boxes) + " crates";
   Body ground = wall({0, -5}, {100, 5});
   ground.friction = kFriction;
   standing.scene.bodies = {ground};
@@ -156,6 +164,7 @@ Problem makeOffset() {
       "20, 40 and 60 crates of 1 m on each other, in turn 0.025 m to the left and to the right, friction "
       "0.6, 10 s.";
   problem.reference = "nothing moves";
+  problem.why = "Stacks are never exact; small offsets add up to a lever of the whole height.";
   problem.cases = {offset(20, "Box2D ×4 .076, Chipmunk ×4 .036"),
                    offset(40, "both collapse ×4; Box2D ×8 .092, Chipmunk ×8 .032"),
                    offset(60, "both collapse ×4; Box2D ×8 .15")};

@@ -35,6 +35,7 @@ std::vector<double> keplerPlace(Quad orbits) {
 Case kepler() {
   Case orbit;
   orbit.name = "kepler";
+  orbit.label = "Kepler's ellipse";
   Kepler system;
   system.mu = keplerMu();
   system.eccentricity = kEccentricity;
@@ -74,6 +75,7 @@ Case kepler() {
 Case doublePendulum() {
   Case swing;
   swing.name = "double_pendulum";
+  swing.label = "double pendulum";
   Body upper;
   upper.position = {1, 0};
   Body lower;
@@ -126,6 +128,8 @@ Problem make() {
       "motion is chaos).";
   problem.reference =
       "Kepler's equation in quad precision; extrapolation in quad precision, agreeing with CVODE";
+  problem.why =
+      "Orbits that close, and a motion that magnifies each error: what a method of high order is for.";
   problem.cases = {kepler(), doublePendulum()};
   return problem;
 }

@@ -100,6 +100,7 @@ Problem make() {
       "quintic interpolation between ticks.";
   problem.reference =
       "4√(L/g) K(sin θ₀/2) by the arithmetic-geometric mean in quad precision; energy and length stay";
+  problem.why = "A lamp on a chain must not come to rest by itself, and must cost little.";
   Case swing;
   Body bob;
   bob.position = {1, 0};

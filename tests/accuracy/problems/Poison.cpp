@@ -63,6 +63,7 @@ Case spike() {
   constexpr double kLong = 1e4;  // s
   Case bad;
   bad.name = "dt_spike";
+  bad.label = "a tick of a thousand";
   bad.scene = pile();
   bad.metrics = {{"displaced", "crates more than 1 m from their place after a tick of 1e4 s", 0, 0, ""}};
   bad.judge = [scene = bad.scene](const Trial& trial) {
@@ -91,6 +92,7 @@ Problem make() {
       "crash or an "
       "endless loop is a failure.";
   problem.reference = "the pile without that ball";
+  problem.why = "A game's mistake may cost the object that it was made with, and no other.";
   Body good = ball({20, 5}, {-1, 0}, 0.5);
   const auto with = [&good](auto change) {
     Body body = good;

@@ -14,6 +14,8 @@ Case rope(double ratio) {
   constexpr double kLink = 0.5;
   Case swinging;
   swinging.name = "r" + power(ratio);
+  swinging.label = "end mass " + power(ratio);
+  swinging.draws_levels = true;
   Scene& scene = swinging.scene;
   for (int i = 0; i < kLinks; ++i) {
     Body point;
@@ -62,6 +64,7 @@ Problem makeRope() {
       "20 rigid links of 0.5 m between points of 1 kg, the last of R kg; it is let go horizontally and "
       "swings for 10 s.";
   problem.reference = "links keep their length, and the whole its energy";
+  problem.why = "A wrecking ball on a chain: peers stretch it like rubber, and a direct solution does not.";
   problem.cases = {rope(1), rope(100), rope(1e3), rope(1e6)};
   return problem;
 }

@@ -29,6 +29,7 @@ Case catenary(int links) {
   constexpr double kDrag = 2;  // 1/s
   Case hanging;
   hanging.name = "catenary" + std::to_string(links);
+  hanging.label = "catenary of " + std::to_string(links) + " links";
   Scene& scene = hanging.scene;
   // From a V, whose arms are straight.
   const double depth = std::sqrt(kLength * kLength - kSpan * kSpan) / 2;
@@ -75,6 +76,7 @@ double stiffnessOf(const Beam& beam) {
 Case bending(int elements) {
   Case bent;
   bent.name = "cantilever" + std::to_string(elements);
+  bent.label = "cantilever of " + std::to_string(elements) + " elements";
   Beam beam = slender(elements);
   const double deflection = beam.length / 100;
   beam.tip_force = deflection * 3 * stiffnessOf(beam) / std::pow(beam.length, 3);
@@ -164,6 +166,7 @@ Problem makeSoft() {
       "damps it.";
   problem.reference =
       "a cosh(x/a), which the chain approaches with (1/links)²; FL³/3EI; the first root of cos β cosh β = −1";
+  problem.why = "Soft bodies have a right shape, too, and must come nearer to it with more nodes.";
   problem.cases = {catenary(16), catenary(32), catenary(64), bending(8), bending(16),
                    bending(32),  ringing(8),   ringing(16),  ringing(32)};
   return problem;

@@ -13,6 +13,7 @@ constexpr int kPeriods = 10;
 Case oscillator(int hertz, const std::string& peers) {
   Case spring;
   spring.name = std::to_string(hertz) + "hz";
+  spring.label = std::to_string(hertz) + " Hz";
   SpringLine system;
   const double omega = 2 * M_PI * hertz;
   system.stiffness = omega * omega;
@@ -37,6 +38,8 @@ Problem make() {
   problem.title = "Undamped spring";
   problem.text = "1 kg swings on a spring of rest length 10 m with an amplitude of 1 m, 10 periods.";
   problem.reference = "A cos ωt, in quad precision";
+  problem.why =
+      "What swings must go on swinging, at its own rate: peers either stop it or make it swing higher.";
   problem.cases = {oscillator(1, "of the amplitude is left: Box2D 0.226 (error 0.774), Chipmunk 1.00"),
                    oscillator(5, "of the amplitude is left: Box2D 0.0006 (error 0.9994)"),
                    oscillator(15, "of the amplitude is left: Chipmunk 1.6 (error 0.6)")};

@@ -60,6 +60,8 @@ Case stack(int boxes, bool rotates, double target, const std::string& peers) {
   standing.name = std::to_string(boxes) + (rotates ? "" : "_upright");
   standing.scene = stackOf(std::vector<double>(static_cast<std::size_t>(boxes), 1), rotates);
   standing.long_run = boxes > 30;
+  standing.draws_levels = true;
+  standing.label = std::to_string(boxes) + (rotates ? " crates" : " crates that do not turn");
   standing.metrics = {{"sag_m", "largest error of a height over 10 s, m", target, 1e-15, peers},
                       {"drift_m", "largest sideways distance after 10 s, m", -1, 1e-15, ""}};
   standing.judge = [scene = standing.scene](const Trial& trial) {
@@ -78,6 +80,7 @@ Problem makeStack() {
       "sleeps. "
       "`upright`: bodies that do not rotate.";
   problem.reference = "nothing moves";
+  problem.why = "Crates that stand must stand, however many.";
   problem.cases = {stack(10, true, 1e-3, "Box2D .033, Chipmunk ×4 .001"),
                    stack(30, true, 1e-2, "Box2D .31, Chipmunk ×4 .018"),
                    stack(100, true, 0.1, "Box2D 3.4, Chipmunk ×4 .45 (drifts 5.8)"),
@@ -92,6 +95,8 @@ Case press(double ratio) {
   Case pressed;
   pressed.name = "ratio" + power(ratio);
   pressed.x = ratio;
+  pressed.draws_levels = true;
+  pressed.label = "1 : " + power(ratio);
   pressed.scene = stackOf({1, ratio}, true);
   pressed.judge = [scene = pressed.scene](const Trial& trial) {
     double worst = 0;
@@ -114,6 +119,7 @@ Problem makePress() {
   problem.title = "Heavy on light";
   problem.text = "A crate of R kg on one of 1 kg on the ground, gaps 0 at the start, friction 0.5, 10 s.";
   problem.reference = "nothing moves; the metric is the deepest overlap in the last second";
+  problem.why = "An author gives a tank a thousand times a crate's mass, and drives over it.";
   const char* peers[] = {"Box2D .004, Chipmunk ×4 .0002", "Box2D .036, Chipmunk ×4 .004",
                          "Box2D crushed, Chipmunk ×4 .06", "Box2D .9, Chipmunk ×4 .95"};
   int i = 0;

@@ -136,6 +136,8 @@ Problem make() {
   problem.reference =
       "extrapolation in quad precision at 1e-17, agreeing with CVODE at 1e-12 to 1e-9; the charge: closed "
       "form";
+  problem.why =
+      "A game's own force may be as stiff as it likes, and the engine knows nothing about it but its values.";
   problem.cases = {vanDerPol(), stiffPendulum(), charge(), robertson(), hires()};
   return problem;
 }

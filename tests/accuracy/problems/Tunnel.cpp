@@ -56,6 +56,7 @@ Scene shot(Pair pair, std::mt19937_64& bits) {
 Case against(Pair pair, const std::string& name, const std::string& peers) {
   Case shots;
   shots.name = name;
+  shots.label = pair == Pair::FAST_FAST ? "fast against fast" : "against " + name;
   std::mt19937_64 first(1);
   shots.scene = shot(pair, first);
   shots.metrics = {{"through", "part of the shots that go through", 0, 1e-6, peers},
@@ -90,6 +91,7 @@ Problem make() {
       "them "
       "without a contact has been held back: it is counted as unmet.";
   problem.reference = "they cannot change sides: every shot meets its target within two ticks";
+  problem.why = "A bullet must not pass through what it hits, whatever the two are and however fast.";
   problem.cases = {against(Pair::FIXED, "static", "Chipmunk 82 % at 50 m/s"),
                    against(Pair::KINEMATIC, "kinematic", "Box2D 80–98 %"),
                    against(Pair::DYNAMIC, "dynamic", "Box2D 80–98 %"),

@@ -1,4 +1,4 @@
-// The product's own automatic choice, with the same settings in every problem.
+// The product's two levels, each with the same settings in every problem.
 #include "Default.h"
 
 #include "Method.h"
@@ -8,12 +8,22 @@ namespace lab {
 namespace {
 
 SimulationPtr build(const Scene& scene) {
+  if (!scene.cloths.empty()) return clothByDefault(scene);
   if (scene.massless) return objectsByDefault(scene);
   if (scene.abstract()) return equationsByDefault(scene);
-  return scene.beams.empty() ? bodiesByDefault(scene) : beamByDefault(scene);
+  return scene.beams.empty() ? bodiesAt(df::ACCURACY_DEFAULT, scene) : beamByDefault(scene);
 }
 
+// What is no body moves in the same way at both levels.
+SimulationPtr buildFast(const Scene& scene) {
+  return scene.rigid() && scene.cloths.empty() ? bodiesAt(df::ACCURACY_FAST, scene) : nullptr;
+}
+
+constexpr int kFastSubsteps = 4;  // of a tick (docs/physics/substep.md)
+
 const RegisteredMethod method({"default", "Naiad", "0.1.0", Method::Kind::PRODUCT, build, 1});
+const RegisteredMethod fast({"fast", "Naiad, fast level", "0.1.0", Method::Kind::FAST, buildFast,
+                             kFastSubsteps});
 
 }  // namespace
 

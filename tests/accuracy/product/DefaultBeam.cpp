@@ -42,6 +42,7 @@ class DefaultBeam : public Simulation {
     m_beam->applyForce(freeEnd(), m_force);
     m_world.update();
   }
+  std::optional<Work> work() const override { return Work{}; }
 
   BodyState body(int /*index*/) const override {
     const df::Vector position = m_beam->getNodePosition(freeEnd());

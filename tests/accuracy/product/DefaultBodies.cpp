@@ -1,6 +1,7 @@
 // df::Body Objects in a World of its own, and WM.update(). A metre is a cell, a
 // tick of the scene is a tick, mass is in kg; all else is as it comes. What never moves and lies along the
-// axes is an ordinary HARD Object.
+// axes is an ordinary HARD Object where a body may touch it.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "engine/world/EventCollision.h"
 #include "engine/world/World.h"
 #include "physics/body/Body.h"
+#include "physics/body/BodyLayer.h"
 #include "physics/body/Field.h"
 #include "physics/body/PhysicsManager.h"
 
@@ -52,13 +54,16 @@ class CountingBody : public df::Body {
 
 class DefaultBodies : public Simulation {
  public:
-  explicit DefaultBodies(const Scene& scene)
-      : m_origin(scene.origin), m_tick(scene.tick), m_is_hearing(scene.hearing) {
+  DefaultBodies(df::Accuracy accuracy, const Scene& scene)
+      : m_origin(scene.origin), m_tick(scene.tick), m_is_hearing(scene.hearing), m_collides(scene.collides) {
     m_world.setLogSink([](const std::string&) {});
     const df::World::Scope scope(m_world);
     PM.setAspect(1);
     PM.setGravity(cells(m_tick * m_tick * scene.gravity));
+    PM.setAccuracy(accuracy);
+    PM.setSleeping(scene.may_sleep);
     if (scene.field) m_field = std::make_unique<SceneField>(scene.field, m_tick);
+    m_p_layer = &df::BodyLayer::of(m_world);
     chooseObstacles(scene);
     for (const Body& body : scene.bodies) add(body);
     for (const Joint& joint : scene.joints) add(joint);
@@ -88,6 +93,17 @@ class DefaultBodies : public Simulation {
     return state;
   }
   long contacts() const override { return m_contacts; }
+  long frozen() const override {
+    return std::count_if(m_bodies.begin(), m_bodies.end(),
+                         [](const auto& p_body) { return p_body != nullptr && p_body->isFrozen(); });
+  }
+  std::optional<Work> work() const override {
+    const df::BodyLayer& layer = *m_p_layer;
+    const auto contacts =
+        layer.rigidCounters().contacts + layer.substepCounters().contacts + layer.sensorPairs();
+    const auto impacts = layer.impactCounters().impacts + layer.rigidCounters().impacts;
+    return Work{static_cast<double>(contacts), static_cast<double>(impacts)};
+  }
 
  private:
   static bool isPlain(const Body& body) {
@@ -95,7 +111,7 @@ class DefaultBodies : public Simulation {
            body.shapes[0].kind == Shape::Kind::BOX;
   }
   bool isObstacle(const Body& body) const {
-    return isPlain(body) && body.friction == m_friction && body.restitution == m_restitution;
+    return m_collides && isPlain(body) && body.friction == m_friction && body.restitution == m_restitution;
   }
 
   // Objects without mass share one surface: that of the first.
@@ -122,7 +138,7 @@ class DefaultBodies : public Simulation {
     }
     m_bodies.push_back(std::make_unique<CountingBody>(m_contacts));
     CountingBody& made = *m_bodies.back();
-    if (body.shapes.empty()) made.setSolidness(df::SPECTRAL);
+    if (body.shapes.empty() || !m_collides) made.setSolidness(df::SPECTRAL);
     if (m_is_hearing) made.setSolidness(df::SOFT);
     // A game that is refused a place for a body has none to put it.
     if (made.setPosition(cells(m_origin + body.position)) != 0) WM.removeObject(&made);
@@ -165,6 +181,10 @@ class DefaultBodies : public Simulation {
     df::Body* p_a = joint.a < 0 ? nullptr : m_bodies[static_cast<std::size_t>(joint.a)].get();
     df::Body* p_b = joint.b < 0 ? nullptr : m_bodies[static_cast<std::size_t>(joint.b)].get();
     const df::Vector at_a = cells(m_origin + joint.anchor_a), at_b = cells(m_origin + joint.anchor_b);
+    if (joint.kind == Joint::Kind::HINGE) {
+      PM.addHinge(p_a, p_b, at_a);
+      return;
+    }
     if (joint.kind == Joint::Kind::ROD) {
       PM.addDistance(p_a, p_b, at_a, at_b);
       return;
@@ -174,9 +194,11 @@ class DefaultBodies : public Simulation {
   }
 
   df::World m_world;
+  const df::BodyLayer* m_p_layer = nullptr;
   Vec m_origin;
   double m_tick;
   bool m_is_hearing;
+  bool m_collides;
   double m_friction = -1;
   double m_restitution = -1;
   long m_contacts = 0;
@@ -188,8 +210,8 @@ class DefaultBodies : public Simulation {
 
 }  // namespace
 
-SimulationPtr bodiesByDefault(const Scene& scene) {
-  return scene.rigid() || scene.hearing ? std::make_unique<DefaultBodies>(scene) : nullptr;
+SimulationPtr bodiesAt(df::Accuracy accuracy, const Scene& scene) {
+  return scene.rigid() || scene.hearing ? std::make_unique<DefaultBodies>(accuracy, scene) : nullptr;
 }
 
 }  // namespace lab

@@ -1,4 +1,5 @@
-// The book's Objects, which move by their velocity: what a scene without physics consists of.
+// The book's Objects, which move by their velocity: what a scene without physics consists of. A metre is a
+// cell.
 #include <memory>
 #include <vector>
 
@@ -18,7 +19,7 @@ class DefaultObjects : public Simulation {
     for (const Body& body : scene.bodies) {
       m_objects.push_back(std::make_unique<df::Object>());
       df::Object& made = *m_objects.back();
-      made.setSolidness(df::SPECTRAL);
+      made.setSolidness(scene.blocks ? df::HARD : scene.hearing ? df::SOFT : df::SPECTRAL);
       made.setPosition({body.position.x, body.position.y});
       made.setVelocity({m_tick * body.velocity.x, m_tick * body.velocity.y});
     }
@@ -31,6 +32,7 @@ class DefaultObjects : public Simulation {
   DefaultObjects& operator=(const DefaultObjects&) = delete;
 
   void step(double /*tick*/, int /*substeps*/) override { m_world.update(); }
+  std::optional<Work> work() const override { return Work{}; }
 
   BodyState body(int index) const override {
     const df::Object& object = *m_objects[static_cast<std::size_t>(index)];

@@ -10,10 +10,13 @@ STRIP = 26        # the edges: exactly 0 on the left, failures on the right
 LARGEST = 100.0   # an error from here on is drawn with the failures
 SMALLEST = 1e-17  # below that, as 0
 ORDERS = (1, 2, 4)
+MINOR = "#f1f3f5"  # lines between decades
+FEW = 2.5          # decades: on a shorter axis 2 and 5 have lines, too
 
 # Colours by Okabe and Ito and by Tol, which colour-blind people can tell apart; shapes besides, for print.
 STYLES = {
     "default": ("#000000", "circle", 3.4),
+    "fast": ("#b0209a", "diamond", 3.4),
     "box2d": ("#d55e00", "square", 2.2),
     "chipmunk": ("#0072b2", "triangle", 2.2),
     "xpbd": ("#009e73", "diamond", 2.2),
@@ -72,64 +75,117 @@ def failed(error):
     return not error < LARGEST
 
 
+def targets(metric):
+    """What is asked of the product's levels, with the words for it."""
+    asked = [(metric["target"], "must reach"), (metric.get("fast_target", -1), "fast level must reach")]
+    if asked[0][0] == asked[1][0]:
+        asked = [(asked[0][0], "must reach")]
+    return [(value, words) for value, words in asked if value >= 0]
+
+
+def stretch(values, least):
+    """An axis that holds all values, with some room at both ends, and spans `least` decades at least."""
+    low, high = math.log10(min(values)), math.log10(max(values))
+    room = max(0.06 * (high - low), (least - (high - low)) / 2, 0.05)
+    return 10.0**(low - room), 10.0**(high + room)
+
+
 def ranges(points, metric):
-    """The axes: both at least two decades, from and to whole ones."""
+    """The axes: as long as what is drawn on them."""
     errors = [p["error"] for p in points if not failed(p["error"]) and p["error"] > SMALLEST]
-    errors += [value for value in (metric["target"], metric["floor"]) if SMALLEST < value < LARGEST]
+    errors += [value for value, _ in targets(metric) if SMALLEST < value < LARGEST]
     times = [p[key] for p in points for key in ("cpu_us_min", "cpu_us_max") if p[key] > 0]
-    out = []
-    for values in (errors or [1e-3, 1], times or [1, 10]):
-        low, high = math.floor(math.log10(min(values)) + 1e-9), math.ceil(math.log10(max(values)) - 1e-9)
-        if high - low < 2:
-            high, low = high + (high - low < 1), low - 1
-        out.append((10.0**low, 10.0**high))
-    return out
+    return [stretch(errors or [1e-2, 1], 1), stretch(times or [1, 10], 0.7)]
+
+
+def ticks(axis):
+    """What has a line, and of these what has a number."""
+    decades = axis.decades()
+    if axis.high - axis.low >= FEW:
+        every = max(1, math.ceil(len(decades) / 9))
+        return [], decades[::every]
+    between = [factor * 10.0**e for e in range(math.floor(axis.low), math.ceil(axis.high) + 1) for factor in (2, 5)]
+    between = [value for value in between if axis.low <= math.log10(value) <= axis.high]
+    return between, sorted(decades + between)
+
+
+def plain(value):
+    """A number on an axis with numbers between its decades."""
+    if 1e-4 <= value < 1e5:
+        return f"{value:g}"
+    exponent = math.floor(math.log10(value) + 1e-9)
+    factor = f"{value / 10.0**exponent:.2g}"
+    return power_of_ten(exponent) if factor == "1" else f"{factor}·{power_of_ten(exponent)}"
+
+
+def edge_left(points, metric):
+    """Is there a strip for 0?"""
+    return any(p["error"] <= SMALLEST for p in points) or any(value <= SMALLEST for value, _ in targets(metric))
+
+
+def edge_right(points):
+    """Is there a strip for failures?"""
+    return any(failed(p["error"]) for p in points)
+
+
+def lines(x, y, along_x, along_y):
+    right = WIDTH - RIGHT
+    return ("".join(f"M{LEFT} {number(y(value))}H{right}" for value in along_y)
+            + "".join(f"M{number(x(value))} {TOP}V{HEIGHT - BOTTOM}" for value in along_x))
 
 
 def frame(x, y, metric, title, subtitle):
     right = WIDTH - RIGHT
-    out = [text(LEFT, 30, title, 18, weight="600"), text(LEFT, 51, subtitle, 12.5, MUTED)]
-    across = "".join(f"M{LEFT} {number(y(value))}H{right}" for value in y.decades())
-    up = "".join(f"M{number(x(value))} {TOP}V{HEIGHT - BOTTOM}" for value in x.decades())
-    out.append(f'<path d="{across}{up}" stroke="{GRID}"/>')
-    for value in y.decades():
+    out = [text(LEFT, 28, title, 18, weight="600"), text(LEFT, 47, subtitle, 12.5, MUTED)]
+    between_x, named_x = ticks(x)
+    between_y, named_y = ticks(y)
+    out.append(f'<path d="{lines(x, y, between_x, between_y)}" stroke="{MINOR}"/>')
+    out.append(f'<path d="{lines(x, y, x.decades(), y.decades())}" stroke="{GRID}"/>')
+    for value in named_y:
         out.append(text(LEFT - 10, y(value) + 4.5, duration(value * 1e3), anchor="end", colour=MUTED))
-    decades = x.decades()
-    every = max(1, math.ceil(len(decades) / 9))
-    for index, value in enumerate(decades):
-        if index % every == 0:
-            exponent = power_of_ten(round(math.log10(value)))
-            out.append(text(x(value), HEIGHT - BOTTOM + 20, exponent, anchor="middle", colour=MUTED))
+    for value in named_x:
+        name = plain(value) if between_x else power_of_ten(round(math.log10(value)))
+        out.append(text(x(value), HEIGHT - BOTTOM + 20, name, anchor="middle", colour=MUTED))
     out.append(text((LEFT + right) / 2, HEIGHT - 16, metric["label"], anchor="middle"))
     out.append(text(20, (TOP + HEIGHT - BOTTOM) / 2, "CPU time per tick", anchor="middle", turn=-90))
     return out
 
 
-def edges(x, metric):
+def edges(x, metric, has_left, has_right):
     """Where 0 and failures are drawn, and what rounding leaves."""
     right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
-    out = [f'<rect x="{LEFT}" y="{TOP}" width="{STRIP}" height="{bottom - TOP}" fill="#eef3ee"/>',
-           f'<rect x="{right - STRIP}" y="{TOP}" width="{STRIP}" height="{bottom - TOP}" fill="#f7ecec"/>',
-           text(LEFT + STRIP / 2, TOP - 8, "0", 12, MUTED, "middle"),
-           text(right, TOP - 8, "≥ 100, failed", 12, MUTED, "end")]
-    if metric["floor"] > SMALLEST and x(metric["floor"]) > LEFT + STRIP + 2:
+    out = []
+    if has_left:
+        out += [f'<rect x="{LEFT}" y="{TOP}" width="{STRIP}" height="{bottom - TOP}" fill="#eef3ee"/>',
+                text(LEFT + STRIP / 2, TOP - 6, "0", 12, MUTED, "middle")]
+    if has_right:
+        out += [f'<rect x="{right - STRIP}" y="{TOP}" width="{STRIP}" height="{bottom - TOP}" fill="#f7ecec"/>',
+                text(right - STRIP / 2, TOP - 6, "failed", 12, MUTED, "middle")]
+    left = LEFT + (STRIP if has_left else 0)
+    if metric["floor"] > SMALLEST and x(metric["floor"]) > left + 14:
         at = x(metric["floor"])
-        out.append(f'<rect x="{LEFT + STRIP}" y="{TOP}" width="{at - LEFT - STRIP:.1f}" height="{bottom - TOP}" '
+        out.append(f'<rect x="{left}" y="{TOP}" width="{at - left:.1f}" height="{bottom - TOP}" '
                    'fill="#f3f3f3"/>')
         out.append(text(at - 4, bottom - 8, "rounding", 11, MUTED, turn=-90))
     return out
 
 
-def target(x, metric):
-    """What the product must reach: a line, named in the margin above."""
+def goals(x, metric, has_left, has_right):
+    """What the product must reach: lines, named in the margin above; a row for each."""
     right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
-    if not SMALLEST < metric["target"] < LARGEST:
-        return []
-    at = x(metric["target"])
-    out = [line(at, TOP, at, bottom, INK, 1.3, "6 4")]
-    # Centred, but not over the names of the edges.
-    at = min(max(at, LEFT + STRIP + 66), right - STRIP - 90)
-    out.append(text(at, TOP - 8, f"must reach {metric['target']:.2g}", 12, INK, "middle"))
+    out = []
+    for row, (value, words) in enumerate(targets(metric)):
+        name = f"{words} {plain(float(f'{value:.2g}')) if value else 0}"
+        half = 3.3 * len(name)
+        if value > SMALLEST:
+            at = x(value)
+            out.append(line(at, TOP - 14 * row, at, bottom, INK, 1.3, "6 4"))
+        else:
+            at = LEFT + STRIP / 2
+        # Centred, but not over the names of the edges.
+        least = LEFT + (STRIP + 4 if has_left and row == 0 else 0) + half
+        most = right - (STRIP + 12 if has_right and row == 0 else 0) - half
+        out.append(text(min(max(at, least), most), TOP - 6 - 14 * row, name, 12, INK, "middle"))
     return out
 
 
@@ -149,8 +205,13 @@ def guides(x, y, points):
     """How steep a method of a given order is, where there are no curves."""
     wide, high = x.high - x.low, y.high - y.low
     rise = min(0.7, 0.18 * high)
+    drawn = [p["method"] for p in points if p["cpu_us"] > 0 and SMALLEST < p["error"] < LARGEST]
+    if len(drawn) == len(set(drawn)):
+        return []  # no curve to compare with
     orders = [order for order in ORDERS if order * rise < 0.5 * wide]
-    reach = orders[-1] * rise if orders else 0
+    if not orders:
+        return []
+    reach = orders[-1] * rise
     crowd = samples(points)
 
     def crowded(foot):
@@ -213,19 +274,21 @@ def legend(methods, labels, chosen):
         out += markers([(left + 14, at)], shape, colour)
         out.append(text(left + 38, at + 4.5, labels.get(method, method), 13, INK))
         at += 23
-    out.append(text(left, at + 12, "points: sub-steps a tick,", 11.5, MUTED))
-    out.append(text(left, at + 27, "few at the bottom, 64 on top", 11.5, MUTED))
-    out.append(text(left, at + 42, "hollow: at an edge", 11.5, MUTED))
+    for row, words in enumerate(("a point for 1, 2, 4 … steps", "a tick, usually upwards", "hollow: exactly 0, or failed",
+                                 "(also errors from 100 on)")):
+        out.append(text(left, at + 12 + 15 * row, words, 11.5, MUTED))
     return out
 
 
 def draw(points, metric, labels, title, subtitle, chosen):
     """`points`: dictionaries with method, substeps, error, cpu_us, cpu_us_min, cpu_us_max, in the order to draw."""
     (x_low, x_high), (y_low, y_high) = ranges(points, metric)
-    x = Axis(x_low, x_high, LEFT + STRIP + 8, WIDTH - RIGHT - STRIP - 8)
+    has_left, has_right = edge_left(points, metric), edge_right(points)
+    x = Axis(x_low, x_high, LEFT + (STRIP if has_left else 0), WIDTH - RIGHT - (STRIP if has_right else 0))
     y = Axis(y_low, y_high, HEIGHT - BOTTOM, TOP)
     methods = list(dict.fromkeys(point["method"] for point in points))
-    parts = edges(x, metric) + frame(x, y, metric, title, subtitle) + guides(x, y, points) + target(x, metric)
+    parts = edges(x, metric, has_left, has_right) + frame(x, y, metric, title, subtitle) + guides(x, y, points)
+    parts += goals(x, metric, has_left, has_right)
     for method in reversed(methods):  # the product on top
         parts += curve([p for p in points if p["method"] == method], chosen[method], x, y)
     return page(WIDTH, HEIGHT, title, parts + legend(methods, labels, chosen))

@@ -35,4 +35,10 @@ Joint rod(int a, Vec from, int b, Vec to) {
   return joint;
 }
 
+Joint hinge(int a, int b, Vec at) {
+  Joint joint = rod(a, at, b, at);
+  joint.kind = Joint::Kind::HINGE;
+  return joint;
+}
+
 }  // namespace lab

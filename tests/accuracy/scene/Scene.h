@@ -54,6 +54,7 @@ Body wall(Vec centre, Vec half, double angle = 0);
 struct Joint {
   enum class Kind {
     ROD,     ///< the anchors stay as far apart as they are at the start
+    HINGE,   ///< the anchors stay where the other one is
     SPRING,  ///< a force of stiffness × (distance − rest length) + damping × its rate
   };
   Kind kind = Kind::ROD;
@@ -68,6 +69,7 @@ struct Joint {
 
 /// Of two bodies, or of one and the ground (−1).
 Joint rod(int a, Vec from, int b, Vec to);
+Joint hinge(int a, int b, Vec at);
 
 /// An elastic beam that lies along x and is clamped at x = 0; its free end counts as the scene's body 0.
 struct Beam {
@@ -78,6 +80,16 @@ struct Beam {
   double tip_force = 0;  ///< N, downwards, from the start on
   double damping = 0;    ///< part of critical damping of the first mode
   int elements = 0;      ///< how finely it is divided along its length
+};
+
+/// Square meshes of threads, hung by its two upper corners; its node in a row and a column is the scene's
+/// body of number row × columns + column. Methods without cloths see these bodies, which rods hold together.
+struct Cloth {
+  int columns = 0;       ///< of nodes
+  int rows = 0;          ///< the same
+  double mesh = 0;       ///< m
+  double mass = 0;       ///< of the whole, kg
+  double stiffness = 0;  ///< m/s²: of the product's threads, per their part of the mass
 };
 
 struct BodyState {
@@ -94,13 +106,22 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Beam> beams;
+  std::vector<Cloth> cloths;
   Vec gravity;
   Field field;  ///< none: empty
   Vec origin;   ///< where the scene is in the world: whole metres
   double tick = kTick;
   int ticks = 0;
+  /// May bodies at rest sleep? If so, in each engine as it does by default.
+  bool may_sleep = false;
+  /// Or does nothing touch anything?
+  bool collides = true;
+  /// Box2D's boxes have their full sides, and its skin comes on top; else they are smaller by it.
+  bool has_full_sides = false;
   /// The bodies are the book's Objects, which have no mass and move by themselves: for the product alone.
   bool massless = false;
+  /// Massless Objects block each other: HARD. If not, and not `hearing`, they are SPECTRAL.
+  bool blocks = false;
   /// Bodies hear of what they meet, and nothing pushes them: for the product alone.
   bool hearing = false;
   /// The same in generalised coordinates, for methods that solve ordinary differential equations; null where

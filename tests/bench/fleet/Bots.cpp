@@ -40,7 +40,7 @@ void Bot::update(Time now) {
     m_lost = true;
   }
   if (!m_was_playing && playing) {
-    if (m_redirect.count() == 0 && m_redirected_at != Time())
+    if (!m_redirect && m_redirected_at != Time())
       m_redirect = std::chrono::duration_cast<std::chrono::milliseconds>(now - m_redirected_at);
     if (m_killed_at != Time() && m_lost) m_back_at = now;
   }
@@ -58,6 +58,7 @@ void Bot::noteKill(Time now) {
   m_back_at = {};
   m_lost = false;
   m_before = player();
+  m_port_before = port();
 }
 
 Bots::Bots(const std::string& link, const std::filesystem::path& known_servers, int first, int count)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,13 @@ class Bot {
   std::uint32_t player() { return m_connection.session()->welcome().player; }
   void leave() { m_connection.leave(); }
 
-  /// From the moment that it was sent on to its first picture; 0: it was not.
-  std::chrono::milliseconds redirectTime() const { return m_redirect; }
+  /// From the moment that it was first sent on to its first picture; nothing: it was not.
+  std::optional<std::chrono::milliseconds> redirectTime() const { return m_redirect; }
 
   /// Its server has been killed: it is back once it has lost it and plays again.
   void noteKill(Time now);
   bool isBack() const { return m_back_at != Time(); }
-  bool isSamePlayer() { return player() == m_before; }
+  bool isSamePlayer() { return player() == m_before && port() == m_port_before; }
   std::chrono::milliseconds backTime() const {
     return std::chrono::duration_cast<std::chrono::milliseconds>(m_back_at - m_killed_at);
   }
@@ -48,13 +49,14 @@ class Bot {
   naiad::RandomPlayer m_keys;
   Time m_next_key{};
   Time m_redirected_at{};
-  std::chrono::milliseconds m_redirect{0};
+  std::optional<std::chrono::milliseconds> m_redirect;
   bool m_was_playing = false;
   int m_losses = 0;
   Time m_killed_at{};
   Time m_back_at{};
   bool m_lost = false;
   std::uint32_t m_before = 0;
+  std::uint16_t m_port_before = 0;
 };
 
 class Bots {

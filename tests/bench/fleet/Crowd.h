@@ -28,7 +28,7 @@ class Crowd {
     int losses = 0;  ///< how often they have lost their servers
   };
   State state();
-  /// From the directory's answer to the first picture, of each.
+  /// From the directory's answer to the first picture, of each who was sent on, in milliseconds.
   std::vector<long> redirects();
 
   /// The server at this port is about to be killed. Return how many play there.

@@ -42,22 +42,24 @@ class CrowdCommands {
     if (!m_have_come) m_have_come = m_bots.havePlayed();
     const std::string problem = m_have_come ? "" : m_bots.problem();
     if (!problem.empty()) return "problem " + problem;
-    return std::to_string(m_bots.playing()) + " " + std::to_string(losses(0));
+    return std::to_string(m_bots.playing()) + " " + std::to_string(losses(m_bots.all()));
   }
-  int losses(std::uint16_t but_of_port) const {
+  template <class Some>
+  static int losses(const Some& bots) {
     int count = 0;
-    for (const auto& bot : m_bots.all()) count += bot->port() != but_of_port ? bot->losses() : 0;
+    for (const auto& bot : bots) count += bot->losses();
     return count;
   }
+  /// One may go to another server for good: it is still one of those who lost theirs.
   std::string noteKill(std::uint16_t port) {
-    m_port = port;
-    m_before = losses(port);
     m_there.clear();
+    m_others.clear();
     for (const auto& bot : m_bots.all()) {
-      if (bot->port() != port || !bot->isPlaying()) continue;
-      bot->noteKill(Bot::Clock::now());
-      m_there.push_back(bot.get());
+      const bool is_there = bot->port() == port && bot->isPlaying();
+      (is_there ? m_there : m_others).push_back(bot.get());
+      if (is_there) bot->noteKill(Bot::Clock::now());
     }
+    m_before = losses(m_others);
     return std::to_string(m_there.size());
   }
   std::ptrdiff_t waiting() const {
@@ -71,19 +73,21 @@ class CrowdCommands {
       returned += p_bot->isSamePlayer() ? 1 : 0;
       times += " " + std::to_string(p_bot->backTime().count());
     }
-    return std::to_string(returned) + " " + std::to_string(losses(m_port) - m_before) + times;
+    return std::to_string(returned) + " " + std::to_string(losses(m_others) - m_before) + times;
   }
   std::string redirects() const {
     std::string times;
-    for (const auto& bot : m_bots.all()) times += std::to_string(bot->redirectTime().count()) + " ";
+    for (const auto& bot : m_bots.all()) {
+      if (const auto time = bot->redirectTime()) times += std::to_string(time->count()) + " ";
+    }
     return times;
   }
 
   Bots& m_bots;
-  bool m_have_come = false;  ///< all of them
-  std::uint16_t m_port = 0;  ///< of the server that was killed last
-  int m_before = 0;          ///< losses of the others then
-  std::vector<Bot*> m_there;
+  bool m_have_come = false;   ///< all of them
+  std::vector<Bot*> m_there;  ///< on the server that was killed last
+  std::vector<Bot*> m_others;
+  int m_before = 0;  ///< losses of the others then
 };
 
 /// What has come of the input, if anything; false: it has ended.

@@ -8,7 +8,7 @@
 //   kill PORT      that server is about to be killed    players who are there
 //   waiting                                             of them, those who are not back yet
 //   result                                              RETURNED DISTURBED MS... of those who are back
-//   redirects                                           MS... of all
+//   redirects                                           MS... of those who were sent on
 //   leave          and it ends                          0
 #pragma once
 

@@ -4,11 +4,17 @@
 #include <stdlib.h>
 
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <stdexcept>
 #include <thread>
+#include <variant>
+
+#include "client/ctl/ControlClient.h"
+#include "shared/admin/AdminRequest.h"
 
 namespace bench {
 
@@ -37,9 +43,19 @@ std::uint16_t portIn(const fs::path& path) {
   return static_cast<std::uint16_t>(std::atoi(textOf(path).c_str()));
 }
 
-std::uint64_t counter(const std::string& log, const std::string& name) {
+/// Of the last line that has it; counters that are 0 are left out there.
+std::optional<std::uint64_t> counter(const std::string& log, const std::string& name) {
   const std::size_t at = log.rfind(" " + name + "=");
-  return at == std::string::npos ? 0 : std::strtoull(log.c_str() + at + name.size() + 2, nullptr, 10);
+  if (at == std::string::npos) return std::nullopt;
+  return std::strtoull(log.c_str() + at + name.size() + 2, nullptr, 10);
+}
+
+std::uint64_t fact(const naiad::AdminAnswer& status, const std::string& name) {
+  for (const auto& [key, value] : status.facts) {
+    if (key == name && std::holds_alternative<std::int64_t>(value))
+      return static_cast<std::uint64_t>(std::get<std::int64_t>(value));
+  }
+  return 0;
 }
 
 }  // namespace
@@ -116,6 +132,7 @@ void Fleet::startServer(std::size_t number) {
   const std::string name = server.folder.filename();
   const std::string places = std::to_string(m_setup.max_players);
   server.process.reset();
+  server.log_begin = textOf(server.folder / "log").size();
   server.process.emplace(std::vector<std::string>{"dfserver",
                                                   "--game",
                                                   m_setup.game,
@@ -130,7 +147,7 @@ void Fleet::startServer(std::size_t number) {
                                                   "--journal",
                                                   server.folder / "rounds",
                                                   "--control",
-                                                  "off",
+                                                  server.folder / "control.sock",
                                                   "--lan",
                                                   "off",
                                                   "--max-players",
@@ -152,20 +169,34 @@ void Fleet::startServer(std::size_t number) {
                          server.folder / "log");
 }
 
-void Fleet::end() {
-  for (Server& server : m_servers) server.process->signal(SIGINT);
-  for (Server& server : m_servers) server.process->end();
-  m_directory->end();
+// What a process has counted is lost with it. One that hangs has none to tell: its players will say so.
+void Fleet::killServer(std::size_t number) {
+  Server& server = m_servers.at(number);
+  try {
+    naiad::ControlClient control(server.folder / "control.sock");
+    const naiad::AdminAnswer status = control.ask(naiad::readAdminRequest({"status"}));
+    m_ticks.all += fact(status, "ticks");
+    m_ticks.late += fact(status, "late_ticks");
+  } catch (const naiad::NoServer& error) {
+    std::fprintf(stderr, "naiad_fleet: %s\n", error.what());
+  }
+  server.process->kill();
 }
 
-Fleet::Ticks Fleet::ticks() const {
-  Ticks ticks;
-  for (const Server& server : m_servers) {
-    const std::string log = textOf(server.folder / "log");
-    ticks.all += counter(log, "ticks");
-    ticks.late += counter(log, "late_ticks");
+// One signal each: a second one may end a server before its last line.
+void Fleet::end() {
+  for (Server& server : m_servers) server.process->signal(SIGTERM);
+  for (Server& server : m_servers) {
+    if (!server.process->waitForEnd(kPatience))
+      throw std::runtime_error("a server does not end: " + server.folder.string());
+    const std::string log = textOf(server.folder / "log").substr(server.log_begin);
+    const auto all = counter(log, "ticks");
+    if (!all) throw std::runtime_error("a server has not counted its ticks: " + server.folder.string());
+    m_ticks.all += *all;
+    m_ticks.late += counter(log, "late_ticks").value_or(0);
   }
-  return ticks;
+  m_directory->signal(SIGTERM);
+  m_directory->waitForEnd(kPatience);
 }
 
 }  // namespace bench

@@ -33,19 +33,19 @@ class Fleet {
   std::string link() const;
   std::size_t size() const { return m_servers.size(); }
   std::uint16_t port(std::size_t server) const { return m_servers.at(server).port; }
-  /// SIGKILL; start() later.
-  void killServer(std::size_t server) { m_servers.at(server).process->kill(); }
+  /// SIGKILL; startServer() later. Its ticks so far are asked for before.
+  void killServer(std::size_t server);
   void startServer(std::size_t server);
   void killBus() { m_bus->kill(); }
   void startBus();
-  /// SIGTERM to all; the servers' last lines have their ticks.
+  /// End all. Throws std::runtime_error if one does not end in order.
   void end();
-  /// Of the servers since each began last: call after end().
   struct Ticks {
     std::uint64_t all = 0;
     std::uint64_t late = 0;
   };
-  Ticks ticks() const;
+  /// Of all servers, of those that were killed as well: call after end().
+  const Ticks& ticks() const { return m_ticks; }
   /// What the directory and the servers logged, for who looks for a mistake.
   std::filesystem::path folder() const { return m_folder; }
 
@@ -54,6 +54,7 @@ class Fleet {
     std::filesystem::path folder;
     std::uint16_t port = 0;
     std::optional<Process> process;
+    std::size_t log_begin = 0;  ///< of this process, in its log
   };
   std::string busUrl() const { return "nats://127.0.0.1:" + std::to_string(m_bus_port); }
   void startDirectory();
@@ -65,6 +66,7 @@ class Fleet {
   std::optional<Process> m_bus;
   std::optional<Process> m_directory;
   std::vector<Server> m_servers;
+  Ticks m_ticks;  ///< of servers that have ended
 };
 
 }  // namespace bench

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <thread>
 #include <utility>
 
 namespace bench {
@@ -45,9 +46,16 @@ void Process::kill() {
   wait();
 }
 
-void Process::end() {
-  signal(SIGTERM);
-  wait();
+bool Process::waitForEnd(std::chrono::milliseconds most) {
+  const auto end = std::chrono::steady_clock::now() + most;
+  while (isRunning()) {
+    if (std::chrono::steady_clock::now() > end) {
+      kill();
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
 }
 
 void Process::wait() {

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,8 +22,8 @@ class Process {
   void signal(int number) const;
   /// SIGKILL, and its end.
   void kill();
-  /// SIGTERM, and its end.
-  void end();
+  /// Wait for its end, after a signal. False: it does not within that time, and is killed.
+  bool waitForEnd(std::chrono::milliseconds most);
 
  private:
   void wait();

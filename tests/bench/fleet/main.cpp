@@ -27,6 +27,13 @@ constexpr std::chrono::milliseconds kRestart{300};
 constexpr std::chrono::milliseconds kPlay{2'000};  ///< between two kills
 constexpr std::chrono::milliseconds kReturnTimeout{60'000};
 constexpr int kJoiningAtOnce = 25;
+
+// What a run has to reach, if its machine keeps up with the ticks.
+
+constexpr double kMostLatePercent = 5;  ///< with more the run says nothing
+constexpr long kMostBackMillis = 3'000;
+constexpr long kMostRedirectMillis = 2'000;  ///< p99
+
 /// Of players: more than 250 keep one thread from serving them in time.
 int processesFor(int players) {
   return std::min(players, std::max(4, (players + 249) / 250));
@@ -71,21 +78,38 @@ void loseBus(bench::Fleet& fleet, bench::Crowd& crowd, std::chrono::seconds time
   result.lost_without_bus = crowd.state().losses - before;
 }
 
-void print(const bench::FleetSetup& setup, const Result& result, std::chrono::seconds bus_time,
+/// All players came by the directory, and all who lost their server play again.
+bool isComplete(const bench::FleetSetup& setup, const Result& result) {
+  return static_cast<int>(result.back.size()) == result.players &&
+         static_cast<int>(result.redirects.size()) == setup.bots;
+}
+
+bool isGood(const Result& result) {
+  return result.returned == result.players && percentile(result.back, 100) <= kMostBackMillis &&
+         percentile(result.redirects, 99) <= kMostRedirectMillis && result.disturbed == 0 &&
+         result.lost_without_bus == 0;
+}
+
+/// False: it failed.
+bool print(const bench::FleetSetup& setup, const Result& result, std::chrono::seconds bus_time,
            const bench::Fleet::Ticks& ticks) {
   const double late =
       ticks.all > 0 ? 100.0 * static_cast<double>(ticks.late) / static_cast<double>(ticks.all) : 100;
-  const bool is_complete = static_cast<int>(result.back.size()) == result.players;
+  const bool is_valid = late <= kMostLatePercent;
+  const bool failed = !isComplete(setup, result) || (is_valid && !isGood(result));
   std::printf(
       "fleet bots=%d servers=%d hz=%d kills=%d players=%d back=%zu returned=%d p50_ms=%ld p99_ms=%ld "
       "max_ms=%ld "
-      "redirect_p50_ms=%ld redirect_p99_ms=%ld disturbed=%d bus_seconds=%lld bus_lost=%d ticks=%llu "
+      "redirects=%zu redirect_p50_ms=%ld redirect_p99_ms=%ld redirect_max_ms=%ld disturbed=%d "
+      "bus_seconds=%lld bus_lost=%d ticks=%llu "
       "late_percent=%.2f valid=%d%s\n",
       setup.bots, setup.servers, setup.hz, result.kills, result.players, result.back.size(), result.returned,
       percentile(result.back, 50), percentile(result.back, 99), percentile(result.back, 100),
-      percentile(result.redirects, 50), percentile(result.redirects, 99), result.disturbed,
-      static_cast<long long>(bus_time.count()), result.lost_without_bus,
-      static_cast<unsigned long long>(ticks.all), late, late <= 5 ? 1 : 0, is_complete ? "" : " failed=1");
+      result.redirects.size(), percentile(result.redirects, 50), percentile(result.redirects, 99),
+      percentile(result.redirects, 100), result.disturbed, static_cast<long long>(bus_time.count()),
+      result.lost_without_bus, static_cast<unsigned long long>(ticks.all), late, is_valid ? 1 : 0,
+      failed ? " failed=1" : "");
+  return !failed;
 }
 
 int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time) {
@@ -109,8 +133,7 @@ int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time
   if (bus_time.count() > 0) loseBus(fleet, crowd, bus_time, result);
   crowd.leaveAll();
   fleet.end();
-  print(setup, result, bus_time, fleet.ticks());
-  return 0;
+  return print(setup, result, bus_time, fleet.ticks()) ? 0 : 1;
 }
 
 /// A process of players, which the other one has started.

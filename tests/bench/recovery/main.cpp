@@ -3,6 +3,7 @@
 //
 //   naiad_recovery kills GAME COUNT SEED   one line: what became of so many kills
 //   naiad_recovery long GAME COUNT SEED    the same, in a round of ten minutes
+//   naiad_recovery scores COUNT SEED       the same with a game that adds scores: its server keeps them
 //   naiad_recovery worlds GAME COUNT SEED  the same, of worlds under a server that lives
 //   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
 #include <algorithm>
@@ -49,6 +50,9 @@ struct Total {
   std::uint64_t wrong_cells = 0;
   int verified = 0;
   int rounds = 0;
+  std::size_t scores = 0;
+  std::size_t missing = 0;
+  std::size_t foreign = 0;
   std::vector<long> took;  ///< milliseconds
 };
 
@@ -63,7 +67,7 @@ void add(const KillResult& result, Total& total) {
   if (!result.problem.empty()) std::fprintf(stderr, "naiad_recovery: %s\n", result.problem.c_str());
 }
 
-void verify(RecoveryRun& run, Total& total) {
+void verify(RecoveryRun& run, const std::string& game, Total& total) {
   ++total.rounds;
   std::string said;
   if (run.verify(said)) {
@@ -71,6 +75,11 @@ void verify(RecoveryRun& run, Total& total) {
   } else {
     std::fprintf(stderr, "naiad_recovery: %s\n", said.c_str());
   }
+  if (game != naiad::test::kScoresModule) return;
+  const naiad::test::ScoreCheck check = run.checkScores();
+  total.scores += check.kept;
+  total.missing += check.missing;
+  total.foreign += check.foreign;
 }
 
 /// The server, the server and the one after it, or the server with its world.
@@ -95,7 +104,7 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
     add(result, total);
     if (result.returned < result.players) return;
   }
-  verify(run, total);
+  verify(run, game, total);
 }
 
 /// All of it is executed again after each kill.
@@ -106,7 +115,7 @@ void runLongRound(const std::string& game, int kills, std::uint64_t seed, Total&
     run.play(milliseconds(300));
     add(run.kill(), total);
   }
-  verify(run, total);
+  verify(run, game, total);
 }
 
 long percentile(std::vector<long> values, std::size_t percent) {
@@ -128,16 +137,33 @@ int report(const char* suite, const std::string& game, const Total& total) {
   return good ? 0 : 1;
 }
 
-int kills(const std::string& game, int count, std::uint64_t seed) {
+/// False: it could not be done.
+bool killAll(const std::string& game, int count, std::uint64_t seed, Total& total) {
   std::mt19937_64 random(seed);
-  Total total;
   try {
     while (total.kills < count) runRound(game, std::min(kKillsInARound, count - total.kills), random, total);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-    return 1;
+    return false;
   }
-  return report("recovery", game, total);
+  return true;
+}
+
+int kills(const std::string& game, int count, std::uint64_t seed) {
+  Total total;
+  return killAll(game, count, seed, total) ? report("recovery", game, total) : 1;
+}
+
+int scores(int count, std::uint64_t seed) {
+  Total total;
+  if (!killAll(naiad::test::kScoresModule, count, seed, total)) return 1;
+  const bool good = total.scores > 0 && total.missing == 0 && total.foreign == 0 &&
+                    total.verified == total.rounds && total.returned == total.players;
+  std::printf(
+      "scores kills=%d players=%d returned=%d scores=%zu missing=%zu foreign=%zu rounds=%d verified=%d%s\n",
+      total.kills, total.players, total.returned, total.scores, total.missing, total.foreign, total.rounds,
+      total.verified, good ? "" : " failed=1");
+  return good ? 0 : 1;
 }
 
 int longRound(const std::string& game, int count, std::uint64_t seed) {
@@ -202,13 +228,14 @@ int main(int argc, char** argv) {
     return kills(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
   if (words.size() == 4 && words[0] == "long")
     return longRound(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
+  if (words.size() == 3 && words[0] == "scores")
+    return scores(std::atoi(words[1].c_str()), std::strtoull(words[2].c_str(), nullptr, 10));
   if (words.size() == 4 && words[0] == "worlds")
     return worlds(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
   if (words.size() == 3 && words[0] == "journal")
     return journal(words[1], static_cast<std::uint32_t>(std::atoi(words[2].c_str())));
-  std::fprintf(
-      stderr,
-      "usage: naiad_recovery kills GAME COUNT SEED | long GAME COUNT SEED | worlds GAME COUNT SEED | "
-      "journal GAME TICKS\n");
+  std::fprintf(stderr,
+               "usage: naiad_recovery kills GAME COUNT SEED | long GAME COUNT SEED | scores COUNT SEED | "
+               "worlds GAME COUNT SEED | journal GAME TICKS\n");
   return 2;
 }

@@ -15,8 +15,9 @@ class WebClientTest : public testing::Test {
  protected:
   explicit WebClientTest(const std::string& token = "") { make(token); }
 
-  void make(const std::string& token) {
+  void make(const std::string& token, const std::string& room = "") {
     WebClient::Options options;
+    options.room = room;
     options.name = "Ada";
     options.token = token;
     options.program = "test 1";
@@ -97,6 +98,21 @@ class WebClientTest : public testing::Test {
   std::unique_ptr<WebClient> client;
   int first = 0;
 };
+
+TEST_F(WebClientTest, TheRoomOfTheAddressIsInTheHelloIfItIsAName) {
+  for (const auto& [room, wanted] : {std::pair<std::string, std::string>{"arcade", "arcade"},
+                                     {"a b", ""},
+                                     {"../x", ""},
+                                     {std::string(33, 'a'), ""},
+                                     {"", ""}}) {
+    client.reset();
+    page.streams.clear();
+    make("", room);
+    open();
+    ASSERT_FALSE(page.streams[first].sent.empty());
+    EXPECT_EQ(page.streams[first].sent.front().hello().room(), wanted);
+  }
+}
 
 TEST_F(WebClientTest, SaysHelloShowsThePictureAndOpensASecondStream) {
   EXPECT_EQ(client->state(), WebClient::State::kJoining);

@@ -17,6 +17,7 @@
 #include "shared/fleet/GameResult.h"
 #include "shared/fleet/Presence.h"
 #include "shared/fleet/ServerId.h"
+#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 
 namespace naiad::fuzz {
@@ -32,6 +33,11 @@ void requirePresence(const std::string& text) {
   REQUIRE(presence->key.empty() || presence->key.size() == 64);
   REQUIRE(presence->host.empty() || presence->host.front() != '-');
   REQUIRE(presence->players <= 1'000'000 && presence->max_players <= 1'000'000);
+  REQUIRE(presence->rooms.size() <= kMaxRooms);
+  for (const PresenceRoom& room : presence->rooms) {
+    REQUIRE(isRoomName(room.name) && !room.game.empty() && room.game.size() <= PresenceRoom::kMaxGame);
+    REQUIRE(room.players <= 1'000'000 && room.max_players <= 1'000'000);
+  }
   REQUIRE(Presence::parse(presence->payload()) == presence);
 }
 
@@ -56,6 +62,16 @@ void requireFacts(const std::string& text, bool is_line) {
   }
 }
 
+/// A room is one that the server has said, with a free place.
+void requirePlace(const FleetList::Place& place) {
+  REQUIRE(place.room.empty() == place.p_server->rooms.empty());
+  if (place.room.empty()) return;
+  REQUIRE(std::ranges::any_of(place.p_server->rooms, [&](const PresenceRoom& room) {
+    return room.name == place.room && room.players < room.max_players;
+  }));
+  REQUIRE(isRoomName(place.room));
+}
+
 /// Whatever servers say: those that are there have said so themselves, and no player is sent where none can
 /// play.
 void requireList(FleetList& list) {
@@ -63,8 +79,10 @@ void requireList(FleetList& list) {
   const std::string text = serverListText(list.servers());
   REQUIRE(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
   for (int i = 0; i < 3; ++i) {
-    const Presence* p_chosen = list.choose({"", 4});
+    const FleetList::Place place = list.choose({"", 4});
+    const Presence* const p_chosen = place.p_server;
     if (p_chosen == nullptr) break;
+    requirePlace(place);
     REQUIRE(p_chosen->is_open && !p_chosen->asks_password && p_chosen->players < p_chosen->max_players);
     REQUIRE(p_chosen->port >= kLeastFleetPort && p_chosen->protocol == 4 && !linkOf(*p_chosen).empty());
   }

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "QuickInterval.h"
 #include "client/lan/ServerListJson.h"
 #include "host/fleet/Bus.h"
 #include "shared/fleet/Presence.h"
@@ -57,15 +58,13 @@ class DirectoryTest : public testing::Test {
     return true;
   }
   std::unique_ptr<RunningProgram> startDirectory(const NatsServer& bus) const {
-    return std::make_unique<RunningProgram>(
-        std::vector<std::string>{"dfdir", "--bus", bus.url(), "--list", folder / "servers.json"});
+    return std::make_unique<RunningProgram>(std::vector<std::string>{
+        "dfdir", "--bus", bus.url(), "--bus-interval", kQuickInterval, "--list", folder / "servers.json"});
   }
   static std::map<std::string, std::string> serverOf(const NatsServer& bus, const std::string& id) {
-    return {{"NAIAD_GAME", "hello"},
-            {"NAIAD_BUS", bus.url()},
-            {"NAIAD_BUS_ID", id},
-            {"NAIAD_SERVER_NAME", id},
-            {"NAIAD_LINK_HOST", "127.0.0.1"}};
+    return {{"NAIAD_GAME", "hello"},   {"NAIAD_BUS", bus.url()},
+            {"NAIAD_BUS_ID", id},      {"NAIAD_BUS_INTERVAL", kQuickInterval},
+            {"NAIAD_SERVER_NAME", id}, {"NAIAD_LINK_HOST", "127.0.0.1"}};
   }
 
   std::filesystem::path folder;
@@ -134,6 +133,8 @@ TEST_F(DirectoryTest, WhatIsWrongIsASentenceAndACode) {
   expectRefusal({"--bus", "nats://127.0.0.1:1"}, 2, "--list or --listen is wanted");
   expectRefusal({"--bus", "http://127.0.0.1", "--list", folder / "list"}, 2, "nats://HOST:PORT");
   expectRefusal({"--bsu", "x"}, 2, "--bus");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--bus-interval", "49"}, 2, "50");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--bus-interval", "60001"}, 2, "60000");
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--listen", "localhost:1"}, 2, "ADDRESS:PORT");
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--listen", "192.0.2.1:0", "--identity", folder / "key"}, 4,
                 "192.0.2.1");

@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "QuickInterval.h"
 #include "host/fleet/Bus.h"
 #include "shared/fleet/Presence.h"
 #include "shared/fleet/SendOn.h"
@@ -146,7 +147,8 @@ TEST_F(FleetFilesTest, TheDirectoryListsTheServerOfAFile) {
                      {"--config", folder / "servers" / "maze-1.conf"});
   ASSERT_NE(server.port(), 0) << server.log();
   RunningProgram directory({"dfdir", "--bus", urlIn("directory/dfdir.env"), "--bus-ca",
-                            folder / "bus" / "ca.pem", "--list", folder / "servers.json"});
+                            folder / "bus" / "ca.pem", "--bus-interval", kQuickInterval, "--list",
+                            folder / "servers.json"});
   EXPECT_TRUE(directory.prints("maze-1 is there")) << directory.printed() << server.log() << nats->log();
   EXPECT_TRUE(
       waitFor([&] { return textOf(folder / "servers.json").find("\"maze-1\"") != std::string::npos; }));

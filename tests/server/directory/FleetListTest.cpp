@@ -36,8 +36,9 @@ void put(FleetList& list, const Presence& presence, FleetList::Time now = kStart
 }
 
 std::string chosen(FleetList& list, const FleetList::Wish& wish = {"", 4}) {
-  const Presence* p_chosen = list.choose(wish);
-  return p_chosen != nullptr ? p_chosen->id : "";
+  const FleetList::Place place = list.choose(wish);
+  if (!place) return "";
+  return place.p_server->id + (place.room.empty() ? "" : "/" + place.room);
 }
 
 TEST(FleetListTest, AServerIsThereUntilItSaysNothingForSixSeconds) {
@@ -133,6 +134,59 @@ TEST(FleetListTest, PlayersAreSentOnlyWhereTheyCanPlay) {
   FleetList list;
   put(list, presenceOf("a"));
   EXPECT_EQ(chosen(list, {"tron", 4, "a"}), "") << "back to where they come from";
+}
+
+FleetList::Wish wishFor(const std::string& game, const std::string& room = "") {
+  return {game, 4, "", room};
+}
+
+TEST(FleetListTest, PlayersAreSentToARoomOfTheirGameThatHasAPlace) {
+  Presence server = presenceOf("a", 3, 32);
+  server.game = "lobby";
+  server.rooms = {
+      {"hall", "lobby", 0, 32}, {"duel", "tron", 2, 2}, {"big", "tron", 1, 8}, {"arcade", "maze", 0, 2}};
+  FleetList list;
+  put(list, server);
+  EXPECT_EQ(chosen(list, wishFor("tron")), "a/big");
+  EXPECT_EQ(chosen(list, wishFor("", "arcade")), "a/arcade");
+  EXPECT_EQ(chosen(list, wishFor("maze", "arcade")), "a/arcade");
+  EXPECT_EQ(chosen(list, wishFor("maze")), "") << "both places of that room are taken";
+  EXPECT_EQ(chosen(list), "a/hall") << "where players begin";
+  EXPECT_EQ(chosen(list, wishFor("", "duel")), "") << "it is full";
+  EXPECT_TRUE(list.plays(wishFor("", "duel")));
+  EXPECT_EQ(chosen(list, wishFor("tron", "arcade")), "") << "it plays another game";
+  EXPECT_FALSE(list.plays(wishFor("tron", "arcade")));
+  EXPECT_FALSE(list.plays(wishFor("chess")));
+  put(list, presenceOf("b", 0, 2));
+  EXPECT_FALSE(list.plays(wishFor("", "Big"))) << "names are as they are, and b has no rooms";
+  EXPECT_EQ(chosen(list, wishFor("tron")), "a/big") << "company, which a has";
+  EXPECT_EQ(list.roomiest({"tron", 4, "b"}).room, "big");
+}
+
+TEST(FleetListTest, APlaceInARoomIsTakenBeforeTheServerHasCountedThePlayer) {
+  Presence server = presenceOf("a", 0, 32);
+  server.rooms = {{"hall", "lobby", 0, 32}, {"one", "tron", 0, 1}, {"two", "tron", 0, 1}};
+  FleetList list;
+  put(list, server);
+  EXPECT_EQ(chosen(list, wishFor("tron")), "a/one");
+  EXPECT_EQ(chosen(list, wishFor("tron")), "a/two");
+  EXPECT_EQ(chosen(list, wishFor("tron")), "");
+  put(list, server, kStart + 2s);
+  EXPECT_EQ(chosen(list, wishFor("tron")), "") << "they may be on their way";
+  put(list, server, kStart + 4s);
+  put(list, server, kStart + 6s);
+  EXPECT_EQ(chosen(list, wishFor("tron")), "a/one") << "they did not come";
+  server.rooms.pop_back();
+  put(list, server, kStart + 8s);
+  EXPECT_EQ(chosen(list, wishFor("", "two")), "") << "it is gone";
+}
+
+TEST(FleetListTest, AFullServerSendsToNoneOfItsRooms) {
+  Presence server = presenceOf("a", 4, 4);
+  server.rooms = {{"hall", "lobby", 0, 32}};
+  FleetList list;
+  put(list, server);
+  EXPECT_EQ(chosen(list), "");
 }
 
 TEST(FleetListTest, WhateverIsSaidNoServerGetsMorePlayersThanItHasPlaces) {

@@ -57,6 +57,23 @@ TEST(LobbyAnswerTest, APlayerIsSentToAServerThatHasAPlaceInWordsToo) {
       << "for clients that know no redirect";
 }
 
+TEST(LobbyAnswerTest, TheRoomGoesBesideTheLinkAndIntoTheSentence) {
+  FleetList servers;
+  Presence server = lobbyServer("a");
+  server.rooms = {{"hall", "lobby", 0, 2}, {"duel", "tron", 0, 2}};
+  putServer(servers, server);
+  const wire::Refused refused = answerTo(hello("tron"), servers);
+  EXPECT_EQ(refused.redirect(), linkOf(server)) << "as clients know it that know no rooms";
+  EXPECT_EQ(refused.redirect_room(), "duel");
+  EXPECT_NE(refused.sentence().find(linkOf(server, "duel")), std::string::npos) << refused.sentence();
+  wire::ClientMessage wish = hello();
+  wish.mutable_hello()->set_room("duel");
+  EXPECT_EQ(answerTo(wish, servers).redirect_room(), "duel");
+  wish.mutable_hello()->set_room("cellar");
+  EXPECT_EQ(answerTo(wish, servers).reason(), wire::Refused::GAME);
+  EXPECT_NE(answerTo(wish, servers).sentence().find("cellar"), std::string::npos);
+}
+
 TEST(LobbyAnswerTest, WithoutAPlaceTheyAreAskedToComeAgain) {
   FleetList servers;
   putServer(servers, lobbyServer("a"));

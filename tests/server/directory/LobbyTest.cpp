@@ -11,14 +11,23 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "QuickInterval.h"
+#include "host/auth/ServerIdentity.h"
 #include "host/fleet/Bus.h"
+#include "server/directory/Lobby.h"
+#include "shared/fleet/Presence.h"
+#include "shared/fleet/ServerId.h"
+#include "shared/net/base/Limits.h"
 #include "shared/net/stream/JoinLink.h"
+#include "tests/loopback/BusyWorld.h"
 #include "tests/loopback/GameProgram.h"
 #include "tests/loopback/Home.h"
 #include "tests/loopback/RawClient.h"
 #include "tests/loopback/TestClient.h"
+#include "tests/loopback/TestServer.h"
 #include "tests/server/host/fleet/NatsServer.h"
 #include "tests/support/RunningProgram.h"
 
@@ -40,13 +49,15 @@ class LobbyTest : public testing::Test {
         "dfserver", std::map<std::string, std::string>{{"NAIAD_GAME", game},
                                                        {"NAIAD_BUS", bus.url()},
                                                        {"NAIAD_BUS_ID", id},
+                                                       {"NAIAD_BUS_INTERVAL", kQuickInterval},
                                                        {"NAIAD_MAX_PLAYERS", std::to_string(places)},
                                                        {"NAIAD_LINK_HOST", "127.0.0.1"}});
   }
   /// dfdir with a lobby, once it knows so many servers.
   void startDirectory(int servers) {
-    directory = std::make_unique<RunningProgram>(std::vector<std::string>{
-        "dfdir", "--bus", bus.url(), "--listen", "127.0.0.1:0", "--identity", home.identity("directory")});
+    directory = std::make_unique<RunningProgram>(
+        std::vector<std::string>{"dfdir", "--bus", bus.url(), "--bus-interval", kQuickInterval, "--listen",
+                                 "127.0.0.1:0", "--identity", home.identity("directory")});
     ASSERT_TRUE(directory->prints(" is there", servers)) << directory->printed();
     const std::string& text = directory->printed();
     const std::size_t begin = text.find("naiad://");
@@ -54,10 +65,11 @@ class LobbyTest : public testing::Test {
     ASSERT_TRUE(std::holds_alternative<JoinLink>(link)) << text;
     lobby = std::get<JoinLink>(link).where.port;
   }
-  std::unique_ptr<TestClient> join(std::uint16_t port, const std::string& name,
-                                   const std::string& game = "") {
+  std::unique_ptr<TestClient> join(std::uint16_t port, const std::string& name, const std::string& game = "",
+                                   const std::string& room = "") {
     ClientSetup setup = home.player(name);
     setup.options.game = game;
+    setup.options.room = room;
     auto client = std::make_unique<TestClient>(context, port, setup);
     client->keepPictures(false);
     EXPECT_TRUE(serve({client.get()}, [&] { return client->joined() || client->connection().isOver(); }));
@@ -92,6 +104,26 @@ TEST_F(LobbyTest, PlayersAreSentToAServerOfTheirGame) {
       << directory->printed();
 }
 
+TEST_F(LobbyTest, PlayersAreSentToARoomOfTheirGame) {
+  const GameProgram rooms("dfserver",
+                          {{"NAIAD_BUS", bus.url()},
+                           {"NAIAD_BUS_ID", "rooms"},
+                           {"NAIAD_BUS_INTERVAL", kQuickInterval},
+                           {"NAIAD_LINK_HOST", "127.0.0.1"}},
+                          {"--room=hall=hello", "--room=small=maze,max-players=1", "--room=large=maze"});
+  ASSERT_NE(rooms.port(), 0) << rooms.log();
+  ASSERT_NO_FATAL_FAILURE(startDirectory(1));
+  const auto ann = join(lobby, "ann", "", "small");
+  const auto bob = join(lobby, "bob", "maze");
+  ASSERT_TRUE(ann->joined() && bob->joined()) << ann->connection().sentence() << bob->connection().sentence();
+  EXPECT_EQ(ann->session().welcome().room, "small");
+  EXPECT_EQ(bob->session().welcome().room, "large") << "the other one is full";
+  EXPECT_EQ(bob->session().welcome().game, "maze");
+  const auto eve = join(lobby, "eve");
+  ASSERT_TRUE(eve->joined()) << eve->connection().sentence();
+  EXPECT_EQ(eve->session().welcome().room, "hall") << "the first";
+}
+
 TEST_F(LobbyTest, AServerThatIsFullSendsOnToOneThatIsNot) {
   const auto small = startServer("small", 1);
   const auto large = startServer("large", 8);
@@ -121,27 +153,63 @@ TEST_F(LobbyTest, WithoutABusItSendsPlayersOnAsBefore) {
   EXPECT_TRUE(ann->joined()) << ann->connection().sentence();
 }
 
+/// A lobby on a thread of its own, which knows one server.
+class RunningLobby {
+ public:
+  RunningLobby(const std::filesystem::path& identity, const LobbySettings& settings, const Presence& server)
+      : m_identity(ServerIdentity::loadOrMake(identity, std::chrono::system_clock::now())),
+        m_lobby(m_context, settings, m_identity.tls(), m_servers) {
+    m_servers.put(presenceSubject(server.id), server.payload(), std::chrono::steady_clock::now());
+    m_thread = std::thread([this] { m_context.run(); });
+  }
+  ~RunningLobby() { end(); }
+  RunningLobby(const RunningLobby&) = delete;
+  RunningLobby& operator=(const RunningLobby&) = delete;
+
+  std::uint16_t port() const { return m_lobby.port(); }
+  LobbyCounters end() {
+    m_context.stop();
+    if (m_thread.joinable()) m_thread.join();
+    return m_lobby.counters();
+  }
+
+ private:
+  asio::io_context m_context;
+  FleetList m_servers;
+  ServerIdentity m_identity;
+  Lobby m_lobby;
+  std::thread m_thread;
+};
+
 TEST_F(LobbyTest, StrangersWhoSayNothingOrNonsenseCostItNothing) {
-  const auto server = startServer("berlin", 8);
-  ASSERT_NO_FATAL_FAILURE(startDirectory(1));
-  RawClient silent(lobby, RawClient::Line::kTls);
-  RawClient garbage(lobby, RawClient::Line::kTls);
+  EXPECT_EQ(LobbySettings().hello_time, 5s);
+  TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, home.server());
+  Presence presence;
+  presence.id = "berlin";
+  presence.host = "127.0.0.1";
+  presence.port = server.port();
+  presence.key = server.fingerprint()->text();
+  presence.protocol = kProtocolVersion;
+  presence.max_players = 8;
+  RunningLobby running(home.identity("lobby"), {.address = "127.0.0.1", .hello_time = 1s}, presence);
+  RawClient silent(running.port(), RawClient::Line::kTls);
+  EXPECT_TRUE(silent.waitForHangup());
+  RawClient garbage(running.port(), RawClient::Line::kTls);
   garbage.sendFrame("no hello");
   EXPECT_TRUE(garbage.waitForHangup());
-  RawClient longer(lobby, RawClient::Line::kTls);
+  RawClient longer(running.port(), RawClient::Line::kTls);
   longer.sendFrame(std::string(5'000, 'x'));
   EXPECT_TRUE(longer.waitForHangup());
-  RawClient twice(lobby, RawClient::Line::kTls);
+  RawClient twice(running.port(), RawClient::Line::kTls);
   twice.send(RawClient::hello("ann"));
   twice.send(RawClient::hello("ann"));
   ASSERT_TRUE(twice.receive());
   EXPECT_TRUE(twice.waitForHangup()) << "one answer";
-  EXPECT_TRUE(silent.waitForHangup()) << "five seconds";
-  EXPECT_TRUE(join(lobby, "ann")->joined());
-  directory->signal(SIGTERM);
-  EXPECT_EQ(directory->finish(), 0);
-  for (const char* count : {" hellos=2", " malformed=1", " late=1"})
-    EXPECT_NE(directory->printed().find(count), std::string::npos) << count << directory->printed();
+  EXPECT_TRUE(join(running.port(), "ann")->joined());
+  const LobbyCounters met = running.end();
+  EXPECT_EQ(met.hellos, 2u);
+  EXPECT_EQ(met.malformed, 1u);
+  EXPECT_EQ(met.late, 1u);
 }
 
 }  // namespace

@@ -25,14 +25,16 @@ class LyingServer {
                    [this](std::unique_ptr<ReliableChannel> channel) { meet(std::move(channel)); }, {},
                    {.context = m_identity.tls()}) {}
 
-  void answer(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect) {
+  void answer(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect,
+              const std::string& room = "") {
     m_answer.mutable_refused()->set_reason(reason);
     m_answer.mutable_refused()->set_sentence(sentence);
     m_answer.mutable_refused()->set_redirect(redirect);
+    m_answer.mutable_refused()->set_redirect_room(room);
   }
   /// Send players to this port of 127.0.0.1, where that key is said to be.
-  void sendTo(std::uint16_t port, const Fingerprint& key) {
-    answer(wire::Refused::REDIRECT, "Go on.", linkTo("127.0.0.1", port, key));
+  void sendTo(std::uint16_t port, const Fingerprint& key, const std::string& room = "") {
+    answer(wire::Refused::REDIRECT, "Go on.", linkTo("127.0.0.1", port, key), room);
   }
   static std::string linkTo(const std::string& host, std::uint16_t port, const Fingerprint& key) {
     return "naiad://" + host + ":" + std::to_string(port) + "#" + ShortKey::of(key).text();

@@ -82,6 +82,23 @@ TEST_F(RedirectTest, AServerThatIsFullSendsOn) {
   EXPECT_EQ(refusal(home.player("ann")), "");
 }
 
+TEST_F(RedirectTest, TheRoomThereIsTheOneThatTheFirstServerNames) {
+  LyingServer second(context, home.identity("second"));
+  second.answer(wire::Refused::GAME, "No.", "");
+  ClientSetup setup = home.player("ann");
+  setup.options.room = "cellar";
+  liar.sendTo(second.port(), second.key(), "duel");
+  EXPECT_EQ(refusal(setup), "No.");
+  EXPECT_EQ(liar.hello().room(), "cellar");
+  EXPECT_EQ(second.hello().room(), "duel");
+  for (const std::string& none : {std::string(), std::string("a/b"), std::string("-x"), std::string(33, 'a'),
+                                  std::string("a b"), std::string("\033[2J")}) {
+    liar.sendTo(second.port(), second.key(), none);
+    EXPECT_EQ(refusal(setup), "No.");
+    EXPECT_EQ(second.hello().room(), "") << none;
+  }
+}
+
 TEST_F(RedirectTest, TheOtherServerGetsANameAndNeitherPasswordNorToken) {
   RecordingServer thief(home.identity("thief"));
   liar.sendTo(thief.port(), thief.fingerprint());

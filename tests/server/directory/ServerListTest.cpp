@@ -41,6 +41,25 @@ TEST(ServerListTest, IsWhatAClientReads) {
   EXPECT_TRUE(found.asks_password);
 }
 
+TEST(ServerListTest, RoomsAreInItAndTheListStaysOfTheLengthThatClientsTake) {
+  Presence server = listedServer("a");
+  server.rooms = {{"hall", "lobby", 3, 64}, {"duel", "tron", 0, 2}};
+  EXPECT_NE(serverListText({server}).find(
+                R"("rooms": [{"name": "hall", "game": "lobby", "players": 3, "max_players": 64}, )"
+                R"({"name": "duel", "game": "tron", "players": 0, "max_players": 2}])"),
+            std::string::npos)
+      << serverListText({server});
+  EXPECT_TRUE(readServerList(serverListText({server})));
+  server.rooms.clear();
+  EXPECT_EQ(serverListText({server}).find("rooms"), std::string::npos);
+  for (int i = 0; i < 64; ++i) server.rooms.push_back({"r" + std::to_string(i), "g", 0, 1});
+  server.name = server.game = std::string(Presence::kMaxName, '"');
+  const std::string text = serverListText(std::vector<Presence>(kMaxListedServers, server));
+  EXPECT_LE(text.size(), kMaxListBytes);
+  const auto read = readServerList(text);
+  EXPECT_TRUE(read && read->size() > 0);
+}
+
 TEST(ServerListTest, AnEmptyOneIsAListToo) {
   const auto read = readServerList(serverListText({}));
   ASSERT_TRUE(read);

@@ -54,6 +54,19 @@ TEST(AdminRequest, SkipsASpanThatIsLeftOut) {
   EXPECT_EQ(argumentsOf({"drain"}), Arguments());
 }
 
+TEST(AdminRequest, TakesNamedArgumentsAnywhere) {
+  EXPECT_EQ(argumentsOf({"scores", "--room", "one", "keys", "3"}),
+            (Arguments{{"room", "one"}, {"table", "keys"}, {"count", "3"}}));
+  EXPECT_EQ(argumentsOf({"scores", "keys", "--game=a=b"}), (Arguments{{"table", "keys"}, {"game", "a=b"}}));
+  EXPECT_EQ(complaintAbout({"scores", "--room"}), "--room wants a value.");
+  EXPECT_EQ(complaintAbout({"scores", "--room="}), "scores: room is empty.");
+  EXPECT_NE(complaintAbout({"scores", "--rom", "x"}).find("has no option --rom. Usage: scores [TABLE]"),
+            std::string::npos);
+  EXPECT_NE(adminUsage(*findAdminCommand("scores")).find("[--room ROOM] [--game GAME]"), std::string::npos);
+  EXPECT_EQ(argumentsOf({"say", "--room", "is", "open"}), (Arguments{{"text", "--room is open"}}))
+      << "of commands that have none it is a word";
+}
+
 TEST(AdminRequest, TakesChoicesWithDashes) {
   EXPECT_EQ(argumentsOf({"restart", "--in", "60s"}), (Arguments{{"when", "in"}, {"span", "60s"}}));
   EXPECT_EQ(argumentsOf({"restart", "at-round-end"}), (Arguments{{"when", "at-round-end"}}));

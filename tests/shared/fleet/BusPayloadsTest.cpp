@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "shared/fleet/BusFields.h"
 #include "shared/fleet/GameResult.h"
 #include "shared/fleet/Presence.h"
 #include "shared/fleet/ServerId.h"
+#include "shared/net/base/RoomName.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {
@@ -25,6 +27,7 @@ Presence fullPresence() {
   presence.max_players = 64;
   presence.asks_password = true;
   presence.is_open = false;
+  presence.rooms = {{"lobby", "lobby", 3, 64}, {"duel.2", "my_game-1.x", 0, 1'000'000}};
   return presence;
 }
 
@@ -78,8 +81,60 @@ TEST(BusPayloads, TheLongestFits) {
   presence.host.clear();
   for (int label = 0; label < 50; ++label) presence.host += "host.";
   presence.host += "abc";
+  presence.rooms.clear();
+  for (std::size_t i = 0; i < kMaxRooms; ++i)
+    presence.rooms.push_back({"room-" + std::to_string(i), "game-of-many-letters", 0, 64});
   ASSERT_LE(presence.payload().size(), kMaxBusPayload);
-  EXPECT_EQ(Presence::parse(presence.payload()), presence);
+  const auto read = Presence::parse(presence.payload());
+  ASSERT_TRUE(read);
+  EXPECT_GT(read->rooms.size(), 20u) << "as many as fit";
+  presence.rooms.resize(read->rooms.size());
+  EXPECT_EQ(read, presence);
+  EXPECT_GT(roomsText(read->rooms).size() + 40, kMaxRoomsText) << "and not one fewer";
+}
+
+TEST(BusPayloads, ARoomWhoseGameHasNoNameToBeWrittenIsLeftOut) {
+  Presence presence = fullPresence();
+  presence.rooms = {{"one", "two words", 0, 1}, {"two", "", 0, 1}, {"three", "tron", 1, 2}};
+  const auto read = Presence::parse(presence.payload());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->rooms, (std::vector<PresenceRoom>{{"three", "tron", 1, 2}}));
+}
+
+TEST(BusPayloads, RoomsOfAnotherSpellingAreRefused) {
+  const std::string good = fullPresence().payload();
+  EXPECT_TRUE(Presence::parse(with(good, "rooms", "\"\""))) << "none";
+  EXPECT_TRUE(Presence::parse(with(good, "rooms", "\"a=b:0/0\"")));
+  for (const char* rooms : {"\" \"",
+                            "\"a\"",
+                            "\"a=b\"",
+                            "\"a=b:1\"",
+                            "\"a=b:/\"",
+                            "\"a=b:1/\"",
+                            "\"a=b:1/2 \"",
+                            "\" a=b:1/2\"",
+                            "\"a=b:1/2  c=d:1/2\"",
+                            "\"a=b:01/2\"",
+                            "\"a=b:+1/2\"",
+                            "\"a=b:-1/2\"",
+                            "\"a=b:1/1000001\"",
+                            "\"a=b:1/99999999999\"",
+                            "\"=b:1/2\"",
+                            "\"a=:1/2\"",
+                            "\"-a=b:1/2\"",
+                            "\"a/x=b:1/2\"",
+                            "\"a=b c:1/2\"",
+                            "\"a=b:1/2 A=c:1/2\"",
+                            "\"a=b:1/2,c=d:1/2\"",
+                            "\"a=\\u001b:1/2\"",
+                            "7",
+                            "true"})
+    EXPECT_FALSE(Presence::parse(with(good, "rooms", rooms))) << rooms;
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += (i > 0 ? " r" : "r") + std::to_string(i) + "=g:0/1";
+  EXPECT_FALSE(Presence::parse(with(good, "rooms", "\"" + many + "\""))) << "more than a server has";
+  const std::string longest = std::string(32, 'r') + "=" + std::string(65, 'g') + ":0/1";
+  EXPECT_FALSE(Presence::parse(with(good, "rooms", "\"" + longest + "\"")));
 }
 
 TEST(BusPayloads, WhatNoServerWritesIsRefused) {

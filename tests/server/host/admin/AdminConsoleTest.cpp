@@ -54,6 +54,11 @@ TEST_F(AdminConsoleTest, ScoresAreAskedForByTableAndCount) {
   EXPECT_EQ(target.done.back(), "scores pilots 10000");
   for (const std::string count : {"0", "10001", "-1", "x", "1x"})
     EXPECT_FALSE(give({"scores", "pilots", count}).ok) << count;
+  EXPECT_TRUE(give({"scores", "--room", "one", "pilots"}).ok);
+  EXPECT_EQ(target.done.back(), "scores pilots 10 room one");
+  EXPECT_TRUE(give({"scores", "--game=tron"}).ok);
+  EXPECT_EQ(target.done.back(), "scores  10 game tron");
+  EXPECT_FALSE(give({"scores", "--room", "one", "--game", "tron"}).ok);
 }
 
 TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {

@@ -65,8 +65,10 @@ class FakeTarget : public AdminTarget {
     password = std::move(hash);
     return note("password");
   }
-  void scores(const std::string& table, std::size_t count, std::function<void(AdminAnswer)> read) override {
-    read(note("scores " + table + " " + std::to_string(count)));
+  void scores(const AdminScores& which, std::function<void(AdminAnswer)> read) override {
+    read(note("scores " + which.table + " " + std::to_string(which.count) +
+              (which.room.empty() ? "" : " room " + which.room) +
+              (which.game.empty() ? "" : " game " + which.game)));
   }
   AdminAnswer set(const std::string& option, const std::string& value) override {
     return note("set " + option + "=" + value);

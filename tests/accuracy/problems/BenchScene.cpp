@@ -1,0 +1,76 @@
+#include "BenchScene.h"
+
+#include <cmath>
+
+namespace lab {
+
+namespace {
+
+namespace heaps = bench::physics;
+
+Motion motionOf(heaps::Motion motion) {
+  if (motion == heaps::Motion::STATIC) return Motion::FIXED;
+  return motion == heaps::Motion::KINEMATIC ? Motion::KINEMATIC : Motion::DYNAMIC;
+}
+
+Shape shapeOf(const heaps::Part& part) {
+  const Vec centre{part.x, part.y};
+  if (part.isCircle()) return {Shape::Kind::CIRCLE, part.radius, {}, centre};
+  return {Shape::Kind::BOX, 0, {part.half_width, part.half_height}, centre};
+}
+
+Body bodyOf(const heaps::Body& body) {
+  Body made;
+  made.motion = motionOf(body.motion);
+  made.position = {body.x, body.y};
+  made.velocity = {body.vx, body.vy};
+  made.spin = body.spin;
+  made.mass = body.mass();
+  made.rotates = true;
+  made.friction = heaps::Scene::kFriction;
+  for (const heaps::Part& part : body.parts) made.shapes.push_back(shapeOf(part));
+  return made;
+}
+
+bool isInRoom(const heaps::Room& room, const std::vector<heaps::Pose>& poses, const heaps::Pose& pose) {
+  if (room.frame == heaps::Hinge::kWorld) return room.contains(pose.x, pose.y);
+  const heaps::Pose& frame = poses[static_cast<std::size_t>(room.frame)];
+  const double dx = pose.x - frame.x, dy = pose.y - frame.y;
+  return room.contains(frame.cosine * dx + frame.sine * dy, frame.cosine * dy - frame.sine * dx);
+}
+
+}  // namespace
+
+Scene sceneOf(const heaps::Scene& scene) {
+  Scene made;
+  made.gravity = {0, scene.gravity};
+  made.ticks = scene.ticks;
+  made.may_sleep = scene.sleep;
+  made.collides = scene.collide;
+  made.has_full_sides = true;
+  for (const heaps::Body& body : scene.bodies) made.bodies.push_back(bodyOf(body));
+  for (const heaps::Hinge& joint : scene.hinges)
+    made.joints.push_back(hinge(joint.a, joint.b, {joint.x, joint.y}));
+  return made;
+}
+
+std::vector<heaps::Pose> posesOf(const heaps::Scene& scene, const Simulation& simulation) {
+  std::vector<heaps::Pose> poses;
+  poses.reserve(scene.bodies.size());
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const BodyState state = simulation.body(i);
+    poses.push_back({state.position.x, state.position.y, std::cos(state.angle), std::sin(state.angle)});
+  }
+  return poses;
+}
+
+long countLost(const heaps::Scene& scene, const Simulation& simulation) {
+  const std::vector<heaps::Pose> poses = posesOf(scene, simulation);
+  long lost = simulation.frozen();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (scene.bodies[i].motion == heaps::Motion::DYNAMIC && !isInRoom(scene.room, poses, poses[i])) ++lost;
+  }
+  return lost;
+}
+
+}  // namespace lab

@@ -1,0 +1,85 @@
+// 28: cloths that hang by two corners.
+#include <algorithm>
+#include <string>
+
+#include "Problem.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kMesh = 1;  // m
+
+// Of threads, over their length at rest.
+double stretchOf(const Scene& scene, const Simulation& simulation) {
+  double most = 0;
+  for (const Joint& joint : scene.joints) {
+    const double now = length(simulation.body(joint.b).position - simulation.body(joint.a).position);
+    most = std::max(most, now / kMesh - 1);
+  }
+  return most;
+}
+
+Scene clothOf(int side) {
+  Scene scene;
+  scene.gravity = {0, -18};  // m/s²: .02 cells a tick²
+  scene.ticks = 300;
+  scene.cloths = {{side, side, kMesh, 1, 4500}};  // 5 cells a tick²
+  for (int i = 0; i < side * side; ++i) {
+    Body node;
+    node.position = {kMesh * (i % side), -kMesh * (i / side)};
+    node.mass = 1.0 / (side * side);
+    if (i == 0 || i == side - 1) node.motion = Motion::FIXED;
+    scene.bodies.push_back(node);
+  }
+  for (int i = 0; i < side * side; ++i) {
+    const Vec at = scene.bodies[static_cast<std::size_t>(i)].position;
+    if (i % side + 1 < side) scene.joints.push_back(rod(i, at, i + 1, at + Vec{kMesh, 0}));
+    if (i + side < side * side) scene.joints.push_back(rod(i, at, i + side, at - Vec{0, kMesh}));
+  }
+  return scene;
+}
+
+Case cloth(int side) {
+  Case hung;
+  hung.name = std::to_string(side);
+  hung.label = std::to_string(side) + " × " + std::to_string(side) + " nodes";
+  hung.scene = clothOf(side);
+  hung.is_crowd = true;
+  hung.long_run = side > 50;
+  hung.most_substeps = side > 50 ? 4 : 16;
+  hung.metrics = {{"stretch", "largest relative stretch of a thread over 10 s", 0.05, 1e-15, ""},
+                  {"frozen", "cloths that froze", 0, 0, ""}};
+  hung.judge = [scene = hung.scene](const Trial& trial) {
+    double stretch = 0;
+    const SimulationPtr end = trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
+      stretch = std::max(stretch, stretchOf(scene, simulation));
+    });
+    return std::vector<double>{stretch, static_cast<double>(end->frozen())};
+  };
+  return hung;
+}
+
+Problem makeCloths() {
+  Problem problem;
+  problem.title = "Cloths";
+  problem.text =
+      "Cloths of 25 × 25, 50 × 50 and 100 × 100 nodes with meshes of 1 m, held flat and hung by their two "
+      "upper "
+      "corners, fall for 10 s. For peers they are points on rods.";
+  problem.reference = "no thread gets longer";
+  problem.why =
+      "A cloth is the stiffest thing that an author makes without thinking of it: the corners bear all of "
+      "its "
+      "weight, through threads of a ten-thousandth of it each.";
+  problem.cases = {cloth(25), cloth(50), cloth(100)};
+  constexpr double kDearestTick = 60'000;  // µs
+  problem.cases.back().tick_bound = {.base_us = kDearestTick, .each_us = 0};
+  return problem;
+}
+
+const RegisteredProblem problem("28", "cloths", makeCloths);
+
+}  // namespace
+
+}  // namespace lab

@@ -1,0 +1,109 @@
+// 30: springs and fields that pull a body while it touches something.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "Path.h"
+
+namespace lab {
+
+namespace {
+
+constexpr double kGravity = 10;
+constexpr double kHalf = 0.5;
+constexpr double kStart = 1;  // m
+constexpr int kTicks = 300;
+
+enum class Pull { SPRING, FIELD };
+
+// Stiffness in kg per tick².
+Case pulled(Pull pull, double per_tick, const std::string& name) {
+  const double stiffness = per_tick / (kTick * kTick);
+  Case swinging;
+  swinging.name = name + power(per_tick);
+  swinging.label =
+      std::string(pull == Pull::SPRING ? "spring" : "field") + ", k = " + power(per_tick) + " a tick²";
+  Scene& scene = swinging.scene;
+  Body crate = box({kStart, kHalf}, {kHalf, kHalf});
+  crate.rotates = true;
+  const Vec centre{0, crate.position.y};
+  scene.bodies = {crate, wall({0, -5}, {100, 5})};
+  scene.gravity = {0, -kGravity};
+  scene.ticks = kTicks;
+  if (pull == Pull::FIELD) {
+    scene.field = [stiffness](double, const BodyState& state) {
+      return Vec{-stiffness * state.position.x, 0};
+    };
+  } else {
+    Joint spring = rod(-1, centre, 0, crate.position);
+    spring.kind = Joint::Kind::SPRING;
+    spring.stiffness = stiffness;
+    scene.joints.push_back(spring);
+  }
+  swinging.metrics = {{"energy_gain", "largest gain of energy, relative", 1e-6, 1e-15, "", -1},
+                      {"sunk_m", "how far the centre came below the floor's top, m", 0, 1e-15, "", 0}};
+  swinging.judge = [scene, stiffness, centre, pull](const Trial& trial) {
+    const auto energyOf = [&](const BodyState& s) {
+      const Vec off = s.position - centre;
+      const double held = pull == Pull::FIELD ? off.x * off.x : dot(off, off);
+      const double inertia = 2 * kHalf * kHalf / 3;
+      return 0.5 * (dot(s.velocity, s.velocity) + inertia * s.spin * s.spin + stiffness * held) +
+             kGravity * off.y;
+    };
+    const double start = 0.5 * stiffness * kStart * kStart;
+    double gain = 0, sunk = 0;
+    trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
+      const BodyState s = simulation.body(0);
+      gain = std::max(gain, energyOf(s) / start - 1);
+      sunk = std::max(sunk, -s.position.y);
+    });
+    return std::vector<double>{gain, sunk};
+  };
+  return swinging;
+}
+
+// ω·h = 0.1: that is resolved, and stays.
+Case resolved(Pull pull, const std::string& name) {
+  constexpr double kSlow = 0.01;
+  Case swinging = pulled(pull, kSlow, name);
+  swinging.draws_levels = true;
+  swinging.metrics.push_back({"faded", "part of the amplitude that is lost in 10 s", 0.01, 1e-15, ""});
+  swinging.judge = [judge = swinging.judge, scene = swinging.scene](const Trial& trial) {
+    constexpr int kPeriod = 63;  // ticks
+    std::vector<double> errors = judge(trial);
+    double widest = 0;
+    trial.run(scene, [&](int tick, const Simulation& simulation) {
+      if (tick > kTicks - kPeriod) widest = std::max(widest, std::abs(simulation.body(0).position.x));
+    });
+    errors.push_back(std::max(1 - widest / kStart, 0.0));
+    return errors;
+  };
+  return swinging;
+}
+
+Problem makeTethers() {
+  Problem problem;
+  problem.title = "Springs and fields where bodies touch";
+  problem.text =
+      "A crate of 1 kg that turns, without friction, is let go 1 m from the middle of a spring, or of a "
+      "field −kx, "
+      "while it lies on a floor; k = 0.01 … 10¹² kg a tick², undamped, 10 s.";
+  problem.reference = "energy never grows, the crate stays on the floor, and what a tick resolves swings on";
+  problem.why =
+      "A spring alone is easy to solve exactly. Authors put it on a thing that lies on the ground, and write "
+      "a "
+      "number that they have not computed.";
+  for (const double k : {1.0, 1e2, 1e6, 1e12}) {
+    problem.cases.push_back(pulled(Pull::SPRING, k, "spring"));
+    problem.cases.push_back(pulled(Pull::FIELD, k, "field"));
+  }
+  problem.cases.push_back(resolved(Pull::FIELD, "field"));
+  problem.cases.push_back(resolved(Pull::SPRING, "spring"));
+  return problem;
+}
+
+const RegisteredProblem problem("30", "tethers", makeTethers);
+
+}  // namespace
+
+}  // namespace lab
