@@ -24,8 +24,9 @@ class ControlClient {
  public:
   /// For an answer: a server whose game hangs gives none.
   static constexpr std::chrono::seconds kPatience{10};
-  /// The same while a round is executed again (restart --keep).
-  static constexpr std::chrono::seconds kLongPatience{600};
+  /// The same while rounds are executed again (restart --keep): the server ends what takes longer than an
+  /// hour. One that ends itself hangs up.
+  static constexpr std::chrono::seconds kLongPatience{4000};
 
   /// Throws NoServer.
   explicit ControlClient(const std::filesystem::path& path);
