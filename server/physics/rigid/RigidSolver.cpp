@@ -124,7 +124,8 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   }
 }
 
-[[gnu::always_inline]] inline double solveOne(ContactConstraint& c, ContactPoint& p, double target, Pushed& a, Pushed& b) {
+[[gnu::always_inline]] inline double solveOne(ContactConstraint& c, ContactPoint& p, double target, Pushed& a,
+                                              Pushed& b) {
   const double missing = target - normalSpeed(p, c.normal, a, b);
   const double impulse = std::max(p.normal_impulse + p.normal_mass * missing, 0.0);
   const double more = impulse - p.normal_impulse;
@@ -134,7 +135,8 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
 }
 
 // The complementarity problem of two points, by looking at its four cases.
-[[gnu::always_inline]] inline double solveTwo(ContactConstraint& c, double target_p, double target_q, Pushed& a, Pushed& b) {
+[[gnu::always_inline]] inline double solveTwo(ContactConstraint& c, double target_p, double target_q,
+                                              Pushed& a, Pushed& b) {
   ContactPoint &p = c.points[0], &q = c.points[1];
   const double kp = p.normal_resistance, kq = q.normal_resistance;
   const double missing_p = target_p - normalSpeed(p, c.normal, a, b);
@@ -162,7 +164,8 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   return std::max(std::fabs(more_p) * kp, std::fabs(more_q) * kq);
 }
 
-[[gnu::always_inline]] inline double solveNormals(ContactConstraint& c, Pushed& a, Pushed& b, bool is_second) {
+[[gnu::always_inline]] inline double solveNormals(ContactConstraint& c, Pushed& a, Pushed& b,
+                                                  bool is_second) {
   const auto target = [&](std::size_t i) { return is_second ? c.points[i].after : c.points[i].target; };
   if (c.inverse_determinant > 0) return solveTwo(c, target(0), target(1), a, b);
   double change = 0;
