@@ -17,7 +17,7 @@ namespace naiad {
 
 namespace {
 
-using Endpoint = asio::ip::tcp::endpoint;
+using StreamEndpoint = asio::ip::tcp::endpoint;
 
 /// Of sockets that a server leaves for itself.
 constexpr std::string_view kNames = "naiad-streams:naiad-datagrams";
@@ -29,8 +29,8 @@ int socketOption(int socket, int option) {
 }
 
 /// Nothing for what is no socket of the Internet.
-std::optional<Endpoint> boundTo(int socket) {
-  Endpoint endpoint;
+std::optional<StreamEndpoint> boundTo(int socket) {
+  StreamEndpoint endpoint;
   auto size = static_cast<socklen_t>(endpoint.capacity());
   if (getsockname(socket, endpoint.data(), &size) != 0) return std::nullopt;
   const int family = endpoint.data()->sa_family;
@@ -52,7 +52,7 @@ std::vector<int> openDescriptors() {
 }
 
 /// The socket of this type on that port, and on that address if one is given; -1: there is none.
-int findSocket(int type, std::uint16_t port, const std::optional<Endpoint>& address) {
+int findSocket(int type, std::uint16_t port, const std::optional<StreamEndpoint>& address) {
   for (const int socket : openDescriptors()) {
     const auto endpoint = boundTo(socket);
     if (!endpoint || endpoint->port() != port || socketOption(socket, SO_TYPE) != type) continue;
