@@ -17,6 +17,7 @@
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Verify.h"
 #include "tests/server/replay/Recorder.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad {
 
@@ -80,7 +81,8 @@ class FrailRound : public testing::Test {
     return verifyRound(round, stage, out) ? "" : out.str();
   }
 
-  double hang_time = 0.2;
+  /// A sanitizer's report of a crash takes its time, too.
+  double hang_time = 0.2 * test::kSlowness;
   Recorder recorder;
   std::filesystem::path rounds = recorder.folder() / "rounds";
   std::string module;
