@@ -130,7 +130,7 @@ TEST_F(CopiesTest, ACrashInDrawIsFollowedToo) {
 
 // The next one is waited for: the game may be one that is slow. It did not end, so the third is not.
 TEST_F(CopiesTest, TheFirstHangOfARoundIsNotWaitedFor) {
-  constexpr const char* kAtOnce = "did not answer within 0.2 s in tick";
+  constexpr const char* kAtOnce = "the game did not answer within ";
   constexpr const char* kLate = "did not answer any more in tick";
   constexpr std::size_t kWaitedFor[] = {0, 1, 1};
   for (std::size_t i = 0; i < std::size(kWaitedFor); ++i) {
