@@ -57,9 +57,10 @@ std::optional<Presence> Presence::parse(std::string_view payload) {
   presence.is_open = fields.flag("open");
   auto rooms =
       fields.has("rooms") ? readRooms(fields.line("rooms", kMaxRoomsText)) : std::vector<PresenceRoom>();
+  const bool has_rooms = rooms.has_value();
   if (rooms) presence.rooms = *std::move(rooms);
   const auto key = Fingerprint::parse(presence.key);
-  const bool good = fields.ok() && rooms && isServerId(presence.id) &&
+  const bool good = fields.ok() && has_rooms && isServerId(presence.id) &&
                     (presence.key.empty() || (key && key->text() == presence.key)) &&
                     (presence.host.empty() || isHost(presence.host));
   return good ? std::optional(presence) : std::nullopt;

@@ -47,7 +47,7 @@ std::string RoundRecovery::compareResult(const WorldPort& world) {
   const std::optional<TickResult> result = m_results.front();
   m_results.pop_front();
   m_result_missing = !result;
-  const std::string difference = result ? findDifference(*result, world) : std::string();
+  std::string difference = result ? findDifference(*result, world) : std::string();
   m_differs = m_differs || !difference.empty();
   return difference;
 }

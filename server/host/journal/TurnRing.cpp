@@ -70,9 +70,9 @@ TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uui
   m_p_head->released = position;
   m_p_head->beginning = m_beginning;
   if (m_beginning > 0) {
-    char* p_end = bytes() + m_capacity;
-    std::memcpy(p_end, beginning.name.c_str(), beginning.name.size() + 1);
-    std::memcpy(p_end + beginning.name.size() + 1, beginning.bytes.data(), beginning.bytes.size());
+    char* p_end = std::copy(beginning.name.begin(), beginning.name.end(), bytes() + m_capacity);
+    *p_end++ = '\0';
+    std::copy(beginning.bytes.begin(), beginning.bytes.end(), p_end);
   }
   std::atomic_signal_fence(std::memory_order_release);  // last: a ring without it is not read
   std::memcpy(m_p_head->magic, kRingMagic, sizeof m_p_head->magic);

@@ -87,7 +87,7 @@ void handOver(const InheritedSockets& sockets) {
 std::optional<InheritedSockets> takeHandedOver() {
   const char* p_names = std::getenv("LISTEN_FDNAMES");
   if (p_names == nullptr || std::string_view(p_names) != kNames) return std::nullopt;
-  const auto sockets = InheritedSockets::take();
+  auto sockets = InheritedSockets::take();
   for (const char* p_name : {"LISTEN_PID", "LISTEN_FDS", "LISTEN_FDNAMES"}) unsetenv(p_name);
   return sockets;
 }

@@ -436,9 +436,9 @@ KeptRounds takeKeptRounds() {
 }
 
 void Journals::announceKept(const KeptRounds& rounds) {
-  std::string text;
-  for (const auto& [uuid, hash] : rounds) text += uuid + " " + hash + " ";
-  setenv(kKeptVariable, text.c_str(), 1);
+  std::ostringstream text;
+  for (const auto& [uuid, hash] : rounds) text << uuid << ' ' << hash << ' ';
+  setenv(kKeptVariable, text.str().c_str(), 1);
 }
 
 void Journals::noteCurrent(const std::shared_ptr<Journal>& journal, const std::string& file) {

@@ -79,7 +79,7 @@ std::string inRoom(const std::string& name, const std::string& why) {
 }  // namespace
 
 std::string readVerdict(const ProgramEnd& end) {
-  if (const std::string abrupt = abruptEnd("dfreplay", end); !abrupt.empty()) return abrupt;
+  if (std::string abrupt = abruptEnd("dfreplay", end); !abrupt.empty()) return abrupt;
   if (end.code == 0) return protocolProblem(lineWith(end.printed, "verified "));
   const std::string tick = end.code == 1 ? lineWith(end.printed, "tick ") : std::string();
   if (!tick.empty()) return safeText(tick, kMaxProblem);
@@ -140,7 +140,7 @@ std::string RoundHandover::problemOfProgram() {
   std::vector<std::string> arguments = withoutPasswords(m_command.arguments());
   arguments.emplace_back("--check-config");
   const ProgramEnd end = m_run.run(m_command.program(), arguments, kCheckTime);
-  if (const std::string abrupt = abruptEnd("dfserver", end); !abrupt.empty()) return abrupt;
+  if (std::string abrupt = abruptEnd("dfserver", end); !abrupt.empty()) return abrupt;
   if (end.code == 0) return {};
   return "dfserver does not start with the options of this server: " + safeText(end.printed, kMaxProblem);
 }

@@ -234,7 +234,8 @@ void JointMatrix::solveBand(double* x) const {
   const double* column = m_band.data();  // begins with kBand columns of zeros
   double last = 0, second = 0, third = 0;
   for (int j = 0; j < m_size; ++j, column += kBand) {
-    const double value = ((x[j] - column[2] * third) - column[kBand + 1] * second) - column[2 * kBand] * last;
+    const double value =
+        ((x[j] - column[2] * third) - column[kBand + 1] * second) - column[kBand + kBand] * last;
     third = second;
     second = last;
     x[j] = last = value;
