@@ -25,11 +25,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kMostTurn{250};
+constexpr std::chrono::milliseconds kMaxTurn{250};
 
 /// Servers that come and go are seen soon, in each of their intervals a few times.
 std::chrono::milliseconds turnOf(const DirectorySettings& settings) {
-  return std::min(kMostTurn, settings.interval / 4);
+  return std::min(kMaxTurn, settings.interval / 4);
 }
 
 BusSettings listening(BusSettings settings) {

@@ -93,8 +93,8 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .target = &line.interval_ms,
        .help = "Milliseconds between two times that a server says it is there, as the servers'",
        .environment = "NAIAD_BUS_INTERVAL",
-       .range = naiad::OptionRange{naiad::Presence::kLeastInterval.count(),
-                                   naiad::Presence::kMostInterval.count()},
+       .range =
+           naiad::OptionRange{naiad::Presence::kLeastInterval.count(), naiad::Presence::kMaxInterval.count()},
        .shows_default = true},
       {.name = "--list",
        .target = &settings.list,

@@ -20,8 +20,8 @@ struct Presence {
   /// Between two, unless --bus-interval says another; a server that is silent for three of them is gone.
   static constexpr std::chrono::milliseconds kInterval{2000};
   static constexpr std::chrono::milliseconds kLeastInterval{50};  ///< so much each server costs the directory
-  static constexpr std::chrono::milliseconds kMostInterval{
-      60'000};                                 ///< players are sent to a dead server so long
+  /// Players are sent to a dead server for three of them.
+  static constexpr std::chrono::milliseconds kMaxInterval{60'000};
   static constexpr std::size_t kMaxName = 64;  ///< characters of name and game
 
   std::string id;  ///< ServerId.h

@@ -68,7 +68,7 @@ std::chrono::milliseconds timeFor(const Journals::CurrentRound& round) {
       std::max(std::chrono::nanoseconds(0), now - std::chrono::nanoseconds(round.start_nanos));
   const auto time = RoundHandover::kLeastTime +
                     std::chrono::duration_cast<std::chrono::seconds>(played / RoundHandover::kPartOfRound);
-  return std::min<std::chrono::milliseconds>(time, RoundHandover::kMostTime);
+  return std::min<std::chrono::milliseconds>(time, RoundHandover::kMaxTime);
 }
 
 /// Why, of the room of that name if rooms have names; empty: there is no reason.

@@ -30,7 +30,7 @@ class RoundHandover {
   /// least twenty times as fast; never more than the last.
   static constexpr std::chrono::seconds kLeastTime{60};
   static constexpr int kPartOfRound = 4;
-  static constexpr std::chrono::hours kMostTime{1};
+  static constexpr std::chrono::hours kMaxTime{1};
 
   /// Where a round may be played.
   struct Room {

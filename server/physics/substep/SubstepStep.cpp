@@ -250,8 +250,8 @@ void SubstepWorld::stopFast() {
   }
 }
 
-// So that they find one another, and what is slow if they are many: as seen by one who flies along with them,
-// for whom the paths are short. All that matters is how bodies move against each other.
+// So that they find one another, and what is slow if they are many: in a frame that moves along with them,
+// in which the paths are short. All that matters is how bodies move against each other.
 void SubstepWorld::treePaths() {
   m_paths.clear();
   m_path_ids.clear();

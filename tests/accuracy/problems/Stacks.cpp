@@ -76,7 +76,7 @@ Problem makeStack() {
   Problem problem;
   problem.title = "Stack";
   problem.text =
-      "10, 30 and 100 crates of 1 m on each other, gaps exactly 0 at the start, friction 0.5, 10 s; nobody "
+      "10, 30 and 100 crates of 1 m on each other, gaps exactly 0 at the start, friction 0.5, 10 s; none "
       "sleeps. "
       "`upright`: bodies that do not rotate.";
   problem.reference = "nothing moves";

@@ -30,9 +30,9 @@ constexpr int kJoiningAtOnce = 25;
 
 // What a run has to reach, if its machine keeps up with the ticks.
 
-constexpr double kMostLatePercent = 5;  ///< with more the run says nothing
-constexpr long kMostBackMillis = 3'000;
-constexpr long kMostRedirectMillis = 2'000;  ///< p99
+constexpr double kMaxLatePercent = 5;  ///< with more the run says nothing
+constexpr long kMaxBackMillis = 3'000;
+constexpr long kMaxRedirectMillis = 2'000;  ///< p99
 
 /// Of players: more than 250 keep one thread from serving them in time.
 int processesFor(int players) {
@@ -85,8 +85,8 @@ bool isComplete(const bench::FleetSetup& setup, const Result& result) {
 }
 
 bool isGood(const Result& result) {
-  return result.returned == result.players && percentile(result.back, 100) <= kMostBackMillis &&
-         percentile(result.redirects, 99) <= kMostRedirectMillis && result.disturbed == 0 &&
+  return result.returned == result.players && percentile(result.back, 100) <= kMaxBackMillis &&
+         percentile(result.redirects, 99) <= kMaxRedirectMillis && result.disturbed == 0 &&
          result.lost_without_bus == 0;
 }
 
@@ -95,7 +95,7 @@ bool print(const bench::FleetSetup& setup, const Result& result, std::chrono::se
            const bench::Fleet::Ticks& ticks) {
   const double late =
       ticks.all > 0 ? 100.0 * static_cast<double>(ticks.late) / static_cast<double>(ticks.all) : 100;
-  const bool is_valid = late <= kMostLatePercent;
+  const bool is_valid = late <= kMaxLatePercent;
   const bool failed = !isComplete(setup, result) || (is_valid && !isGood(result));
   std::printf(
       "fleet bots=%d servers=%d hz=%d kills=%d players=%d back=%zu returned=%d p50_ms=%ld p99_ms=%ld "
