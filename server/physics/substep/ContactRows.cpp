@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "physics/geometry/Index.h"
 #include "physics/geometry/Reserve.h"
@@ -11,7 +12,18 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr float kContactDamping = 10;
+// Of the spring that undoes an overlap: turns of its swing in a sub-step, against what moves and what does not,
+// and its damping ratio. One sweep carries a push by one body, so it reaches what moves together, as a pile
+// does, late; by so much that from .22 turns on a pile swings for ever.
+constexpr float kContactTurns = 0.2f;
+constexpr float kHeldContactTurns = 0.3f;
+constexpr float kContactDamping = 4;
+// The trend of an impulse, by which the next sub-step starts from more: what is left of it after a sub-step …
+constexpr float kTrendKept = 0.7f;
+// … how much of it is added for good, so that a pile gets what carries it in fewer sub-steps …
+constexpr float kGiven = 0.35f;
+// … and for one sub-step, against the swing of a pile that is pushed late.
+constexpr float kLent = 0.5f;
 constexpr float kFastPushes = 20;  // in the greatest speed at which overlap is undone
 
 struct Body {
@@ -56,8 +68,8 @@ void scatter(std::span<SubstepState> states, const std::array<std::int32_t, kLan
 
 void ContactRows::clear(std::size_t rows, float h) {
   constexpr std::size_t kOpen = 32;  // blocks that are not full
-  m_softness = softnessOf(kFastestTurns, kContactDamping, h);
-  m_held_softness = softnessOf(2 * kFastestTurns, kContactDamping, h);
+  m_softness = softnessOf(kContactTurns, kContactDamping, h);
+  m_held_softness = softnessOf(kHeldContactTurns, kContactDamping, h);
   m_blocks.clear();
   reserveFor(m_blocks, rows / kLanes + kOpen);
 }
@@ -104,19 +116,40 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
                           row.inverse_inertia_b * tangent_b * tangent_b;
     to.normal_mass[lane] = normal > 0 ? 1 / normal : 0;
     to.tangent_mass[lane] = tangent > 0 ? 1 / tangent : 0;
-    to.normal[lane] = memory.normal[at(i)];
-    to.friction[lane] = memory.friction[at(i)];
+    to.normal.begin(lane, memory.normal[at(i)]);
+    to.friction.begin(lane, memory.friction[at(i)]);
   }
   return static_cast<std::int32_t>((m_blocks.size() - 1) * kLanes) + lane;
 }
 
+void ContactRows::Impulse::begin(int lane, KnownImpulse known) {
+  trend[lane] = known.trend / kTrendKept;
+  now[lane] = start[lane] = known.kept + kLent * trend[lane];
+}
+
+KnownImpulse ContactRows::Impulse::known(int lane) const {
+  return {now[lane] - kLent * trend[lane], kTrendKept * trend[lane] + (now[lane] - start[lane])};
+}
+
+void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most) {
+  const Lanes own = now - kLent * trend;
+  trend = kTrendKept * trend + (now - start);
+  const Lanes kept = larger(least, smaller(own + kGiven * trend, most));
+  now = start = larger(least, smaller(kept + kLent * trend, most));
+  trend = (1 / kLent) * (now - kept);
+}
+
 void ContactRows::warmStart(std::span<SubstepState> states) {
+  const Lanes unlimited = lanesOf(std::numeric_limits<float>::max());
   for (Block& k : m_blocks) {
     Body a = gather(states, k.a), b = gather(states, k.b);
     for (std::int32_t i = 0; i < k.points; ++i) {
-      const Point& p = k.point[at(i)];
-      const Lanes px = p.normal * k.nx - p.friction * k.ny;
-      const Lanes py = p.normal * k.ny + p.friction * k.nx;
+      Point& p = k.point[at(i)];
+      p.normal.beginSubstep(Lanes{}, unlimited);
+      const Lanes most = k.friction * p.normal.now;
+      p.friction.beginSubstep(-most, most);
+      const Lanes px = p.normal.now * k.nx - p.friction.now * k.ny;
+      const Lanes py = p.normal.now * k.ny + p.friction.now * k.nx;
       a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
       a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
       b.vx += k.inverse_mass_b * px, b.vy += k.inverse_mass_b * py;
@@ -149,11 +182,11 @@ void ContactRows::solveRows(std::span<SubstepState> states, float h, float time)
       const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
       const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
       const Lanes slip = vy * k.nx - vx * k.ny;
-      const Lanes most = k.friction * p.normal;
-      const Lanes wanted = p.friction - p.tangent_mass * slip;
+      const Lanes most = k.friction * p.normal.now;
+      const Lanes wanted = p.friction.now - p.tangent_mass * slip;
       const Lanes now = larger(-most, smaller(wanted, most));
-      const Lanes change = now - p.friction;
-      p.friction = now;
+      const Lanes change = now - p.friction.now;
+      p.friction.now = now;
       const Lanes px = -change * k.ny, py = change * k.nx;
       a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
       a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
@@ -175,10 +208,10 @@ void ContactRows::solveRows(std::span<SubstepState> states, float h, float time)
       const LaneMask is_hard = is_open | (speed < lanesOf(-kFastPushes) * k.max_push);
       const Lanes mass_scale = kIsSoft ? select(is_hard, one, k.mass_scale) : one;
       const Lanes impulse_scale = kIsSoft ? select(is_hard, zero, k.impulse_scale) : zero;
-      const Lanes wanted = p.normal - p.normal_mass * mass_scale * (speed + bias) - impulse_scale * p.normal;
+      const Lanes wanted = p.normal.now - p.normal_mass * mass_scale * (speed + bias) - impulse_scale * p.normal.now;
       const Lanes now = larger(wanted, zero);
-      const Lanes change = now - p.normal;
-      p.normal = now;
+      const Lanes change = now - p.normal.now;
+      p.normal.now = now;
       const Lanes px = change * k.nx, py = change * k.ny;
       a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
       a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
@@ -207,9 +240,9 @@ void ContactRows::bounce(std::span<SubstepState> states) {
       const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
       const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
       const Lanes speed = vx * k.nx + vy * k.ny;
-      const Lanes more = larger(-p.normal_mass * (speed + k.restitution * p.approach), -p.normal);
+      const Lanes more = larger(-p.normal_mass * (speed + k.restitution * p.approach), -p.normal.now);
       const Lanes change = select(is_hit, more, zero);
-      p.normal += change;
+      p.normal.now += change;
       p.total += change;
       const Lanes px = change * k.nx, py = change * k.ny;
       a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
@@ -228,8 +261,9 @@ ContactImpulse ContactRows::impulse(std::int32_t row) const {
   ContactImpulse result;
   result.first = k.first[lane];
   for (std::size_t i = 0; i < 2; ++i) {
-    result.normal[i] = k.point[i].normal[lane];
-    result.friction[i] = k.point[i].friction[lane];
+    result.normal[i] = k.point[i].normal.known(lane);
+    result.normal[i].kept = std::max(result.normal[i].kept, 0.0f);
+    result.friction[i] = k.point[i].friction.known(lane);
     result.total += k.point[i].total[lane];
   }
   return result;

@@ -31,9 +31,15 @@ struct ContactRow {
   bool is_held = false;          ///< an immovable body is in it: stiffer
 };
 
+/// What is known of an impulse from sub-step to sub-step.
+struct KnownImpulse {
+  float kept = 0;   ///< what the next sub-step starts from
+  float trend = 0;  ///< by how much it has changed of late
+};
+
 /// Impulses of a contact: of a sub-step, and all of a step.
 struct ContactImpulse {
-  std::array<float, 2> normal = {}, friction = {};
+  std::array<KnownImpulse, 2> normal = {}, friction = {};
   float total = 0;
   float first = -1;  ///< time within the step of the first one; below 0: there was none
 };
@@ -61,12 +67,21 @@ class ContactRows {
   template <bool kIsSoft>
   void solveRows(std::span<SubstepState> states, float h, float time);
 
+  struct Impulse {
+    Lanes now = {};
+    Lanes start = {};  // of the sub-step
+    Lanes trend = {};  // what has been added of late, older parts less and less
+    void begin(int lane, KnownImpulse known);
+    KnownImpulse known(int lane) const;
+    void beginSubstep(Lanes least, Lanes most);
+  };
   struct Point {
     Lanes ax = {}, ay = {}, bx = {}, by = {};  // levers about both centres
     Lanes gap = {};                            // at the start, less what the levers say of it
     Lanes gap_now = {};                        // since bodies moved last
     Lanes normal_mass = {}, tangent_mass = {};
-    Lanes normal = {}, friction = {}, total = {};
+    Impulse normal, friction;
+    Lanes total = {};
     Lanes approach = {};  // normal speed at the start of the step
   };
   struct Block {

@@ -88,7 +88,7 @@ class SubstepWorld final : public RigidStepper {
     std::uint32_t version_a = 0, version_b = 0;
     std::int32_t count = 0;
     std::array<std::uint32_t, 2> id = {};
-    std::array<float, 2> normal = {}, friction = {};
+    std::array<KnownImpulse, 2> normal = {}, friction = {};
   };
   struct Pair {
     std::int32_t low, high;  // ids: what the broad phase orders by

@@ -63,8 +63,8 @@ Trial trialOf(std::uint64_t seed) {
     point.anchor_b = {numbers.between(-0.5, 0.5), numbers.between(-0.5, 0.5)};
     point.separation = numbers.between(-0.05, 0.05);
     if (static_cast<int>(i) >= trial.manifold.count || numbers.chance(0.3)) continue;
-    trial.memory.normal[i] = static_cast<float>(numbers.between(0, 0.05));
-    trial.memory.friction[i] = static_cast<float>(numbers.between(-0.01, 0.01));
+    trial.memory.normal[i].kept = static_cast<float>(numbers.between(0, 0.05));
+    trial.memory.friction[i].kept = static_cast<float>(numbers.between(-0.01, 0.01));
   }
   trial.a.spin = row.spin_a;
   trial.b.spin = row.spin_b;
@@ -122,7 +122,11 @@ std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_blo
       for (const float x : {state.vx, state.vy, state.spin, state.x, state.y}) note(x);
     }
     const ContactImpulse& j = outcome.impulse;
-    for (const float x : {j.normal[0], j.normal[1], j.friction[0], j.friction[1], j.total, j.first}) note(x);
+    for (const auto& known : {j.normal[0], j.normal[1], j.friction[0], j.friction[1]}) {
+      note(known.kept);
+      note(known.trend);
+    }
+    for (const float x : {j.total, j.first}) note(x);
     outcomes.push_back(outcome);
   }
   return outcomes;
@@ -167,8 +171,8 @@ TEST(ContactRows, PushesOnlyAndRubsWithinItsCone) {
     const ContactImpulse impulse = stepOf({trial}, 1)[0].impulse;
     EXPECT_GE(impulse.total, 0) << seed;
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_GE(impulse.normal[i], 0) << seed;
-      pushing += impulse.normal[i] > 0 ? 1 : 0;
+      EXPECT_GE(impulse.normal[i].kept, 0) << seed;
+      pushing += impulse.normal[i].kept > 0 ? 1 : 0;
     }
   }
   EXPECT_GT(pushing, 50);
@@ -182,16 +186,16 @@ TEST(ContactRows, PushesOnlyAndRubsWithinItsCone) {
     row.max_push = 0.1f;
     row.velocity = {slip, 0};
     trial.kick = 0.05f;
-    trial.memory.normal[0] = 0.05f;
+    trial.memory.normal[0].kept = 0.05f;
     trial.manifold.normal = {0, -1};  // b lies above
     trial.manifold.count = 1;
     trial.manifold.points[0].anchor_b = {0, 0.5};
     const Outcome outcome = stepOf({trial}, 1)[0];
-    const float most = 0.5f * outcome.impulse.normal[0];
-    EXPECT_NEAR(outcome.impulse.normal[0], 0.05f, 1e-4f) << slip;
+    const float most = 0.5f * outcome.impulse.normal[0].kept;
+    EXPECT_NEAR(outcome.impulse.normal[0].kept, 0.05f, 1e-4f) << slip;
     EXPECT_NEAR(outcome.impulse.total, 0.2f, 1e-3f) << slip;
-    EXPECT_LE(std::fabs(outcome.impulse.friction[0]), most * 1.001f) << slip;
-    sliding += slip > 0.5f && std::fabs(outcome.impulse.friction[0]) > 0.99f * most ? 1 : 0;
+    EXPECT_LE(std::fabs(outcome.impulse.friction[0].kept), most * 1.001f) << slip;
+    sliding += slip > 0.5f && std::fabs(outcome.impulse.friction[0].kept) > 0.99f * most ? 1 : 0;
   }
   EXPECT_EQ(sliding, 1);
 }
