@@ -1,6 +1,7 @@
 #include "physics/substep/ContactRows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,17 +13,16 @@ namespace naiad::physics {
 
 namespace {
 
-// Of the spring that undoes an overlap: turns of its swing in a sub-step, against what moves and what does not,
-// and its damping ratio. One sweep carries a push by one body, so it reaches what moves together, as a pile
-// does, late; by so much that from .22 turns on a pile swings for ever.
-constexpr float kContactTurns = 0.2f;
-constexpr float kHeldContactTurns = 0.3f;
-constexpr float kContactDamping = 4;
-// The trend of an impulse, by which the next sub-step starts from more: what is left of it after a sub-step …
+// Of the spring that undoes an overlap. Contacts with what cannot move swing twice as fast as others.
+constexpr float kContactDamping = 10;
+// Of contacts that last. One sweep carries a push by one body, so what moves as a whole, as a pile does, is
+// pushed late. That leaves nothing of its damping from .22 turns on, and a pile would swing for ever.
+constexpr float kLastingTurns = 0.19f;
+constexpr float kLastingDamping = 4;
+// Of the trend of such an impulse: what is left of it after a sub-step; how much of it is added for good, so
+// that a pile is carried after fewer sub-steps; and how much for one sub-step only, against its swing.
 constexpr float kTrendKept = 0.7f;
-// … how much of it is added for good, so that a pile gets what carries it in fewer sub-steps …
 constexpr float kGiven = 0.35f;
-// … and for one sub-step, against the swing of a pile that is pushed late.
 constexpr float kLent = 0.5f;
 constexpr float kFastPushes = 20;  // in the greatest speed at which overlap is undone
 
@@ -68,8 +68,11 @@ void scatter(std::span<SubstepState> states, const std::array<std::int32_t, kLan
 
 void ContactRows::clear(std::size_t rows, float h) {
   constexpr std::size_t kOpen = 32;  // blocks that are not full
-  m_softness = softnessOf(kContactTurns, kContactDamping, h);
-  m_held_softness = softnessOf(kHeldContactTurns, kContactDamping, h);
+  const auto both = [h](float turns, float damping) {
+    return std::array{softnessOf(turns, damping, h), softnessOf(2 * turns, damping, h)};
+  };
+  m_softness = both(kFastestTurns, kContactDamping);
+  m_lasting_softness = both(kLastingTurns, kLastingDamping);
   m_blocks.clear();
   reserveFor(m_blocks, rows / kLanes + kOpen);
 }
@@ -93,7 +96,8 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.max_push[lane] = row.max_push;
   block.rest[lane] = row.rest;
   block.bounces = block.bounces || row.restitution > 0;
-  const Softness& softness = row.is_held ? m_held_softness : m_softness;
+  const Softness& softness = (row.is_lasting ? m_lasting_softness : m_softness).at(row.is_held ? 1 : 0);
+  block.follows[lane] = row.is_lasting ? 1 : 0;
   block.rate[lane] = softness.rate;
   block.mass_scale[lane] = softness.mass_scale;
   block.impulse_scale[lane] = softness.impulse_scale;
@@ -131,23 +135,27 @@ KnownImpulse ContactRows::Impulse::known(int lane) const {
   return {now[lane] - kLent * trend[lane], kTrendKept * trend[lane] + (now[lane] - start[lane])};
 }
 
-void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most) {
+// What was lent goes back, and what the trend says now is added: within the bounds of the impulse.
+void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most, Lanes most_trend) {
   const Lanes own = now - kLent * trend;
   trend = kTrendKept * trend + (now - start);
+  trend = larger(-most_trend, smaller(trend, most_trend));
   const Lanes kept = larger(least, smaller(own + kGiven * trend, most));
   now = start = larger(least, smaller(kept + kLent * trend, most));
   trend = (1 / kLent) * (now - kept);
 }
 
+// A trend is what both ends of the last sub-step had: a blow has none.
 void ContactRows::warmStart(std::span<SubstepState> states) {
   const Lanes unlimited = lanesOf(std::numeric_limits<float>::max());
   for (Block& k : m_blocks) {
     Body a = gather(states, k.a), b = gather(states, k.b);
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
-      p.normal.beginSubstep(Lanes{}, unlimited);
+      const Lanes most_trend = k.follows * smaller(p.normal.start, p.normal.now);
+      p.normal.beginSubstep(Lanes{}, unlimited, most_trend);
       const Lanes most = k.friction * p.normal.now;
-      p.friction.beginSubstep(-most, most);
+      p.friction.beginSubstep(-most, most, k.friction * most_trend);
       const Lanes px = p.normal.now * k.nx - p.friction.now * k.ny;
       const Lanes py = p.normal.now * k.ny + p.friction.now * k.nx;
       a.vx -= k.inverse_mass_a * px, a.vy -= k.inverse_mass_a * py;
@@ -208,7 +216,8 @@ void ContactRows::solveRows(std::span<SubstepState> states, float h, float time)
       const LaneMask is_hard = is_open | (speed < lanesOf(-kFastPushes) * k.max_push);
       const Lanes mass_scale = kIsSoft ? select(is_hard, one, k.mass_scale) : one;
       const Lanes impulse_scale = kIsSoft ? select(is_hard, zero, k.impulse_scale) : zero;
-      const Lanes wanted = p.normal.now - p.normal_mass * mass_scale * (speed + bias) - impulse_scale * p.normal.now;
+      const Lanes wanted =
+          p.normal.now - p.normal_mass * mass_scale * (speed + bias) - impulse_scale * p.normal.now;
       const Lanes now = larger(wanted, zero);
       const Lanes change = now - p.normal.now;
       p.normal.now = now;

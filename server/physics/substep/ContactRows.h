@@ -29,6 +29,7 @@ struct ContactRow {
   float rest = 0;                ///< slower impacts do not bounce
   float spin_a = 0, spin_b = 0;  ///< at the start of the step
   bool is_held = false;          ///< an immovable body is in it: stiffer
+  bool is_lasting = false;  ///< it pushed in the last step, and its bodies hardly move against each other
 };
 
 /// What is known of an impulse from sub-step to sub-step.
@@ -73,7 +74,7 @@ class ContactRows {
     Lanes trend = {};  // what has been added of late, older parts less and less
     void begin(int lane, KnownImpulse known);
     KnownImpulse known(int lane) const;
-    void beginSubstep(Lanes least, Lanes most);
+    void beginSubstep(Lanes least, Lanes most, Lanes most_trend);
   };
   struct Point {
     Lanes ax = {}, ay = {}, bx = {}, by = {};  // levers about both centres
@@ -92,13 +93,14 @@ class ContactRows {
     Lanes nx = {}, ny = {}, vx = {}, vy = {};
     Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // softness
     Lanes friction = {}, restitution = {}, max_push = {}, rest = {};
+    Lanes follows = {};              // 1 if its impulses have a trend, or 0
     Lanes first = {-1, -1, -1, -1};  // time of the first impulse
     bool bounces = false;            // any of them
     std::array<Point, 2> point;
   };
   static void updateGaps(Block& block, std::span<const SubstepState> states, float time);
   std::vector<Block> m_blocks;
-  Softness m_softness, m_held_softness;
+  std::array<Softness, 2> m_softness, m_lasting_softness;  // the second one: held
 };
 
 }  // namespace naiad::physics

@@ -20,6 +20,7 @@ constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 constexpr double kMaxPush = 0.2;      // per tick: the greatest speed at which overlap is undone
 constexpr double kSlowMargin = 0.12;  // what moves by less throws nothing off its path
 constexpr double kLinger = 0.01;      // a larger gap ends a contact
+constexpr double kLasting = 0.05;     // per tick: the bodies of a lasting contact move by less
 constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
 constexpr std::size_t kFetched = 8;     // contacts ahead
 constexpr std::size_t kCacheLine = 64;  // bytes
@@ -35,6 +36,12 @@ constexpr double kStir = 2;
 // Over the pairs that fly past each other. A push that has not gone all its way by then may reach all of
 // them.
 constexpr int kMaxSweeps = 32;
+
+// Of any two of their points, at the start of a step.
+double speedBetween(const SubstepBody& a, const SubstepBody& b) {
+  return length(b.body.velocity - a.body.velocity) + std::fabs(a.body.spin) * a.reach +
+         std::fabs(b.body.spin) * b.reach;
+}
 
 // They are at least so far apart.
 double gapBetween(const Bounds& a, const Bounds& b, Vec2 offset) {
@@ -467,6 +474,8 @@ void SubstepWorld::fillRows() {
     row.restitution = static_cast<float>(std::max(a.body.restitution, b.body.restitution));
     row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
     row.is_held = !isMovable(a) || !isMovable(b);
+    row.is_lasting = contact.impulse.normal[0].kept + contact.impulse.normal[1].kept > 0 &&
+                     speedBetween(a, b) < kLasting * std::min(a.thickness, b.thickness);
     const auto gain = [&](const SubstepBody& of) {
       return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
     };
