@@ -2,7 +2,8 @@
 //
 // The problem is all pairs of swept boxes at once, and again whenever an impact gives a body another path:
 // the tree is built or refitted for a whole tick, and boxes only grow within it. BroadPhaseTree.h keeps its
-// pairs from tick to tick, which pays where widened bounds hardly change.
+// pairs from tick to tick, which pays where widened bounds hardly change; where many of them do, BroadPhase.h
+// finds all pairs with a tree of this kind, too.
 //
 // The order in which a query finds bodies depends on the whole scene; no result may depend on it.
 #pragma once
