@@ -17,10 +17,11 @@ namespace {
 constexpr std::int32_t kColours = 64;
 constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 // In thicknesses of the thinner body.
-constexpr double kMaxPush = 0.2;      // per tick: the greatest speed at which overlap is undone
-constexpr double kSlowMargin = 0.12;  // what moves by less throws nothing off its path
-constexpr double kLinger = 0.01;      // a larger gap ends a contact
-constexpr double kLasting = 0.05;     // per tick: the bodies of a lasting contact move by less
+constexpr double kMaxPush = 0.2;       // per tick: the greatest speed at which overlap is undone
+constexpr double kSlowMargin = 0.12;   // what moves by less throws nothing off its path
+constexpr double kLinger = 0.01;       // a larger gap ends a contact
+constexpr double kLasting = 0.05;      // per tick: the bodies of a lasting contact move by less …
+constexpr double kLastingDepth = 0.1;  // … and overlap by less
 constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
 constexpr std::size_t kFetched = 8;     // contacts ahead
 constexpr std::size_t kCacheLine = 64;  // bytes
@@ -38,6 +39,18 @@ constexpr int kMaxSweeps = 32;
 double speedBetween(const SubstepBody& a, const SubstepBody& b) {
   return length(b.body.velocity - a.body.velocity) + std::fabs(a.body.spin) * a.reach +
          std::fabs(b.body.spin) * b.reach;
+}
+
+// Did it push in the last step, and does it only carry what lies still? What a blow drives deep into
+// something is to come out fast.
+bool isLasting(const std::array<KnownImpulse, 2>& normal, const Manifold& manifold, const SubstepBody& a,
+               const SubstepBody& b) {
+  const double thickness = std::min(a.thickness, b.thickness);
+  double deepest = 0;
+  for (std::int32_t i = 0; i < manifold.count; ++i)
+    deepest = std::max(deepest, -manifold.points[at(i)].separation);
+  return normal[0].kept + normal[1].kept > 0 && speedBetween(a, b) < kLasting * thickness &&
+         deepest < kLastingDepth * thickness;
 }
 
 // They are at least so far apart.
@@ -476,8 +489,7 @@ void SubstepWorld::fillRows() {
     row.restitution = static_cast<float>(std::max(a.body.restitution, b.body.restitution));
     row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
     row.is_held = !isMovable(a) || !isMovable(b);
-    row.is_lasting = contact.impulse.normal[0].kept + contact.impulse.normal[1].kept > 0 &&
-                     speedBetween(a, b) < kLasting * std::min(a.thickness, b.thickness);
+    row.is_lasting = isLasting(contact.impulse.normal, m_memory[at(contact.memory)].manifold, a, b);
     const auto gain = [&](const SubstepBody& of) {
       return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
     };
