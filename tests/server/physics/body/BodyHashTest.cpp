@@ -49,7 +49,7 @@ class Noisy : public Body {
 };
 
 constexpr std::uint64_t kHash = 2491911478089288164u;
-constexpr std::uint64_t kFastHash = 7886943150456050192u;
+constexpr std::uint64_t kFastHash = 6459264108820126807u;
 
 std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
   World world;
