@@ -23,9 +23,9 @@ bool isTolerance(double value) {
 }
 
 bool areUsable(const IntegratorOptions& o) {
-  return o.substeps >= 1 && o.substeps <= 10'000 && isTolerance(o.relative) && isTolerance(o.absolute) &&
-         isTolerance(o.stiff_relative) && isTolerance(o.stiff_absolute) && o.max_evaluations >= 1 &&
-         o.max_steps >= 1 && o.max_evaluations <= 10'000'000 && o.max_steps <= 10'000'000;
+  return isTolerance(o.relative) && isTolerance(o.absolute) && isTolerance(o.stiff_relative) &&
+         isTolerance(o.stiff_absolute) && o.max_evaluations >= 1 && o.max_steps >= 1 &&
+         o.max_evaluations <= 10'000'000 && o.max_steps <= 10'000'000;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // How the motion of jointed bodies is advanced: RATTLE, alone or composed with itself to a higher order.
 //
 // RATTLE (Andersen 1983) is symmetric and symplectic of order 2; a symmetric composition of sub-steps with
-// the right lengths, some of them backwards, has order 4 or 6 and keeps both properties (Yoshida 1990; Kahan
+// the right lengths, some of them backwards, has order 4 or 6 and keeps both properties (Suzuki 1990; Kahan
 // and Li 1997; Hairer, Lubich, Wanner, "Geometric Numerical Integration", V.3). What loses energy (damping,
 // ropes that catch, limits, motors) cannot run backwards, and stays with RATTLE.
 #pragma once
@@ -14,10 +14,7 @@ namespace naiad::physics {
 enum class JointMethod : std::uint8_t {
   kAutomatic,  ///< order 4 for an island that keeps its energy (6 where a stiff spring pulls), else RATTLE
   kRattle,     ///< order 2, one sub-step per stage
-  kYoshida4,   ///< order 4, 3 stages
   kSuzuki4,    ///< order 4, 5 stages
-  kKahanLi4,   ///< order 4, 5 stages
-  kYoshida6,   ///< order 6, 7 stages
   kKahanLi6,   ///< order 6, 9 stages
 };
 
