@@ -219,12 +219,10 @@ void RigidWorld::wakeNeighbours(int id) {
     if (pair.first < 0 || (pair.a != id && pair.b != id)) continue;
     wakeRing(pair.a == id ? pair.b : pair.a);
   }
-  for (int i = 0; i < m_joints.limit(); ++i) {
-    if (!m_joints.isWorking(i) || m_joints.joint(i).kind == JointKind::kMouse) continue;
-    const Joint& joint = m_joints.joint(i);
-    if (joint.a == id) wakeRing(joint.b);
-    if (joint.b == id) wakeRing(joint.a);
-  }
+  m_joints.visitWorking([&](int a, int b) {
+    if (a == id) wakeRing(b);
+    if (a >= 0 && b == id) wakeRing(a);
+  });
 }
 
 }  // namespace naiad::physics

@@ -343,11 +343,7 @@ void RigidWorld::finishStep(double dt) {
   sleep(dt);
   for (const int id : m_dirty) m_extras[at(id)].is_dirty = false;
   m_dirty.clear();
-  std::sort(m_events.begin(), m_events.end(), [](const RigidEvent& x, const RigidEvent& y) {
-    if (x.time != y.time) return x.time < y.time;
-    if (x.first != y.first) return x.first < y.first;
-    return x.second != y.second ? x.second < y.second : x.is_begin < y.is_begin;
-  });
+  sortEvents();
 }
 
 void RigidWorld::stepOnce(double dt) {
@@ -365,19 +361,10 @@ void RigidWorld::stepOnce(double dt) {
   finishStep(dt);
 }
 
-RigidStatus RigidWorld::step(double dt) {
-  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
+RigidStatus RigidWorld::step() {
   const std::int64_t frozen_before = m_counters.quarantined;
   ++m_counters.ticks;
-  m_earlier_events.clear();
-  const double parts = std::ceil(dt / kLongestStep), part = dt / parts;
-  for (double done = 0; done < parts; ++done) {
-    stepOnce(part);
-    if (parts == 1) break;
-    for (RigidEvent& event : m_events) event.time += done * part;
-    m_earlier_events.insert(m_earlier_events.end(), m_events.begin(), m_events.end());
-  }
-  if (parts > 1) m_events.swap(m_earlier_events);
+  stepOnce(1);
   return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
 }
 

@@ -51,8 +51,6 @@ struct RigidOptions {
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
 class RigidWorld final : public RigidStepper {
  public:
-  static constexpr double kLongestStep =
-      32;  ///< ticks; longer ones are divided: at once they throw heaps apart
   /// An impact makes no body faster than that: metric cells per tick along each axis, and rad per tick. It
   /// loses the rest. What was set to more is left as it is.
   static constexpr double kMaxSpeed = 1.6e7;
@@ -78,34 +76,18 @@ class RigidWorld final : public RigidStepper {
 
   const RigidBody& body(int id) const override { return m_bodies[at(id)]; }
   std::span<const ConvexShape> shapes(int id) const { return m_extras[at(id)].shapes; }
-  bool exists(int id) const { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
+  bool exists(int id) const override { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
   /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   bool isFrozen(int id) const override { return m_extras[at(id)].is_frozen; }
   bool isStopped(int /*id*/) const override { return false; }
   bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
   /// Wakes it and what sleeps with it.
   void wake(int id);
-  /// Ids are below this.
-  int idLimit() const { return static_cast<int>(m_bodies.size()); }
+  int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
-  /// Between bodies that exist; `joint.a` and `joint.b` are ids. Bodies on a joint do not touch each other
-  /// unless `may_touch`. Returns the joint's id, the lowest free one, or −1 if it is not valid.
-  int addJoint(const Joint& joint, bool may_touch = false) override;
-  /// Changes targets, speeds, strengths and lengths: not the kind nor the bodies. Wakes the bodies.
-  bool setJoint(int id, const Joint& joint) override;
-  bool removeJoint(int id) override;
-  bool jointExists(int id) const override { return m_joints.exists(id); }
-  /// As it was given, with what the last step wrote: force, torque, is_broken. A broken one stays, and does
-  /// nothing, until it is removed.
-  const Joint& joint(int id) const override { return m_joints.joint(id); }
-  int jointLimit() const { return m_joints.limit(); }
-
-  /// Goes on by `dt` > 0 ticks, up to 1e6; by more than kLongestStep in several equal parts.
   void setSleeping(bool may_sleep) override;
-  RigidStatus step(double dt = 1) override;
+  RigidStatus step() override;
 
-  /// Of the last step, by (time, ids).
-  const std::vector<RigidEvent>& events() const override { return m_events; }
   const RigidCounters& counters() const { return m_counters; }
   const RigidOptions& options() const { return m_options; }
 
@@ -221,7 +203,9 @@ class RigidWorld final : public RigidStepper {
   void leave(int id);
   void freeze(int id);
   void wakeNeighbours(int id);
-  void wakeRing(int id);
+  void wakeRing(int id) override;
+  const JointStore& joints() const override { return m_joints; }
+  JointStore& joints() override { return m_joints; }
   Bounds turnShapes(int id, Rotation rotation);
 
   // RigidStep.cpp
@@ -320,8 +304,6 @@ class RigidWorld final : public RigidStepper {
   std::vector<double> m_island_still;
   std::vector<Gain> m_island_gain;
   std::vector<std::uint8_t> m_island_flags;
-  std::vector<RigidEvent> m_events;
-  std::vector<RigidEvent> m_earlier_events;  // of a long step's earlier parts
   RigidCounters m_counters;
   double m_time = 0;    // within the step
   Manifold m_manifold;  // of the pair at hand: one on the stack would be set to zero first
@@ -330,7 +312,6 @@ class RigidWorld final : public RigidStepper {
   bool m_active_changed = false;
   bool m_is_restless = false;  // a body is
   bool m_has_flown = false;    // one was swept in this step
-  bool m_joints_changed = false;
 };
 
 }  // namespace naiad::physics

@@ -95,10 +95,9 @@ void SubstepWorld::wakeChanged() {
   for (const Pair& pair : m_pairs) {
     if (pair.first >= 0) wakeBoth(pair.a, pair.b);
   }
-  for (int j = 0; j < m_joints.limit(); ++j) {
-    if (!m_joints.isWorking(j) || m_joints.joint(j).kind == JointKind::kMouse) continue;
-    wakeBoth(m_joints.joint(j).a, m_joints.joint(j).b);
-  }
+  m_joints.visitWorking([&](int a, int b) {
+    if (a >= 0) wakeBoth(a, b);
+  });
 }
 
 void SubstepWorld::updatePairs() {

@@ -209,18 +209,9 @@ void SubstepWorld::stepOnce() {
   finish();
 }
 
-RigidStatus SubstepWorld::step(double dt) {
-  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
+RigidStatus SubstepWorld::step() {
   const std::int64_t frozen_before = m_counters.quarantined;
-  m_earlier_events.clear();
-  const double parts = std::max(std::floor(dt), 1.0);
-  for (double done = 0; done < parts; ++done) {
-    stepOnce();
-    if (parts == 1) break;
-    for (RigidEvent& event : m_events) event.time += done;
-    m_earlier_events.insert(m_earlier_events.end(), m_events.begin(), m_events.end());
-  }
-  if (parts > 1) m_events.swap(m_earlier_events);
+  stepOnce();
   return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
 }
 
@@ -484,11 +475,7 @@ void SubstepWorld::finish() {
     m_joints_changed = true;
   }
   sleep();
-  std::sort(m_events.begin(), m_events.end(), [](const RigidEvent& x, const RigidEvent& y) {
-    if (x.time != y.time) return x.time < y.time;
-    if (x.first != y.first) return x.first < y.first;
-    return x.second != y.second ? x.second < y.second : x.is_begin < y.is_begin;
-  });
+  sortEvents();
 }
 
 }  // namespace naiad::physics

@@ -52,25 +52,17 @@ class SubstepWorld final : public RigidStepper {
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
   bool remove(int id) override;
   const RigidBody& body(int id) const override { return m_bodies[at(id)].body; }
-  bool exists(int id) const { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
+  bool exists(int id) const override { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
   bool isFrozen(int id) const override { return m_bodies[at(id)].is_frozen; }
   bool isStopped(int id) const override {
     const SubstepBody& b = m_bodies[at(id)];
     return b.state > 0 && (b.part < 1 || b.is_diverted);
   }
   bool isAsleep(int id) const { return m_bodies[at(id)].is_asleep; }
-  int idLimit() const { return static_cast<int>(m_bodies.size()); }
-
-  int addJoint(const Joint& joint, bool may_touch) override;
-  bool setJoint(int id, const Joint& joint) override;
-  bool removeJoint(int id) override;
-  bool jointExists(int id) const override { return m_joints.exists(id); }
-  const Joint& joint(int id) const override { return m_joints.joint(id); }
+  int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
   void setSleeping(bool may_sleep) override;
-  /// By whole ticks: `dt` is rounded down, 1 at least.
-  RigidStatus step(double dt) override;
-  const std::vector<RigidEvent>& events() const override { return m_events; }
+  RigidStatus step() override;
   const SubstepCounters& counters() const { return m_counters; }
   /// How deep the deepest overlap was at the start of the last step.
   double deepest() const { return m_deepest; }
@@ -150,7 +142,9 @@ class SubstepWorld final : public RigidStepper {
   void enter(int id);
   void leave(int id);
   void freeze(int id);
-  void wakeRing(int id);
+  void wakeRing(int id) override;
+  const JointStore& joints() const override { return m_joints; }
+  JointStore& joints() override { return m_joints; }
   void markChanged(int id);
 
   // SubstepStep.cpp
@@ -249,12 +243,10 @@ class SubstepWorld final : public RigidStepper {
   SubstepJoints m_joints;
   std::vector<std::int32_t> m_parent;  // by state
   std::vector<Group> m_groups;         // by root
-  std::vector<RigidEvent> m_events, m_earlier_events;
   SubstepCounters m_counters;
   double m_deepest = 0;
   float m_h = 0.25f;
   bool m_active_changed = false;
-  bool m_joints_changed = false;
   bool m_has_stirred = false;
   bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of what they lie on
 };
