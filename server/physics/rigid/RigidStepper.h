@@ -22,11 +22,6 @@ struct RigidEvent {
   Vec2 normal;         ///< when it begins: from first to second
 };
 
-enum class RigidStatus : std::uint8_t {
-  kDone,
-  kQuarantined,  ///< done, and at least one body had to be frozen
-};
-
 /// Not thread-safe.
 class RigidStepper {
  public:
@@ -66,7 +61,7 @@ class RigidStepper {
   /// May groups at rest sleep?
   virtual void setSleeping(bool may_sleep) = 0;
   /// Goes on by a tick.
-  virtual RigidStatus step() = 0;
+  virtual void step() = 0;
   /// Of the last step, by (time, ids).
   const std::vector<RigidEvent>& events() const { return m_events; }
 

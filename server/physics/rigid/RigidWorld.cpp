@@ -24,7 +24,6 @@ int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) 
     m_bodies.emplace_back();
     m_extras.emplace_back();
     m_states.emplace_back();
-    m_parent.emplace_back();
     m_island_of.emplace_back();
     m_island_still.emplace_back();
     m_island_gain.emplace_back();

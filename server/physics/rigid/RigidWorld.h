@@ -15,6 +15,7 @@
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/geometry/ConvexShape.h"
 #include "physics/geometry/Index.h"
+#include "physics/geometry/UnionFind.h"
 #include "physics/rigid/MagnetTurn.h"
 #include "physics/rigid/RigidContact.h"
 #include "physics/rigid/RigidDirect.h"
@@ -37,8 +38,7 @@ struct RigidCounters {
   std::int64_t direct_rounds = 0;    ///< factorisations, about, that it took
   std::int64_t direct_failures = 0;  ///< of these solves, those that were given up
   std::int64_t quarantined = 0;      ///< bodies frozen
-  std::int64_t limited = 0;  ///< speeds or spins taken back to kMaxSpeed or kMaxSpin, once per step each
-  std::int64_t broken = 0;   ///< joints
+  std::int64_t broken = 0;           ///< joints
 };
 
 struct RigidOptions {
@@ -51,11 +51,6 @@ struct RigidOptions {
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
 class RigidWorld final : public RigidStepper {
  public:
-  /// An impact makes no body faster than that: metric cells per tick along each axis, and rad per tick. It
-  /// loses the rest. What was set to more is left as it is.
-  static constexpr double kMaxSpeed = 1.6e7;
-  static constexpr double kMaxSpin = 1e6;
-
   explicit RigidWorld(RigidOptions options = {}) : m_options(options) {}
 
   /// Shapes are relative to the centre of mass; none: a body that touches nothing, for joints. Returns the
@@ -86,7 +81,7 @@ class RigidWorld final : public RigidStepper {
   int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
   void setSleeping(bool may_sleep) override;
-  RigidStatus step() override;
+  void step() override;
 
   const RigidCounters& counters() const { return m_counters; }
   const RigidOptions& options() const { return m_options; }
@@ -215,12 +210,11 @@ class RigidWorld final : public RigidStepper {
   void substep(double h);
   void solve(bool is_second);
   void pushOut(double h);
-  void kick(bool is_second);
+  void kick();
   void turnByMagnets(double h);
   void drift(double h);
   void move(int id, double h);
   void finishStep(double dt);
-  void limit(int id);
   bool isFlying(int id) const;
   void dropParted();
 
@@ -264,8 +258,6 @@ class RigidWorld final : public RigidStepper {
   void hold(int id);
 
   // RigidSleep.cpp
-  int rootOf(int id);
-  void unite(int a, int b);
   void findIslands();
   void gatherIslands(bool is_first);
   int islandOf(int a, int b);
@@ -295,7 +287,7 @@ class RigidWorld final : public RigidStepper {
   std::vector<Flight> m_flights;
   std::vector<Impact> m_impacts;
   std::vector<int> m_near;
-  std::vector<int> m_parent;
+  UnionFind m_sets;              // of bodies
   std::vector<int> m_island_of;  // by root
   std::vector<Island> m_islands;
   std::vector<int> m_island_bodies, m_island_constraints, m_island_links;

@@ -14,7 +14,6 @@
 #include "physics/soft/SoftContact.h"
 #include "physics/soft/SoftCrowd.h"
 #include "physics/soft/SoftElastic.h"
-#include "physics/soft/SoftPush.h"
 #include "physics/soft/SoftRows.h"
 
 namespace naiad::physics {

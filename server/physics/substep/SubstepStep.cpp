@@ -31,7 +31,7 @@ double rollOf(const SubstepBody& b) {
 }
 
 Vec2 accelerationOf(const RigidBody& body) {
-  return body.inverse_mass > 0 ? body.acceleration + body.inverse_mass * body.force : Vec2{};
+  return body.inverse_mass > 0 ? body.acceleration : Vec2{};
 }
 double spinGainOf(const RigidBody& body) {
   return body.inverse_inertia > 0 ? body.inverse_inertia * body.torque : 0;
@@ -167,7 +167,7 @@ void SubstepWorld::moveStates() {
   }
 }
 
-void SubstepWorld::stepOnce() {
+void SubstepWorld::step() {
   m_events.clear();
   ++m_counters.ticks;
   m_h = 1 / static_cast<float>(m_options.substeps);
@@ -207,12 +207,6 @@ void SubstepWorld::stepOnce() {
   m_rows.bounce(m_states);
   for (const std::int32_t id : m_active) m_bodies[at(id)].turn = m_turns[at(m_bodies[at(id)].state)];
   finish();
-}
-
-RigidStatus SubstepWorld::step() {
-  const std::int64_t frozen_before = m_counters.quarantined;
-  stepOnce();
-  return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
 }
 
 Vec2 SubstepWorld::movedBy(const SubstepBody& b) const {
@@ -429,8 +423,7 @@ void SubstepWorld::keepMomentum() {
   findGroups();
   const auto changeOf = [&](const SubstepBody& b) {
     const SubstepState& s = m_states[at(b.state)];
-    const Vec2 gained = b.body.acceleration + b.body.inverse_mass * b.body.force;
-    return gained - Vec2{s.vx, s.vy};
+    return b.body.acceleration - Vec2{s.vx, s.vy};
   };
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];

@@ -14,6 +14,7 @@
 #include "physics/broadphase/ImpactTree.h"
 #include "physics/geometry/Index.h"
 #include "physics/geometry/TimeOfImpact.h"
+#include "physics/geometry/UnionFind.h"
 #include "physics/rigid/MagnetTurn.h"
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
@@ -62,7 +63,7 @@ class SubstepWorld final : public RigidStepper {
   int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
   void setSleeping(bool may_sleep) override;
-  RigidStatus step() override;
+  void step() override;
   const SubstepCounters& counters() const { return m_counters; }
   /// How deep the deepest overlap was at the start of the last step.
   double deepest() const { return m_deepest; }
@@ -148,7 +149,6 @@ class SubstepWorld final : public RigidStepper {
   void markChanged(int id);
 
   // SubstepStep.cpp
-  void stepOnce();
   void listActive();
   void begin(int id);
   void pushByMagnets();
@@ -184,7 +184,7 @@ class SubstepWorld final : public RigidStepper {
   void stir(const SubstepBody& body, double by);
   void choosePairs();
   void passStirsOn();
-  double stirOf(const SubstepBody& b) { return m_stirs[at(rootOf(b.state))]; }
+  double stirOf(const SubstepBody& b) { return m_stirs[at(m_sets.rootOf(b.state))]; }
   double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);
   static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset,
@@ -202,10 +202,8 @@ class SubstepWorld final : public RigidStepper {
   std::vector<Pair>::const_iterator findPair(std::int32_t one, std::int32_t other) const;
 
   // SubstepSleep.cpp
-  void standAlone();
   void findGroups();
-  int rootOf(int state);
-  Group& groupOf(const SubstepBody& b) { return m_groups[at(rootOf(b.state))]; }
+  Group& groupOf(const SubstepBody& b) { return m_groups[at(m_sets.rootOf(b.state))]; }
   void unite(const SubstepBody& a, const SubstepBody& b);
   void sleep();
 
@@ -241,8 +239,8 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_by_colour;
   ContactRows m_rows;
   SubstepJoints m_joints;
-  std::vector<std::int32_t> m_parent;  // by state
-  std::vector<Group> m_groups;         // by root
+  UnionFind m_sets;             // of states
+  std::vector<Group> m_groups;  // by root
   SubstepCounters m_counters;
   double m_deepest = 0;
   float m_h = 0.25f;

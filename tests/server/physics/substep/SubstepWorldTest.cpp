@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "SubstepScene.h"
 
@@ -371,9 +372,9 @@ TEST(SubstepWorld, WhatCannotBeCalculatedWithIsFrozenAlone) {
   scene.addFloor();
   const int crate = scene.addCrate({0, -0.5}), above = scene.addCrate({0, -1.5});
   RigidBody body = movable({0, -2.5}, circleShape(0.5));
-  body.force = {1e30, 0};
+  const Vec2 gravity = std::exchange(body.acceleration, {1e30, 0});
   const int poisoned = scene.add(body, circleShape(0.5));
-  EXPECT_EQ(scene.world.step(), RigidStatus::kQuarantined);
+  scene.world.step();
   EXPECT_TRUE(scene.world.isFrozen(poisoned));
   EXPECT_EQ(scene.world.counters().quarantined, 1);
   const Vec2 place = scene.at(poisoned);
@@ -381,7 +382,7 @@ TEST(SubstepWorld, WhatCannotBeCalculatedWithIsFrozenAlone) {
   EXPECT_EQ(scene.at(poisoned), place);
   EXPECT_FALSE(scene.world.isFrozen(crate) || scene.world.isFrozen(above));
   EXPECT_NEAR(scene.at(above).y, -1.5, 5e-3);
-  body.force = {};
+  body.acceleration = gravity;
   ASSERT_TRUE(scene.world.set(poisoned, body));
   EXPECT_FALSE(scene.world.isFrozen(poisoned));
   scene.ticks(90);
