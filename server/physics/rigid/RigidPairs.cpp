@@ -41,18 +41,6 @@ bool slidesAway(const TurnedView& a, const TurnedView& b, Vec2 offset, Vec2 path
   return other.count > 2 && edgeLength(other, facing.edge) > face;
 }
 
-// A constraint that was found within the step, in the coordinates of the start of the step.
-void measureFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
-  c.offset = start;
-  for (std::int32_t i = 0; i < c.count; ++i) {
-    ContactPoint& p = c.points[static_cast<std::size_t>(i)];
-    p.core_a = inverse(a.turn) * p.core_a;
-    p.core_b = inverse(b.turn) * p.core_b;
-  }
-  if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(a.turn) * c.first_normal;
-  if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(b.turn) * c.first_normal;
-}
-
 }  // namespace
 
 std::int32_t RigidWorld::makeContact() {

@@ -213,6 +213,17 @@ void beginConstraint(const TurnedShape& a, const TurnedShape& b, Vec2 offset, co
   }
 }
 
+void measureFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
+  c.offset = start;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    p.core_a = inverse(a.turn) * p.core_a;
+    p.core_b = inverse(b.turn) * p.core_b;
+  }
+  if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(a.turn) * c.first_normal;
+  if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(b.turn) * c.first_normal;
+}
+
 void refresh(ContactConstraint& c, std::span<const RigidState> bodies) {
   const RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
   const Vec2 apart = c.offset + (b.displacement - a.displacement);

@@ -224,14 +224,7 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   ContactConstraint& c = addConstraint(a, b);
   beginConstraint(turned_a, turned_b, offset, manifold, c);
   c.first_time = m_time + impact.time * h;
-  // In the coordinates of the start of the step.
-  c.offset = start;
-  for (std::int32_t i = 0; i < c.count; ++i) {
-    c.points[at(i)].core_a = inverse(one.turn) * c.points[at(i)].core_a;
-    c.points[at(i)].core_b = inverse(other.turn) * c.points[at(i)].core_b;
-  }
-  if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(one.turn) * c.first_normal;
-  if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(other.turn) * c.first_normal;
+  measureFromStart(c, start, one, other);
   refresh(c, m_states);
   applyImpact(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
   if (most > kMaxImpacts) giveUp();
