@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/broadphase/BroadPhaseTree.h"
+#include "physics/broadphase/ImpactTree.h"
 
 namespace naiad::physics {
 
@@ -68,6 +69,7 @@ class BroadPhase {
     bool is_removed;
     bool is_pending;  // its bounds are not those in the tree yet
     bool is_thinned;
+    std::uint32_t heaped;  // pairs of a crowd that it has found, where all are looked for at once
     std::uint64_t order;
     GridBounds bounds;
   };
@@ -81,7 +83,11 @@ class BroadPhase {
   void markPending(std::int32_t proxy);
   void updateTree();
   void rebuildTree();
+  bool areMany(std::size_t proxies) const;
   void findPairs(std::int32_t proxy);
+  void findAllPairs();
+  Proxy& finderOf(std::int32_t a, std::int32_t b);
+  bool isHeap(const Proxy& a, const Proxy& b) const;
   bool isBefore(std::int32_t a, std::int32_t b) const;
   void keepNearest();
   void sortFound();
@@ -97,6 +103,9 @@ class BroadPhase {
   std::vector<std::int32_t> m_leaf_proxies, m_leaf_numbers;
   std::vector<BroadPhasePair> m_pairs, m_found, m_spare;
   std::vector<Heaped> m_heaped;
+  ImpactTree m_all;  // of all bounds, where many are new: in grid units about the first of them
+  std::vector<SweptBox> m_boxes;
+  std::vector<int> m_numbers;
 };
 
 }  // namespace naiad::physics

@@ -29,9 +29,6 @@ constexpr float kRest = 2;
 constexpr double kPushedAgain = 0.5;   // of what pushed a body in the last step: it may again
 constexpr double kEverywhere = 1e300;  // metric cells
 constexpr double kLarge = 4;           // times the size of another body
-// Of the speed at which two bodies meet: by how much the speed of either may change. What bounces off
-// something heavy leaves as fast as it came.
-constexpr double kStir = 2;
 // Over the pairs that fly past each other. A push that has not gone all its way by then may reach all of
 // them.
 constexpr int kMaxSweeps = 32;
@@ -40,6 +37,11 @@ constexpr int kMaxSweeps = 32;
 double gapBetween(const Bounds& a, const Bounds& b, Vec2 offset) {
   return std::max(std::max(offset.x + b.lower.x - a.upper.x, a.lower.x - b.upper.x - offset.x),
                   std::max(offset.y + b.lower.y - a.upper.y, a.lower.y - b.upper.y - offset.y));
+}
+
+// Of the speed at which two bodies meet: by how much the speed of the lighter one may change.
+double reboundOf(const SubstepBody& a, const SubstepBody& b) {
+  return 1 + std::max(a.body.restitution, b.body.restitution);
 }
 
 }  // namespace
@@ -222,7 +224,7 @@ bool SubstepWorld::mayMeet(Pair& pair) {
     // However they turn, they stay within their circles.
     if (length(offset) > margin - a.roll - b.roll + a.reach + b.reach) return false;
     const bool are_slow = a.margin <= kSlowMargin * a.thickness && b.margin <= kSlowMargin * b.thickness;
-    const double by = are_slow ? 0 : kStir * calmMargin(a, b);
+    const double by = are_slow ? 0 : reboundOf(a, b) * calmMargin(a, b);
     stir(a, by);
     stir(b, by);
     return true;
@@ -236,7 +238,7 @@ bool SubstepWorld::mayMeet(Pair& pair) {
     m_calm.push_back({nearer, static_cast<std::int32_t>(&pair - m_pairs.data())});
     return false;
   }
-  const double by = std::max({stirOf(a), stirOf(b), kStir * rolled});
+  const double by = std::max({stirOf(a), stirOf(b), reboundOf(a, b) * rolled});
   unite(a, b);
   stir(a, by);
   stir(b, by);

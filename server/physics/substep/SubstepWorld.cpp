@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kRollKept = 0.02;  // thicknesses that a corner may move before bounds are measured again
 
+bool isPulled(const RigidBody& body) {
+  return body.acceleration != Vec2{} || body.force != Vec2{} || body.torque != 0;
+}
+
 }  // namespace
 
 void SubstepWorld::expect(std::size_t bodies) {
@@ -91,7 +95,9 @@ void SubstepWorld::enter(int id) {
   SubstepBody& b = m_bodies[at(id)];
   b.is_frozen = b.is_asleep = false;
   b.ring = id;
-  b.still = b.margin = b.roll = 0;
+  // Where nothing pulls at it, it counts as still since long ago: what begins at rest sleeps at once.
+  b.still = isPulled(b.body) ? 0 : m_options.sleep_delay - 1;
+  b.margin = b.roll = b.first_speed = 0;
   b.drift = {};
   m_active_changed = true;
   if (!isMovable(b)) markChanged(id);

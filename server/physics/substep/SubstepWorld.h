@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "physics/broadphase/BroadPhase.h"
@@ -102,7 +103,12 @@ class SubstepWorld final : public RigidStepper {
     Vec2 path;
     double roll, thickness;
     std::int32_t id;
+    GridBounds way;          // what it sweeps
+    std::int32_t near = -1;  // what may be in its way: the first of its list in m_near
     bool is_stopped = false;
+  };
+  struct Near {
+    std::int32_t id, next;
   };
   static constexpr std::int32_t kSlowNumber = -1;
   struct Slow {
@@ -163,7 +169,11 @@ class SubstepWorld final : public RigidStepper {
   SweptBox seenPath(const Fast& fast) const;
   static GridBounds sweptBounds(const SubstepBody& body, Vec2 path);
   bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
-  void findNear(const Fast& fast, const SweptBox& swept);
+  void addNear(Fast& fast, std::int32_t id) {
+    m_near.push_back({id, std::exchange(fast.near, static_cast<std::int32_t>(m_near.size()))});
+  }
+  void approach(int one, int other);
+  void approachAgain(Fast& fast);
   RigidMotion motionOf(const SubstepBody& body) const;
   bool isClear(const SubstepBody& body, Vec2 path);
   void stop(Fast& fast);
@@ -213,7 +223,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_free;
   std::vector<std::int32_t> m_active;  // ids of those that move in this step, by order
   std::vector<std::int32_t> m_changed;
-  std::vector<std::int32_t> m_near;
+  std::vector<Near> m_near;
   std::vector<Fast> m_fast;
   std::vector<std::int32_t> m_fast_numbers;  // by id: which of these
   std::vector<Slow> m_slow;                  // the others, if the fast ones are many

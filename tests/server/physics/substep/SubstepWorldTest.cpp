@@ -69,13 +69,46 @@ TEST(SubstepWorld, WhatFloatsAtRestSleepsAndWhatDriftsDoesNot) {
       body.velocity = {drift, 0};
       scene.add(body, shape);
     }
+    scene.world.setSleeping(false);
     scene.ticks(2);
     double fastest = 0;
     for (int id = 0; id < 36; ++id) fastest = std::max(fastest, scene.speed(id));
     EXPECT_GT(fastest, 0);
+    scene.world.setSleeping(true);
     scene.ticks(38);
     for (int id = 0; id < 36; ++id) EXPECT_EQ(scene.world.isAsleep(id), drift == 0) << id;
   }
+}
+
+// Not what gravity pulls, nor what has just been woken.
+TEST(SubstepWorld, WhatBeginsAtRestWithoutGravitySleepsAtOnce) {
+  SubstepScene scene;
+  const ConvexShape shape = boxShape(0.2, 0.2);
+  RigidBody body = movable({0, 0}, shape);
+  const int falling = scene.add(body, shape);
+  body.acceleration = {};
+  body.place = placeAt({3, 0});
+  const int floating = scene.add(body, shape);
+  body.place = placeAt({1, 0});
+  body.velocity = {0.7, 0};
+  const int flying = scene.add(body, shape);
+  scene.ticks(1);
+  EXPECT_FALSE(scene.world.isAsleep(falling) || scene.world.isAsleep(flying));
+  EXPECT_TRUE(scene.world.isAsleep(floating));
+  scene.ticks(2);
+  EXPECT_FALSE(scene.world.isAsleep(floating));
+  EXPECT_GT(scene.speed(floating), 0.1);
+  body = scene.world.body(floating);
+  body.velocity = {};
+  body.spin = 0;
+  scene.world.set(floating, body);
+  RigidBody away = scene.world.body(flying);
+  away.place = placeAt({30, 0});
+  scene.world.set(flying, away);
+  scene.ticks(10);
+  EXPECT_FALSE(scene.world.isAsleep(floating));
+  scene.ticks(10);
+  EXPECT_TRUE(scene.world.isAsleep(floating));
 }
 
 TEST(SubstepWorld, SleepingCanBeSwitchedOff) {
