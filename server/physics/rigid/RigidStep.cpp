@@ -22,6 +22,15 @@ constexpr double kFast = 2;
 constexpr double kPass =
     0.5;  // most that such a body moves in a sub-step: it passes nothing of half its size
 
+// Kicks whose accelerations grow, from below their mean to above it. The last factor makes the path end where
+// that of an acceleration ends which grows steadily: half a kick at both ends of a sub-step is not that.
+void bendKicks(RigidState& state, Vec2 jerk, double h, double substeps) {
+  if (substeps < 2) return;
+  const double square = substeps * substeps;
+  state.kick_growth = (0.5 * h * h * square / (square - 1)) * jerk;
+  state.kick -= (0.5 * (substeps - 1)) * state.kick_growth;
+}
+
 }  // namespace
 
 void RigidWorld::beginBody(int id, double dt) {
@@ -52,6 +61,7 @@ void RigidWorld::beginBody(int id, double dt) {
     state.inverse_mass = body.inverse_mass;
     state.inverse_inertia = body.inverse_inertia;
     state.kick = (0.5 * m_h) * acceleration;
+    if (body.jerk != Vec2{}) bendKicks(state, body.jerk, m_h, m_options.substeps);
     state.spin_kick = 0.5 * m_h * spin_gain;
     state.keep = kept(body.linear_damping);
     state.spin_keep = kept(body.angular_damping);
@@ -121,6 +131,7 @@ void RigidWorld::kick(bool is_second) {
     if (is_second) {
       s.velocity = s.keep * s.velocity + s.kick;
       s.spin = s.spin_keep * s.spin + s.spin_kick;
+      s.kick += s.kick_growth;
     } else {
       s.velocity = s.keep * (s.velocity + s.kick);
       s.spin = s.spin_keep * (s.spin + s.spin_kick);

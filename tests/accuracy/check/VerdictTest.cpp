@@ -37,9 +37,6 @@ constexpr Miss kMisses[] = {
     {"fast", "stir_m_20", 0.4},
     {"fast", "stir_m_30", 1},
     {"fast", "stir_m_60", 1},
-    // A field in sub-steps: bounded, but by turns above and below its start.
-    {"default", "energy_gain_field1e0", 0.06},
-    {"default", "energy_gain_field1e-2", 0.001},
 };
 
 const Miss* findMiss(const std::string& level, const std::string& metric) {
