@@ -259,8 +259,7 @@ bool ImpactWorld::touchCandidates() {
     if (m_motions[pair.id].is_frozen || m_motions[pair.other].is_frozen) continue;
     const int a = std::min(pair.id, pair.other), b = std::max(pair.id, pair.other);
     const PairState state = pairState(a, b, ImpactAxis::kNearest);
-    const bool are_boxes =
-        m_bodies[a].shape == ImpactShape::kBox && m_bodies[b].shape == ImpactShape::kBox;
+    const bool are_boxes = m_bodies[a].shape == ImpactShape::kBox && m_bodies[b].shape == ImpactShape::kBox;
     ImpactAxis axis = ImpactAxis::kNearest;
     if (are_boxes) axis = state.touch.normal.x != 0 ? ImpactAxis::kX : ImpactAxis::kY;
     const bool touches = std::fabs(state.touch.gap) <= kImpactSlop &&

@@ -52,9 +52,9 @@ class ImpactWorld {
   static constexpr double kWorkOfTick = 1e6;
   /// … so much for each body, whose own share that is …
   static constexpr double kWorkOfBody = 5e3;
-  /// … and so much for each event, which covers an impact of two bodies, but not the solution of a large group
-  /// that lies there. Events get it until a reserve is empty. A body whose own share is spent when all of it
-  /// is gone is given up for this tick.
+  /// … and so much for each event, which covers an impact of two bodies, but not the solution of a large
+  /// group that lies there. Events get it until a reserve is empty. A body whose own share is spent when all
+  /// of it is gone is given up for this tick.
   static constexpr double kWorkOfEvent = 1e3;
   static constexpr double kUsualReserve = 20'000 * kWorkOfEvent;
   /// Bounds the work of ticks: until then it is not.
@@ -86,6 +86,8 @@ class ImpactWorld {
   /// tick must be moved otherwise, from where it began. It collides with nothing until set().
   bool isGivenUp(int id) const { return m_motions[id].is_given_up; }
   bool hasGivenUp() const { return m_has_given_up; }
+  /// What the last tick has taken.
+  double work() const { return m_work; }
   /// Does the body, which can be pushed, touch anything?
   bool isTouching(int id) const { return m_motions[id].first_contact >= 0; }
   /// What moves it at the end of the last step, with what contacts add.
@@ -136,7 +138,7 @@ class ImpactWorld {
     int next_of_second = -1;
     ImpactAxis axis = ImpactAxis::kNearest;
     bool is_resting = false;
-    bool is_tried = false;  // by touchCandidates(): one only if it presses
+    bool is_tried = false;   // by touchCandidates(): one only if it presses
     bool is_listed = false;  // in m_group_contacts
   };
   /// What a group is solved for: speeds after an impact, accelerations at rest, or places.

@@ -40,9 +40,9 @@ inline bool isSound(const RigidBody& body) {
          isSmall(body.velocity.y) && std::fabs(square - 1) <= 1e-6 && isSmall(body.spin) &&
          isSmall(body.turn_rate) && isPart(body.inverse_mass) && isPart(body.inverse_inertia) &&
          isSmall(body.acceleration.x) && isSmall(body.acceleration.y) && isSmall(body.jerk.x) &&
-         isSmall(body.jerk.y) && isSmall(body.force.x) && isSmall(body.force.y) && isSmall(body.torque) && isPart(body.linear_damping) &&
-         isPart(body.angular_damping) && isPart(body.friction) && body.restitution >= 0 &&
-         body.restitution <= 1;
+         isSmall(body.jerk.y) && isSmall(body.force.x) && isSmall(body.force.y) && isSmall(body.torque) &&
+         isPart(body.linear_damping) && isPart(body.angular_damping) && isPart(body.friction) &&
+         body.restitution >= 0 && body.restitution <= 1;
 }
 
 constexpr bool isMovable(const RigidBody& body) {
