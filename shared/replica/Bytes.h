@@ -44,6 +44,9 @@ class ByteReader {
   }
 
   std::uint64_t varint() {
+    // Most numbers are small.
+    if (m_ok && m_at < m_bytes.size() && static_cast<std::uint8_t>(m_bytes[m_at]) < 0x80)
+      return static_cast<std::uint8_t>(m_bytes[m_at++]);
     std::uint64_t value = 0;
     for (int shift = 0; shift < 64; shift += 7) {
       const std::uint8_t b = byte();

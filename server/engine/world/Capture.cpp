@@ -76,11 +76,10 @@ void Capture::drawOne(ObjectKey key) {
   const std::size_t entry = m_view.drawn.size();
   m_view.drawn.push_back({key, first, 0, store.has(key.slot, WorldStore::kOnView)});
 
-  const auto look = store.has(key.slot, WorldStore::kFrames) ? m_looks.end() : m_looks.find(key.slot);
-  if (look != m_looks.end()) {
-    for (const DrawCommand& c : look->second)
-      m_view.commands.push_back({position + c.position, c.ch, c.color});
-    m_view.drawn[entry].count = static_cast<std::uint32_t>(look->second.size());
+  if (key.slot < m_looks.size() && m_looks[key.slot] && !store.has(key.slot, WorldStore::kFrames)) {
+    const std::vector<DrawCommand>& look = *m_looks[key.slot];
+    for (const DrawCommand& c : look) m_view.commands.push_back({position + c.position, c.ch, c.color});
+    m_view.drawn[entry].count = static_cast<std::uint32_t>(look.size());
     publishLook(entry);
     return;
   }
@@ -102,7 +101,8 @@ void Capture::drawOne(ObjectKey key) {
   const bool frames = store.has(key.slot, WorldStore::kFrames);  // draw() may have set them
   publishLook(entry);
   if (frames || !store.has(key.slot, WorldStore::kStaticLook)) return;
-  auto& relative = m_looks[key.slot];
+  if (m_looks.size() <= key.slot) m_looks.resize(std::size_t{key.slot} + 1);
+  std::vector<DrawCommand>& relative = m_looks[key.slot].emplace();
   for (std::uint32_t i = first; i < first + count; ++i) {
     const DrawCommand& c = m_view.commands[i];
     // Far from the Object the sum might leave the number range when the Object moves.

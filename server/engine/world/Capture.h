@@ -6,7 +6,7 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
+#include <optional>
 #include <vector>
 
 #include "engine/world/Object.h"
@@ -34,7 +34,9 @@ class Capture {
   /// Complete the WorldView, if the world is watched.
   void finishView();
   /// Draw the look of this slot again, if it was static.
-  void forgetLook(std::uint32_t slot) { m_looks.erase(slot); }
+  void forgetLook(std::uint32_t slot) {
+    if (slot < m_looks.size()) m_looks[slot].reset();
+  }
 
   const WorldView& view() const { return m_view; }
   /// The picture in a view with this corner: cell(position) - cell(corner), shaken if the window is, but view
@@ -51,8 +53,8 @@ class Capture {
   World& m_world;
   WorldView m_view;
   ObjectKey m_drawing;  // its draw() is running; generation 0: none is
-  std::array<std::vector<ObjectKey>, MAX_ALTITUDE + 1> m_by_altitude;   // scratch of drawAll()
-  std::unordered_map<std::uint32_t, std::vector<DrawCommand>> m_looks;  // static ones, relative
+  std::array<std::vector<ObjectKey>, MAX_ALTITUDE + 1> m_by_altitude;  // scratch of drawAll()
+  std::vector<std::optional<std::vector<DrawCommand>>> m_looks;        // static ones, relative, by slot
 };
 
 }  // namespace df

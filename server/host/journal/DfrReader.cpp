@@ -75,6 +75,13 @@ std::optional<TurnRecord> DfrReader::next() {
   }
 }
 
+// Unpacking is what a file of some size takes its time for.
+void DfrReader::skipToEnd() {
+  m_skips = true;
+  m_records = {};
+  while (!m_ended) readChunk();
+}
+
 bool DfrReader::readChunk() {
   const auto chunk = nextChunk();
   if (chunk && !takeChunk(*chunk)) m_end = DfrEnd::kDamaged;
@@ -132,6 +139,7 @@ bool DfrReader::readTurns(std::string_view payload) {
   m_offset += count;
   if (count > kMaxDfrPayload || m_offset > kMaxRatio * m_bytes.size() + kMaxDfrPayload) return false;
   m_unpacked.clear();
+  if (m_skips) return packing == kDfrModelled || (packing == kDfrRaw && packed.size() == count);
   if (packing == kDfrModelled) {
     m_unpacker.unpack(packed, count, m_unpacked);
   } else if (packing == kDfrRaw && packed.size() == count) {

@@ -38,6 +38,9 @@ class DfrReader {
   /// The next record. Nothing: the end has come, and end() says which.
   std::optional<TurnRecord> next();
   DfrEnd end() const { return m_end; }
+  /// Go to the end without unpacking what is left: wholeBytes(), streamBytes() and end() are as if next() had
+  /// come there, if each record is good that the chunks say they have. Nothing can be read from then on.
+  void skipToEnd();
   /// Bytes of the file that have been read: whole chunks.
   std::size_t wholeBytes() const { return m_at; }
   /// Bytes of the stream of records in them.
@@ -74,6 +77,7 @@ class DfrReader {
   RecordUnpacker m_unpacker;
   std::string m_unpacked;
   std::string* m_p_copy = nullptr;
+  bool m_skips = false;
   bool m_ended = false;
   DfrEnd m_end = DfrEnd::kTorn;
   std::string m_why;

@@ -38,7 +38,7 @@ std::optional<DfrHeader> headerOf(const fs::path& path) {
 std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) {
   const std::string bytes = readFile(path);
   DfrReader reader(bytes);
-  while (reader.next()) continue;
+  reader.skipToEnd();
   if (reader.end() == DfrEnd::kDone) return 0;
   const auto rest = ring.bytesFrom(reader.streamBytes());
   if (!rest) return 0;

@@ -105,6 +105,7 @@ bool TurnRecordWriter::write(const WorldTurn& turn, std::string& out) {
     copyHead(turn, m_last);
   }
   if (!turn.inputs.empty()) visitInputs(fields, turn.inputs);
+  fields.finish();
   append(out);
   return true;
 }
@@ -113,6 +114,7 @@ void TurnRecordWriter::write(const TickResult& result, std::string& out) {
   FieldWriter fields(m_fields);
   fields.number(kRecordedResult, 0, 255);
   visitResult(fields, result);
+  fields.finish();
   append(out);
 }
 
@@ -121,6 +123,7 @@ void TurnRecordWriter::write(const RecordedPicture& picture, std::string& out) {
   fields.number(kRecordedPicture, 0, 255);
   fields.number(picture.player);
   visitPicture(fields, picture.canvas);
+  fields.finish();
   append(out);
 }
 
@@ -128,12 +131,14 @@ void TurnRecordWriter::write(const KeptSession& session, std::string& out) {
   FieldWriter fields(m_fields);
   fields.number(kRecordedSession, 0, 255);
   visitSession(fields, session);
+  fields.finish();
   append(out);
 }
 
 void TurnRecordWriter::write(const InputsDropped& /*dropped*/, std::string& out) {
   FieldWriter fields(m_fields);
   fields.number(kRecordedDrop, 0, 255);
+  fields.finish();
   append(out);
 }
 

@@ -257,12 +257,13 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
 // Clients that look for a lost server ask again in a moment, and show the sentence.
 void Admission::judgeWaiting() {
   const int percent = m_setup.rooms.recovering().value_or(100);
+  const std::chrono::milliseconds patience = percent > 50 ? kNearEndWait : kRecoveryWait;
   for (const WaitingHello& one : std::exchange(m_waiting, {})) {
     Session* p_session = m_setup.sessions.find(one.session);
     if (p_session == nullptr || p_session->state() != Session::State::kGreeting) continue;
     if (!waitsForRound(*one.hello)) {
       judgeHello(*p_session, *one.hello);
-    } else if (p_session->now() - one.since < kRecoveryWait) {
+    } else if (p_session->now() - one.since < patience) {
       m_waiting.push_back(one);
     } else {
       refuseBusy(*p_session,

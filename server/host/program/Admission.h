@@ -62,8 +62,11 @@ class Admission {
   /// The world whose window and help go into welcomes. Before the first hello.
   void setWorld(const df::World& world) { m_p_world = &world; }
 
-  /// While a round is executed again, a hello waits for so long before the client hears how far that is.
+  /// While a round is executed again, a hello waits for so long before the client hears how far that is, …
   static constexpr std::chrono::milliseconds kRecoveryWait{1000};
+  /// … or for so long if more than half is done by then: who was sent away would look again only after the
+  /// end. Less than Session::kJudgeTimeout.
+  static constexpr std::chrono::milliseconds kNearEndWait{3000};
 
   /// Refuse or welcome the session that heard this hello: now, or once its password has been checked, or the
   /// round of a server that was killed has been executed again.

@@ -32,50 +32,81 @@ inline constexpr std::size_t kMaxWorldFrame = std::size_t{16} << 20;
 /// Of its length.
 inline constexpr std::size_t kWorldFrameHead = 4;
 
+/// Complete only after finish(): a view of a world is thousands of numbers a tick, which go straight into
+/// memory that is there.
 class FieldWriter {
  public:
   /// Begins a frame in `out`, whose memory is used again.
-  explicit FieldWriter(std::string& out) : m_out(out), m_bytes(out) { m_out.assign(kWorldFrameHead, '\0'); }
+  explicit FieldWriter(std::string& out) : m_out(out) {
+    if (m_out.size() < kFirstSize) m_out.resize(kFirstSize);
+    m_p_next = m_out.data() + kWorldFrameHead;
+    m_p_end = m_out.data() + m_out.size();
+  }
   /// Complete it. False: it is too long to be sent.
   bool finish() {
-    const std::size_t size = m_out.size() - kWorldFrameHead;
-    if (size > kMaxWorldFrame) return false;
-    storeLittleEndian(static_cast<std::uint32_t>(size), m_out.data());
+    m_out.resize(size());
+    const std::size_t fields = m_out.size() - kWorldFrameHead;
+    if (fields > kMaxWorldFrame) return false;
+    storeLittleEndian(static_cast<std::uint32_t>(fields), m_out.data());
     return true;
   }
 
-  void flag(bool value) { m_bytes.byte(value ? 1 : 0); }
+  void flag(bool value) {
+    *room(1) = value ? 1 : 0;
+    ++m_p_next;
+  }
   /// Any integer or enumeration, from `least` to `most`.
   template <class T>
   void number(T value, std::int64_t least, std::int64_t most) {
-    m_bytes.varint(
-        static_cast<std::uint64_t>(std::clamp(static_cast<std::int64_t>(value), least, most) - least));
+    varint(static_cast<std::uint64_t>(std::clamp(static_cast<std::int64_t>(value), least, most) - least));
   }
-  void number(std::uint32_t value) { number(value, 0, std::numeric_limits<std::uint32_t>::max()); }
+  void number(std::uint32_t value) { varint(value); }
   /// 64 bits within ±`most`.
   void fixed(df::Fixed value, df::Fixed most) {
-    char bytes[8];
-    storeLittleEndian(static_cast<std::uint64_t>(std::clamp(value, -most, most)), bytes);
-    m_bytes.bytes({bytes, sizeof bytes});
+    storeLittleEndian(static_cast<std::uint64_t>(std::clamp(value, -most, most)), room(8));
+    m_p_next += 8;
   }
   /// At most so many bytes.
   void text(std::string_view value, std::size_t most) {
     value = value.substr(0, most);
-    m_bytes.varint(value.size());
-    m_bytes.bytes(value);
+    varint(value.size());
+    m_p_next = std::copy(value.begin(), value.end(), room(value.size()));
   }
   /// The first `most` of them, each by `visit(*this, element)`.
   template <class T, class Visit>
   void list(const std::vector<T>& values, std::size_t most, Visit visit) {
     const std::size_t count = std::min(values.size(), most);
-    m_bytes.varint(count);
+    varint(count);
     for (std::size_t i = 0; i < count; ++i) visit(*this, values[i]);
   }
   static constexpr bool kReads = false;
 
  private:
+  static constexpr std::size_t kFirstSize = 256;
+  static constexpr std::size_t kMaxVarint = 10;
+
+  std::size_t size() const { return static_cast<std::size_t>(m_p_next - m_out.data()); }
+  /// Where the next `count` bytes go.
+  char* room(std::size_t count) {
+    if (static_cast<std::size_t>(m_p_end - m_p_next) < count) grow(count);
+    return m_p_next;
+  }
+  void grow(std::size_t count);
+  void varint(std::uint64_t value) {
+    char* p = room(kMaxVarint);
+    if (value < 0x80) {  // most are
+      *p = static_cast<char>(value);
+      m_p_next = p + 1;
+      return;
+    }
+    for (; value >= 0x80; value >>= 7) *p++ = static_cast<char>(static_cast<std::uint8_t>(value) | 0x80);
+    *p++ = static_cast<char>(value);
+    m_p_next = p;
+  }
+
   std::string& m_out;
-  ByteWriter m_bytes;
+  char* m_p_next = nullptr;
+  char* m_p_end = nullptr;
 };
 
 /// Fails at the first thing that is wrong, and stays failed.

@@ -36,7 +36,9 @@ void tryTurn(std::string_view bytes) {
 /// The id of this build, with which no input could begin by chance.
 std::string ownBegin() {
   std::string frame;
-  FieldWriter(frame).text(ownBuildId(), kMaxBuildId);
+  FieldWriter out(frame);
+  out.text(ownBuildId(), kMaxBuildId);
+  out.finish();
   return frame.substr(kWorldFrameHead);
 }
 

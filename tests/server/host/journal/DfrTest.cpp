@@ -147,6 +147,26 @@ TEST(DfrTest, AFileThatIsTornAtAnyByteOpensUpToItsLastWholeRecord) {
   }
 }
 
+TEST(DfrTest, SkippingToTheEndGetsAsFarAsReading) {
+  const auto expect_same = [](std::string_view bytes, std::size_t at) {
+    DfrReader reader(bytes);
+    countRecords(reader);
+    DfrReader skipped(bytes);
+    skipped.skipToEnd();
+    EXPECT_EQ(skipped.end(), reader.end()) << at;
+    EXPECT_EQ(skipped.wholeBytes(), reader.wholeBytes()) << at;
+    EXPECT_EQ(skipped.streamBytes(), reader.streamBytes()) << at;
+    EXPECT_FALSE(skipped.next()) << at;
+  };
+  const SmallFile file;
+  for (std::size_t at = 0; at <= file.bytes.size(); at += kEachByte) {
+    expect_same(std::string_view(file.bytes).substr(0, at), at);
+    std::string changed = file.bytes + '\0';
+    changed[at] = static_cast<char>(changed[at] ^ 0x10);
+    expect_same(changed, at);
+  }
+}
+
 TEST(DfrTest, BlocksThatWereNeverWrittenReadAsATornFile) {
   const SmallFile file;
   const std::string bytes = file.bytes.substr(0, file.records_at[2].first) + std::string(4096, '\0');

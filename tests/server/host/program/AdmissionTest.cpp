@@ -49,6 +49,9 @@ class FakeWorld : public WorldPort {
     return m_closed && m_ends ? std::optional(WorldEnd()) : std::nullopt;
   }
   void close() override { m_closed = true; }
+  std::optional<int> recovering() const override { return percent; }
+
+  std::optional<int> percent;
 
  private:
   int& m_worlds;
@@ -123,6 +126,20 @@ class AdmissionTest : public testing::Test {
     rooms.checkWorlds();
     return welcome;
   }
+  /// A round of a server that was killed is executed again.
+  FakeWorld& recover(int percent) {
+    auto room = std::make_unique<FakeWorld>(worlds, worlds_end);
+    FakeWorld& recovering = *room;
+    recovering.percent = percent;
+    rooms.setWorlds(
+        [made = std::make_shared<std::unique_ptr<FakeWorld>>(std::move(room))] { return std::move(*made); });
+    return recovering;
+  }
+  bool waitsAfter(const Client& client, std::chrono::milliseconds time) {
+    now += time;
+    admission().judgeWaiting();
+    return !client.isWelcome() && !client.isRefused();
+  }
   void playInPrivate() {
     options.players = "private";
     rooms.setWorlds([this] { return std::make_unique<FakeWorld>(worlds, worlds_end); });
@@ -183,6 +200,35 @@ TEST_F(AdmissionTest, AHelloMakesAPlayerWhoIsWelcomed) {
   EXPECT_NE(rooms.findPlayer(ann.welcome().player()), nullptr);
   EXPECT_EQ(counters.joined, 2u);
   EXPECT_EQ(new_clients, 2);
+}
+
+TEST_F(AdmissionTest, AHelloWaitsASecondForARoundThatIsExecutedAgain) {
+  FakeWorld& room = recover(50);
+  const Client& client = greet(helloOf("Ann"));
+  EXPECT_TRUE(waitsAfter(client, 999ms));
+  EXPECT_FALSE(waitsAfter(client, 1ms));
+  EXPECT_EQ(client.refusal(), wire::Refused::BUSY);
+  room.percent.reset();
+  EXPECT_TRUE(greet(helloOf("Ann")).isWelcome());
+}
+
+TEST_F(AdmissionTest, AHelloWaitsForTheRestOfARoundThatIsMoreThanHalfDone) {
+  FakeWorld& room = recover(40);
+  const Client& client = greet(helloOf("Ann"));
+  EXPECT_TRUE(waitsAfter(client, 999ms));
+  room.percent = 51;
+  EXPECT_TRUE(waitsAfter(client, 2000ms));
+  room.percent.reset();
+  EXPECT_FALSE(waitsAfter(client, 0ms));
+  EXPECT_TRUE(client.isWelcome());
+}
+
+TEST_F(AdmissionTest, ARoundThatNeverEndsKeepsNoHelloForEver) {
+  recover(99);
+  const Client& client = greet(helloOf("Ann"));
+  EXPECT_TRUE(waitsAfter(client, 2999ms));
+  EXPECT_FALSE(waitsAfter(client, 1ms));
+  EXPECT_EQ(client.refusal(), wire::Refused::BUSY);
 }
 
 TEST_F(AdmissionTest, AnotherVersionOrGameIsRefused) {
