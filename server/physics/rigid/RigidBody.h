@@ -18,7 +18,8 @@ struct RigidBody {
   double spin = 0;             ///< rad per tick
   double inverse_mass = 1;     ///< 0: static, or kinematic if it has a velocity
   double inverse_inertia = 0;  ///< 0: nothing but its own spin turns it
-  Vec2 acceleration;           ///< gravity and the like, constant within a step
+  Vec2 acceleration;           ///< gravity and the like; its mean over a step
+  Vec2 jerk;                   ///< by how much it grows per tick within a step
   double turn_rate = 0;        ///< of a magnet that turns its velocity (MagnetTurn.h): rad per tick
   double torque = 0;           ///< counts from set() until the next set()
   double friction = 0;         ///< >= 0; of a pair the geometric mean counts
@@ -35,8 +36,9 @@ inline bool isSound(const RigidBody& body) {
   return std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1 && isSmall(body.velocity.x) &&
          isSmall(body.velocity.y) && std::fabs(square - 1) <= 1e-6 && isSmall(body.spin) &&
          isSmall(body.turn_rate) && isPart(body.inverse_mass) && isPart(body.inverse_inertia) &&
-         isSmall(body.acceleration.x) && isSmall(body.acceleration.y) && isSmall(body.torque) &&
-         isPart(body.friction) && body.restitution >= 0 && body.restitution <= 1;
+         isSmall(body.acceleration.x) && isSmall(body.acceleration.y) && isSmall(body.jerk.x) &&
+         isSmall(body.jerk.y) && isSmall(body.torque) && isPart(body.friction) && body.restitution >= 0 &&
+         body.restitution <= 1;
 }
 
 constexpr bool isMovable(const RigidBody& body) {

@@ -22,6 +22,15 @@ constexpr double kFast = 2;
 constexpr double kPass =
     0.5;  // most that such a body moves in a sub-step: it passes nothing of half its size
 
+// Kicks whose accelerations grow, from below their mean to above it. The last factor makes the path end where
+// that of an acceleration ends which grows steadily: half a kick at both ends of a sub-step is not that.
+void bendKicks(RigidState& state, Vec2 jerk, double h, double substeps) {
+  if (substeps < 2) return;
+  const double square = substeps * substeps;
+  state.kick_growth = (0.5 * h * h * square / (square - 1)) * jerk;
+  state.kick -= (0.5 * (substeps - 1)) * state.kick_growth;
+}
+
 }  // namespace
 
 void RigidWorld::beginBody(int id, double dt) {
@@ -48,6 +57,7 @@ void RigidWorld::beginBody(int id, double dt) {
     state.inverse_mass = body.inverse_mass;
     state.inverse_inertia = body.inverse_inertia;
     state.kick = (0.5 * m_h) * acceleration;
+    if (body.jerk != Vec2{}) bendKicks(state, body.jerk, m_h, m_options.substeps);
     state.spin_kick = 0.5 * m_h * spin_gain;
   }
   extra.moved = extra.rolled = extra.travelled = 0;
@@ -109,11 +119,12 @@ void RigidWorld::beginStep(double dt) {
   }
 }
 
-void RigidWorld::kick() {
+void RigidWorld::kick(bool is_second) {
   for (const int id : m_active) {
     RigidState& s = m_states[at(id)];
     s.velocity += s.kick;
     s.spin += s.spin_kick;
+    if (is_second) s.kick += s.kick_growth;
   }
 }
 
@@ -270,7 +281,7 @@ void RigidWorld::substep(double h) {
   for (ContactConstraint& c : m_constraints) {
     if (physics::beginSubstep(c, m_states, h)) is_deep = true;
   }
-  kick();
+  kick(false);
   m_joints.beginFirstHalf(m_states, h);
   for (ContactConstraint& c : m_constraints) beginFirstHalf(c, m_states);
   solve(false);
@@ -279,7 +290,7 @@ void RigidWorld::substep(double h) {
   m_joints.refresh(m_states);
   for (ContactConstraint& c : m_constraints) physics::refresh(c, m_states);
   if (m_has_flown) dropParted();
-  kick();
+  kick(true);
   m_joints.beginSecondHalf(m_states, h);
   for (ContactConstraint& c : m_constraints) beginSecondHalf(c, m_states, h);
   solve(true);

@@ -210,7 +210,7 @@ class RigidWorld final : public RigidStepper {
   void substep(double h);
   void solve(bool is_second);
   void pushOut(double h);
-  void kick();
+  void kick(bool is_second);
   void turnByMagnets(double h);
   void drift(double h);
   void move(int id, double h);
