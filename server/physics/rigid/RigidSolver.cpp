@@ -330,7 +330,13 @@ double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_
   Pushed a(state_a), b(state_b);
   if (c.friction > 0) {
     // Friction needs something to press on.
-    if (c.points[0].normal_warm + c.points[1].normal_warm == 0) solveNormals(c, a, b, is_second);
+    const ContactPoint &p = c.points[0], &q = c.points[1];
+    if (p.normal_warm + q.normal_warm == 0) {
+      const double change = solveNormals(c, a, b, is_second);
+      const bool is_idle = p.normal_impulse == 0 && q.normal_impulse == 0 && change == 0 &&
+                           p.friction_impulse == 0 && q.friction_impulse == 0;
+      if (is_idle) return 0;
+    }
     solveFriction(c, a, b);
   }
   const double change = solveNormals(c, a, b, is_second);

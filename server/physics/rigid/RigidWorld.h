@@ -101,11 +101,10 @@ class RigidWorld final : public RigidStepper {
   struct Extra {
     std::vector<ConvexShape> shapes;
     std::vector<TurnedShape> turned;
-    std::int32_t proxy = -1;
     double reach = 0;          // of all shapes from the centre
+    double margin = 0;         // how far around it contacts were searched in this step
     double thickness = 0;      // the least half width of any shape
     double size = 0;           // the radius of a disc of the same area
-    double margin = 0;         // how far around it contacts were searched in this step
     double moved = 0;          // how far any of its points has got in this step, at most
     double rolled = 0;         // the part of it that is due to turning
     Vec2 search_displacement;  // its displacement at the last search
@@ -114,6 +113,7 @@ class RigidWorld final : public RigidStepper {
     double scope = 0;          // how far around it the broad phase searched in this step
     double still = 0;          // ticks
     double first_speed = 0;    // when it began to be still
+    std::int32_t proxy = -1;   // in the broad phase
     double budget = 0;         // of the group of which it is the root, for solving at once
     int wait = 0;              // steps until its group may be solved at once again …
     int patience = 0;          // … and how many they were the last time
@@ -135,6 +135,7 @@ class RigidWorld final : public RigidStepper {
   struct Pair {
     std::int32_t a, b;
     std::int32_t first = -1;  // of its contacts
+    std::int32_t event = -1;  // that it began, in this step
     bool is_touching = false;
     bool is_seen = false;     // in this step
     bool is_jointed = false;  // a joint keeps them from touching

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "physics/geometry/Reserve.h"
+#include "physics/geometry/ShapeDistance.h"
 #include "physics/substep/SubstepWorld.h"
 
 namespace naiad::physics {
@@ -187,13 +188,8 @@ double SubstepWorld::gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset) {
   double nearest = kEverywhere;
   const std::vector<ConvexShape>& shapes = m_forms[large.form].shapes;
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(shapes.size()); ++k) {
-    const TurnedView shape = turnedShape(large, k);
-    double most = gap;
-    for (std::size_t i = 0; i < at(shape.count) && shape.count > 2; ++i) {
-      most = std::max(most, dot(shape.normals[i], to_small - shape.vertices[i]) - shape.radius -
-                                (is_a_large ? b : a).reach);
-    }
-    nearest = std::min(nearest, most);
+    const double reach = (is_a_large ? b : a).reach;
+    nearest = std::min(nearest, std::max(gap, faceGap(turnedShape(large, k), to_small, reach)));
   }
   return nearest;
 }
