@@ -47,11 +47,16 @@ template <int N, class System>
 class Step {
  public:
   Step(const System& system, const IntegratorOptions& options, IntegratorCounters& counters)
-      : m_system(system),
-        m_counters(counters),
-        m_absolute(options.stiff_absolute),
-        m_relative(options.stiff_relative),
-        m_newton_limit(std::max(0x1p-48 / m_relative, 0.01)) {}
+      : m_system(system), m_options(options), m_counters(counters) {
+    loosen(1);
+  }
+
+  /// Tolerances are so many times those of the options.
+  void loosen(double factor) {
+    m_absolute = factor * m_options.stiff_absolute;
+    m_relative = factor * m_options.stiff_relative;
+    m_newton_limit = std::max(0x1p-48 / m_relative, 0.01);
+  }
 
   /// The derivative at the start of the step.
   const StateVector<N>& rate() const { return m_rate; }
@@ -72,6 +77,22 @@ class Step {
     const bool has_converged = decompose(length) && iterate(t, y, length);
     if (!has_converged) m_last_length = 0;
     return has_converged;
+  }
+
+  /// Instead of all that: y += (I − hJ)⁻¹·h·y′.
+  bool takeCoarsely(double t, StateVector<N>& y, double length) {
+    evaluate(t, y, m_rate);
+    findJacobian(t, y);
+    auto& matrix = m_filter.matrix();
+    StateVector<N> change;
+    for (int m = 0; m < N; ++m) {
+      change[m] = length * m_rate[m];
+      for (int n = 0; n < N; ++n) matrix[m][n] = (m == n) - length * m_jacobian[m][n];
+    }
+    if (!m_filter.decompose()) return false;
+    m_filter.solve(change);
+    for (int m = 0; m < N; ++m) y[m] += change[m];
+    return true;
   }
 
   /// What the solved step is wrong by, over what is allowed. `is_careful`: filter twice before a rejection.
@@ -220,11 +241,12 @@ class Step {
   }
 
   const System& m_system;
+  const IntegratorOptions& m_options;
   IntegratorCounters& m_counters;
-  double m_absolute;
-  double m_relative;
-  double m_newton_limit;  // the part of the allowed error that the iteration may leave; rounding sets a floor
-                          // to it
+  double m_absolute = 0;
+  double m_relative = 0;
+  double m_newton_limit = 0;  // the part of the allowed error that the iteration may leave; rounding sets a
+                              // floor to it
   StateVector<N> m_rate{};
   StateMatrix<N> m_jacobian{};
   bool m_has_jacobian = false;
