@@ -44,7 +44,6 @@ class BodyLayer : public Layer {
   std::int64_t sensorPairs() const { return m_sensors.pairs(); }
   const naiad::physics::RigidCounters& rigidCounters() const { return m_rigid_world.counters(); }
   const naiad::physics::SubstepCounters& substepCounters() const { return m_substep_world.counters(); }
-  const naiad::physics::JointCounters& jointCounters() const { return m_links.counters(); }
 
  private:
   using State = naiad::physics::BodyState;

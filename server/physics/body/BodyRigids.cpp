@@ -281,7 +281,7 @@ void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<Bod
   for (BodyState& state : states) {
     if (state.solver == m_solver) state.is_touched = contacts.isTouching(state.key);
   }
-  m_world.step(1);
+  m_world.step();
   collect(states, contacts);
   finish(table, states, contacts);
 }

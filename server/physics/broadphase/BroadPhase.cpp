@@ -54,7 +54,9 @@ std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool move
     proxy = m_free.back();
     m_free.pop_back();
   }
-  m_proxies[index(proxy)] = {id, BroadPhaseTree::kNone, moves, false, false, false, false, order, wide};
+  Proxy& own = m_proxies[index(proxy)];
+  const bool is_pending = own.is_pending;  // since the one that had this number before
+  own = {id, BroadPhaseTree::kNone, moves, false, false, is_pending, false, 0, order, wide};
   ++m_count;
   markPending(proxy);
   markChanged(proxy);
@@ -89,10 +91,14 @@ void BroadPhase::markPending(std::int32_t proxy) {
   m_pending.push_back(proxy);
 }
 
+bool BroadPhase::areMany(std::size_t proxies) const {
+  return proxies >= kRebuilt && proxies * kRebuiltShare >= m_count;
+}
+
 // Where many have new bounds the tree is built again.
 void BroadPhase::updateTree() {
   if (m_pending.empty()) return;
-  const bool are_many = m_pending.size() >= kRebuilt && m_pending.size() * kRebuiltShare >= m_count;
+  const bool are_many = areMany(m_pending.size());
   for (const std::int32_t proxy : m_pending) {
     Proxy& own = m_proxies[index(proxy)];
     own.is_pending = false;
@@ -144,6 +150,53 @@ void BroadPhase::keepNearest() {
 }
 
 // Of two changed proxies, the one that comes first finds the pair.
+BroadPhase::Proxy& BroadPhase::finderOf(std::int32_t a, std::int32_t b) {
+  Proxy &one = m_proxies[index(a)], &other = m_proxies[index(b)];
+  return one.changed && !(other.changed && isBefore(b, a)) ? one : other;
+}
+
+bool BroadPhase::isHeap(const Proxy& a, const Proxy& b) const {
+  return m_thins_crowds && a.moves && b.moves && areHeaped(a.bounds, b.bounds);
+}
+
+// Of those that find too many the pairs are looked for once more, one after the other.
+void BroadPhase::findAllPairs() {
+  m_boxes.clear();
+  m_numbers.clear();
+  const GridBounds& origin = m_proxies[0].bounds;
+  const auto relative = [&](std::int64_t x, std::int64_t y) {
+    return Vec2{static_cast<double>(x - origin.lower_x), static_cast<double>(y - origin.lower_y)};
+  };
+  for (std::size_t i = 0; i < m_proxies.size(); ++i) {
+    const GridBounds& b = m_proxies[i].bounds;
+    m_proxies[i].heaped = 0;
+    if (m_proxies[i].is_removed) continue;
+    m_boxes.push_back({relative(b.lower_x, b.lower_y), relative(b.upper_x, b.upper_y)});
+    m_numbers.push_back(static_cast<int>(i));
+    if (m_proxies[i].changed) m_proxies[i].is_thinned = false;
+  }
+  m_all.update(m_boxes, m_numbers, static_cast<int>(m_proxies.size()));
+  bool is_crowded = false;
+  m_all.queryPairs([&](int a, int b) {
+    const Proxy &one = m_proxies[index(a)], &other = m_proxies[index(b)];
+    if (!(one.changed || other.changed) || !(one.moves || other.moves)) return;
+    if (isHeap(one, other) && ++finderOf(a, b).heaped > kMaxHeaped) {
+      is_crowded = true;
+      return;
+    }
+    m_found.push_back(one.id < other.id ? BroadPhasePair{one.id, other.id, a, b}
+                                        : BroadPhasePair{other.id, one.id, b, a});
+  });
+  if (!is_crowded) return;
+  updateTree();
+  std::erase_if(m_found, [&](const BroadPhasePair& pair) {
+    return finderOf(pair.proxy_a, pair.proxy_b).heaped > kMaxHeaped;
+  });
+  for (const std::int32_t proxy : m_changed) {
+    if (!m_proxies[index(proxy)].is_removed && m_proxies[index(proxy)].heaped > kMaxHeaped) findPairs(proxy);
+  }
+}
+
 void BroadPhase::findPairs(std::int32_t proxy) {
   Proxy& own = m_proxies[index(proxy)];
   const GridBounds bounds = own.bounds;
@@ -157,7 +210,7 @@ void BroadPhase::findPairs(std::int32_t proxy) {
     const BroadPhasePair pair = own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
                                                  : BroadPhasePair{that.id, own.id, other, proxy};
     const GridBounds& its = that.bounds;
-    if (!(m_thins_crowds && own.moves && that.moves && areHeaped(bounds, its))) {
+    if (!isHeap(own, that)) {
       m_found.push_back(pair);
       return;
     }
@@ -196,10 +249,14 @@ void BroadPhase::sortFound() {
 
 std::span<const BroadPhasePair> BroadPhase::updatePairs() {
   if (m_changed.empty()) return m_pairs;
-  updateTree();
   m_found.clear();
-  for (const std::int32_t proxy : m_changed) {
-    if (!m_proxies[index(proxy)].is_removed) findPairs(proxy);
+  if (areMany(m_changed.size())) {
+    findAllPairs();
+  } else {
+    updateTree();
+    for (const std::int32_t proxy : m_changed) {
+      if (!m_proxies[index(proxy)].is_removed) findPairs(proxy);
+    }
   }
   sortFound();
   // Old pairs of changed bodies were found again if they still are any.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/broadphase/BroadPhaseTree.h"
+#include "physics/broadphase/ImpactTree.h"
 
 namespace naiad::physics {
 
@@ -51,14 +52,6 @@ class BroadPhase {
     updateTree();
     m_tree.query(bounds, [&](std::uint32_t proxy) { visit(m_proxies[proxy].id); });
   }
-  /// visit(id, limit) → new limit, as of BroadPhaseTree.
-  template <class Visit>
-  void castRay(const Place& from, Vec2 displacement, Visit&& visit) {
-    updateTree();
-    m_tree.castRay(from, displacement,
-                   [&](std::uint32_t proxy, double limit) { return visit(m_proxies[proxy].id, limit); });
-  }
-
   /// Has it found so many in one place that some are left out of its pairs?
   bool isThinned(std::int32_t proxy) const { return m_proxies[index(proxy)].is_thinned; }
 
@@ -76,6 +69,7 @@ class BroadPhase {
     bool is_removed;
     bool is_pending;  // its bounds are not those in the tree yet
     bool is_thinned;
+    std::uint32_t heaped;  // pairs of a crowd that it has found, where all are looked for at once
     std::uint64_t order;
     GridBounds bounds;
   };
@@ -89,7 +83,11 @@ class BroadPhase {
   void markPending(std::int32_t proxy);
   void updateTree();
   void rebuildTree();
+  bool areMany(std::size_t proxies) const;
   void findPairs(std::int32_t proxy);
+  void findAllPairs();
+  Proxy& finderOf(std::int32_t a, std::int32_t b);
+  bool isHeap(const Proxy& a, const Proxy& b) const;
   bool isBefore(std::int32_t a, std::int32_t b) const;
   void keepNearest();
   void sortFound();
@@ -105,6 +103,9 @@ class BroadPhase {
   std::vector<std::int32_t> m_leaf_proxies, m_leaf_numbers;
   std::vector<BroadPhasePair> m_pairs, m_found, m_spare;
   std::vector<Heaped> m_heaped;
+  ImpactTree m_all;  // of all bounds, where many are new: in grid units about the first of them
+  std::vector<SweptBox> m_boxes;
+  std::vector<int> m_numbers;
 };
 
 }  // namespace naiad::physics

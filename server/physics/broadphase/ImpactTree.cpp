@@ -22,14 +22,14 @@ void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<in
 }
 
 // Parents come before their children, so that refit() goes backwards.
-int ImpactTree::build(int begin, int end, int parent) {
+void ImpactTree::build(int begin, int end, int parent) {
   const int node = static_cast<int>(m_nodes.size());
-  m_nodes.push_back({(*m_boxes)[m_order[begin]], parent, -1, -1, -1});
+  m_nodes.push_back({(*m_boxes)[m_order[begin]], parent, -1, node + 2 * (end - begin) - 1});
   if (end - begin == 1) {
     const int id = m_ids[m_order[begin]];
     m_nodes[node].id = id;
     m_leaf_of[id] = node;
-    return node;
+    return;
   }
   const auto middleOf = [&](int i) { return (*m_boxes)[i].low + (*m_boxes)[i].high; };
   Vec2 low = middleOf(m_order[begin]), high = low;
@@ -45,19 +45,16 @@ int ImpactTree::build(int begin, int end, int parent) {
     const double at_b = is_wide ? middleOf(b).x : middleOf(b).y;
     return at_a != at_b ? at_a < at_b : a < b;
   });
-  const int first = build(begin, half, node);
-  const int second = build(half, end, node);
-  m_nodes[node].first = first;
-  m_nodes[node].second = second;
-  return node;
+  build(begin, half, node);
+  build(half, end, node);
 }
 
 // Returns the sum of the sizes.
 double ImpactTree::refit() {
   double size = 0;
-  for (std::size_t i = m_nodes.size(); i-- > 0;) {
+  for (int i = this->size(); i-- > 0;) {
     Node& node = m_nodes[i];
-    if (node.id < 0) node.box = join(m_nodes[node.first].box, m_nodes[node.second].box);
+    if (node.id < 0) node.box = join(m_nodes[i + 1].box, m_nodes[secondOf(i)].box);
     size += sizeOf(node.box);
   }
   return size;

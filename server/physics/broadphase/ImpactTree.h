@@ -2,7 +2,8 @@
 //
 // The problem is all pairs of swept boxes at once, and again whenever an impact gives a body another path:
 // the tree is built or refitted for a whole tick, and boxes only grow within it. BroadPhaseTree.h keeps its
-// pairs from tick to tick, which pays where widened bounds hardly change.
+// pairs from tick to tick, which pays where widened bounds hardly change; where many of them do, BroadPhase.h
+// finds all pairs with a tree of this kind, too.
 //
 // The order in which a query finds bodies depends on the whole scene; no result may depend on it.
 #pragma once
@@ -48,49 +49,49 @@ class ImpactTree {
   /// Calls found(id) for every body whose box overlaps `box`. If it returns false, that was the last one.
   template <typename Found>
   void query(const SweptBox& box, Found&& found) const {
-    if (m_nodes.empty() || !overlaps(m_nodes[0].box, box)) return;
-    int stack[kDepth];
-    int height = 0;
-    stack[height++] = 0;
-    while (height > 0) {
-      const Node& node = m_nodes[stack[--height]];
-      if (node.id >= 0) {
-        if constexpr (std::is_void_v<decltype(found(node.id))>) {
-          found(node.id);
-        } else if (!found(node.id)) {
-          return;
-        }
+    for (int i = 0; i < size();) {
+      const Node& node = m_nodes[i];
+      if (!overlaps(node.box, box)) {
+        i = node.end;
         continue;
       }
-      if (overlaps(m_nodes[node.first].box, box)) stack[height++] = node.first;
-      if (overlaps(m_nodes[node.second].box, box)) stack[height++] = node.second;
+      ++i;
+      if (node.id < 0) continue;
+      if constexpr (std::is_void_v<decltype(found(node.id))>) {
+        found(node.id);
+      } else if (!found(node.id)) {
+        return;
+      }
     }
   }
 
-  /// Calls found(i, j), i < j, for every two bodies whose boxes overlap, once.
+  /// Calls found(i, j), i < j, for every two bodies whose boxes overlap, once. A few bodies that are side by
+  /// side are asked for together.
   template <typename Found>
-  void queryPairs(Found&& found) const {
-    if (m_nodes.empty()) return;
-    std::pair<int, int> stack[4 * kDepth];  // what is left of each level: two of what one was divided into
-    int height = 0;
-    stack[height++] = {0, 0};
-    while (height > 0) {
-      const auto [a, b] = stack[--height];
-      const Node &one = m_nodes[a], &other = m_nodes[b];
-      if (a == b) {
-        if (one.id >= 0) continue;
-        stack[height++] = {one.first, one.first};
-        stack[height++] = {one.second, one.second};
-        if (overlaps(m_nodes[one.first].box, m_nodes[one.second].box)) {
-          stack[height++] = {one.first, one.second};
+  void queryPairs(Found&& found) {
+    for (int i = 0; i < size();) {
+      const Node& few = m_nodes[i];
+      if (few.end - i > kNodesOfFew) {
+        ++i;
+        continue;
+      }
+      m_near.clear();  // those of the few come first
+      for (int k = i; k < size();) {
+        const Node& node = m_nodes[k];
+        const bool overlapping = overlaps(node.box, few.box);
+        if (overlapping && node.id >= 0) m_near.push_back({node.box, node.id});
+        k = overlapping ? k + 1 : node.end;
+      }
+      const int own = (few.end - i + 1) / 2;
+      for (int k = 0; k < own; ++k) {
+        const Leaf one = m_near[k];
+        for (std::size_t l = k + 1; l < m_near.size(); ++l) {
+          const Leaf& other = m_near[l];
+          if (!overlaps(one.box, other.box)) continue;
+          one.id < other.id ? found(one.id, other.id) : found(other.id, one.id);
         }
-        continue;
       }
-      if (one.id >= 0 && other.id >= 0) {
-        one.id < other.id ? found(one.id, other.id) : found(other.id, one.id);
-        continue;
-      }
-      divide(a, b, stack, height);
+      i = few.end;
     }
   }
 
@@ -107,7 +108,7 @@ class ImpactTree {
     const auto memberOf = [&](int node) {
       int& member = m_member[node];
       if (member >= 0) return member;
-      const int first = m_member[m_nodes[node].first], second = m_member[m_nodes[node].second];
+      const int first = m_member[node + 1], second = m_member[secondOf(node)];
       if (first >= 0 && second >= 0 && areOne(first, second)) member = first;
       return member;
     };
@@ -120,11 +121,10 @@ class ImpactTree {
       if (a == b) {
         if (one.id >= 0) continue;
         // The two against each other at last, when each may have become one.
-        if (overlaps(m_nodes[one.first].box, m_nodes[one.second].box)) {
-          stack[height++] = {one.first, one.second};
-        }
-        stack[height++] = {one.first, one.first};
-        stack[height++] = {one.second, one.second};
+        const int first = a + 1, second = secondOf(a);
+        if (overlaps(m_nodes[first].box, m_nodes[second].box)) stack[height++] = {first, second};
+        stack[height++] = {first, first};
+        stack[height++] = {second, second};
         continue;
       }
       const int i = memberOf(a), j = memberOf(b);
@@ -139,26 +139,32 @@ class ImpactTree {
 
  private:
   static double sizeOf(const SweptBox& box) { return (box.high.x - box.low.x) + (box.high.y - box.low.y); }
-  static constexpr int kDepth = 128;  // halved at every level: far more than any number of bodies needs
-  struct Node {
+  static constexpr int kDepth = 128;      // halved at every level: far more than any number of bodies needs
+  static constexpr int kNodesOfFew = 15;  // eight bodies and what is above them
+  struct Node {                           // its first child is the next one
     SweptBox box;
     int parent;
-    int id;  // of the leaf's body; −1 above
-    int first;
-    int second;
+    int id;   // of the leaf's body; −1 above
+    int end;  // the first node that is not below it
   };
+  struct Leaf {
+    SweptBox box;
+    int id;
+  };
+  int size() const { return static_cast<int>(m_nodes.size()); }
+  int secondOf(int node) const { return m_nodes[node + 1].end; }
 
   // Of two nodes the larger one is divided.
   void divide(int a, int b, std::pair<int, int>* stack, int& height) const {
     const Node &one = m_nodes[a], &other = m_nodes[b];
     const bool divides_one = other.id >= 0 || (one.id < 0 && sizeOf(one.box) > sizeOf(other.box));
-    const Node& large = divides_one ? one : other;
     const SweptBox& box = divides_one ? other.box : one.box;
-    const int rest = divides_one ? b : a;
-    if (overlaps(m_nodes[large.first].box, box)) stack[height++] = {large.first, rest};
-    if (overlaps(m_nodes[large.second].box, box)) stack[height++] = {large.second, rest};
+    const int large = divides_one ? a : b, rest = divides_one ? b : a;
+    for (const int child : {large + 1, secondOf(large)}) {
+      if (overlaps(m_nodes[child].box, box)) stack[height++] = {child, rest};
+    }
   }
-  int build(int begin, int end, int parent);
+  void build(int begin, int end, int parent);
   double refit();
 
   std::vector<Node> m_nodes;
@@ -166,6 +172,7 @@ class ImpactTree {
   std::vector<int> m_ids;  // of the last build, as given
   std::vector<int> m_order;
   std::vector<int> m_member;                       // by node, during queryGroups()
+  std::vector<Leaf> m_near;                        // during queryPairs()
   const std::vector<SweptBox>* m_boxes = nullptr;  // during update()
   double m_built_size = 0;
 };

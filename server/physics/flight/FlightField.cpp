@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "physics/flight/FlightSpring.h"
-#include "physics/flight/IntegratorFixed.h"
 #include "physics/numerics/IntegratorAutomatic.h"
 #include "shared/math/Elementary.h"
 
@@ -30,11 +29,6 @@ struct FieldSystem {
     return true;
   }
 };
-
-bool hasErrorControl(IntegratorMethod method) {
-  return method == IntegratorMethod::kAutomatic || method == IntegratorMethod::kExtrapolation ||
-         method == IntegratorMethod::kRadau;
-}
 
 // A field that turns the body by more radians in one call, as a strong magnet does, is not followed from turn
 // to turn.
@@ -154,18 +148,10 @@ IntegratorStatus flyField(const ForceField& field, Vec2 position, Vec2 velocity,
        flyLinear(field, position, velocity, time, t, flown))) {
     return IntegratorStatus::kDone;
   }
-  if (hasErrorControl(options.method)) {
-    StateVector<4> y = {position.x, position.y, velocity.x, velocity.y};
-    const IntegratorStatus status = integrate<4>(FieldSystem{field, time}, 0, t, y, options, counters);
-    flown = {Vec2{y[0], y[1]} - position, {y[2], y[3]}};
-    return status;
-  }
-  FieldState state{position, velocity, time};
-  integrateFixed(field, state, t, options, counters);
-  flown = {state.position - position, state.velocity};
-  if (isFinite(flown.displacement) && isFinite(flown.velocity)) return IntegratorStatus::kDone;
-  ++counters.failed_calls;
-  return IntegratorStatus::kNotFinite;
+  StateVector<4> y = {position.x, position.y, velocity.x, velocity.y};
+  const IntegratorStatus status = integrate<4>(FieldSystem{field, time}, 0, t, y, options, counters);
+  flown = {Vec2{y[0], y[1]} - position, {y[2], y[3]}};
+  return status;
 }
 
 }  // namespace naiad::physics

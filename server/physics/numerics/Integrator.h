@@ -22,11 +22,7 @@ template <int N>
 using StateMatrix = std::array<std::array<double, N>, N>;
 
 enum class IntegratorMethod : std::uint8_t {
-  kAutomatic,          ///< extrapolation; in a call in which that is slow, Radau if it is faster
-  kSemiImplicitEuler,  ///< order 1, one force per sub-step: what most engines do, here to compare with
-  kVelocityVerlet,     ///< order 2, symplectic, one force per sub-step (two if forces depend on the velocity)
-  kYoshida4,           ///< order 4, symplectic, three Verlet steps per sub-step; for forces without velocity
-  kRungeKutta4,        ///< order 4, four forces per sub-step
+  kAutomatic,      ///< extrapolation; in a call in which that is slow, Radau if it is faster
   kExtrapolation,  ///< Gragg–Bulirsch–Stoer, order up to 16, error control: smooth motion to rounding, Kepler
   kRadau,          ///< Radau IIA of order 5, implicit, error control: stiff forces
 };
@@ -40,7 +36,6 @@ enum class IntegratorStatus : std::uint8_t {
 
 struct IntegratorOptions {
   IntegratorMethod method = IntegratorMethod::kAutomatic;
-  int substeps = 8;  ///< per call, for the methods of fixed step
 
   /// What each error-controlled step of the explicit method may be wrong by, per component:
   /// absolute + relative · |component|.

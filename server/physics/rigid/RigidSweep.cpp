@@ -176,7 +176,6 @@ void RigidWorld::wakeInFlight(int id) {
   extra.margin = extra.moved = extra.rolled = extra.travelled = 0;  // nothing was searched around it
   extra.search_displacement = {};
   extra.part = 1;
-  m_parent[at(id)] = id;
   m_states[at(id)] = {};
   m_states[at(id)].inverse_mass = m_bodies[at(id)].inverse_mass;
   m_states[at(id)].inverse_inertia = m_bodies[at(id)].inverse_inertia;

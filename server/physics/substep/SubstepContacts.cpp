@@ -29,9 +29,6 @@ constexpr float kRest = 2;
 constexpr double kPushedAgain = 0.5;   // of what pushed a body in the last step: it may again
 constexpr double kEverywhere = 1e300;  // metric cells
 constexpr double kLarge = 4;           // times the size of another body
-// Of the speed at which two bodies meet: by how much the speed of either may change. What bounces off
-// something heavy leaves as fast as it came.
-constexpr double kStir = 2;
 // Over the pairs that fly past each other. A push that has not gone all its way by then may reach all of
 // them.
 constexpr int kMaxSweeps = 32;
@@ -40,6 +37,11 @@ constexpr int kMaxSweeps = 32;
 double gapBetween(const Bounds& a, const Bounds& b, Vec2 offset) {
   return std::max(std::max(offset.x + b.lower.x - a.upper.x, a.lower.x - b.upper.x - offset.x),
                   std::max(offset.y + b.lower.y - a.upper.y, a.lower.y - b.upper.y - offset.y));
+}
+
+// Of the speed at which two bodies meet: by how much the speed of the lighter one may change.
+double reboundOf(const SubstepBody& a, const SubstepBody& b) {
+  return 1 + std::max(a.body.restitution, b.body.restitution);
 }
 
 }  // namespace
@@ -95,10 +97,9 @@ void SubstepWorld::wakeChanged() {
   for (const Pair& pair : m_pairs) {
     if (pair.first >= 0) wakeBoth(pair.a, pair.b);
   }
-  for (int j = 0; j < m_joints.limit(); ++j) {
-    if (!m_joints.isWorking(j) || m_joints.joint(j).kind == JointKind::kMouse) continue;
-    wakeBoth(m_joints.joint(j).a, m_joints.joint(j).b);
-  }
+  m_joints.visitWorking([&](int a, int b) {
+    if (a >= 0) wakeBoth(a, b);
+  });
 }
 
 void SubstepWorld::updatePairs() {
@@ -206,7 +207,7 @@ double SubstepWorld::marginOf(const SubstepBody& a, const SubstepBody& b) const 
 
 void SubstepWorld::stir(const SubstepBody& b, double by) {
   if (b.state == 0 || !isMovable(b)) return;
-  double& own = m_stirs[at(rootOf(b.state))];
+  double& own = m_stirs[at(m_sets.rootOf(b.state))];
   m_has_stirred = m_has_stirred || own < by;
   own = std::max(own, by);
 }
@@ -223,7 +224,7 @@ bool SubstepWorld::mayMeet(Pair& pair) {
     // However they turn, they stay within their circles.
     if (length(offset) > margin - a.roll - b.roll + a.reach + b.reach) return false;
     const bool are_slow = a.margin <= kSlowMargin * a.thickness && b.margin <= kSlowMargin * b.thickness;
-    const double by = are_slow ? 0 : kStir * calmMargin(a, b);
+    const double by = are_slow ? 0 : reboundOf(a, b) * calmMargin(a, b);
     stir(a, by);
     stir(b, by);
     return true;
@@ -237,7 +238,7 @@ bool SubstepWorld::mayMeet(Pair& pair) {
     m_calm.push_back({nearer, static_cast<std::int32_t>(&pair - m_pairs.data())});
     return false;
   }
-  const double by = std::max({stirOf(a), stirOf(b), kStir * rolled});
+  const double by = std::max({stirOf(a), stirOf(b), reboundOf(a, b) * rolled});
   unite(a, b);
   stir(a, by);
   stir(b, by);
@@ -250,14 +251,15 @@ bool SubstepWorld::mayMeet(Pair& pair) {
 void SubstepWorld::choosePairs() {
   m_calm.clear();
   m_stirs.assign(m_states.size(), 0);
-  standAlone();
+  m_sets.reset(m_states.size());
   for (Pair& pair : m_pairs) pair.is_examined = !pair.is_jointed && mayMeet(pair);
   m_joints.visitWorking([&](int a, int b) {
     if (a >= 0) stir(m_bodies[at(a)], kEverywhere);
     stir(m_bodies[at(b)], kEverywhere);
   });
   passStirsOn();
-  for (std::size_t i = 1; i < m_stirs.size(); ++i) m_stirs[i] = m_stirs[at(rootOf(static_cast<int>(i)))];
+  for (std::size_t i = 1; i < m_stirs.size(); ++i)
+    m_stirs[i] = m_stirs[at(m_sets.rootOf(static_cast<int>(i)))];
   for (const Calm& calm : m_calm) {
     Pair& pair = m_pairs[at(calm.pair)];
     const double by = m_stirs[at(m_bodies[at(pair.a)].state)] + m_stirs[at(m_bodies[at(pair.b)].state)];

@@ -31,7 +31,7 @@ double rollOf(const SubstepBody& b) {
 }
 
 Vec2 accelerationOf(const RigidBody& body) {
-  return body.inverse_mass > 0 ? body.acceleration + body.inverse_mass * body.force : Vec2{};
+  return body.inverse_mass > 0 ? body.acceleration : Vec2{};
 }
 double spinGainOf(const RigidBody& body) {
   return body.inverse_inertia > 0 ? body.inverse_inertia * body.torque : 0;
@@ -167,7 +167,7 @@ void SubstepWorld::moveStates() {
   }
 }
 
-void SubstepWorld::stepOnce() {
+void SubstepWorld::step() {
   m_events.clear();
   ++m_counters.ticks;
   m_h = 1 / static_cast<float>(m_options.substeps);
@@ -209,21 +209,6 @@ void SubstepWorld::stepOnce() {
   finish();
 }
 
-RigidStatus SubstepWorld::step(double dt) {
-  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
-  const std::int64_t frozen_before = m_counters.quarantined;
-  m_earlier_events.clear();
-  const double parts = std::max(std::floor(dt), 1.0);
-  for (double done = 0; done < parts; ++done) {
-    stepOnce();
-    if (parts == 1) break;
-    for (RigidEvent& event : m_events) event.time += done;
-    m_earlier_events.insert(m_earlier_events.end(), m_events.begin(), m_events.end());
-  }
-  if (parts > 1) m_events.swap(m_earlier_events);
-  return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
-}
-
 Vec2 SubstepWorld::movedBy(const SubstepBody& b) const {
   if (b.state == 0) return {};
   const SubstepState& s = m_states[at(b.state)];
@@ -239,14 +224,21 @@ void SubstepWorld::stopFast() {
   m_fast.clear();
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
-    if (b.proxy >= 0 && isFast(b)) m_fast.push_back({movedBy(b), rollOf(b), b.thickness, id});
+    if (b.proxy < 0 || !isFast(b)) continue;
+    m_fast.push_back({movedBy(b), rollOf(b), b.thickness, id, sweptBounds(b, movedBy(b))});
   }
   if (m_fast.empty()) return;
   treePaths();
-  for (std::size_t i = 0; i < m_fast.size(); ++i) {
-    if (!isMovable(m_bodies[at(m_fast[i].id)])) continue;
-    findNear(m_fast[i], m_path_tree.box(static_cast<int>(i)));
-    stop(m_fast[i]);
+  m_near.clear();
+  m_path_tree.queryPairs([this](int one, int other) { approach(one, other); });
+  for (Fast& fast : m_fast) {
+    if (!isMovable(m_bodies[at(fast.id)])) continue;
+    if (!m_are_many) {
+      m_broad.query(fast.way, [&](std::uint32_t other) {
+        if (m_fast_numbers[other] == kSlowNumber) addNear(fast, static_cast<std::int32_t>(other));
+      });
+    }
+    stop(fast);
   }
 }
 
@@ -308,27 +300,30 @@ bool SubstepWorld::areDeep(const SubstepBody& a, const SubstepBody& b) const {
   return isMovable(a) && isMovable(b) && lengthSquared(b.body.place - a.body.place) < near * near;
 }
 
-// What may be in its way. Of fast bodies that fly together none is.
-void SubstepWorld::findNear(const Fast& fast, const SweptBox& swept) {
-  m_near.clear();
-  const GridBounds way = sweptBounds(m_bodies[at(fast.id)], fast.path);
-  if (!m_are_many) {
-    m_broad.query(way, [&](std::uint32_t other) {
-      if (m_fast_numbers[other] == kSlowNumber) m_near.push_back(static_cast<std::int32_t>(other));
-    });
-  }
+// Two of the tree of paths, one < other: is one of them in the way of the other? Not of fast bodies that fly
+// together, until something stops or diverts one of them.
+void SubstepWorld::approach(int one, int other) {
   const auto fast_ones = static_cast<int>(m_fast.size());
-  m_path_tree.query(swept, [&](int number) {
-    if (number >= fast_ones) {
-      const Slow& slow = m_slow[at(number - fast_ones)];
-      if (overlap(slow.bounds, way)) m_near.push_back(slow.id);
-      return;
-    }
-    const Fast& other = m_fast[at(number)];
-    if (other.id == fast.id) return;
-    const Vec2 its = other.is_stopped ? Vec2{} : other.path;
-    const double nearer = length(fast.path - its) + fast.roll + other.roll;
-    if (nearer > kMaxPass * std::min(fast.thickness, other.thickness)) m_near.push_back(other.id);
+  if (one >= fast_ones) return;
+  Fast& fast = m_fast[at(one)];
+  if (other >= fast_ones) {
+    const Slow& slow = m_slow[at(other - fast_ones)];
+    if (overlap(slow.bounds, fast.way)) addNear(fast, slow.id);
+    return;
+  }
+  Fast& that = m_fast[at(other)];
+  const double nearer = length(fast.path - that.path) + fast.roll + that.roll;
+  const bool are_together = nearer <= kMaxPass * std::min(fast.thickness, that.thickness);
+  if (are_together && !fast.is_stopped && !that.is_stopped) return;
+  addNear(fast, that.id);
+  addNear(that, fast.id);
+}
+
+// It has been stopped, or goes another way.
+void SubstepWorld::approachAgain(Fast& fast) {
+  const int own = m_fast_numbers[at(fast.id)];
+  m_path_tree.query(m_path_tree.box(own), [&](int other) {
+    if (other != own) approach(std::min(own, other), std::max(own, other));
   });
 }
 
@@ -357,7 +352,7 @@ RigidMotion SubstepWorld::motionOf(const SubstepBody& b) const {
   return {movedBy(b), b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
 }
 
-// Where it first touches any of m_near.
+// Where it first touches anything that is near.
 void SubstepWorld::stop(Fast& fast) {
   const std::int32_t id = fast.id;
   SubstepBody& b = m_bodies[at(id)];
@@ -367,7 +362,8 @@ void SubstepWorld::stop(Fast& fast) {
   std::int32_t met = -1;
   const std::span<const ConvexShape> own_shapes = m_forms[b.form].shapes;
   const bool is_thinned = m_broad.isThinned(b.proxy);
-  for (const std::int32_t near : m_near) {
+  for (std::int32_t i = fast.near; i >= 0; i = m_near[at(i)].next) {
+    const std::int32_t near = m_near[at(i)].id;
     const SubstepBody& other = m_bodies[at(near)];
     const RigidMotion its = motionOf(other);
     const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
@@ -405,6 +401,7 @@ void SubstepWorld::stop(Fast& fast) {
     double& part = m_bodies[at(p_fast->id)].part;
     part = std::min(part, first);
     p_fast->is_stopped = true;
+    approachAgain(*p_fast);
   }
 }
 
@@ -426,9 +423,12 @@ bool SubstepWorld::goOnTogether(Fast& one, Fast& other, double time) {
     SubstepState& s = m_states[at(b.state)];
     s.x = static_cast<float>(gained.x), s.y = static_cast<float>(gained.y);
     p_fast->path = movedBy(b);
+    p_fast->way = sweptBounds(b, p_fast->path);
     b.is_diverted = true;
     m_path_tree.grow(m_fast_numbers[at(p_fast->id)], seenPath(*p_fast));
   }
+  approachAgain(one);
+  approachAgain(other);
   return true;
 }
 
@@ -438,8 +438,7 @@ void SubstepWorld::keepMomentum() {
   findGroups();
   const auto changeOf = [&](const SubstepBody& b) {
     const SubstepState& s = m_states[at(b.state)];
-    const Vec2 gained = b.body.acceleration + b.body.inverse_mass * b.body.force;
-    return gained - Vec2{s.vx, s.vy};
+    return b.body.acceleration - Vec2{s.vx, s.vy};
   };
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
@@ -484,11 +483,7 @@ void SubstepWorld::finish() {
     m_joints_changed = true;
   }
   sleep();
-  std::sort(m_events.begin(), m_events.end(), [](const RigidEvent& x, const RigidEvent& y) {
-    if (x.time != y.time) return x.time < y.time;
-    if (x.first != y.first) return x.first < y.first;
-    return x.second != y.second ? x.second < y.second : x.is_begin < y.is_begin;
-  });
+  sortEvents();
 }
 
 }  // namespace naiad::physics

@@ -8,12 +8,14 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/broadphase/ImpactTree.h"
 #include "physics/geometry/Index.h"
 #include "physics/geometry/TimeOfImpact.h"
+#include "physics/geometry/UnionFind.h"
 #include "physics/rigid/MagnetTurn.h"
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
@@ -52,25 +54,17 @@ class SubstepWorld final : public RigidStepper {
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
   bool remove(int id) override;
   const RigidBody& body(int id) const override { return m_bodies[at(id)].body; }
-  bool exists(int id) const { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
+  bool exists(int id) const override { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
   bool isFrozen(int id) const override { return m_bodies[at(id)].is_frozen; }
   bool isStopped(int id) const override {
     const SubstepBody& b = m_bodies[at(id)];
     return b.state > 0 && (b.part < 1 || b.is_diverted);
   }
   bool isAsleep(int id) const { return m_bodies[at(id)].is_asleep; }
-  int idLimit() const { return static_cast<int>(m_bodies.size()); }
-
-  int addJoint(const Joint& joint, bool may_touch) override;
-  bool setJoint(int id, const Joint& joint) override;
-  bool removeJoint(int id) override;
-  bool jointExists(int id) const override { return m_joints.exists(id); }
-  const Joint& joint(int id) const override { return m_joints.joint(id); }
+  int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
   void setSleeping(bool may_sleep) override;
-  /// By whole ticks: `dt` is rounded down, 1 at least.
-  RigidStatus step(double dt) override;
-  const std::vector<RigidEvent>& events() const override { return m_events; }
+  void step() override;
   const SubstepCounters& counters() const { return m_counters; }
   /// How deep the deepest overlap was at the start of the last step.
   double deepest() const { return m_deepest; }
@@ -109,7 +103,12 @@ class SubstepWorld final : public RigidStepper {
     Vec2 path;
     double roll, thickness;
     std::int32_t id;
+    GridBounds way;          // what it sweeps
+    std::int32_t near = -1;  // what may be in its way: the first of its list in m_near
     bool is_stopped = false;
+  };
+  struct Near {
+    std::int32_t id, next;
   };
   static constexpr std::int32_t kSlowNumber = -1;
   struct Slow {
@@ -150,11 +149,12 @@ class SubstepWorld final : public RigidStepper {
   void enter(int id);
   void leave(int id);
   void freeze(int id);
-  void wakeRing(int id);
+  void wakeRing(int id) override;
+  const JointStore& joints() const override { return m_joints; }
+  JointStore& joints() override { return m_joints; }
   void markChanged(int id);
 
   // SubstepStep.cpp
-  void stepOnce();
   void listActive();
   void begin(int id);
   void pushByMagnets();
@@ -169,7 +169,11 @@ class SubstepWorld final : public RigidStepper {
   SweptBox seenPath(const Fast& fast) const;
   static GridBounds sweptBounds(const SubstepBody& body, Vec2 path);
   bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
-  void findNear(const Fast& fast, const SweptBox& swept);
+  void addNear(Fast& fast, std::int32_t id) {
+    m_near.push_back({id, std::exchange(fast.near, static_cast<std::int32_t>(m_near.size()))});
+  }
+  void approach(int one, int other);
+  void approachAgain(Fast& fast);
   RigidMotion motionOf(const SubstepBody& body) const;
   bool isClear(const SubstepBody& body, Vec2 path);
   void stop(Fast& fast);
@@ -190,7 +194,7 @@ class SubstepWorld final : public RigidStepper {
   void stir(const SubstepBody& body, double by);
   void choosePairs();
   void passStirsOn();
-  double stirOf(const SubstepBody& b) { return m_stirs[at(rootOf(b.state))]; }
+  double stirOf(const SubstepBody& b) { return m_stirs[at(m_sets.rootOf(b.state))]; }
   double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);
   static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset,
@@ -208,10 +212,8 @@ class SubstepWorld final : public RigidStepper {
   std::vector<Pair>::const_iterator findPair(std::int32_t one, std::int32_t other) const;
 
   // SubstepSleep.cpp
-  void standAlone();
   void findGroups();
-  int rootOf(int state);
-  Group& groupOf(const SubstepBody& b) { return m_groups[at(rootOf(b.state))]; }
+  Group& groupOf(const SubstepBody& b) { return m_groups[at(m_sets.rootOf(b.state))]; }
   void unite(const SubstepBody& a, const SubstepBody& b);
   void sleep();
 
@@ -221,7 +223,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_free;
   std::vector<std::int32_t> m_active;  // ids of those that move in this step, by order
   std::vector<std::int32_t> m_changed;
-  std::vector<std::int32_t> m_near;
+  std::vector<Near> m_near;
   std::vector<Fast> m_fast;
   std::vector<std::int32_t> m_fast_numbers;  // by id: which of these
   std::vector<Slow> m_slow;                  // the others, if the fast ones are many
@@ -247,14 +249,12 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_by_colour;
   ContactRows m_rows;
   SubstepJoints m_joints;
-  std::vector<std::int32_t> m_parent;  // by state
-  std::vector<Group> m_groups;         // by root
-  std::vector<RigidEvent> m_events, m_earlier_events;
+  UnionFind m_sets;             // of states
+  std::vector<Group> m_groups;  // by root
   SubstepCounters m_counters;
   double m_deepest = 0;
   float m_h = 0.25f;
   bool m_active_changed = false;
-  bool m_joints_changed = false;
   bool m_has_stirred = false;
   bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of what they lie on
 };

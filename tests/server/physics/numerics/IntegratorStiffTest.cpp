@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "physics/flight/FlightElastic.h"
 #include "physics/numerics/IntegratorAutomatic.h"
+#include "tests/server/physics/ElasticField.h"
 #include "tests/server/physics/QuadReference.h"
 
 namespace naiad::physics {
