@@ -12,7 +12,7 @@ namespace {
 constexpr double kRollKept = 0.02;  // thicknesses that a corner may move before bounds are measured again
 
 bool isPulled(const RigidBody& body) {
-  return body.acceleration != Vec2{} || body.force != Vec2{} || body.torque != 0;
+  return body.acceleration != Vec2{} || body.torque != 0;
 }
 
 }  // namespace
