@@ -86,7 +86,8 @@ class Step {
     return has_converged;
   }
 
-  /// Instead of all that: y += (I − hJ)⁻¹·h·y′.
+  /// Instead of all that: y += (I − hJ)⁻¹·h·y′. Where that leads elsewhere than the derivative does, since
+  /// what is to come runs away faster than a step can see, nothing moves.
   bool takeCoarsely(double t, StateVector<N>& y, double length) {
     evaluate(t, y, m_rate);
     findJacobian(t, y);
@@ -98,6 +99,13 @@ class Step {
     }
     if (!m_filter.decompose()) return false;
     m_filter.solve(change);
+    double along = 0, square = 0, free_square = 0;
+    for (int m = 0; m < N; ++m) {
+      along += change[m] * m_rate[m];
+      square += change[m] * change[m];
+      free_square += length * length * m_rate[m] * m_rate[m];
+    }
+    if (along < 0 || square > 1.5 * free_square) return true;
     for (int m = 0; m < N; ++m) y[m] += change[m];
     return true;
   }

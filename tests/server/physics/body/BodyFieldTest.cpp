@@ -53,9 +53,7 @@ TEST_F(BodyFields, ATickCallsAFieldABoundedNumberOfTimes) {
         }
         for (Body* p_body : bodies) {
           EXPECT_FALSE(p_body->isFrozen()) << count << ' ' << kind << ' ' << k;
-          // A hundred are too many for error control: van der Pol's then overshoot.
-          EXPECT_LE(std::abs(p_body->getPosition().x()), count == 1 ? 3 : 10)
-              << count << ' ' << kind << ' ' << k;
+          EXPECT_LE(std::abs(p_body->getPosition().x()), 3) << count << ' ' << kind << ' ' << k;
           delete p_body;
         }
       }
