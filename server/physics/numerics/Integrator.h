@@ -48,7 +48,8 @@ struct IntegratorOptions {
   /// The explicit method gives up in a call when it needs more derivatives than this, or will at the pace of
   /// its steps.
   int max_evaluations = 30000;
-  /// The implicit method gives up after as many steps, rejected ones among them.
+  /// The implicit method gives up after as many steps, rejected ones among them. The automatic one has lower
+  /// limits of its own, and larger tolerances before it gives up (IntegratorAutomatic.h).
   int max_steps = 20000;
 };
 
@@ -60,6 +61,7 @@ struct IntegratorCounters {
   std::int64_t jacobians = 0;        ///< implicit only
   std::int64_t newton_failures = 0;  ///< steps repeated because Newton's method did not converge
   std::int64_t stiff_calls = 0;      ///< calls of the automatic method that went on with Radau
+  std::int64_t coarse_calls = 0;     ///< of those, how many had to end without error control
   std::int64_t failed_calls = 0;     ///< calls that ended with a status other than kDone
 };
 

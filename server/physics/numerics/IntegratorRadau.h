@@ -54,11 +54,16 @@ template <int N, class System>
 class Step {
  public:
   Step(const System& system, const IntegratorOptions& options, IntegratorCounters& counters)
-      : m_system(system),
-        m_counters(counters),
-        m_absolute(options.stiff_absolute),
-        m_relative(options.stiff_relative),
-        m_newton_limit(std::max(0x1p-48 / m_relative, 0.01)) {}
+      : m_system(system), m_options(options), m_counters(counters) {
+    loosen(1);
+  }
+
+  /// Tolerances are so many times those of the options.
+  void loosen(double factor) {
+    m_absolute = factor * m_options.stiff_absolute;
+    m_relative = factor * m_options.stiff_relative;
+    m_newton_limit = std::max(0x1p-48 / m_relative, 0.01);
+  }
 
   /// The derivative at the start of the step.
   const StateVector<N>& rate() const { return m_rate; }
@@ -79,6 +84,30 @@ class Step {
     const bool has_converged = decompose(length) && iterate(t, y, length);
     if (!has_converged) m_last_length = 0;
     return has_converged;
+  }
+
+  /// Instead of all that: y += (I − hJ)⁻¹·h·y′. Where that leads elsewhere than the derivative does, since
+  /// what is to come runs away faster than a step can see, nothing moves.
+  bool takeCoarsely(double t, StateVector<N>& y, double length) {
+    evaluate(t, y, m_rate);
+    findJacobian(t, y);
+    auto& matrix = m_filter.matrix();
+    StateVector<N> change;
+    for (int m = 0; m < N; ++m) {
+      change[m] = length * m_rate[m];
+      for (int n = 0; n < N; ++n) matrix[m][n] = (m == n) - length * m_jacobian[m][n];
+    }
+    if (!m_filter.decompose()) return false;
+    m_filter.solve(change);
+    double along = 0, square = 0, free_square = 0;
+    for (int m = 0; m < N; ++m) {
+      along += change[m] * m_rate[m];
+      square += change[m] * change[m];
+      free_square += length * length * m_rate[m] * m_rate[m];
+    }
+    if (along < 0 || square > 1.5 * free_square) return true;
+    for (int m = 0; m < N; ++m) y[m] += change[m];
+    return true;
   }
 
   /// What the solved step is wrong by, over what is allowed. `is_careful`: filter twice before a rejection.
@@ -227,11 +256,12 @@ class Step {
   }
 
   const System& m_system;
+  const IntegratorOptions& m_options;
   IntegratorCounters& m_counters;
-  double m_absolute;
-  double m_relative;
-  double m_newton_limit;  // the part of the allowed error that the iteration may leave; rounding sets a floor
-                          // to it
+  double m_absolute = 0;
+  double m_relative = 0;
+  double m_newton_limit = 0;  // the part of the allowed error that the iteration may leave; rounding sets a
+                              // floor to it
   StateVector<N> m_rate{};
   StateMatrix<N> m_jacobian{};
   bool m_has_jacobian = false;
@@ -246,14 +276,18 @@ class Step {
 }  // namespace radau
 
 /// From `t` to `end` >= t. On return `t` and `y` are as far as it has come: the end, if the status is kDone.
+/// `loosening`: by what the tolerances grow with each third of the steps that are allowed.
 template <int N, class System>
 IntegratorStatus integrateByRadau(const System& system, double& t, double end, StateVector<N>& y,
-                                  const IntegratorOptions& options, IntegratorCounters& counters) {
+                                  const IntegratorOptions& options, IntegratorCounters& counters,
+                                  double loosening = 1) {
   radau::Step<N, System> step(system, options, counters);
   double length = std::min(end - t, step.begin(t, y));
   bool is_first = true, was_rejected = false;
   for (int count = 0; t < end; ++count) {
     if (count >= options.max_steps) return IntegratorStatus::kTooManySteps;
+    if (count == options.max_steps / 3) step.loosen(loosening);
+    if (count == options.max_steps / 3 * 2) step.loosen(loosening * loosening);
     if (!isUsable<N>(step.rate())) return IntegratorStatus::kNotFinite;
     const double whole = end - t;
     if (length > 0.999 * whole) length = whole;
@@ -278,6 +312,19 @@ IntegratorStatus integrateByRadau(const System& system, double& t, double end, S
       length *= std::min(factor, is_first ? 0.1 : 0.9);
       was_rejected = true;
     }
+  }
+  return IntegratorStatus::kDone;
+}
+
+/// In so many equal steps, linearly implicit (Rosenbrock's of order 1): bounded at any stiffness, and without
+/// error control.
+template <int N, class System>
+IntegratorStatus integrateCoarsely(const System& system, double t, double end, StateVector<N>& y, int steps,
+                                   const IntegratorOptions& options, IntegratorCounters& counters) {
+  radau::Step<N, System> step(system, options, counters);
+  const double length = (end - t) / steps;
+  for (int i = 0; i < steps; ++i) {
+    if (!step.takeCoarsely(t + i * length, y, length) || !isUsable<N>(y)) return IntegratorStatus::kNotFinite;
   }
   return IntegratorStatus::kDone;
 }
