@@ -77,6 +77,8 @@ class ByteReader {
     return m_ok ? value : 0;
   }
 
+  /// All that has not been read.
+  std::string_view rest() { return bytes(m_bytes.size() - m_at); }
   std::string_view bytes(std::size_t count) {
     if (!m_ok || count > m_bytes.size() - m_at) {
       m_ok = false;

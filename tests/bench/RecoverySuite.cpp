@@ -46,6 +46,7 @@ const Suite s_suite(
         run("take_over", game, {"worlds", game, options.quick ? "3" : "30", "1"});
         run("journal", game, {"journal", game, options.quick ? "900" : "9000"});
       }
+      run("hangs", "hanging", {"hangs", options.quick ? "1" : "10", "1"});
       run("scores", "scores", {"scores", options.quick ? "5" : "100", "1"});
     });
 

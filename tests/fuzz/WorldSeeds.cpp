@@ -8,6 +8,7 @@
 #include "host/world/BuildId.h"
 #include "host/world/WorldMessages.h"
 #include "shared/net/base/Limits.h"
+#include "shared/replica/Bytes.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -144,15 +145,16 @@ void rounds(Folder folder) {
                            packer.pack(records) + spellDfrDone("is over");
   folder.add(std::string(1, '\0') + file);
   folder.add(std::string("\2\0", 2) + records);
-  const std::string packed = DfrTurnPacker().pack(records).substr(kDfrChunkHead + kDfrTurnHead);
+  std::string packed;
+  RecordPacker().pack(records, packed);
   folder.add(std::string("\2\1", 2) + packed);
   const auto chunk = [](char type, const std::string& payload) {
     return type + u16(payload.size()) + payload;
   };
   const std::string meta = spellDfrMeta({{"game", "hello"}, {"players", "first"}}).substr(kDfrChunkHead);
-  folder.add("\1" + chunk(0, meta) +
-             chunk(1, std::string(5, '\0') + u16(records.size()) + std::string(2, '\0') + records) +
-             chunk(3, "later") + chunk(2, "is over"));
+  std::string turns(kDfrTurnPlace, '\0');
+  ByteWriter(turns).varint(records.size() << 1 | kDfrRaw);
+  folder.add("\1" + chunk(0, meta) + chunk(1, turns + records) + chunk(3, "later") + chunk(2, "is over"));
 }
 
 }  // namespace naiad::fuzz

@@ -84,6 +84,10 @@ class RecoveryClient {
         p_session->sendKey(p_key->key, p_key->action, now);
     }
   }
+  void press(df::Keyboard::Key key) {
+    m_connection.session()->sendKey(key, df::KEY_PRESSED, Clock::now());
+    m_connection.session()->sendKey(key, df::KEY_RELEASED, Clock::now());
+  }
   void leave() { m_connection.leave(); }
   bool isJoined() { return m_connection.state() == Connection::State::kJoined; }
   /// In another session than before forgetSession(), or the first one.
@@ -347,10 +351,18 @@ void RecoveryRun::judge(bool back, KillResult& result) {
 std::optional<std::chrono::milliseconds> RecoveryRun::killWorld() {
   const pid_t world = worldOf(m_server->process());
   if (world <= 0) return std::nullopt;
+  return timeToNextPicture([world] { ::kill(world, SIGKILL); });
+}
+
+std::optional<std::chrono::milliseconds> RecoveryRun::hangWorld(df::Keyboard::Key key) {
+  return timeToNextPicture([this, key] { m_clients.front()->press(key); });
+}
+
+std::optional<std::chrono::milliseconds> RecoveryRun::timeToNextPicture(const std::function<void()>& harm) {
   std::vector<std::pair<const ClientSession*, std::uint32_t>> before;
   for (const auto& client : m_clients) before.emplace_back(client->session(), client->newestTick());
   const auto began = Clock::now();
-  ::kill(world, SIGKILL);
+  harm();
   const auto sees_more = [&](std::uint32_t ticks) {
     for (std::size_t i = 0; i < m_clients.size(); ++i) {
       if (m_clients[i]->newestTick() < before[i].second + ticks) return false;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -17,6 +18,7 @@
 
 #include "GameProgram.h"
 #include "Home.h"
+#include "shared/values/Keyboard.h"
 
 namespace naiad::test {
 
@@ -74,6 +76,9 @@ class RecoveryRun {
   /// Kill the world's process alone, and wait until its players see more of it, and go on to. How long it
   /// took to the last one's next picture; nothing: they do not go on, or not in the sessions that they had.
   std::optional<std::chrono::milliseconds> killWorld();
+  /// The same, but one of the players presses a key by which the world hangs, with the server's own
+  /// --hang-time.
+  std::optional<std::chrono::milliseconds> hangWorld(df::Keyboard::Key key);
   /// The copies of the world's process that wait.
   std::vector<pid_t> copies() const;
   /// End the server, and execute its round from the beginning. Is it the same, tick by tick? `said`: what
@@ -90,6 +95,8 @@ class RecoveryRun {
  private:
   void startServer();
   bool serveUntilJoined();
+  /// From what `harm` does to the world to the last player's next picture.
+  std::optional<std::chrono::milliseconds> timeToNextPicture(const std::function<void()>& harm);
   /// By which dfreplay finds the game.
   std::string replayedGame() const { return m_game.find('/') != std::string::npos ? m_game : ""; }
   void waitForFirstTick();

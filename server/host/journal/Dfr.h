@@ -25,7 +25,7 @@ inline constexpr std::string_view kDfrMagic{
     "\x89"
     "DFR\r\n\x1a\n",
     8};
-inline constexpr std::uint16_t kDfrVersion = 1;
+inline constexpr std::uint16_t kDfrVersion = 2;
 inline constexpr std::size_t kDfrHeaderSize = 64;
 inline constexpr std::size_t kDfrFlagsAt = 10;  ///< of the header's two bytes that change later
 inline constexpr std::size_t kDfrChunkHead = 12;
@@ -65,9 +65,10 @@ inline constexpr std::size_t kMaxDfrFacts = 1024;
 inline constexpr std::size_t kMaxDfrName = 300;
 inline constexpr std::size_t kMaxDfrValue = 16'384;
 
-/// A TURN chunk begins with the place of its first byte in the stream of records (4, the lower half of 64
-/// bits), how its records are packed (1), and how many bytes they are (4).
-inline constexpr std::size_t kDfrTurnHead = 9;
+/// A TURN chunk begins with the place of its first byte in the stream of records (2, the lowest 16 bits), and
+/// a varint: how many bytes its records are, doubled, and how they are packed (DfrPacking). A small game's
+/// chunk of a second is hardly 100 bytes.
+inline constexpr std::size_t kDfrTurnPlace = 2;
 
 /// How turns are packed in a TURN chunk.
 enum DfrPacking : std::uint8_t {

@@ -131,21 +131,23 @@ bool DfrReader::readMeta(std::string_view payload) {
 }
 
 bool DfrReader::readTurns(std::string_view payload) {
-  if (payload.size() < kDfrTurnHead) return false;
-  if (loadLittleEndian<std::uint32_t>(payload.data()) != static_cast<std::uint32_t>(m_offset)) return false;
-  const auto packing = static_cast<std::uint8_t>(payload[4]);
-  const std::string_view packed = payload.substr(kDfrTurnHead);
-  const auto count = loadLittleEndian<std::uint32_t>(payload.data() + kDfrTurnHead - 4);
+  if (payload.size() < kDfrTurnPlace) return false;
+  if (loadLittleEndian<std::uint16_t>(payload.data()) != static_cast<std::uint16_t>(m_offset)) return false;
+  ByteReader head(payload.substr(kDfrTurnPlace));
+  const std::uint64_t what = head.upTo(2 * kMaxDfrPayload + 1);
+  if (!head.ok()) return false;
+  const auto packing = static_cast<DfrPacking>(what & 1);
+  const std::uint64_t count = what >> 1;
+  const std::string_view packed = head.rest();
   m_offset += count;
-  if (count > kMaxDfrPayload || m_offset > kMaxRatio * m_bytes.size() + kMaxDfrPayload) return false;
+  if (m_offset > kMaxRatio * m_bytes.size() + kMaxDfrPayload) return false;
   m_unpacked.clear();
-  if (m_skips) return packing == kDfrModelled || (packing == kDfrRaw && packed.size() == count);
-  if (packing == kDfrModelled) {
-    m_unpacker.unpack(packed, count, m_unpacked);
-  } else if (packing == kDfrRaw && packed.size() == count) {
+  if (packing == kDfrRaw && packed.size() != count) return false;
+  if (m_skips) return true;
+  if (packing == kDfrRaw) {
     m_unpacked = packed;
   } else {
-    return false;
+    m_unpacker.unpack(packed, count, m_unpacked);
   }
   m_records.add(m_unpacked);
   if (m_p_copy != nullptr) m_p_copy->append(m_unpacked);

@@ -22,9 +22,8 @@ void append(std::string& out, Number number) {
 
 std::string turnHead(std::uint64_t position, DfrPacking packing, std::size_t count) {
   std::string head;
-  append(head, static_cast<std::uint32_t>(position));
-  head.push_back(static_cast<char>(packing));
-  append(head, static_cast<std::uint32_t>(count));
+  append(head, static_cast<std::uint16_t>(position));
+  ByteWriter(head).varint(count << 1 | packing);
   return head;
 }
 

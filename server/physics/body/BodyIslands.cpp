@@ -43,17 +43,6 @@ bool isLine(const BodyState& state) {
 
 }  // namespace
 
-int BodyIslands::rootOf(int state) {
-  while (m_parent[at(state)] != state) state = m_parent[at(state)] = m_parent[at(m_parent[at(state)])];
-  return state;
-}
-
-void BodyIslands::unite(int a, int b) {
-  a = rootOf(a);
-  b = rootOf(b);
-  m_parent[at(std::max(a, b))] = std::min(a, b);
-}
-
 // Where it may get in this tick: anywhere within its reach, or along its path if that is long and nothing is
 // on it, for then nothing sends it elsewhere.
 naiad::physics::SweptBox BodyIslands::boxOf(const BodyState& state, Vec2 centre, bool is_alone) const {
@@ -78,15 +67,15 @@ void BodyIslands::addPair(const BodyTable& table, const std::vector<BodyState>& 
   m_pairs.emplace_back(i, j);
   const BodyState &a = states[at(i)], &b = states[at(j)];
   if (a.is_kinematic || b.is_kinematic) return;
-  bool is_settled = m_is_settled[at(rootOf(i))] != 0 || m_is_settled[at(rootOf(j))] != 0;
+  bool is_settled = m_is_settled[at(m_sets.rootOf(i))] != 0 || m_is_settled[at(m_sets.rootOf(j))] != 0;
   if (!is_settled) {
     const bool bounces = table.row(a.index).restitution > 0 || table.row(b.index).restitution > 0;
     const bool is_elastic = bounces && a.radius > 0 && b.radius > 0;
     is_settled = !is_elastic && (table.joints.count() == 0 ||
                                  !areJoined(table, static_cast<int>(a.index), static_cast<int>(b.index)));
   }
-  unite(i, j);
-  m_is_settled[at(rootOf(i))] = is_settled ? 1 : 0;
+  m_sets.unite(i, j);
+  m_is_settled[at(m_sets.rootOf(i))] = is_settled ? 1 : 0;
 }
 
 // Pairs of HARD bodies that may meet, in no particular order: nothing depends on it. What is on the path of a
@@ -103,15 +92,15 @@ void BodyIslands::findPairs(const BodyTable& table, const std::vector<BodyState>
     m_boxes.clear();
     m_pairs.clear();
     m_is_settled.assign(states.size(), 0);
-    for (std::size_t i = 0; i < states.size(); ++i) m_parent[i] = static_cast<int>(i);
+    m_sets.reset(states.size());
     for (const int i : m_ids) {
       const BodyState& state = states[at(i)];
       m_boxes.push_back(boxOf(state, state.start - states[at(m_ids[0])].start, m_is_paired[at(i)] == 0));
     }
     m_tree.update(m_boxes, m_ids, static_cast<int>(states.size()));
     const auto areOne = [&](int i, int j) {
-      const int root = rootOf(i);
-      return root == rootOf(j) && m_is_settled[at(root)] != 0;
+      const int root = m_sets.rootOf(i);
+      return root == m_sets.rootOf(j) && m_is_settled[at(root)] != 0;
     };
     m_tree.queryGroups(
         [&](int i, int j) {
@@ -141,7 +130,7 @@ void BodyIslands::uniteJointed(const BodyTable& table, const std::vector<BodySta
     if (!entry.used) continue;
     const int a = stateOf(entry.joint.a), b = stateOf(entry.joint.b);
     if (a < 0 || b < 0 || states[at(a)].is_kinematic || states[at(b)].is_kinematic) continue;
-    unite(a, b);
+    m_sets.unite(a, b);
   }
 }
 
@@ -161,7 +150,7 @@ bool BodyIslands::areJoined(const BodyTable& table, int row_a, int row_b) {
 void BodyIslands::findObstacles(const WorldStore& store, const BodyTable& table,
                                 const std::vector<BodyState>& states) {
   for (const int i : m_ids) {
-    Group& group = m_groups[at(rootOf(i))];
+    Group& group = m_groups[at(m_sets.rootOf(i))];
     const BodyState& state = states[at(i)];
     if (!group.is_rigid || group.has_obstacle || state.is_kinematic) continue;
     if (group.may_touch && !group.is_elastic) continue;
@@ -175,7 +164,6 @@ void BodyIslands::findObstacles(const WorldStore& store, const BodyTable& table,
 }
 
 void BodyIslands::connect(const BodyTable& table, const std::vector<BodyState>& states) {
-  m_parent.resize(states.size());
   findPairs(table, states);
   uniteJointed(table, states);
 }
@@ -187,7 +175,7 @@ void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::B
   m_groups.assign(states.size(), {});
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i].is_kinematic || !(states[i].is_costly || states[i].must_be_held)) continue;
-    Group& group = m_groups[at(rootOf(static_cast<int>(i)))];
+    Group& group = m_groups[at(m_sets.rootOf(static_cast<int>(i)))];
     group.is_general = group.is_general || states[i].is_costly;
     group.is_rigid = group.may_touch = true;
     group.is_elastic = false;
@@ -195,7 +183,7 @@ void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::B
   for (const int i : m_ids) {
     const BodyState& state = states[at(i)];
     if (state.is_kinematic) continue;
-    Group& group = m_groups[at(rootOf(i))];
+    Group& group = m_groups[at(m_sets.rootOf(i))];
     const auto last_solver = static_cast<BodySolver>(table.row(state.index).last_solver);
     const bool may_stay = last_solver == BodySolver::kRigid || last_solver == BodySolver::kSubstep;
     const bool stays = may_stay && contacts.isTouching(state.key);
@@ -218,7 +206,7 @@ void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::B
     if (a.is_kinematic && b.is_kinematic) continue;
     if (has_joints && areJoined(table, static_cast<int>(a.index), static_cast<int>(b.index))) continue;
     m_touchable.emplace_back(i, j);
-    Group& group = m_groups[at(rootOf(a.is_kinematic ? j : i))];
+    Group& group = m_groups[at(m_sets.rootOf(a.is_kinematic ? j : i))];
     group.may_touch = true;
     const BodyState& other = a.is_kinematic ? a : b;
     if (other.is_kinematic && !other.is_simple) group.is_rigid = true;
@@ -234,7 +222,7 @@ bool BodyIslands::widenReaches(std::vector<BodyState>& states) {
   constexpr double kLight = 2;   // a light body leaves an elastic impact at up to twice the other's speed
   bool is_wider = false;
   for (const int i : m_ids) {
-    const Group& group = m_groups[at(rootOf(i))];
+    const Group& group = m_groups[at(m_sets.rootOf(i))];
     if (!group.is_rigid || !group.may_touch || !group.is_elastic || group.fastest <= kRoom) continue;
     const double more = kLight * group.fastest;
     states[at(i)].reach += Vec2{more, more};
@@ -245,7 +233,7 @@ bool BodyIslands::widenReaches(std::vector<BodyState>& states) {
 
 void BodyIslands::collectCandidates(std::vector<BodyState>& states) {
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i].solver == BodySolver::kJointImpacts) states[i].group = rootOf(static_cast<int>(i));
+    if (states[i].solver == BodySolver::kJointImpacts) states[i].group = m_sets.rootOf(static_cast<int>(i));
   }
   for (const auto& [i, j] : m_touchable) {
     if (states[at(i)].solver == BodySolver::kJointImpacts)
@@ -271,11 +259,12 @@ void BodyIslands::passToSubsteps(const BodyTable& table, std::vector<BodyState>&
   m_groups.assign(states.size(), {});
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i].is_costly && !states[i].is_kinematic)
-      m_groups[at(rootOf(static_cast<int>(i)))].is_general = true;
+      m_groups[at(m_sets.rootOf(static_cast<int>(i)))].is_general = true;
   }
   for (const int i : m_ids) {
     BodyState& state = states[at(i)];
-    if (state.solver == BodySolver::kImpact && !state.is_kinematic && m_groups[at(rootOf(i))].is_general)
+    if (state.solver == BodySolver::kImpact && !state.is_kinematic &&
+        m_groups[at(m_sets.rootOf(i))].is_general)
       state.solver = BodySolver::kSubstep;
   }
   markKinematic(states);
@@ -298,7 +287,7 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
   m_has_general = false;
   for (std::size_t i = 0; i < states.size(); ++i) {
     BodyState& state = states[i];
-    const Group& group = m_groups[at(rootOf(static_cast<int>(i)))];
+    const Group& group = m_groups[at(m_sets.rootOf(static_cast<int>(i)))];
     if (state.p_failure != nullptr || state.is_kinematic) continue;
     const double max_ratio = group.fastest > kBlow ? kMaxMassRatio : kMaxRestingRatio;
     const bool needs_substeps =

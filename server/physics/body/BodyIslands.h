@@ -14,6 +14,7 @@
 #include "physics/body/BodyLinks.h"
 #include "physics/body/BodyState.h"
 #include "physics/broadphase/ImpactTree.h"
+#include "physics/geometry/UnionFind.h"
 
 namespace df {
 
@@ -52,8 +53,6 @@ class BodyIslands {
     double min_inverse_mass = 0;
   };
 
-  int rootOf(int state);
-  void unite(int a, int b);
   naiad::physics::SweptBox boxOf(const naiad::physics::BodyState& state, naiad::physics::Vec2 centre,
                                  bool is_alone) const;
   bool passesBy(const naiad::physics::BodyState& flyer, const naiad::physics::BodyState& other) const;
@@ -76,7 +75,7 @@ class BodyIslands {
 
   bool m_has_general = false;
   bool m_leaves_substeps = false;
-  std::vector<int> m_parent;               // by state
+  naiad::physics::UnionFind m_sets;        // of states
   std::vector<std::uint8_t> m_is_settled;  // by root: no further pair of it would change what kind it is
   std::vector<Group> m_groups;
   std::vector<int> m_state_of;  // by row of the table

@@ -1,6 +1,6 @@
 #include "physics/body/BodyJoint.h"
 
-#include <cmath>
+#include <algorithm>
 #include <numbers>
 
 #include "physics/body/BodyLimits.h"
@@ -13,9 +13,17 @@ namespace {
 
 using naiad::physics::JointEntry;
 using naiad::physics::JointKind;
+using RawJoint = naiad::physics::Joint;
 
-bool isOneOf(JointKind kind, JointKind first, JointKind second, JointKind third) {
-  return kind == first || kind == second || kind == third;
+// Changes a number of a joint, if there is one, and it is of one of these kinds; of any if none is given.
+template <class Change>
+int tune(JointEntry* p_entry, std::initializer_list<JointKind> kinds, bool is_good, Change change) {
+  if (p_entry == nullptr || !is_good) return -1;
+  const bool is_one = std::find(kinds.begin(), kinds.end(), p_entry->joint.kind) != kinds.end();
+  if (kinds.size() > 0 && !is_one) return -1;
+  change(p_entry->joint);
+  ++p_entry->tunings;
+  return 0;
 }
 
 }  // namespace
@@ -35,31 +43,21 @@ int Joint::remove() {
 }
 
 int Joint::setBreakForce(double force) {
-  JointEntry* p_entry = find();
-  if (p_entry == nullptr || !(force >= 0)) return -1;
-  p_entry->joint.break_force = force;
-  ++p_entry->tunings;
-  return 0;
+  return tune(find(), {}, force >= 0, [&](RawJoint& joint) { joint.break_force = force; });
 }
 
 int Joint::setBreakTorque(double torque) {
-  JointEntry* p_entry = find();
-  if (p_entry == nullptr || !(torque >= 0)) return -1;
-  p_entry->joint.break_torque = torque;
-  ++p_entry->tunings;
-  return 0;
+  return tune(find(), {}, torque >= 0, [&](RawJoint& joint) { joint.break_torque = torque; });
 }
 
 int Joint::setLength(double length) {
-  JointEntry* p_entry = find();
-  if (p_entry == nullptr || !isUsableSize(length)) return -1;
-  const JointKind kind = p_entry->joint.kind;
-  if (!isOneOf(kind, JointKind::kDistance, JointKind::kRope, JointKind::kSpring)) return -1;
-  if (length == 0 && kind != JointKind::kSpring) return -1;
-  p_entry->joint.length = length;
-  ++p_entry->tunings;
-  m_table->joints.markChanged();  // a spring of length 0 has one row more
-  return 0;
+  const auto change = [&](RawJoint& joint) {
+    joint.length = length;
+    m_table->joints.markChanged();  // a spring of length 0 has one row more
+  };
+  if (length == 0) return tune(find(), {JointKind::kSpring}, true, change);
+  return tune(find(), {JointKind::kDistance, JointKind::kRope, JointKind::kSpring}, isUsableSize(length),
+              change);
 }
 
 double Joint::getLength() const {
@@ -68,52 +66,35 @@ double Joint::getLength() const {
 }
 
 int Joint::setStiffness(double stiffness, double damping) {
-  JointEntry* p_entry = find();
-  if (p_entry == nullptr || !isUsableSize(stiffness) || !isUsableSize(damping)) return -1;
-  const JointKind kind = p_entry->joint.kind;
-  if (kind != JointKind::kSpring && kind != JointKind::kMouse) return -1;
-  p_entry->joint.stiffness = stiffness;
-  p_entry->joint.damping = damping;
-  ++p_entry->tunings;
-  return 0;
+  return tune(find(), {JointKind::kSpring, JointKind::kMouse},
+              isUsableSize(stiffness) && isUsableSize(damping), [&](RawJoint& joint) {
+                joint.stiffness = stiffness;
+                joint.damping = damping;
+              });
 }
 
 int Joint::setSpeed(double speed) {
-  JointEntry* p_entry = find();
-  if (p_entry == nullptr || p_entry->joint.kind != JointKind::kMotor || !isUsable(speed)) return -1;
-  p_entry->joint.speed = speed;
-  ++p_entry->tunings;
-  return 0;
+  return tune(find(), {JointKind::kMotor}, isUsable(speed), [&](RawJoint& joint) { joint.speed = speed; });
 }
 
 int Joint::setStrength(double strength) {
-  JointEntry* p_entry = find();
-  if (p_entry == nullptr || !(strength >= 0)) return -1;
-  const JointKind kind = p_entry->joint.kind;
-  if (kind != JointKind::kMotor && kind != JointKind::kMouse) return -1;
-  p_entry->joint.max_force = strength;
-  ++p_entry->tunings;
-  m_table->joints.markChanged();  // a mouse without a bound needs no search of an active set
-  return 0;
+  return tune(find(), {JointKind::kMotor, JointKind::kMouse}, strength >= 0, [&](RawJoint& joint) {
+    joint.max_force = strength;
+    m_table->joints.markChanged();  // a mouse without a bound needs no search of an active set
+  });
 }
 
 int Joint::setLimits(double lower, double upper) {
-  JointEntry* p_entry = find();
-  const bool good = lower <= upper && lower > -std::numbers::pi && upper < std::numbers::pi;
-  if (p_entry == nullptr || p_entry->joint.kind != JointKind::kAngleLimit || !good) return -1;
-  p_entry->joint.lower = lower;
-  p_entry->joint.upper = upper;
-  ++p_entry->tunings;
-  return 0;
+  const bool is_good = lower <= upper && lower > -std::numbers::pi && upper < std::numbers::pi;
+  return tune(find(), {JointKind::kAngleLimit}, is_good, [&](RawJoint& joint) {
+    joint.lower = lower;
+    joint.upper = upper;
+  });
 }
 
 int Joint::setTarget(Vector target) {
-  JointEntry* p_entry = find();
-  if (p_entry == nullptr || p_entry->joint.kind != JointKind::kMouse) return -1;
-  if (!toFixed(target)) return -1;
-  p_entry->joint.target = m_table->metric.placeAtCells(target);
-  ++p_entry->tunings;
-  return 0;
+  return tune(find(), {JointKind::kMouse}, toFixed(target).has_value(),
+              [&](RawJoint& joint) { joint.target = m_table->metric.placeAtCells(target); });
 }
 
 Vector Joint::getForce() const {

@@ -54,6 +54,7 @@ void BodyLayer::step(World& world) {
   m_links.prepare(*m_table);
   m_impacts.beginTick();
   reserveFor(m_states, m_table->inOrder().size());
+  m_evaluations_before = m_table->counters.integrator.evaluations;
   for (const BodyTable::Index index : m_table->inOrder()) beginBody(world, index);
   ++m_table->ticks;
   chooseSolvers(world.store());
@@ -140,6 +141,23 @@ Vec2 BodyLayer::pushBesideMagnet(State& state) {
   return magnet.rest;
 }
 
+// Alone. What fields take beyond some derivatives for each body is bounded for all of them together; the
+// oldest come first. For the others a few implicit steps must do.
+IntegratorStatus BodyLayer::flyFreely(const State& state, Flown& flown) {
+  constexpr std::int64_t kSharedEvaluations = 8000, kOwnEvaluations = 200;  // smooth fields take less
+  constexpr int kFewSteps = 16;
+  const BodyRow& row = m_table->row(state.index);
+  const BodyMedium& medium = std::as_const(*m_table).medium(state.index);
+  const auto time = static_cast<double>(m_table->ticks);
+  naiad::physics::IntegratorCounters& counters = m_table->counters.integrator;
+  naiad::physics::IntegratorOptions options = m_table->settings.integrator;
+  const auto own = kOwnEvaluations * static_cast<std::int64_t>(m_states.size());
+  const bool is_spent = options.method == naiad::physics::IntegratorMethod::kAutomatic &&
+                        counters.evaluations - m_evaluations_before > kSharedEvaluations + own;
+  if (is_spent) options.max_evaluations = 1, options.max_steps = std::min(options.max_steps, kFewSteps);
+  return flyBody(row, medium, state.push, time, 1, options, flown, counters);
+}
+
 // Where would it be on its own?
 void BodyLayer::fly(State& state) {
   const BodyRow& row = m_table->row(state.index);
@@ -167,8 +185,7 @@ void BodyLayer::fly(State& state) {
     status = flyHanging(row, medium, p_spring->joint, p_spring->anchor, state.push, time,
                         m_table->settings.integrator, state.flown, m_table->counters.integrator);
   } else {
-    status = flyBody(row, medium, state.push, time, 1, m_table->settings.integrator, state.flown,
-                     m_table->counters.integrator);
+    status = flyFreely(state, state.flown);
   }
   if (status != IntegratorStatus::kDone && state.is_sprung) {  // what solves for it needs no flight
     state.must_be_held = true;

@@ -44,13 +44,13 @@ class BodyLayer : public Layer {
   std::int64_t sensorPairs() const { return m_sensors.pairs(); }
   const naiad::physics::RigidCounters& rigidCounters() const { return m_rigid_world.counters(); }
   const naiad::physics::SubstepCounters& substepCounters() const { return m_substep_world.counters(); }
-  const naiad::physics::JointCounters& jointCounters() const { return m_links.counters(); }
 
  private:
   using State = naiad::physics::BodyState;
 
   void beginBody(World& world, naiad::physics::BodyTable::Index index);
   naiad::physics::Vec2 pushBesideMagnet(State& state);
+  naiad::physics::IntegratorStatus flyFreely(const State& state, naiad::physics::Flown& flown);
   void fly(State& state);
   naiad::physics::Vec2 swingOf(const State& state) const;
   void measure(const WorldStore& store, State& state);
@@ -88,7 +88,8 @@ class BodyLayer : public Layer {
   std::vector<double> m_unit_inertias;  // by state; 0: it does not turn
   // Is any HARD body joined, or more than a box or a circle, or was any moved by the SubstepWorld?
   bool m_is_mixed = false;
-  bool m_has_pulls = false;  // does a Pull act on any joined body?
+  bool m_has_pulls = false;               // does a Pull act on any joined body?
+  std::int64_t m_evaluations_before = 0;  // of fields, before this tick
   bool m_was_fast = false;
   bool m_has_substeps = false;  // is any for the SubstepWorld?
   std::vector<Moved> m_moved;

@@ -1,10 +1,10 @@
 #include "physics/body/BodyLinks.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "physics/geometry/Index.h"
+#include "physics/geometry/UnionFind.h"
 
 namespace naiad::physics {
 
@@ -85,32 +85,29 @@ void BodyLinks::countLoops(const BodyTable& table) {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  std::vector<int> parent(at(rows)), loops(at(rows), 0);
+  std::vector<int> loops(at(rows), 0);
   std::vector<std::uint8_t> is_held(at(rows), 0);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto rootOf = [&](int row) {
-    while (parent[at(row)] != row) row = parent[at(row)] = parent[at(parent[at(row)])];
-    return row;
-  };
+  UnionFind sets;
+  sets.reset(at(rows));
   for (const auto& [a, b] : edges) {
-    const int root = rootOf(b);
+    const int root = sets.rootOf(b);
     if (a == BodyJoints::kWorld) {  // all fixed ends of a group are one
       loops[at(root)] += is_held[at(root)];
       is_held[at(root)] = 1;
       continue;
     }
-    const int other = rootOf(a);
+    const int other = sets.rootOf(a);
     if (other == root) {
       ++loops[at(root)];
       continue;
     }
     const int kept = std::min(root, other), merged = std::max(root, other);
-    parent[at(merged)] = kept;
+    sets.unite(kept, merged);
     loops[at(kept)] += loops[at(merged)] + (is_held[at(kept)] & is_held[at(merged)]);
     is_held[at(kept)] |= is_held[at(merged)];
   }
   for (int row = 0; row < rows; ++row) {
-    if (loops[at(rootOf(row))] <= kMaxLoops) continue;
+    if (loops[at(sets.rootOf(row))] <= kMaxLoops) continue;
     m_is_costly.resize(at(rows), 0);
     m_is_costly[at(row)] = 1;
   }

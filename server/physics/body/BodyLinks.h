@@ -35,7 +35,6 @@ class BodyLinks {
   /// RigidWorld: their solver is kRigid then.
   void step(BodyTable& table, std::vector<BodyState>& states, const std::vector<double>& unit_inertias,
             const std::vector<BodyCandidatePair>& candidates, BodyContacts& contacts);
-  const JointCounters& counters() const { return m_solver.counters(); }
 
  private:
   static constexpr int kNoJoint = -1, kJoined = -2;  // else: the spring that it hangs on

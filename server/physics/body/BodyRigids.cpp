@@ -20,12 +20,25 @@ using naiad::physics::BodySolver;
 using naiad::physics::BodyState;
 using naiad::physics::BodyTable;
 using naiad::physics::ConvexShape;
+using naiad::physics::FlightKind;
+using naiad::physics::Flown;
 using naiad::physics::RigidBody;
 using naiad::physics::RigidEvent;
 using naiad::physics::RigidStepper;
 using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 using RawJoint = naiad::physics::Joint;
+
+// Of an acceleration that grows or falls steadily from `velocity` on, so that the path ends where, and as
+// fast as, the flight does. None where it does not change so: what brakes within a part of the tick would be
+// thrown back.
+Vec2 jerkOf(const Flown& flown, Vec2 velocity) {
+  constexpr double kRounding = 1e-14, kSteady = 0.25;  // of the speeds
+  const Vec2 gain = flown.velocity - velocity;
+  const Vec2 missing = velocity + 0.5 * gain - flown.displacement;
+  const double speed = length(velocity) + length(gain);
+  return length(missing) > kRounding * speed && length(missing) < kSteady * speed ? 12 * missing : Vec2{};
+}
 
 }  // namespace
 
@@ -103,10 +116,11 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
     body.spin = form.spin;
     body.inverse_mass = row.inverse_mass;
     body.inverse_inertia = unit_inertias[i] > 0 ? row.inverse_mass / unit_inertias[i] : 0;
-    if (!state.is_kinematic)
-      body.acceleration = state.is_bent && !state.is_sprung && state.turn_rate == 0
-                              ? state.flown.velocity - row.velocity
-                              : state.push;
+    body.acceleration = state.is_kinematic ? Vec2{} : state.push;
+    if (!state.is_kinematic && state.is_bent && !state.is_sprung && state.turn_rate == 0) {
+      body.acceleration = state.flown.velocity - row.velocity;
+      if (row.flight == FlightKind::kField) body.jerk = jerkOf(state.flown, row.velocity);
+    }
     body.turn_rate = state.turn_rate;
     body.torque = form.torque;
     body.friction = row.friction;
@@ -267,7 +281,7 @@ void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<Bod
   for (BodyState& state : states) {
     if (state.solver == m_solver) state.is_touched = contacts.isTouching(state.key);
   }
-  m_world.step(1);
+  m_world.step();
   collect(states, contacts);
   finish(table, states, contacts);
 }

@@ -28,7 +28,7 @@ RawJoint jointOf(JointKind kind) {
 }  // namespace
 
 Joint PhysicsManager::refuseJoint(const char* what) const {
-  World::current().refuse(getType(), what);
+  refuseAs(what);
   return {};
 }
 

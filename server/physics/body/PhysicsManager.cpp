@@ -23,9 +23,9 @@ bool isTolerance(double value) {
 }
 
 bool areUsable(const IntegratorOptions& o) {
-  return o.substeps >= 1 && o.substeps <= 10'000 && isTolerance(o.relative) && isTolerance(o.absolute) &&
-         isTolerance(o.stiff_relative) && isTolerance(o.stiff_absolute) && o.max_evaluations >= 1 &&
-         o.max_steps >= 1 && o.max_evaluations <= 10'000'000 && o.max_steps <= 10'000'000;
+  return isTolerance(o.relative) && isTolerance(o.absolute) && isTolerance(o.stiff_relative) &&
+         isTolerance(o.stiff_absolute) && o.max_evaluations >= 1 && o.max_steps >= 1 &&
+         o.max_evaluations <= 10'000'000 && o.max_steps <= 10'000'000;
 }
 
 }  // namespace
@@ -35,11 +35,13 @@ PhysicsManager& PhysicsManager::getInstance() {
   return *p_instance;
 }
 
+int PhysicsManager::refuseAs(const char* what) const {
+  World::current().refuse(getType(), what);
+  return -1;
+}
+
 int PhysicsManager::setGravity(Vector gravity) {
-  if (!isUsable(gravity)) {
-    World::current().refuse(getType(), "setGravity");
-    return -1;
-  }
+  if (!isUsable(gravity)) return refuseAs("setGravity");
   table().settings.gravity = table().metric.fromCells(gravity);
   return 0;
 }
@@ -50,10 +52,7 @@ Vector PhysicsManager::getGravity() const {
 
 int PhysicsManager::setAspect(double aspect) {
   const bool good = aspect >= Metric::kMinAspect && aspect <= Metric::kMaxAspect;
-  if (!good || !table().inOrder().empty() || table().soft_bodies > 0) {
-    World::current().refuse(getType(), "setAspect");
-    return -1;
-  }
+  if (!good || !table().inOrder().empty() || table().soft_bodies > 0) return refuseAs("setAspect");
   const Vector gravity = getGravity();
   table().metric = Metric(aspect);
   table().settings.gravity = table().metric.fromCells(gravity);
@@ -65,10 +64,7 @@ double PhysicsManager::getAspect() const {
 }
 
 int PhysicsManager::setIntegrator(const IntegratorOptions& options) {
-  if (!areUsable(options)) {
-    World::current().refuse(getType(), "setIntegrator");
-    return -1;
-  }
+  if (!areUsable(options)) return refuseAs("setIntegrator");
   table().settings.integrator = options;
   return 0;
 }
@@ -78,10 +74,7 @@ const IntegratorOptions& PhysicsManager::getIntegrator() const {
 }
 
 int PhysicsManager::setObstacleFriction(double friction) {
-  if (!isUsableSize(friction)) {
-    World::current().refuse(getType(), "setObstacleFriction");
-    return -1;
-  }
+  if (!isUsableSize(friction)) return refuseAs("setObstacleFriction");
   table().settings.obstacle_friction = friction;
   return 0;
 }
@@ -91,10 +84,7 @@ double PhysicsManager::getObstacleFriction() const {
 }
 
 int PhysicsManager::setObstacleRestitution(double restitution) {
-  if (!(restitution >= 0 && restitution <= 1)) {
-    World::current().refuse(getType(), "setObstacleRestitution");
-    return -1;
-  }
+  if (!(restitution >= 0 && restitution <= 1)) return refuseAs("setObstacleRestitution");
   table().settings.obstacle_restitution = restitution;
   return 0;
 }
@@ -104,10 +94,7 @@ double PhysicsManager::getObstacleRestitution() const {
 }
 
 int PhysicsManager::setAccuracy(Accuracy accuracy) {
-  if (accuracy != ACCURACY_DEFAULT && accuracy != ACCURACY_FAST) {
-    World::current().refuse(getType(), "setAccuracy");
-    return -1;
-  }
+  if (accuracy != ACCURACY_DEFAULT && accuracy != ACCURACY_FAST) return refuseAs("setAccuracy");
   table().settings.is_fast = accuracy == ACCURACY_FAST;
   return 0;
 }

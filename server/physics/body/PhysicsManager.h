@@ -106,6 +106,7 @@ class PhysicsManager : public Manager {
 
  private:
   PhysicsManager() { setType("PhysicsManager"); }
+  int refuseAs(const char* what) const;
   Joint refuseJoint(const char* what) const;
   Joint add(const char* what, naiad::physics::Joint joint, Body* p_a, Body* p_b, Vector point_a,
             Vector point_b) const;

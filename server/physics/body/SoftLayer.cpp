@@ -17,8 +17,8 @@ using naiad::physics::Metric;
 using naiad::physics::MovedObject;
 using naiad::physics::SoftAttachedNode;
 using naiad::physics::SoftEntry;
+using naiad::physics::SoftEvent;
 using naiad::physics::SoftNode;
-using naiad::physics::SoftStatus;
 using naiad::physics::SoftTable;
 using naiad::physics::SoftWorld;
 using naiad::physics::Vec2;
@@ -94,7 +94,7 @@ void SoftLayer::step(World& world) {
   }
   soft.step(1, m_obstacles.all());
   logCrowd(world);
-  m_contacts.collect(world.store(), table, m_obstacles, m_contact_changes);
+  collectContacts(world.store());
   m_sleep.findLoads(table, m_obstacles.all());
   m_obstacles.apply(world, m_bodies, table, m_moved);
   for (int id = 0; id < table.idLimit(); ++id) {
@@ -106,6 +106,35 @@ void SoftLayer::step(World& world) {
     if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
   }
   if (!m_contact_changes.empty()) sendContactEvents(world, m_contact_changes);
+}
+
+// From the solver's ids to Objects. An end is between the same Objects as the begin, even if the obstacle is
+// not near any more; for a deleted Object there is none.
+void SoftLayer::collectContacts(const WorldStore& store) {
+  std::erase_if(m_touching, [&](const Touch& touch) {
+    return !store.isCurrent(touch.first) || !store.isCurrent(touch.second);
+  });
+  for (const SoftEvent& event : m_table->world().events()) {
+    const auto touch = std::find_if(m_touching.begin(), m_touching.end(), [&](const Touch& t) {
+      return t.body == event.body && t.other == event.other && t.is_other_soft == event.is_other_soft;
+    });
+    const bool is_known = touch != m_touching.end();
+    if (!event.is_begin && !is_known) continue;
+    Touch current;
+    if (event.is_begin) {
+      current = {m_table->entry(event.body).key,
+                 event.is_other_soft ? m_table->entry(event.other).key : m_obstacles.keyOf(event.other),
+                 event.body, event.other, event.is_other_soft};
+      if (!store.isCurrent(current.first) || !store.isCurrent(current.second)) continue;
+      m_touching.push_back(current);
+    } else {
+      current = *touch;
+      m_touching.erase(touch);
+    }
+    m_contact_changes.push_back({1, current.first, current.second, store.order(current.first.slot),
+                                 store.order(current.second.slot), event.impulse, event.is_begin,
+                                 naiad::physics::BodySolver::kFlight});
+  }
 }
 
 // Once: it counts on in SoftCounters::crowded.

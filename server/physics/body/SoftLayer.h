@@ -10,7 +10,6 @@
 #include "engine/world/Layer.h"
 #include "engine/world/World.h"
 #include "physics/body/BodyState.h"
-#include "physics/body/SoftContacts.h"
 #include "physics/body/SoftObstacles.h"
 #include "physics/body/SoftSleep.h"
 #include "physics/body/SoftTable.h"
@@ -34,8 +33,17 @@ class SoftLayer : public Layer {
   const std::shared_ptr<naiad::physics::SoftTable>& table() { return m_table; }
 
  private:
+  struct Touch {
+    ObjectKey first, second;
+    // What the solver calls them.
+    int body;
+    int other;
+    bool is_other_soft;
+  };
+
   void prepare(const World& world, int id);
   void push(int id);
+  void collectContacts(const WorldStore& store);
   void settle(World& world, int id);
   void freeze(World& world, int id);
   void publish(World& world, int id);
@@ -44,7 +52,7 @@ class SoftLayer : public Layer {
   BodyLayer& m_bodies;  // lives as long: it is a layer of the same world, and came before
   std::shared_ptr<naiad::physics::SoftTable> m_table;
   SoftObstacles m_obstacles;
-  SoftContacts m_contacts;
+  std::vector<Touch> m_touching;
   naiad::physics::SoftSleep m_sleep;
   naiad::physics::Vec2 m_gravity;
   bool m_has_logged_crowd = false;

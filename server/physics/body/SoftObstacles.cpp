@@ -299,10 +299,4 @@ ObjectKey SoftObstacles::keyOf(int obstacle) const {
   return {};
 }
 
-bool SoftObstacles::isMovable(int obstacle) const {
-  const auto found = std::find_if(m_obstacles.begin(), m_obstacles.end(),
-                                  [obstacle](const SoftObstacle& o) { return o.id == obstacle; });
-  return found != m_obstacles.end() && found->inverse_mass > 0;
-}
-
 }  // namespace df

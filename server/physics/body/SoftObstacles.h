@@ -42,8 +42,6 @@ class SoftObstacles {
              std::vector<naiad::physics::MovedObject>& moved);
   /// The key of what has this id in the step; generation 0 if none has.
   ObjectKey keyOf(int obstacle) const;
-  /// Can the obstacle of this id move?
-  bool isMovable(int obstacle) const;
 
  private:
   struct Source {

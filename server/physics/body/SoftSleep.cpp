@@ -11,16 +11,14 @@ namespace {
 constexpr int kStillTicks = 30;  // ticks of stillness until it sleeps: a second
 
 bool maySleep(const SoftEntry& entry) {
-  return entry.is_in && (entry.is_asleep ||
-                         (entry.still >= kStillTicks && !entry.is_loaded && entry.attached_nodes.empty() &&
-                          entry.grab.attachment < 0 && entry.surrounding != 0));
+  return entry.is_asleep || (entry.still >= kStillTicks && !entry.is_loaded && entry.attached_nodes.empty() &&
+                             entry.grab.attachment < 0 && entry.surrounding != 0);
 }
 
 }  // namespace
 
 void SoftSleep::begin(int id_limit) {
   m_reaches.assign(at(id_limit), {});
-  m_sleeps.assign(at(id_limit), 0);
 }
 
 bool SoftSleep::areNear(SoftTable& table, int a, int b) const {
@@ -29,19 +27,26 @@ bool SoftSleep::areNear(SoftTable& table, int a, int b) const {
   return std::fabs(offset.x) <= reach.x && std::fabs(offset.y) <= reach.y;
 }
 
-void SoftSleep::wakeNeighbours(SoftTable& table) const {
-  for (bool is_changed = true; is_changed;) {
-    is_changed = false;
-    for (int id = 0; id < table.idLimit(); ++id) {
-      if (!table.entry(id).is_in || !table.entry(id).is_asleep) continue;
-      for (int other = 0; other < table.idLimit(); ++other) {
-        const bool is_awake = other != id && table.entry(other).is_in && !table.entry(other).is_asleep;
-        if (!is_awake || !areNear(table, id, other)) continue;
-        table.wake(id);
-        is_changed = true;
-        break;
-      }
+// What is near one another, from neighbour to neighbour; `allows` says so of all of a group.
+template <class Allows>
+void SoftSleep::findGroups(SoftTable& table, Allows allows) {
+  m_groups.reset(at(table.idLimit()));
+  m_allows.assign(at(table.idLimit()), 1);
+  for (int id = 0; id < table.idLimit(); ++id) {
+    for (int other = 0; other < id && table.entry(id).is_in; ++other) {
+      if (table.entry(other).is_in && areNear(table, id, other)) m_groups.unite(id, other);
     }
+  }
+  for (int id = 0; id < table.idLimit(); ++id) {
+    if (table.entry(id).is_in && !allows(table.entry(id))) m_allows[at(m_groups.rootOf(id))] = 0;
+  }
+}
+
+void SoftSleep::wakeNeighbours(SoftTable& table) {
+  findGroups(table, [](const SoftEntry& entry) { return entry.is_asleep; });
+  for (int id = 0; id < table.idLimit(); ++id) {
+    const SoftEntry& entry = table.entry(id);
+    if (entry.is_in && entry.is_asleep && m_allows[at(m_groups.rootOf(id))] == 0) table.wake(id);
   }
 }
 
@@ -57,23 +62,10 @@ void SoftSleep::findLoads(SoftTable& table, std::span<const SoftObstacle> obstac
 }
 
 void SoftSleep::update(SoftTable& table) {
-  for (int id = 0; id < table.idLimit(); ++id) m_sleeps[at(id)] = maySleep(table.entry(id)) ? 1 : 0;
-  for (bool is_changed = true; is_changed;) {
-    is_changed = false;
-    for (int id = 0; id < table.idLimit(); ++id) {
-      char& sleeps = m_sleeps[at(id)];
-      for (int other = 0; other < table.idLimit() && sleeps != 0; ++other) {
-        const bool keeps_awake =
-            other != id && table.entry(other).is_in && m_sleeps[at(other)] == 0 && areNear(table, id, other);
-        if (!keeps_awake) continue;
-        sleeps = 0;
-        is_changed = true;
-      }
-    }
-  }
+  findGroups(table, maySleep);
   for (int id = 0; id < table.idLimit(); ++id) {
     SoftEntry& entry = table.entry(id);
-    if (m_sleeps[at(id)] == 0 || entry.is_asleep) continue;
+    if (!entry.is_in || entry.is_asleep || m_allows[at(m_groups.rootOf(id))] == 0) continue;
     SoftBody body = table.world().body(id);
     for (SoftNode& node : body.nodes) node.velocity = {};
     table.set(id, body);

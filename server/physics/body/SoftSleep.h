@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "physics/body/SoftTable.h"
+#include "physics/geometry/UnionFind.h"
 
 namespace naiad::physics {
 
@@ -16,7 +17,7 @@ class SoftSleep {
   /// How far around its centre of mass the body may touch something in this tick.
   void setReach(int id, Vec2 reach) { m_reaches[static_cast<std::size_t>(id)] = reach; }
   /// Before the step: wakes the sleeping bodies beside one that is awake.
-  void wakeNeighbours(SoftTable& table) const;
+  void wakeNeighbours(SoftTable& table);
   /// After the step: marks the bodies that something movable presses on. They do not sleep.
   static void findLoads(SoftTable& table, std::span<const SoftObstacle> obstacles);
   /// At the end of the tick: puts the bodies to sleep that may, exactly still.
@@ -25,8 +26,12 @@ class SoftSleep {
  private:
   bool areNear(SoftTable& table, int a, int b) const;
 
+  template <class Allows>
+  void findGroups(SoftTable& table, Allows allows);
+
   std::vector<Vec2> m_reaches;  // by id
-  std::vector<char> m_sleeps;   // likewise: may it sleep after this tick?
+  UnionFind m_groups;           // of ids
+  std::vector<char> m_allows;   // by root
 };
 
 }  // namespace naiad::physics

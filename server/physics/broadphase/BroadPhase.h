@@ -52,14 +52,6 @@ class BroadPhase {
     updateTree();
     m_tree.query(bounds, [&](std::uint32_t proxy) { visit(m_proxies[proxy].id); });
   }
-  /// visit(id, limit) → new limit, as of BroadPhaseTree.
-  template <class Visit>
-  void castRay(const Place& from, Vec2 displacement, Visit&& visit) {
-    updateTree();
-    m_tree.castRay(from, displacement,
-                   [&](std::uint32_t proxy, double limit) { return visit(m_proxies[proxy].id, limit); });
-  }
-
   /// Has it found so many in one place that some are left out of its pairs?
   bool isThinned(std::int32_t proxy) const { return m_proxies[index(proxy)].is_thinned; }
 

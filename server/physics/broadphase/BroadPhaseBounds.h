@@ -10,16 +10,16 @@
 
 namespace naiad::physics {
 
-/// In units of 1/16 metric cell, both ends included. Whole numbers, so that a scene moved by whole cells has
-/// the same bounds, moved; up to 2^57 cells.
+/// In units of 1/64 metric cell, both ends included. Whole numbers, so that a scene moved by whole cells has
+/// the same bounds, moved; up to 2^55 cells.
 struct GridBounds {
   std::int64_t lower_x, lower_y, upper_x, upper_y;
 
   friend constexpr bool operator==(const GridBounds& a, const GridBounds& b) = default;
 };
 
-inline constexpr std::int64_t kGridUnits = 16;  ///< per metric cell
-/// Bounds are clamped to 2^48 cells around the body's own, so that they fit their numbers.
+inline constexpr std::int64_t kGridUnits = 64;  ///< per metric cell
+/// Bounds are clamped to 2^46 cells around the body's own, so that they fit their numbers.
 inline constexpr double kMaxGridUnits = 0x1p52;
 
 constexpr bool overlap(const GridBounds& a, const GridBounds& b) {

@@ -197,23 +197,6 @@ void BroadPhaseTree::rotate(std::int32_t i) {
   node(other).bounds = unite(node(node(other).child[0]).bounds, node(node(other).child[1]).bounds);
 }
 
-bool rayHits(const GridBounds& bounds, const Place& from, Vec2 displacement, double limit) {
-  // Relative to the start, one unit wider, which is more than rounding can do.
-  const std::int64_t x = from.cell_x * kGridUnits, y = from.cell_y * kGridUnits;
-  double enter = 0, leave = limit;
-  const auto slab = [&](std::int64_t lower, std::int64_t upper, double start, double by) {
-    const double low = static_cast<double>(lower - 1) - start, high = static_cast<double>(upper + 1) - start;
-    if (by == 0) return low <= 0 && high >= 0;
-    const double a = low / by, b = high / by;
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-    return true;
-  };
-  return slab(bounds.lower_x - x, bounds.upper_x - x, from.dx * kGridUnits, displacement.x * kGridUnits) &&
-         slab(bounds.lower_y - y, bounds.upper_y - y, from.dy * kGridUnits, displacement.y * kGridUnits) &&
-         enter <= leave;
-}
-
 std::int32_t BroadPhaseTree::height() const {
   if (m_root == kNone) return 0;
   std::vector<std::pair<std::int32_t, std::int32_t>> left = {{m_root, 1}};

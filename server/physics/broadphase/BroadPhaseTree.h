@@ -1,4 +1,4 @@
-// A dynamic tree of bounds: finds what overlaps a box or a ray, for bodies that come, go and move one by one.
+// A dynamic tree of bounds: finds what overlaps a box, for bodies that come, go and move one by one.
 //
 // Leaves are inserted where they enlarge the tree least; then, up to the root, a node and its niece change
 // places if that makes the tree smaller (surface area heuristic; cf. E. Catto, "Dynamic bounding volume
@@ -42,11 +42,6 @@ class BroadPhaseTree {
   /// Calls visit(value) for every leaf that overlaps, in an order that depends only on the calls before.
   template <class Visit>
   void query(const GridBounds& bounds, Visit&& visit) const;
-
-  /// Calls visit(value, limit) for leaves that the ray from `from` over `displacement` (fractions 0 … limit)
-  /// hits; it returns the new limit, which may be smaller: below 0 ends the search.
-  template <class Visit>
-  void castRay(const Place& from, Vec2 displacement, Visit&& visit) const;
 
   /// Are all invariants kept? For tests: it visits every node.
   bool isSound() const;
@@ -109,28 +104,6 @@ void BroadPhaseTree::query(const GridBounds& bounds, Visit&& visit) const {
     if (m_stack.empty()) return;
     current = m_stack.back();
     m_stack.pop_back();
-  }
-}
-
-/// Does the ray enter the bounds at a fraction from 0 to `limit`? A near miss may count as a hit.
-bool rayHits(const GridBounds& bounds, const Place& from, Vec2 displacement, double limit);
-
-template <class Visit>
-void BroadPhaseTree::castRay(const Place& from, Vec2 displacement, Visit&& visit) const {
-  if (m_root == kNone) return;
-  double limit = 1;
-  m_stack.clear();
-  m_stack.push_back(m_root);
-  while (!m_stack.empty() && limit >= 0) {
-    const Node& here = node(m_stack.back());
-    m_stack.pop_back();
-    if (!rayHits(here.bounds, from, displacement, limit)) continue;
-    if (here.isLeaf()) {
-      limit = std::min(limit, visit(here.value, limit));
-    } else {
-      m_stack.push_back(here.child[1]);
-      m_stack.push_back(here.child[0]);
-    }
   }
 }
 

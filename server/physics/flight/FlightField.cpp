@@ -1,8 +1,9 @@
 #include "physics/flight/FlightField.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "physics/flight/IntegratorFixed.h"
+#include "physics/flight/FlightSpring.h"
 #include "physics/numerics/IntegratorAutomatic.h"
 #include "shared/math/Elementary.h"
 
@@ -28,11 +29,6 @@ struct FieldSystem {
     return true;
   }
 };
-
-bool hasErrorControl(IntegratorMethod method) {
-  return method == IntegratorMethod::kAutomatic || method == IntegratorMethod::kExtrapolation ||
-         method == IntegratorMethod::kRadau;
-}
 
 // A field that turns the body by more radians in one call, as a strong magnet does, is not followed from turn
 // to turn.
@@ -74,6 +70,66 @@ bool flyTurning(const ForceField& field, Vec2 position, Vec2 velocity, double ti
   return isFinite(moved) && isFinite(velocity);
 }
 
+// In the directions in which it pulls most and least: −k·x − c·x′, and what is there at the start.
+struct LinearField {
+  Vec2 axis;  // of the first
+  Vec2 stiffness;
+  double damping = 0;
+  Vec2 start;  // the acceleration of a body that stands at the start
+
+  Vec2 turnedIn(Vec2 a) const { return {dot(axis, a), cross(axis, a)}; }
+  Vec2 turnedOut(Vec2 a) const { return a.x * axis + a.y * perpendicular(axis); }
+  Flown flownFor(Vec2 velocity, double t) const {
+    const Vec2 v = turnedIn(velocity), a = turnedIn(start);
+    const Flown x = flySpring({}, {v.x, 0}, {a.x, 0}, {stiffness.x, damping}, t);
+    const Flown y = flySpring({}, {0, v.y}, {0, a.y}, {stiffness.y, damping}, t);
+    return {turnedOut({x.displacement.x, y.displacement.y}), turnedOut({x.velocity.x, y.velocity.y})};
+  }
+  Vec2 accelerationAt(Vec2 moved, Vec2 velocity) const {
+    const Vec2 d = turnedIn(moved);
+    return start - turnedOut({stiffness.x * d.x, stiffness.y * d.y}) - damping * velocity;
+  }
+};
+
+// By differences as wide as the distance from its origin: only of one that is linear is that the stiffness.
+LinearField linearised(const ForceField& field, Vec2 position, Vec2 velocity, double time) {
+  const double scale = length(position) > 0 ? length(position) : 1;
+  const Vec2 here = field.acceleration(position, velocity, time);
+  const Vec2 by_x = (field.acceleration(position + Vec2{scale, 0}, velocity, time) - here) / scale;
+  const Vec2 by_y = (field.acceleration(position + Vec2{0, scale}, velocity, time) - here) / scale;
+  const double mean = 0.5 * (by_x.x + by_y.y), apart = 0.5 * (by_x.x - by_y.y), across = by_x.y;
+  const double half = std::sqrt(apart * apart + across * across);
+  const Vec2 along = apart < 0 ? Vec2{apart - half, across} : Vec2{-across, apart + half};
+  const Vec2 axis = length(along) > 0 ? along / length(along) : Vec2{1, 0};
+  return {axis, {half - mean, -half - mean}, 0, here};
+}
+
+// A field that pulls in proportion to the distance is a spring, with a formula. One that makes the body swing
+// by many radians would take an integrator thousands of steps. Looked at where the swing ends, and at some
+// moments of it.
+bool flyLinear(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t, Flown& flown) {
+  constexpr double kLinear = 1e-9;
+  LinearField linear = linearised(field, position, velocity, time);
+  const double stiffest = linear.stiffness.x;
+  if (!(stiffest * t * t > kManyRadians * kManyRadians && stiffest < 1e30)) return false;
+  linear.damping = std::max(0.0, -turningAt(field, position, velocity, time).lambda.x);
+  linear.start += linear.damping * velocity;
+  if (linear.stiffness.y < -kLinear * stiffest) return false;
+  linear.stiffness.y = std::max(linear.stiffness.y, 0.0);
+  const Vec2 across = {2 * linear.turnedIn(linear.start).x / stiffest, 0};
+  const auto isLinearAt = [&](const Flown& at, double when) {
+    const Vec2 there = field.acceleration(position + at.displacement, at.velocity, time + when);
+    const Vec2 wrong = there - linear.accelerationAt(at.displacement, at.velocity);
+    return length(wrong) <= kLinear * (length(linear.start) + stiffest * length(at.displacement));
+  };
+  if (!isLinearAt({linear.turnedOut(across), velocity}, 0)) return false;
+  for (const double part : {0.37, 0.71, 1.0}) {
+    flown = linear.flownFor(velocity, part * t);
+    if (!isLinearAt(flown, part * t)) return false;
+  }
+  return isFinite(flown.displacement) && isFinite(flown.velocity);
+}
+
 }  // namespace
 
 Turning turningAt(const ForceField& field, Vec2 position, Vec2 velocity, double time) {
@@ -87,20 +143,15 @@ Turning turningAt(const ForceField& field, Vec2 position, Vec2 velocity, double 
 
 IntegratorStatus flyField(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t,
                           const IntegratorOptions& options, Flown& flown, IntegratorCounters& counters) {
-  if (options.method == IntegratorMethod::kAutomatic && flyTurning(field, position, velocity, time, t, flown))
+  if (options.method == IntegratorMethod::kAutomatic &&
+      (flyTurning(field, position, velocity, time, t, flown) ||
+       flyLinear(field, position, velocity, time, t, flown))) {
     return IntegratorStatus::kDone;
-  if (hasErrorControl(options.method)) {
-    StateVector<4> y = {position.x, position.y, velocity.x, velocity.y};
-    const IntegratorStatus status = integrate<4>(FieldSystem{field, time}, 0, t, y, options, counters);
-    flown = {Vec2{y[0], y[1]} - position, {y[2], y[3]}};
-    return status;
   }
-  FieldState state{position, velocity, time};
-  integrateFixed(field, state, t, options, counters);
-  flown = {state.position - position, state.velocity};
-  if (isFinite(flown.displacement) && isFinite(flown.velocity)) return IntegratorStatus::kDone;
-  ++counters.failed_calls;
-  return IntegratorStatus::kNotFinite;
+  StateVector<4> y = {position.x, position.y, velocity.x, velocity.y};
+  const IntegratorStatus status = integrate<4>(FieldSystem{field, time}, 0, t, y, options, counters);
+  flown = {Vec2{y[0], y[1]} - position, {y[2], y[3]}};
+  return status;
 }
 
 }  // namespace naiad::physics

@@ -89,41 +89,4 @@ void SpringFlow::underdamped(double damping, double t) {
   m_integral_response = (1 - decay * (cosine + half * swing)) / m_stiffness;
 }
 
-namespace {
-
-double share(double inverse_mass, double sum) {
-  return sum > 0 ? inverse_mass / sum : 0;
-}
-
-}  // namespace
-
-PairFlow::PairFlow(double stiffness, double damping, double inverse_mass_first, double inverse_mass_second,
-                   double t)
-    : m_flow({stiffness * (inverse_mass_first + inverse_mass_second),
-              damping * (inverse_mass_first + inverse_mass_second)},
-             t),
-      m_t(t),
-      m_share_first(share(inverse_mass_first, inverse_mass_first + inverse_mass_second)),
-      m_share_second(share(inverse_mass_second, inverse_mass_first + inverse_mass_second)) {}
-
-FlownPair PairFlow::operator()(Vec2 offset, Vec2 velocity_first, Vec2 velocity_second,
-                               Vec2 acceleration_first, Vec2 acceleration_second) const {
-  if (m_share_first + m_share_second == 0) {
-    return {flyFree(velocity_first, {}, m_t), flyFree(velocity_second, {}, m_t)};
-  }
-  // What is immovable keeps its velocity whatever pushes it. The centre of mass: each body counts with the
-  // other's share, for shares go by inverse masses.
-  if (m_share_first == 0) acceleration_first = {};
-  if (m_share_second == 0) acceleration_second = {};
-  const Vec2 velocity = m_share_second * velocity_first + m_share_first * velocity_second;
-  const Vec2 acceleration = m_share_second * acceleration_first + m_share_first * acceleration_second;
-  const Flown centre = flyFree(velocity, acceleration, m_t);
-  const Flown apart =
-      m_flow(offset, velocity_second - velocity_first, acceleration_second - acceleration_first);
-  return {{centre.displacement + (-m_share_first) * apart.displacement,
-           centre.velocity + (-m_share_first) * apart.velocity},
-          {centre.displacement + m_share_second * apart.displacement,
-           centre.velocity + m_share_second * apart.velocity}};
-}
-
 }  // namespace naiad::physics

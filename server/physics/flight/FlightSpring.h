@@ -1,4 +1,4 @@
-// Flight on a damped spring of rest length zero: to a point, or between two bodies that nothing else holds.
+// Flight on a damped spring of rest length zero to a point.
 //
 // x″ = a − k·x − c·x′, x from the spring's fixed point: solved by the exponential of its 2×2 matrix in each
 // of its three cases, so the stiffness sets no limit to the step. Error per step: a few units in the last
@@ -43,30 +43,5 @@ class SpringFlow {
 inline Flown flySpring(Vec2 offset, Vec2 velocity, Vec2 acceleration, Spring spring, double t) {
   return SpringFlow(spring, t)(offset, velocity, acceleration);
 }
-
-/// Two bodies on one spring.
-struct FlownPair {
-  Flown first;
-  Flown second;
-};
-
-/// The flow of two bodies with a spring between them: the centre of mass flies freely, the difference on a
-/// spring with the reduced mass. Exact, and the momentum is kept to rounding.
-class PairFlow {
- public:
-  /// `stiffness` and `damping` are the spring's own (force over length, force over velocity). Inverse masses
-  /// >= 0; a body with 0 keeps its velocity, whatever pushes it.
-  PairFlow(double stiffness, double damping, double inverse_mass_first, double inverse_mass_second, double t);
-
-  /// `offset` is from the first to the second.
-  FlownPair operator()(Vec2 offset, Vec2 velocity_first, Vec2 velocity_second, Vec2 acceleration_first,
-                       Vec2 acceleration_second) const;
-
- private:
-  SpringFlow m_flow;
-  double m_t;
-  double m_share_first;  // how much of the difference's motion each body makes
-  double m_share_second;
-};
 
 }  // namespace naiad::physics

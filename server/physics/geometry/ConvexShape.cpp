@@ -64,16 +64,6 @@ double height(Vec2 a, Vec2 b, Vec2 c) {
   return cross(b - a, c - b) / length(c - a);
 }
 
-// One half of the hull: points sorted by x and y, kept while they turn from x to y.
-std::size_t halfHull(std::span<const Vec2> sorted, std::span<Vec2> hull) {
-  std::size_t count = 0;
-  for (const Vec2 p : sorted) {
-    while (count >= 2 && cross(hull[count - 1] - hull[count - 2], p - hull[count - 1]) <= 0) --count;
-    hull[count++] = p;
-  }
-  return count;
-}
-
 }  // namespace
 
 ShapeStatus makeCircle(double radius, Vec2 centre, ConvexShape& shape) {
@@ -146,48 +136,6 @@ ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape
   made.radius = radius;
   std::copy(points.begin(), points.end(), made.vertices.begin());
   return finish(made, shape);
-}
-
-ShapeStatus makeHull(std::span<const Vec2> points, double radius, ConvexShape& shape) {
-  constexpr std::size_t kMax = 4096;  // points: 200 kB of stack, and corners are left out in quadratic time
-  if (points.empty()) return ShapeStatus::kTooFew;
-  if (points.size() > kMax) return ShapeStatus::kTooMany;
-  for (const Vec2 p : points) {
-    if (!isFinite(p)) return ShapeStatus::kNotFinite;
-    if (std::max(std::fabs(p.x), std::fabs(p.y)) > kLargestShape) return ShapeStatus::kTooLarge;
-  }
-  std::array<Vec2, kMax> sorted;
-  const std::span<Vec2> all(sorted.data(), points.size());
-  std::copy(points.begin(), points.end(), all.begin());
-  std::sort(all.begin(), all.end(), [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::array<Vec2, 2 * kMax> hull;
-  std::size_t count = halfHull(all, hull) - 1;
-  std::reverse(all.begin(), all.end());
-  count += halfHull(all, std::span<Vec2>(hull).subspan(count)) - 1;
-  const double size = sizeOf(all);
-  while (count > 3) {
-    std::size_t least = 0;
-    double least_area = 0;
-    bool flat = false;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec2 a = hull[(i + count - 1) % count], b = hull[i], c = hull[(i + 1) % count];
-      const double area = cross(b - a, c - b);
-      if (i > 0 && area >= least_area) continue;
-      least = i, least_area = area;
-    }
-    for (std::size_t i = 0; i < count && !flat; ++i) {
-      const Vec2 a = hull[(i + count - 1) % count], b = hull[i], c = hull[(i + 1) % count];
-      flat = !(height(a, b, c) > 2 * kSmallestCorner * size) || length(b - a) < 2 * kSmallestCorner * size;
-      if (flat) least = i;
-    }
-    if (!flat && count <= kMaxVertices) break;
-    std::copy(hull.begin() + static_cast<std::ptrdiff_t>(least) + 1,
-              hull.begin() + static_cast<std::ptrdiff_t>(count),
-              hull.begin() + static_cast<std::ptrdiff_t>(least));
-    --count;
-  }
-  if (count < 3) return ShapeStatus::kTooSmall;
-  return makePolygon({hull.data(), count}, radius, shape);
 }
 
 bool isEqual(const ConvexShape& a, const ConvexShape& b) {

@@ -35,7 +35,7 @@ struct ConvexShape {
 enum class ShapeStatus : std::uint8_t {
   kOk,
   kNotFinite,  ///< a NaN or an infinity
-  kTooFew,     ///< fewer than three points, or than one for a hull
+  kTooFew,     ///< fewer than three points
   kTooMany,    ///< more than kMaxVertices
   kTooSmall,   ///< no area worth the name, equal points, a radius below zero
   kTooLarge,   ///< beyond kLargestShape
@@ -51,10 +51,6 @@ ShapeStatus makeCapsule(Vec2 a, Vec2 b, double radius, ConvexShape& shape);
 ShapeStatus makeBox(double half_width, double half_height, Vec2 centre, Rotation rotation, double radius,
                     ConvexShape& shape);
 ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape& shape);
-/// The convex hull of up to 4096 points. Corners too flat for a polygon are left out, then, while there are
-/// more than kMaxVertices, the corner whose loss costs the least area: so it may lie a little within the
-/// hull.
-ShapeStatus makeHull(std::span<const Vec2> points, double radius, ConvexShape& shape);
 
 /// Have they the same points and normals, in the same order, and the same radius?
 bool isEqual(const ConvexShape& a, const ConvexShape& b);
@@ -104,7 +100,5 @@ constexpr int following(int index, int count) {
 constexpr int preceding(int index, int count) {
   return index > 0 ? index - 1 : count - 1;
 }
-
-using Shape [[deprecated("say ConvexShape")]] = ConvexShape;
 
 }  // namespace naiad::physics

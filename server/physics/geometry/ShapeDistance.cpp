@@ -125,6 +125,14 @@ FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 o
   return faceSeparation(shape, best, other, offset);
 }
 
+double faceGap(const TurnedView& shape, Vec2 centre, double radius) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::int32_t i = 0; i < shape.count && shape.count > 2; ++i) {
+    most = std::max(most, dot(shape.normals[i], centre - shape.vertices[i]) - shape.radius - radius);
+  }
+  return most;
+}
+
 Separation separationFrom(const TurnedView& a, const TurnedView& b, Vec2 offset, const FaceSeparation& face_a,
                           const FaceSeparation& face_b) {
   if (a.count == 1 && b.count == 1) return fromVertices(offset + (b.vertices[0] - a.vertices[0]), 0, 0);

@@ -35,6 +35,9 @@ FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const 
                               Vec2 offset);
 /// The best one; ends early with one beyond `enough`. Nothing (−∞) for a shape without edges.
 FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 offset, double enough);
+/// How far a circle about `centre` is from the shape at least, by the shape's faces alone: nothing (−∞) where
+/// it has none.
+double faceGap(const TurnedView& shape, Vec2 centre, double radius);
 
 /// `offset`: from A's origin to B's. Exact but for rounding, by separating axes and, where the nearest
 /// features are both corners, by the distance between edges that these axes single out. No iteration. Once it

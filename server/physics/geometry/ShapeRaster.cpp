@@ -66,14 +66,4 @@ void rasterise(const TurnedShape& shape, Vec2 centre, double aspect, std::vector
   }
 }
 
-bool isOutline(std::span<const CellSpan> spans, std::size_t index, std::int32_t column) {
-  const CellSpan& span = spans[index];
-  if (column == span.first || column == span.last) return true;
-  const auto covers = [&](std::size_t other, std::int32_t row) {
-    return other < spans.size() && spans[other].row == row && spans[other].first <= column &&
-           column <= spans[other].last;
-  };
-  return !(index > 0 && covers(index - 1, span.row - 1)) || !covers(index + 1, span.row + 1);
-}
-
 }  // namespace naiad::physics

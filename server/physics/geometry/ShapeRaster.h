@@ -24,7 +24,4 @@ struct CellSpan {
 void rasterise(const TurnedShape& shape, Vec2 centre, double aspect, std::vector<CellSpan>& spans,
                std::int32_t furthest = 4096);
 
-/// Is a cell of `spans[index]` at the border: is one of its four neighbours not covered by this shape?
-bool isOutline(std::span<const CellSpan> spans, std::size_t index, std::int32_t column);
-
 }  // namespace naiad::physics

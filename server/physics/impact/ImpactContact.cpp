@@ -244,6 +244,43 @@ double ImpactWorld::pushGroup(int contact, double now) {
   return impulse;
 }
 
+// Bodies that have just been put on one another: event by event the lowest would show that the next one
+// presses on it, and so on, each time with a solution for all. So contacts are made of all pairs that touch
+// and that what moves them might press together. Those that do not press go again.
+bool ImpactWorld::touchCandidates() {
+  constexpr int kFew = 4;  // so many are found as quickly one by one
+  const auto mayPress = [&](int id, Vec2 normal) {
+    const Vec2 pull = m_bodies[id].acceleration;
+    return std::fabs(dot(pull, normal)) > 1e-9 * length(pull);
+  };
+  m_group_contacts.clear();
+  for (const Candidate& pair : m_candidates) {
+    if (!m_motions[pair.id].is_dirty && !m_motions[pair.other].is_dirty) continue;
+    if (m_motions[pair.id].is_frozen || m_motions[pair.other].is_frozen) continue;
+    const int a = std::min(pair.id, pair.other), b = std::max(pair.id, pair.other);
+    const PairState state = pairState(a, b, ImpactAxis::kNearest);
+    const bool are_boxes = m_bodies[a].shape == ImpactShape::kBox && m_bodies[b].shape == ImpactShape::kBox;
+    ImpactAxis axis = ImpactAxis::kNearest;
+    if (are_boxes) axis = state.touch.normal.x != 0 ? ImpactAxis::kX : ImpactAxis::kY;
+    const bool touches = std::fabs(state.touch.gap) <= kImpactSlop &&
+                         std::fabs(state.approach) <= state.rest_speed &&
+                         !(are_boxes && state.touch.overlap <= 1.01 * kImpactSlop);
+    if (!touches || !(mayPress(a, state.touch.normal) || mayPress(b, state.touch.normal))) continue;
+    if (findContact(a, b) >= 0) continue;
+    m_group_contacts.push_back(makeContact(a, b, axis));
+  }
+  const bool are_many = m_group_contacts.size() > kFew;
+  for (const int c : m_group_contacts) {
+    Contact& contact = m_contacts[c];
+    contact.is_tried = are_many;
+    for (const int id : {contact.first, contact.second}) {
+      if (are_many && isPushed(id)) markChanged(id);
+    }
+    if (!are_many) dropContact(c);
+  }
+  return are_many;
+}
+
 void ImpactWorld::settle(double now) {
   for (std::size_t i = 0; i < m_changed.size(); ++i) {  // it may grow
     const int id = m_changed[i];
@@ -284,6 +321,13 @@ void ImpactWorld::settleGroup(int body, double now) {
     contact.is_listed = false;
     const RestRow& normal = m_rest.rows()[row];
     row += frictionOf(m_bodies[contact.first], m_bodies[contact.second]) == 0 ? 1 : 2;
+    if (std::exchange(contact.is_tried, false)) {
+      if (!(normal.push > 0)) {
+        dropContact(c);
+        continue;
+      }
+      m_events.push_back({now, contact.first, contact.second, true, 0, normal.direction});
+    }
     if (normal.push > 0) {
       calm(contact);
       continue;

@@ -228,7 +228,7 @@ bool RestSolver::setFrictionBounds(int round) {
     m_high[i] = row.slip > 0 ? -m_limit[i] : m_limit[i];
     if (m_low[i] == m_high[i]) {
       m_side[i] = Side::kLow;
-    } else if (m_side[i] == Side::kLow && row.slip == 0 && rateOf(row) < 0) {
+    } else if (m_side[i] == Side::kLow && row.slip == 0 && rateOf(row) <= 1e-13 * m_bias_scale) {
       m_side[i] = Side::kFree;
     }
   }

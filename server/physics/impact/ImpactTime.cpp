@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "physics/impact/ImpactRoots.h"
+#include "physics/numerics/PolynomialRoots.h"
 
 namespace naiad::physics {
 

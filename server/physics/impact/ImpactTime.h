@@ -1,9 +1,9 @@
 // How two bodies that do not turn touch, and when they next will.
 //
 // The time-of-impact finder for axis-aligned boxes and circles under constant accelerations, for any time to
-// come. The gap then is a polynomial of time of degree at most four (ImpactRoots.h), so the moment is exact
-// to rounding, as an event queue needs it: TimeOfImpact.h finds a safe moment near it, and on straight paths
-// only.
+// come. The gap then is a polynomial of time of degree at most four (PolynomialRoots.h), so the moment is
+// exact to rounding, as an event queue needs it: TimeOfImpact.h finds a safe moment near it, and on straight
+// paths only.
 #pragma once
 
 #include "physics/impact/ImpactBody.h"

@@ -42,7 +42,7 @@ int ImpactWorld::add(const ImpactBody& body) {
     m_motions.emplace_back();
   }
   m_motions[id] = {};
-  m_motions[id].exists = true;
+  m_motions[id].exists = m_motions[id].is_dirty = true;
   return set(id, body) ? id : -1;
 }
 
@@ -181,7 +181,6 @@ void ImpactWorld::beginTick(double dt) {
   m_events.clear();
   m_queue.clear();
   m_ids.clear();
-  m_boxes.clear();
   for (int id = 0; id < idLimit(); ++id) {
     Motion& motion = m_motions[id];
     if (!motion.exists || motion.is_frozen) continue;
@@ -220,10 +219,18 @@ void ImpactWorld::beginTick(double dt) {
       if (isPushed(id)) markChanged(id);
     }
   }
-  for (const int id : m_ids) m_motions[id].is_dirty = false;
+  settleAtStart();
+  placeBoxes();
+}
+
+void ImpactWorld::settleAtStart() {
   settle(0);
   for (const int id : m_changed) m_motions[id].is_changed = false;
   m_changed.clear();
+}
+
+void ImpactWorld::placeBoxes() {
+  m_boxes.clear();
   if (m_ids.empty()) return;
   m_origin_x = m_bodies[m_ids[0]].place.cell_x;
   m_origin_y = m_bodies[m_ids[0]].place.cell_y;
@@ -249,12 +256,12 @@ bool ImpactWorld::listCandidates(int id, std::size_t most) {
 }
 
 // All pairs whose paths may cross. Where bodies lie in one another by the thousand these are too many, which
-// is known before any of them is looked at: after the first body whose pairs do not fit each has its own
-// share alone.
+// is known before any of them is looked at: after the first body whose pairs do not fit into what the tick
+// has for all, each has its own share alone.
 void ImpactWorld::listCandidates() {
   constexpr auto kOwnShare = static_cast<std::size_t>(kWorkOfBody / kForecastPrice);
-  constexpr double kUnlimited = 1e15;
-  const double most_shared = std::min(kReserveAtStart * m_reserve, kUnlimited) + kWorkOfTick;
+  constexpr double kEnough = 1e15;
+  const double most_shared = m_reserve < kUnbounded ? kWorkOfTick : kEnough;
   const double left_now = std::clamp(m_most_work - m_work, 0.0, most_shared);
   const auto shared = static_cast<std::size_t>(left_now / kForecastPrice);
   bool is_spent = false;
@@ -275,6 +282,12 @@ void ImpactWorld::listCandidates() {
 
 void ImpactWorld::forecastAll() {
   listCandidates();
+  if (touchCandidates()) {
+    settleAtStart();
+    placeBoxes();
+    listCandidates();
+  }
+  for (const int id : m_ids) m_motions[id].is_dirty = false;
   for (const Candidate& pair : m_candidates) {
     if (m_motions[pair.id].is_frozen || m_motions[pair.other].is_frozen) continue;
     forecastPair(pair.id, pair.other, 0);
@@ -354,6 +367,9 @@ void ImpactWorld::compactQueue() {
 
 void ImpactWorld::handle(const Pending& pending) {
   const int a = pending.first, b = pending.second;
+  const double granted = std::min(kWorkOfEvent, m_reserve_left);
+  m_reserve_left -= granted;
+  m_most_work += granted;
   if (isOverdrawn(a) || isOverdrawn(b)) {
     giveUp(a);
     giveUp(b);
@@ -413,7 +429,8 @@ ImpactStepStatus ImpactWorld::step(double dt, bool goes_on) {
   m_is_beyond = false;
   if (!goes_on) {
     m_work = 0;
-    m_most_work = kWorkOfTick + m_reserve;
+    m_most_work = m_reserve < kUnbounded ? kWorkOfTick : kUnbounded;
+    m_reserve_left = m_reserve;
     m_has_given_up = false;
     for (Motion& motion : m_motions) {
       motion.work = 0;

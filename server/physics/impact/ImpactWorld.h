@@ -50,15 +50,14 @@ class ImpactWorld {
  public:
   /// What a tick may take, in multiplications (about a nanosecond each): so much …
   static constexpr double kWorkOfTick = 1e6;
-  /// … and so much for each body, and a reserve (setReserve) for those that need more. A body whose own share
-  /// is spent when the reserve is empty is given up for this tick.
+  /// … so much for each body, whose own share that is …
   static constexpr double kWorkOfBody = 5e3;
-  /// 20,000 impacts of two bodies take a fifth of it; that 100 crates which have just been stacked find to
-  /// one another takes most.
-  static constexpr double kUsualReserve = 1e8;
-  /// As much of it may be used up by pairs of which it is only asked, when the tick begins, whether they will
-  /// meet. A body whose pairs are more than its own share is given up without that if they do not fit.
-  static constexpr double kReserveAtStart = 0.2;
+  /// … and so much for each event, which covers an impact of two bodies, but not the solution of a large
+  /// group that lies there. Events get it until a reserve is empty. A body whose own share is spent when all
+  /// of it is gone is given up for this tick.
+  static constexpr double kWorkOfEvent = 1e3;
+  static constexpr double kUsualReserve = 20'000 * kWorkOfEvent;
+  /// Bounds the work of ticks: until then it is not.
   void setReserve(double work) { m_reserve = work; }
   /// A bounce that would not rise higher than this (cells) ends in rest: the Zeno guard. Far below the
   /// world's unit of 2^-32 cell.
@@ -87,6 +86,8 @@ class ImpactWorld {
   /// tick must be moved otherwise, from where it began. It collides with nothing until set().
   bool isGivenUp(int id) const { return m_motions[id].is_given_up; }
   bool hasGivenUp() const { return m_has_given_up; }
+  /// What the last tick has taken.
+  double work() const { return m_work; }
   /// Does the body, which can be pushed, touch anything?
   bool isTouching(int id) const { return m_motions[id].first_contact >= 0; }
   /// What moves it at the end of the last step, with what contacts add.
@@ -137,6 +138,7 @@ class ImpactWorld {
     int next_of_second = -1;
     ImpactAxis axis = ImpactAxis::kNearest;
     bool is_resting = false;
+    bool is_tried = false;   // by touchCandidates(): one only if it presses
     bool is_listed = false;  // in m_group_contacts
   };
   /// What a group is solved for: speeds after an impact, accelerations at rest, or places.
@@ -173,6 +175,8 @@ class ImpactWorld {
   double workLeft() const;
   void spend(int id, double work);
   void beginTick(double dt);
+  void settleAtStart();
+  void placeBoxes();
   void listCandidates();
   bool listCandidates(int id, std::size_t most);
   void forecastAll();
@@ -192,6 +196,7 @@ class ImpactWorld {
   void stopSliding(int a, int b);
   void pushPair(int a, int b, const PairState& state);
   double pushGroup(int contact, double now);
+  bool touchCandidates();
   void settle(double now);
   void settleGroup(int body, double now);
   void calm(const Contact& contact);
@@ -221,8 +226,10 @@ class ImpactWorld {
   double m_stepped = 0;
   bool m_is_beyond = false;  // a body's reach
   bool m_has_given_up = false;
-  double m_reserve = 1e300;
+  static constexpr double kUnbounded = 1e300;
+  double m_reserve = kUnbounded;
   double m_work = 0, m_most_work = 0;           // in this tick
+  double m_reserve_left = 0;                    // likewise
   int m_lowest_free = 0;                        // no id below it is free
   std::vector<int> m_ending;                    // contacts, in remove()
   std::vector<Candidate> m_candidates;          // pairs whose boxes overlap when the tick begins

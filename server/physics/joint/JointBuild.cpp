@@ -47,6 +47,8 @@ JointConstraints::JointConstraints(const JointMotion& motion, std::span<const in
     link.anchor_a = joint.anchor_a;
     link.anchor_b = joint.anchor_b;
     link.is_plain = joint.anchor_a == Vec2{} && joint.anchor_b == Vec2{};
+    link.holds_angle = joint.kind == JointKind::kWeld || joint.kind == JointKind::kSlider ||
+                       joint.kind == JointKind::kAngleLimit;
     link.length = joint.length;
     link.half_inverse_length = joint.length > 0 ? 0.5 / joint.length : 0;
     const bool may_turn = motion.mass[at(link.b)].inverse_inertia > 0 ||

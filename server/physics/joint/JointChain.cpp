@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/joint/Newton.h"
+#include "physics/joint/JointMethod.h"
 
 namespace naiad::physics {
 

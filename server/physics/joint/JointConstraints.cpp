@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "physics/geometry/Index.h"
-#include "physics/joint/JointRows.h"
 
 namespace naiad::physics {
 
@@ -47,34 +46,30 @@ void JointConstraints::setArms(const JointMotion& motion) {
   }
 }
 
-void JointConstraints::setRow(int at_row, const Link& link, Vec2 n, double ja, double jb) {
-  rows[at(at_row)] = {n, ja, jb, link.a, link.b};
+// (d² − L²) / 2L needs no root, and is as good as d − L where it is 0.
+template <bool kJacobian>
+void JointConstraints::evaluateRod(int at_row, const Link& link, Vec2 apart) {
+  value[at(at_row)] = (lengthSquared(apart) - link.length * link.length) * link.half_inverse_length;
+  if constexpr (!kJacobian) return;
+  const Vec2 n = (2 * link.half_inverse_length) * apart;
+  rows[at(at_row)] = {n, -cross(link.arm_a, n), cross(link.arm_b, n), link.a, link.b};
 }
 
+// The bound that is nearer is chosen with the Jacobian, and stays until the next one.
 template <bool kJacobian>
-void JointConstraints::evaluateAngle(const JointMotion& motion, const Link& link, int at_row) {
-  if (at_row < 0) return;
-  const Rotation between = inverse(motion.rotation[at(link.a)]) * motion.rotation[at(link.b)];
-  value[at(at_row)] = bentSine(inverse(joints[link.index].reference) * between);
-  if constexpr (kJacobian) setRow(at_row, link, {}, -1, 1);
-}
-
-template <bool kJacobian>
-void JointConstraints::evaluateLimit(const JointMotion& motion, Link& link) {
-  const int row = link.row[0];
+void JointConstraints::chooseBound(int at_row, Link& link, const SpeedRow& placed) {
+  const std::size_t row = at(at_row);
   const Joint& joint = joints[link.index];
-  const Rotation between = inverse(motion.rotation[at(link.a)]) * motion.rotation[at(link.b)];
-  const double angle = angleOf(inverse(joint.reference) * between);
+  const double bound = placed.side > 0 ? joint.lower : joint.upper;
   if constexpr (kJacobian) {
-    setRow(row, link, {}, -1, 1);
-    const bool is_lower = angle - joint.lower < joint.upper - angle;
-    const double new_low = is_lower ? 0 : -kNoLimit, new_high = is_lower ? kNoLimit : 0;
-    if (new_low != low[at(row)] || new_high != high[at(row)]) side[at(row)] = is_lower ? -1 : 1;
-    low[at(row)] = new_low;
-    high[at(row)] = new_high;
-    link.bound = is_lower ? joint.lower : joint.upper;
+    const double new_low = placed.side > 0 ? 0 : -kNoLimit, new_high = placed.side > 0 ? kNoLimit : 0;
+    if (new_low != low[row] || new_high != high[row]) side[row] = placed.side > 0 ? -1 : 1;
+    low[row] = new_low;
+    high[row] = new_high;
+    link.bound = bound;
+  } else if (link.bound != bound) {
+    value[row] += bound - link.bound;
   }
-  value[at(row)] = angle - link.bound;
 }
 
 template <bool kJacobian>
@@ -87,56 +82,29 @@ void JointConstraints::evaluate(const JointMotion& motion) {
     }
     return;
   }
+  JointFrame frame;
+  SpeedRows placed;
   for (Link& link : links) {
-    const int row = link.row[0];
-    Vec2 apart = motion.place[at(link.b)] + link.arm_b;
-    apart -= link.a >= 0 ? motion.place[at(link.a)] + link.arm_a : link.target;
-    switch (link.kind) {
-      case JointKind::kDistance:
-      case JointKind::kRope:  // (d² − L²) / 2L needs no root, and is as good as d − L where it is 0
-        value[at(row)] = (lengthSquared(apart) - link.length * link.length) * link.half_inverse_length;
-        if constexpr (kJacobian) {
-          const Vec2 n = (2 * link.half_inverse_length) * apart;
-          setRow(row, link, n, -cross(link.arm_a, n), cross(link.arm_b, n));
-        }
-        break;
-      case JointKind::kSpring:
-        if (link.length > 0) {
-          const double distance = length(apart);
-          value[at(row)] = distance - link.length;
-          if constexpr (kJacobian) {
-            const Vec2 n = distance > 0 ? apart / distance : Vec2{1, 0};
-            setRow(row, link, n, -cross(link.arm_a, n), cross(link.arm_b, n));
-          }
-          break;
-        }
-        [[fallthrough]];
-      case JointKind::kHinge:
-      case JointKind::kWeld:
-      case JointKind::kMouse:
-        value[at(row)] = apart.x;
-        value[at(link.row[1])] = apart.y;
-        if constexpr (kJacobian) {
-          setRow(row, link, {1, 0}, link.arm_a.y, -link.arm_b.y);
-          setRow(link.row[1], link, {0, 1}, -link.arm_a.x, link.arm_b.x);
-        }
-        if (link.kind == JointKind::kWeld) evaluateAngle<kJacobian>(motion, link, link.row[2]);
-        break;
-      case JointKind::kSlider: {
-        const Vec2 n = perpendicular(motion.rotation[at(link.a)] * joints[link.index].axis);
-        value[at(row)] = dot(n, apart);
-        if constexpr (kJacobian) setRow(row, link, n, -cross(link.arm_a + apart, n), cross(link.arm_b, n));
-        evaluateAngle<kJacobian>(motion, link, link.row[1]);
-        break;
-      }
-      case JointKind::kMotor:
-        value[at(row)] = 0;
-        if constexpr (kJacobian) setRow(row, link, {}, -1, 1);
-        break;
-      case JointKind::kAngleLimit:
-        evaluateLimit<kJacobian>(motion, link);
-        break;
+    frame.arm_a = link.arm_a, frame.arm_b = link.arm_b;
+    frame.offset = motion.place[at(link.b)] + link.arm_b;
+    frame.offset -= link.a >= 0 ? motion.place[at(link.a)] + link.arm_a : link.target;
+    if (link.kind == JointKind::kDistance || link.kind == JointKind::kRope) {
+      evaluateRod<kJacobian>(link.row[0], link, frame.offset);
+      continue;
     }
+    const Joint& joint = joints[link.index];
+    if (link.holds_angle) {
+      const Rotation& of_a = motion.rotation[at(link.a)];
+      frame.axis = of_a * joint.axis;
+      frame.between = inverse(joint.reference) * (inverse(of_a) * motion.rotation[at(link.b)]);
+    }
+    placeRows(joint, frame, placed);
+    for (std::size_t k = 0; k < placed.size() && link.row[k] >= 0; ++k) {
+      value[at(link.row[k])] = placed[k].value;
+      if constexpr (kJacobian)
+        rows[at(link.row[k])] = {placed[k].n, placed[k].ja, placed[k].jb, link.a, link.b};
+    }
+    if (link.kind == JointKind::kAngleLimit) chooseBound<kJacobian>(link.row[0], link, placed[0]);
   }
 }
 

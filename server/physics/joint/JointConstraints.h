@@ -9,6 +9,7 @@
 #include "physics/joint/Joint.h"
 #include "physics/joint/JointChain.h"
 #include "physics/joint/JointMotion.h"
+#include "physics/joint/JointRows.h"
 #include "physics/numerics/JointMatrix.h"
 
 namespace naiad::physics {
@@ -19,10 +20,11 @@ struct JointConstraints {
 
   struct Link {  // a joint, with what does not change within a step
     JointKind kind;
-    bool is_plain;  // both anchors at the centres
-    int index;      // in the caller's joints
-    int a, b;       // in JointMotion
-    int row[3];     // −1: none
+    bool is_plain;     // both anchors at the centres
+    bool holds_angle;  // of b against a
+    int index;         // in the caller's joints
+    int a, b;          // in JointMotion
+    int row[3];        // −1: none
     Vec2 anchor_a, anchor_b;
     Vec2 arm_a, arm_b;  // the anchors as turned now
     Vec2 target;
@@ -90,11 +92,10 @@ struct JointConstraints {
  private:
   const Joint& jointOf(int at_row) const;
   double inverseEffectiveMass(const JointMotion& motion, int at_row) const;
-  void setRow(int at_row, const Link& link, Vec2 n, double ja, double jb);
   template <bool kJacobian>
-  void evaluateAngle(const JointMotion& motion, const Link& link, int at_row);
+  void evaluateRod(int at_row, const Link& link, Vec2 apart);
   template <bool kJacobian>
-  void evaluateLimit(const JointMotion& motion, Link& link);
+  void chooseBound(int at_row, Link& link, const SpeedRow& placed);
   void addRows(Link& link, const Joint& joint, bool may_turn);
   void sortByElimination(const JointMotion& motion);
   void assignRows(std::span<const Joint> all_joints);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/geometry/Index.h"
+#include "physics/numerics/PolynomialRoots.h"
 
 namespace naiad::physics {
 
@@ -16,10 +17,7 @@ constexpr double kSink =
 constexpr double kRestSpeed = 1e-9;  // metric cells per unit of time: a slower approach does not bounce
 constexpr double kInstant = 1e-9;    // units of time: impacts less apart than this are simultaneous
 constexpr double kFound = 1e-13;     // metric cells: the gap at which Newton's method ends
-constexpr double kStride = 0.25;  // of the reach: how far the two move between two samples of their distance,
-                                  // so that no pass is missed in between
-constexpr int kMaxSamples = 256;  // of a pair and flight; bounds the cost of very fast pairs
-constexpr int kTries = 8;         // Newton iterations for a moment; also flights in a row that take no time
+constexpr int kTries = 8;  // Newton iterations for a moment; also flights in a row that take no time
 // More impacts in a step than kMaxImpacts + kMaxPerPair · pairs: the step is given up, for the RigidWorld.
 constexpr int kMaxImpacts = 256;
 constexpr int kMaxPerPair = 16;
@@ -46,44 +44,20 @@ double approachOf(const JointPair& pair, std::span<const JointBody> bodies) {
   return -dot(normalOf(pair, bodies), speedOf(pair, bodies));
 }
 
-// The displacement from one to the other, as the cubic that begins and ends with their places and velocities.
-struct Path {
-  Vec2 start, slope, bend, rest;
-
-  Path(Vec2 from, Vec2 from_rate, Vec2 to, Vec2 to_rate)
-      : start(from),
-        slope(from_rate),
-        bend(3 * (to - from) - 2 * from_rate - to_rate),
-        rest(from_rate + to_rate - 2 * (to - from)) {}
-  Vec2 at(double s) const { return start + s * (slope + s * (bend + s * rest)); }
-  double squareAt(double s) const { return lengthSquared(at(s)); }
-  bool isClosing(double s) const { return dot(at(s), slope + s * (2 * bend + (3 * s) * rest)) < 0; }
-
-  // When is the square first below `square`? 2: never.
-  double firstBelow(double square, int samples) const {
-    double low = 0;
-    for (int i = 1; i <= samples; ++i) {
-      double high = static_cast<double>(i) / samples;
-      if (squareAt(high) >= square && isClosing(low) && !isClosing(high)) {
-        double nearest = low;  // somewhere between them they are nearest
-        for (int k = 0; k < 40; ++k) {
-          const double middle = 0.5 * (nearest + high);
-          (isClosing(middle) ? nearest : high) = middle;
-        }
-      }
-      if (squareAt(high) < square) return bisect(low, high, square);
-      low = static_cast<double>(i) / samples;
-    }
-    return 2;
-  }
-  double bisect(double low, double high, double square) const {
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (low + high);
-      (squareAt(middle) < square ? high : low) = middle;
-    }
-    return high;
-  }
-};
+// When does the displacement from one to the other first become shorter than `least`? It is the cubic that
+// begins and ends with these places and velocities, over a time of one. −1: never.
+double firstWithin(double least, Vec2 from, Vec2 from_rate, Vec2 to, Vec2 to_rate) {
+  const Vec2 bend = 3 * (to - from) - 2 * from_rate - to_rate;
+  const Vec2 rest = from_rate + to_rate - 2 * (to - from);
+  const double square[] = {lengthSquared(from) - least * least,
+                           2 * dot(from, from_rate),
+                           lengthSquared(from_rate) + 2 * dot(from, bend),
+                           2 * (dot(from, rest) + dot(from_rate, bend)),
+                           lengthSquared(bend) + 2 * dot(from_rate, rest),
+                           2 * dot(bend, rest),
+                           lengthSquared(rest)};
+  return firstBelowZero(square, 6, 0, 1);
+}
 
 }  // namespace
 
@@ -140,7 +114,7 @@ void JointImpacts::fly(std::span<JointBody> bodies, std::span<Joint> joints, dou
   }
 }
 
-// The pair that touches first between m_before and the present places. −1: none. −2: it cannot be decided.
+// The pair that touches first between m_before and the present places. −1: none.
 int JointImpacts::findImpact(std::span<const JointBody> bodies, double left, double& time) const {
   const auto before = [&](int body) -> const JointBody& {
     const auto found = std::lower_bound(m_bodies.begin(), m_bodies.end(), body);
@@ -156,11 +130,8 @@ int JointImpacts::findImpact(std::span<const JointBody> bodies, double left, dou
     const double travel = length(to - from) + length(rate) + length(to_rate);
     const double radius = pair.reach + m_floor[at(i)] - kSink;
     if (length(from) - travel > radius) continue;
-    const double samples = std::ceil(travel / (kStride * pair.reach)) + 1;
-    if (!(samples <= kMaxSamples)) return -2;
-    const Path path(from, rate, to, to_rate);
-    const double crossing = path.firstBelow(radius * radius, static_cast<int>(samples));
-    if (crossing >= first_time) continue;
+    const double crossing = firstWithin(radius, from, rate, to, to_rate);
+    if (crossing < 0 || crossing >= first_time) continue;
     first_time = crossing;
     first = i;
   }
@@ -288,7 +259,6 @@ bool JointImpacts::run(std::span<JointBody> bodies, std::span<Joint> joints, dou
     save(bodies);
     fly(bodies, joints, left);
     const int pair = findImpact(bodies, left, flown);
-    if (pair == -2) return false;
     if (pair < 0) flown = left;
     if (pair >= 0 && !refineImpact(pair, bodies, joints, left, flown)) return false;
     if (flown > 0) {

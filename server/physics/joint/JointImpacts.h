@@ -6,7 +6,7 @@
 // Ruina 1998 explain that choice).
 //
 // Its time-of-impact finder is for paths that no formula describes: a joint bends them. The distance of two
-// centres is bracketed on a cubic (Hermite) interpolation of each path, and the moment is then found by
+// centres is that of a cubic (Hermite) interpolation of each path, and from there the moment is found by
 // Newton's method on the JointSolver itself. ImpactTime.h needs a polynomial, TimeOfImpact.h a straight path.
 #pragma once
 

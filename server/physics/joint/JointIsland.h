@@ -15,7 +15,6 @@
 #include "physics/joint/Joint.h"
 #include "physics/joint/JointChain.h"
 #include "physics/joint/JointConstraints.h"
-#include "physics/joint/JointCounters.h"
 #include "physics/joint/JointMethod.h"
 #include "physics/joint/JointMotion.h"
 #include "physics/numerics/JointMatrix.h"

@@ -10,7 +10,6 @@
 
 #include "physics/geometry/Vec2.h"
 #include "physics/joint/Joint.h"
-#include "physics/joint/JointCounters.h"
 #include "physics/joint/JointMethod.h"
 
 namespace naiad::physics {

@@ -2,10 +2,15 @@
 
 namespace naiad::physics {
 
+namespace {
+
+// The sine of the angle, made monotone beyond a right angle.
 double bentSine(Rotation r) {
   if (r.c >= 0) return r.s;
   return r.s >= 0 ? 2 - r.s : -2 - r.s;
 }
+
+}  // namespace
 
 bool isAngleRow(JointKind kind, int row) {
   return kind == JointKind::kMotor || kind == JointKind::kAngleLimit ||

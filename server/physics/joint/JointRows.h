@@ -28,9 +28,6 @@ using SpeedRows = std::array<SpeedRow, 3>;
 /// The first rowsOf(joint) of them are written.
 void placeRows(const Joint& joint, const JointFrame& frame, SpeedRows& rows);
 
-/// The sine of the angle, made monotone beyond a right angle.
-double bentSine(Rotation r);
-
 /// Does the row hold an angle, rather than points?
 bool isAngleRow(JointKind kind, int row);
 

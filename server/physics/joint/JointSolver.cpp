@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 
 #include "physics/geometry/Index.h"
+#include "physics/geometry/UnionFind.h"
 
 namespace naiad::physics {
-
-namespace {
-
-int rootOf(std::vector<int>& parent, int i) {
-  while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-  return i;
-}
-
-}  // namespace
 
 int JointSolver::connect(std::span<const JointBody> bodies, std::span<const Joint> joints) {
   const int count = static_cast<int>(bodies.size());
@@ -26,14 +17,13 @@ int JointSolver::connect(std::span<const JointBody> bodies, std::span<const Join
   for (const JointBody& body : bodies) {
     if (!isValid(body)) return -1;
   }
-  std::vector<int> parent(bodies.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  UnionFind sets;
+  sets.reset(bodies.size());
   const auto movable = [&](int body) { return body >= 0 && isMovable(bodies[at(body)]); };
   for (const Joint& joint : joints) {
     if (joint.is_broken || joint.kind == JointKind::kMouse || !movable(joint.a) || !movable(joint.b))
       continue;
-    const int a = rootOf(parent, joint.a), b = rootOf(parent, joint.b);
-    parent[at(std::max(a, b))] = std::min(a, b);
+    sets.unite(joint.a, joint.b);
   }
   struct Group {
     std::vector<int> bodies, joints;
@@ -45,7 +35,7 @@ int JointSolver::connect(std::span<const JointBody> bodies, std::span<const Join
     const Joint& joint = joints[at(i)];
     const int a = joint.kind == JointKind::kMouse ? -1 : joint.a;
     if (joint.is_broken || (!movable(a) && !movable(joint.b))) continue;
-    Group& group = groups[at(rootOf(parent, movable(joint.b) ? joint.b : a))];
+    Group& group = groups[at(sets.rootOf(movable(joint.b) ? joint.b : a))];
     group.joints.push_back(i);
     for (const int body : {a, joint.b}) {
       if (body < 0) continue;

@@ -22,11 +22,7 @@ template <int N>
 using StateMatrix = std::array<std::array<double, N>, N>;
 
 enum class IntegratorMethod : std::uint8_t {
-  kAutomatic,          ///< extrapolation; in a call in which that is slow, Radau if it is faster
-  kSemiImplicitEuler,  ///< order 1, one force per sub-step: what most engines do, here to compare with
-  kVelocityVerlet,     ///< order 2, symplectic, one force per sub-step (two if forces depend on the velocity)
-  kYoshida4,           ///< order 4, symplectic, three Verlet steps per sub-step; for forces without velocity
-  kRungeKutta4,        ///< order 4, four forces per sub-step
+  kAutomatic,      ///< extrapolation; in a call in which that is slow, Radau if it is faster
   kExtrapolation,  ///< Gragg–Bulirsch–Stoer, order up to 16, error control: smooth motion to rounding, Kepler
   kRadau,          ///< Radau IIA of order 5, implicit, error control: stiff forces
 };
@@ -40,7 +36,6 @@ enum class IntegratorStatus : std::uint8_t {
 
 struct IntegratorOptions {
   IntegratorMethod method = IntegratorMethod::kAutomatic;
-  int substeps = 8;  ///< per call, for the methods of fixed step
 
   /// What each error-controlled step of the explicit method may be wrong by, per component:
   /// absolute + relative · |component|.
@@ -53,7 +48,8 @@ struct IntegratorOptions {
   /// The explicit method gives up in a call when it needs more derivatives than this, or will at the pace of
   /// its steps.
   int max_evaluations = 30000;
-  /// The implicit method gives up after as many steps, rejected ones among them.
+  /// The implicit method gives up after as many steps, rejected ones among them. The automatic one has lower
+  /// limits of its own, and larger tolerances before it gives up (IntegratorAutomatic.h).
   int max_steps = 20000;
 };
 
@@ -65,6 +61,7 @@ struct IntegratorCounters {
   std::int64_t jacobians = 0;        ///< implicit only
   std::int64_t newton_failures = 0;  ///< steps repeated because Newton's method did not converge
   std::int64_t stiff_calls = 0;      ///< calls of the automatic method that went on with Radau
+  std::int64_t coarse_calls = 0;     ///< of those, how many had to end without error control
   std::int64_t failed_calls = 0;     ///< calls that ended with a status other than kDone
 };
 

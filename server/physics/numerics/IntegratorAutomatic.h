@@ -16,30 +16,59 @@ namespace automatic {
 inline constexpr int kManyEvaluations = 1500;
 /// Steps of the implicit method in which it must finish the call. A lasting oscillation would take it many
 /// more.
-inline constexpr int kTrialSteps = 300;
+inline constexpr int kTrialSteps = 100;
+/// At most so much in one call: both are about half a millisecond.
+inline constexpr int kMaxEvaluations = 8000;
+inline constexpr int kMaxSteps = 600;
+inline constexpr int kEvaluationsAtLeast = 150;
+inline constexpr int kCoarseSteps = 16;
+/// What does not fit into these steps is solved the more coarsely.
+inline constexpr double kLoosening = 100;
+/// Next to a jump steps are short for a while.
+inline constexpr int kPatience = 2;
 
-/// Extrapolation; when that is slow, Radau on trial; then extrapolation again, up to the limit; at last Radau
-/// for good.
+/// Extrapolation; when that is slow, Radau on trial; then extrapolation again, up to the limit.
+template <int N, class System>
+IntegratorStatus integrateExactly(const System& system, double& t, double end, StateVector<N>& y,
+                                  const IntegratorOptions& limited, IntegratorCounters& counters) {
+  IntegratorOptions trial = limited;
+  trial.max_evaluations = std::min(limited.max_evaluations, kManyEvaluations);
+  trial.max_steps = std::min(limited.max_steps, kTrialSteps);
+  IntegratorStatus status = integrateByExtrapolation<N>(system, t, end, y, trial, counters, 1);
+  if (status != IntegratorStatus::kTooManySteps) return status;
+  double t_stiff = t;
+  StateVector<N> y_stiff = y;
+  status = integrateByRadau<N>(system, t_stiff, end, y_stiff, trial, counters);
+  if (status == IntegratorStatus::kDone) {
+    ++counters.stiff_calls;
+  } else {
+    status = integrateByExtrapolation<N>(system, t, end, y, limited, counters, kPatience);
+  }
+  if (t_stiff > t && isUsable<N>(y_stiff)) t = t_stiff, y = y_stiff;
+  return status;
+}
+
+/// What that does not solve goes on with Radau, as coarsely as its limit asks, and at last without error
+/// control. So it ends, unless numbers are not finite. Where the limit of derivatives is too low to see how
+/// stiff it is, Radau begins.
 template <int N, class System>
 IntegratorStatus integrate(const System& system, double t, double end, StateVector<N>& y,
                            const IntegratorOptions& options, IntegratorCounters& counters) {
-  IntegratorOptions trial = options;
-  trial.max_evaluations = std::min(options.max_evaluations, kManyEvaluations);
-  trial.max_steps = std::min(options.max_steps, kTrialSteps);
-  IntegratorStatus status = integrateByExtrapolation<N>(system, t, end, y, trial, counters, true);
-  if (status == IntegratorStatus::kTooManySteps) {
-    double t_stiff = t;
-    StateVector<N> y_stiff = y;
-    if (integrateByRadau<N>(system, t_stiff, end, y_stiff, trial, counters) == IntegratorStatus::kDone) {
-      ++counters.stiff_calls;
-      y = y_stiff;
-      return IntegratorStatus::kDone;
-    }
-    status = integrateByExtrapolation<N>(system, t, end, y, options, counters, true);
-  }
-  if (status == IntegratorStatus::kDone || status == IntegratorStatus::kNotFinite) return status;
+  IntegratorOptions limited = options;
+  limited.max_evaluations = std::min(options.max_evaluations, kMaxEvaluations);
+  limited.max_steps = std::min(options.max_steps, kMaxSteps);
+  const auto isOver = [](IntegratorStatus status) {
+    return status == IntegratorStatus::kDone || status == IntegratorStatus::kNotFinite;
+  };
+  IntegratorStatus status = IntegratorStatus::kTooManySteps;
+  if (options.max_evaluations > kEvaluationsAtLeast)
+    status = integrateExactly<N>(system, t, end, y, limited, counters);
+  if (isOver(status)) return status;
   ++counters.stiff_calls;
-  return integrateByRadau<N>(system, t, end, y, options, counters);
+  status = integrateByRadau<N>(system, t, end, y, limited, counters, kLoosening);
+  if (status != IntegratorStatus::kTooManySteps) return status;
+  ++counters.coarse_calls;
+  return integrateCoarsely<N>(system, t, end, y, kCoarseSteps, limited, counters);
 }
 
 }  // namespace automatic
@@ -52,7 +81,7 @@ IntegratorStatus integrate(const System& system, double t, double end, StateVect
   IntegratorStatus status;
   switch (options.method) {
     case IntegratorMethod::kExtrapolation:
-      status = integrateByExtrapolation<N>(system, t, end, y, options, counters, false);
+      status = integrateByExtrapolation<N>(system, t, end, y, options, counters, 0);
       break;
     case IntegratorMethod::kRadau:
       status = integrateByRadau<N>(system, t, end, y, options, counters);

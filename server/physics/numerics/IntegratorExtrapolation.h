@@ -170,11 +170,12 @@ class Step {
 }  // namespace extrapolation
 
 /// From `t` to `end` >= t. On return `t` and `y` are as far as it has come: the end, if the status is kDone.
-/// `gives_up_early`: also when the limit of derivatives would be passed at the pace of the last step.
+/// `patience` > 0: it gives up as well when so many times the limit of derivatives would be passed at the
+/// pace of the last step.
 template <int N, class System>
 IntegratorStatus integrateByExtrapolation(const System& system, double& t, double end, StateVector<N>& y,
                                           const IntegratorOptions& options, IntegratorCounters& counters,
-                                          bool gives_up_early) {
+                                          int patience) {
   extrapolation::Step<N, System> step(system, options);
   StateVector<N> rate, rate_at_end;
   std::int64_t evaluations = 0;
@@ -219,8 +220,8 @@ IntegratorStatus integrateByExtrapolation(const System& system, double& t, doubl
 
     // The rest at this pace: stiffness shows in steps that the accuracy alone would not ask for.
     const double ahead = (end - t) / length * extrapolation::evaluationsOf(step.columns());
-    const bool is_slow =
-        gives_up_early && evaluations > 150 && is_accepted && ahead > options.max_evaluations;
+    const bool is_slow = patience > 0 && evaluations > 150 && is_accepted &&
+                         ahead > static_cast<double>(patience) * options.max_evaluations;
     if (is_slow || evaluations > options.max_evaluations) return IntegratorStatus::kTooManySteps;
   }
   return IntegratorStatus::kDone;

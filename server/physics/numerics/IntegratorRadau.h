@@ -6,19 +6,288 @@
 // they stand.
 #pragma once
 
-#include "physics/numerics/IntegratorRadauStep.h"
+#include <algorithm>
+#include <cmath>
+
+#include "physics/numerics/DenseSolve.h"
+#include "physics/numerics/Integrator.h"
+#include "physics/numerics/IntegratorExtrapolation.h"
+#include "shared/math/Elementary.h"
 
 namespace naiad::physics {
 
+namespace radau {
+
+inline constexpr double kRoot6 = 0x1.3988e1409212ep+1;
+inline constexpr std::array<double, 3> kNodes = {(4 - kRoot6) / 10, (4 + kRoot6) / 10, 1};
+inline constexpr std::array<std::array<double, 3>, 3> kWeights = {{
+    {(88 - 7 * kRoot6) / 360, (296 - 169 * kRoot6) / 1800, (-2 + 3 * kRoot6) / 225},
+    {(296 + 169 * kRoot6) / 1800, (88 + 7 * kRoot6) / 360, (-2 - 3 * kRoot6) / 225},
+    {(16 - kRoot6) / 36, (16 + kRoot6) / 36, 1.0 / 9},
+}};
+/// The real eigenvalue of the weights: (6 + ∛81 − ∛9) / 30.
+inline constexpr double kGamma = 0.27488882959532694;
+/// How the stages' increments enter the error estimate, times kGamma.
+inline constexpr std::array<double, 3> kErrorWeights = {-(13 + 7 * kRoot6) / 3, (-13 + 7 * kRoot6) / 3,
+                                                        -1.0 / 3};
+inline constexpr int kMaxNewton = 10;  ///< iterations; slower convergence shortens the step instead
+
+template <int N>
+using Stages = std::array<StateVector<N>, 3>;
+
+/// The polynomial through (0, 0) and the stages' increments at their nodes, at `s` steps after the step's
+/// start.
+template <int N>
+StateVector<N> continued(const Stages<N>& stages, double s) {
+  StateVector<N> value{};
+  for (int i = 0; i < 3; ++i) {
+    double weight = s / kNodes[i];
+    for (int j = 0; j < 3; ++j) {
+      if (j != i) weight *= (s - kNodes[j]) / (kNodes[i] - kNodes[j]);
+    }
+    for (int m = 0; m < N; ++m) value[m] += weight * stages[i][m];
+  }
+  return value;
+}
+
+template <int N, class System>
+class Step {
+ public:
+  Step(const System& system, const IntegratorOptions& options, IntegratorCounters& counters)
+      : m_system(system), m_options(options), m_counters(counters) {
+    loosen(1);
+  }
+
+  /// Tolerances are so many times those of the options.
+  void loosen(double factor) {
+    m_absolute = factor * m_options.stiff_absolute;
+    m_relative = factor * m_options.stiff_relative;
+    m_newton_limit = std::max(0x1p-48 / m_relative, 0.01);
+  }
+
+  /// The derivative at the start of the step.
+  const StateVector<N>& rate() const { return m_rate; }
+
+  /// Look at the start. Returns the length for a first step: in it the state changes by about a hundredth.
+  double begin(double t, const StateVector<N>& y) {
+    evaluate(t, y, m_rate);
+    m_has_jacobian = false;
+    const double speed = scaled(m_rate, y);
+    return speed > 0 ? std::max(0.01 * scaled(y, y), 1.0) / speed : HUGE_VAL;
+  }
+
+  /// Find the stages of a step from `y` at `t`. False if Newton's iteration does not converge.
+  bool solve(double t, const StateVector<N>& y, double length) {
+    if (!m_has_jacobian) findJacobian(t, y);
+    m_has_jacobian = true;
+    m_increments = predicted(length);
+    const bool has_converged = decompose(length) && iterate(t, y, length);
+    if (!has_converged) m_last_length = 0;
+    return has_converged;
+  }
+
+  /// Instead of all that: y += (I − hJ)⁻¹·h·y′. Where that leads elsewhere than the derivative does, since
+  /// what is to come runs away faster than a step can see, nothing moves.
+  bool takeCoarsely(double t, StateVector<N>& y, double length) {
+    evaluate(t, y, m_rate);
+    findJacobian(t, y);
+    auto& matrix = m_filter.matrix();
+    StateVector<N> change;
+    for (int m = 0; m < N; ++m) {
+      change[m] = length * m_rate[m];
+      for (int n = 0; n < N; ++n) matrix[m][n] = (m == n) - length * m_jacobian[m][n];
+    }
+    if (!m_filter.decompose()) return false;
+    m_filter.solve(change);
+    double along = 0, square = 0, free_square = 0;
+    for (int m = 0; m < N; ++m) {
+      along += change[m] * m_rate[m];
+      square += change[m] * change[m];
+      free_square += length * length * m_rate[m] * m_rate[m];
+    }
+    if (along < 0 || square > 1.5 * free_square) return true;
+    for (int m = 0; m < N; ++m) y[m] += change[m];
+    return true;
+  }
+
+  /// What the solved step is wrong by, over what is allowed. `is_careful`: filter twice before a rejection.
+  double error(double t, const StateVector<N>& y, double length, bool is_careful) {
+    auto& matrix = m_filter.matrix();
+    for (int m = 0; m < N; ++m) {
+      for (int n = 0; n < N; ++n) matrix[m][n] = (m == n) - length * kGamma * m_jacobian[m][n];
+    }
+    if (!m_filter.decompose()) return HUGE_VAL;
+    const StateVector<N> estimate = filtered(m_rate, length);
+    const double size = scaledError<N>(estimate, y, m_increments[2], m_absolute, m_relative);
+    if (!is_careful || size < 1 || size > 1e100) return size;
+    StateVector<N> at = y, rate;
+    for (int m = 0; m < N; ++m) at[m] += estimate[m];
+    evaluate(t, at, rate);
+    return scaledError<N>(filtered(rate, length), y, m_increments[2], m_absolute, m_relative);
+  }
+
+  double nextFactor(double error) const {
+    const double caution = 0.9 * (2 * kMaxNewton + 1) / (2 * kMaxNewton + m_iterations);
+    return std::clamp(caution * df::math::exp(-0.25 * df::math::log(std::max(error, 1e-20))), 0.1, 8.0);
+  }
+
+  /// Accept the step; `t` is its end.
+  void advance(double t, StateVector<N>& y, double length, bool is_last) {
+    for (int m = 0; m < N; ++m) y[m] += m_increments[2][m];
+    m_last_increments = m_increments;
+    m_last_length = length;
+    if (is_last) return;
+    evaluate(t, y, m_rate);
+    m_has_jacobian = false;
+  }
+
+ private:
+  void evaluate(double t, const StateVector<N>& y, StateVector<N>& rate) {
+    m_system.derivative(t, y, rate);
+    ++m_counters.evaluations;
+  }
+
+  double scaled(const StateVector<N>& change, const StateVector<N>& y) const {
+    return scaledError<N>(change, y, StateVector<N>{}, m_absolute, m_relative);
+  }
+
+  // By the system's own formula, or by differences.
+  void findJacobian(double t, const StateVector<N>& y) {
+    ++m_counters.jacobians;
+    if constexpr (requires { m_system.jacobian(t, y, m_jacobian); }) {
+      if (m_system.jacobian(t, y, m_jacobian)) return;
+    }
+    const double floor = std::max(m_absolute / m_relative, 1e-8);
+    StateVector<N> shifted = y, rate;
+    for (int j = 0; j < N; ++j) {
+      shifted[j] = y[j] + 0x1p-26 * std::max(std::fabs(y[j]), floor);
+      const double shift = shifted[j] - y[j];
+      evaluate(t, shifted, rate);
+      for (int i = 0; i < N; ++i) m_jacobian[i][j] = (rate[i] - m_rate[i]) / shift;
+      shifted[j] = y[j];
+    }
+  }
+
+  // The last step's polynomial, continued.
+  Stages<N> predicted(double length) const {
+    Stages<N> increments{};
+    if (m_last_length == 0) return increments;
+    for (int i = 0; i < 3; ++i) {
+      increments[i] = continued<N>(m_last_increments, 1 + length / m_last_length * kNodes[i]);
+      for (int m = 0; m < N; ++m) increments[i][m] -= m_last_increments[2][m];
+    }
+    return increments;
+  }
+
+  // I − h·A⊗J.
+  bool decompose(double length) {
+    auto& matrix = m_newton.matrix();
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        for (int m = 0; m < N; ++m) {
+          for (int n = 0; n < N; ++n) {
+            matrix[i * N + m][j * N + n] = (i == j && m == n) - length * kWeights[i][j] * m_jacobian[m][n];
+          }
+        }
+      }
+    }
+    return m_newton.decompose();
+  }
+
+  bool iterate(double t, const StateVector<N>& y, double length) {
+    double last_size = 0;
+    for (m_iterations = 1; m_iterations <= kMaxNewton; ++m_iterations) {
+      const double size = improve(t, y, length);
+      if (!(size < 1e100)) return false;
+      if (size <= 1e-3 * m_newton_limit) return true;
+      if (m_iterations > 1) {
+        const double contraction = size / last_size;
+        // Near the floor that rounding sets, a small residue must do.
+        if (contraction >= 1) return contraction < 2 && size <= m_newton_limit;
+        const double left = contraction / (1 - contraction) * size;
+        if (left <= m_newton_limit) return true;
+        const int more = kMaxNewton - 1 - m_iterations;
+        if (left * df::math::exp(more * df::math::log(contraction)) > m_newton_limit) return false;
+      }
+      last_size = size;
+    }
+    return false;
+  }
+
+  // One iteration; returns the size of what it changed.
+  double improve(double t, const StateVector<N>& y, double length) {
+    Stages<N> rates;
+    for (int i = 0; i < 3; ++i) {
+      StateVector<N> at = y;
+      for (int m = 0; m < N; ++m) at[m] += m_increments[i][m];
+      evaluate(t + length * kNodes[i], at, rates[i]);
+    }
+    StateVector<3 * N> change;
+    for (int i = 0; i < 3; ++i) {
+      for (int m = 0; m < N; ++m) {
+        const double sum =
+            kWeights[i][0] * rates[0][m] + kWeights[i][1] * rates[1][m] + kWeights[i][2] * rates[2][m];
+        change[i * N + m] = length * sum - m_increments[i][m];
+      }
+    }
+    m_newton.solve(change);
+    double size = 0;
+    for (int i = 0; i < 3; ++i) {
+      StateVector<N> part;
+      for (int m = 0; m < N; ++m) {
+        part[m] = change[i * N + m];
+        m_increments[i][m] += part[m];
+      }
+      size = std::max(size, scaled(part, y));
+    }
+    return size;
+  }
+
+  // The raw estimate with the derivative `rate` at the start, its stiff part damped.
+  StateVector<N> filtered(const StateVector<N>& rate, double length) const {
+    StateVector<N> estimate;
+    for (int m = 0; m < N; ++m) {
+      double sum = length * rate[m];
+      for (int i = 0; i < 3; ++i) sum += kErrorWeights[i] * m_increments[i][m];
+      estimate[m] = kGamma * sum;
+    }
+    m_filter.solve(estimate);
+    return estimate;
+  }
+
+  const System& m_system;
+  const IntegratorOptions& m_options;
+  IntegratorCounters& m_counters;
+  double m_absolute = 0;
+  double m_relative = 0;
+  double m_newton_limit = 0;  // the part of the allowed error that the iteration may leave; rounding sets a
+                              // floor to it
+  StateVector<N> m_rate{};
+  StateMatrix<N> m_jacobian{};
+  bool m_has_jacobian = false;
+  DenseSolve<3 * N> m_newton;
+  DenseSolve<N> m_filter;
+  Stages<N> m_increments{};
+  int m_iterations = 0;
+  Stages<N> m_last_increments{};  // of the accepted step before, for the prediction
+  double m_last_length = 0;
+};
+
+}  // namespace radau
+
 /// From `t` to `end` >= t. On return `t` and `y` are as far as it has come: the end, if the status is kDone.
+/// `loosening`: by what the tolerances grow with each third of the steps that are allowed.
 template <int N, class System>
 IntegratorStatus integrateByRadau(const System& system, double& t, double end, StateVector<N>& y,
-                                  const IntegratorOptions& options, IntegratorCounters& counters) {
+                                  const IntegratorOptions& options, IntegratorCounters& counters,
+                                  double loosening = 1) {
   radau::Step<N, System> step(system, options, counters);
   double length = std::min(end - t, step.begin(t, y));
   bool is_first = true, was_rejected = false;
   for (int count = 0; t < end; ++count) {
     if (count >= options.max_steps) return IntegratorStatus::kTooManySteps;
+    if (count == options.max_steps / 3) step.loosen(loosening);
+    if (count == options.max_steps / 3 * 2) step.loosen(loosening * loosening);
     if (!isUsable<N>(step.rate())) return IntegratorStatus::kNotFinite;
     const double whole = end - t;
     if (length > 0.999 * whole) length = whole;
@@ -43,6 +312,19 @@ IntegratorStatus integrateByRadau(const System& system, double& t, double end, S
       length *= std::min(factor, is_first ? 0.1 : 0.9);
       was_rejected = true;
     }
+  }
+  return IntegratorStatus::kDone;
+}
+
+/// In so many equal steps, linearly implicit (Rosenbrock's of order 1): bounded at any stiffness, and without
+/// error control.
+template <int N, class System>
+IntegratorStatus integrateCoarsely(const System& system, double t, double end, StateVector<N>& y, int steps,
+                                   const IntegratorOptions& options, IntegratorCounters& counters) {
+  radau::Step<N, System> step(system, options, counters);
+  const double length = (end - t) / steps;
+  for (int i = 0; i < steps; ++i) {
+    if (!step.takeCoarsely(t + i * length, y, length) || !isUsable<N>(y)) return IntegratorStatus::kNotFinite;
   }
   return IntegratorStatus::kDone;
 }

@@ -18,12 +18,10 @@ struct RigidBody {
   double spin = 0;             ///< rad per tick
   double inverse_mass = 1;     ///< 0: static, or kinematic if it has a velocity
   double inverse_inertia = 0;  ///< 0: nothing but its own spin turns it
-  Vec2 acceleration;           ///< gravity and the like, constant within a step
+  Vec2 acceleration;           ///< gravity and the like; its mean over a step
+  Vec2 jerk;                   ///< by how much it grows per tick within a step
   double turn_rate = 0;        ///< of a magnet that turns its velocity (MagnetTurn.h): rad per tick
-  Vec2 force;                  ///< counts from set() until the next set()
-  double torque = 0;           ///< likewise
-  double linear_damping = 0;   ///< >= 0, per tick: the part of the velocity that is lost at first
-  double angular_damping = 0;  ///< >= 0, per tick
+  double torque = 0;           ///< counts from set() until the next set()
   double friction = 0;         ///< >= 0; of a pair the geometric mean counts
   double restitution = 0;      ///< 0 … 1; of a pair the larger one counts
 
@@ -38,9 +36,8 @@ inline bool isSound(const RigidBody& body) {
   return std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1 && isSmall(body.velocity.x) &&
          isSmall(body.velocity.y) && std::fabs(square - 1) <= 1e-6 && isSmall(body.spin) &&
          isSmall(body.turn_rate) && isPart(body.inverse_mass) && isPart(body.inverse_inertia) &&
-         isSmall(body.acceleration.x) && isSmall(body.acceleration.y) && isSmall(body.force.x) &&
-         isSmall(body.force.y) && isSmall(body.torque) && isPart(body.linear_damping) &&
-         isPart(body.angular_damping) && isPart(body.friction) && body.restitution >= 0 &&
+         isSmall(body.acceleration.x) && isSmall(body.acceleration.y) && isSmall(body.jerk.x) &&
+         isSmall(body.jerk.y) && isSmall(body.torque) && isPart(body.friction) && body.restitution >= 0 &&
          body.restitution <= 1;
 }
 

@@ -21,8 +21,7 @@ struct alignas(64) RigidState {
   Rotation turn;         ///< likewise
   Vec2 kick;             ///< what half a sub-step of acceleration adds to the velocity
   double spin_kick = 0;  ///< likewise
-  double keep = 1;       ///< what damping leaves of the velocity over half a sub-step
-  double spin_keep = 1;
+  Vec2 kick_growth;      ///< from one sub-step to the next
   bool is_pushed = false;
 };
 

@@ -81,44 +81,13 @@ void prepareSoft(RigidRow& row, const Joint& joint, double h) {
 
 }  // namespace
 
-int RigidJoints::add(const Joint& joint, bool may_touch) {
-  int id = 0;
-  while (id < limit() && m_entries[at(id)].exists) ++id;
-  if (id == limit()) m_entries.emplace_back();
-  m_entries[at(id)] = {joint, true, may_touch, {}};
-  m_entries[at(id)].joint.is_broken = false;
-  return id;
-}
-
-bool RigidJoints::set(int id, const Joint& joint) {
-  Entry& entry = m_entries[at(id)];
-  if (joint.kind != entry.joint.kind || joint.b != entry.joint.b) return false;
-  if (joint.kind != JointKind::kMouse && joint.a != entry.joint.a) return false;
-  const bool is_broken = entry.joint.is_broken;
-  entry.joint = joint;
-  entry.joint.is_broken = is_broken;
-  return true;
-}
-
-void RigidJoints::remove(int id) {
-  m_entries[at(id)].exists = false;
-}
-
-bool RigidJoints::keepsApart(int a, int b) const {
-  return std::any_of(m_entries.begin(), m_entries.end(), [&](const Entry& e) {
-    if (!e.exists || e.may_touch || e.joint.is_broken || e.joint.kind == JointKind::kMouse) return false;
-    return (e.joint.a == a && e.joint.b == b) || (e.joint.a == b && e.joint.b == a);
-  });
-}
-
 void RigidJoints::load(int id, std::span<const RigidBody> bodies) {
-  const Entry& entry = m_entries[at(id)];
-  const Joint& j = entry.joint;
+  const Joint& j = joint(id);
   const RigidBody& b = bodies[at(j.b)];
   Link link = {};
   link.id = id;
   link.kind = j.kind;
-  link.a = j.kind == JointKind::kMouse ? -1 : j.a;
+  link.a = firstOf(j);
   link.b = j.b;
   link.row = static_cast<int>(m_rows.size());
   link.count = rowsOf(j);
@@ -136,7 +105,7 @@ void RigidJoints::load(int id, std::span<const RigidBody> bodies) {
   for (int k = 0; k < link.count; ++k) {
     RigidRow row;
     row.a = link.a, row.b = link.b;
-    row.impulse = entry.memory[at(k)];  // per length of a sub-step, until beginSubstep
+    row.impulse = memoryOf(id)[at(k)];  // per length of a sub-step, until beginSubstep
     row.is_soft = j.kind == JointKind::kSpring || j.kind == JointKind::kMouse;
     m_rows.push_back(row);
   }
@@ -149,7 +118,7 @@ void RigidJoints::refresh(std::span<const RigidState> states) {
 }
 
 void RigidJoints::place(const Link& link, const RigidState& a, const RigidState& b) {
-  const Joint& joint = m_entries[at(link.id)].joint;
+  const Joint& j = joint(link.id);
   JointFrame frame;
   frame.arm_a = a.turn * link.arm_a;
   frame.arm_b = b.turn * link.arm_b;
@@ -157,7 +126,7 @@ void RigidJoints::place(const Link& link, const RigidState& a, const RigidState&
   frame.axis = a.turn * link.axis;
   frame.between = link.between * (inverse(a.turn) * b.turn);
   SpeedRows rows;
-  placeRows(joint, frame, rows);
+  placeRows(j, frame, rows);
   for (int k = 0; k < link.count; ++k) {
     RigidRow& row = m_rows[at(link.row + k)];
     static_cast<SpeedRow&>(row) = rows[at(k)];
@@ -168,13 +137,13 @@ void RigidJoints::place(const Link& link, const RigidState& a, const RigidState&
 
 void RigidJoints::prepare(double h) {
   for (const Link& link : m_links) {
-    const Joint& joint = m_entries[at(link.id)].joint;
+    const Joint& j = joint(link.id);
     for (int k = 0; k < link.count; ++k) {
       RigidRow& row = m_rows[at(link.row + k)];
       if (link.kind == JointKind::kMotor) {
-        prepareMotor(row, joint, h);
+        prepareMotor(row, j, h);
       } else if (row.is_soft) {
-        prepareSoft(row, joint, h);
+        prepareSoft(row, j, h);
       } else {
         prepareHard(row, h);
       }
@@ -258,15 +227,8 @@ void RigidJoints::endSubstep() {
 int RigidJoints::end(double dt, double h) {
   int broken = 0;
   for (const Link& link : m_links) {
-    Entry& entry = m_entries[at(link.id)];
-    entry.joint.force = link.force / dt;
-    entry.joint.torque = link.torque / dt;
-    for (int k = 0; k < link.count; ++k) entry.memory[at(k)] = m_rows[at(link.row + k)].impulse / h;
-    if (length(entry.joint.force) > entry.joint.break_force ||
-        std::fabs(entry.joint.torque) > entry.joint.break_torque) {
-      entry.joint.is_broken = true;
-      ++broken;
-    }
+    for (int k = 0; k < link.count; ++k) memoryOf(link.id)[at(k)] = m_rows[at(link.row + k)].impulse / h;
+    broken += finish(link.id, link.force / dt, link.torque / dt) ? 1 : 0;
   }
   return broken;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/joint/JointRows.h"
+#include "physics/joint/JointStore.h"
 #include "physics/rigid/RigidBody.h"
 #include "physics/rigid/RigidContact.h"
 
@@ -32,30 +33,17 @@ struct RigidRow : SpeedRow {
   std::array<RigidRowHalf, 2> half;
 };
 
-class RigidJoints {
+class RigidJoints : public JointStore {
  public:
-  int add(const Joint& joint, bool may_touch);
-  bool set(int id, const Joint& joint);
-  void remove(int id);
-  bool exists(int id) const {
-    return id >= 0 && id < limit() && m_entries[static_cast<std::size_t>(id)].exists;
-  }
-  const Joint& joint(int id) const { return m_entries[static_cast<std::size_t>(id)].joint; }
-  int limit() const { return static_cast<int>(m_entries.size()); }
-  bool isWorking(int id) const { return exists(id) && !joint(id).is_broken; }
-  /// Does one of them keep the two bodies from touching?
-  bool keepsApart(int a, int b) const;
-
   /// Rows for those of which a body is active.
   template <class IsActive>
   void begin(std::span<const RigidBody> bodies, std::span<const RigidState> states, double h,
              IsActive isActive) {
     m_rows.clear();
     m_links.clear();
-    for (int id = 0; id < limit(); ++id) {
-      if (!isWorking(id)) continue;
+    for (const int id : ids()) {
       const Joint& j = joint(id);
-      if (isActive(j.b) || (j.kind != JointKind::kMouse && isActive(j.a))) load(id, bodies);
+      if (!j.is_broken && (isActive(j.b) || (firstOf(j) >= 0 && isActive(j.a)))) load(id, bodies);
     }
     for (RigidRow& row : m_rows) row.impulse *= h;
     refresh(states);
@@ -86,12 +74,6 @@ class RigidJoints {
   std::span<const RigidRow> rows() const { return m_rows; }
 
  private:
-  struct Entry {
-    Joint joint;
-    bool exists = false;
-    bool may_touch = false;
-    std::array<double, 3> memory = {};
-  };
   struct Link {  // a joint within a step
     int id;
     JointKind kind;
@@ -110,7 +92,6 @@ class RigidJoints {
   void prepareWarm(std::span<RigidState> states, double h, bool is_second);
   void place(const Link& link, const RigidState& a, const RigidState& b);
 
-  std::vector<Entry> m_entries;
   std::vector<Link> m_links;
   std::vector<RigidRow> m_rows;
 };

@@ -14,6 +14,7 @@ namespace {
 constexpr double kMaxPush = 2;    // per tick: the greatest speed at which overlap is undone
 constexpr double kSlop = 1e-8;    // overlap that is left, so that a contact at rest stays one
 constexpr double kLinger = 0.01;  // a larger gap ends a contact
+constexpr double kLarge = 2;      // times the size of another body: its shapes are mostly far from it
 constexpr double kSlide = 0.25;   // of the reference face, in a step: farther, and its points are left behind
 
 double edgeLength(const TurnedView& shape, std::int32_t edge) {
@@ -39,18 +40,6 @@ bool slidesAway(const TurnedView& a, const TurnedView& b, Vec2 offset, Vec2 path
   const FaceSeparation facing = bestFace(other, owner, is_of_a ? -offset : offset, kNoLimit);
   better = {is_of_a ? Owner::kB : Owner::kA, static_cast<std::uint8_t>(facing.edge)};
   return other.count > 2 && edgeLength(other, facing.edge) > face;
-}
-
-// A constraint that was found within the step, in the coordinates of the start of the step.
-void measureFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
-  c.offset = start;
-  for (std::int32_t i = 0; i < c.count; ++i) {
-    ContactPoint& p = c.points[static_cast<std::size_t>(i)];
-    p.core_a = inverse(a.turn) * p.core_a;
-    p.core_b = inverse(b.turn) * p.core_b;
-  }
-  if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(a.turn) * c.first_normal;
-  if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(b.turn) * c.first_normal;
 }
 
 }  // namespace
@@ -122,6 +111,7 @@ void RigidWorld::updatePairs() {
     }
     m_pairs.back().is_seen = m_pairs.back().is_pushing = m_pairs.back().is_near = false;
     m_pairs.back().is_passed = false;
+    m_pairs.back().event = -1;
     if (m_joints_changed) m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
   }
   while (next < m_pairs_before.size()) dropPair(m_pairs_before[next++]);
@@ -167,6 +157,16 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
   if (pair.is_seen) return;
   if (pair.is_passed) return dropContacts(pair);
   const Extra &a = m_extras[at(pair.a)], &b = m_extras[at(pair.b)];
+  const RigidState &state_a = m_states[at(pair.a)], &state_b = m_states[at(pair.b)];
+  const Vec2 start = m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place;
+  const Vec2 offset = start + (state_b.displacement - state_a.displacement);
+  const double margin = a.margin + b.margin;
+  const double reach = a.reach + b.reach + margin;
+  const bool is_far = lengthSquared(offset) > reach * reach;
+  if (is_far && pair.first < 0 && !pair.is_touching) {  // most of them
+    pair.is_seen = true;
+    return;
+  }
   if (!(a.is_active || a.is_dirty || b.is_active || b.is_dirty)) return;
   if ((a.is_late || b.is_late) && !(a.is_restless || b.is_restless)) return;  // in the next step
   const bool a_sleeps = a.is_asleep, b_sleeps = b.is_asleep;
@@ -175,20 +175,10 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
     return;
   }
   pair.is_seen = true;
-  if (pair.is_jointed) {
-    dropContacts(pair);
-    return;
-  }
-  const RigidState &state_a = m_states[at(pair.a)], &state_b = m_states[at(pair.b)];
-  const Vec2 start = m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place;
-  const Vec2 offset = start + (state_b.displacement - state_a.displacement);
+  if (pair.is_jointed) return dropContacts(pair);
+  if (is_far) return dropContacts(pair);
   const Vec2 path = dt * (m_bodies[at(pair.b)].velocity - m_bodies[at(pair.a)].velocity);
-  const double margin = a.margin + b.margin;
-  const double reach = a.reach + b.reach + margin;
-  if (lengthSquared(offset) > reach * reach) {
-    dropContacts(pair);
-    return;
-  }
+  const bool is_a_large = a.reach > kLarge * b.reach, is_b_large = b.reach > kLarge * a.reach;
   const std::size_t first_constraint = m_constraints.size();
   std::int32_t old = pair.first, last = -1;
   pair.first = -1;
@@ -204,6 +194,9 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
         contact = old;
         old = m_contacts[at(old)].next;
       }
+      const bool is_apart = (is_a_large && faceGap(a.turned[at(i)], offset, b.reach) > margin) ||
+                            (is_b_large && faceGap(b.turned[at(j)], -offset, a.reach) > margin);
+      if (is_apart && contact < 0) continue;
       Manifold& manifold = m_manifold;
       const ReferenceFace kept = contact >= 0 ? m_contacts[at(contact)].reference : ReferenceFace{};
       if (!collide(a.turned[at(i)], b.turned[at(j)], offset, margin, kept, manifold)) {
@@ -323,13 +316,11 @@ void RigidWorld::publishBegin(const ContactConstraint& c, double dt) {
       return;
     }
     if (pair.is_touching) {  // begun in this step, or gone on
-      for (RigidEvent& event : m_events) {
-        if (event.is_begin && event.first == std::min(c.a, c.b) && event.second == std::max(c.a, c.b))
-          event.impulse += impulse;
-      }
+      if (pair.event >= 0) m_events[at(pair.event)].impulse += impulse;
       return;
     }
     pair.is_touching = pair.is_pushing = true;
+    pair.event = static_cast<std::int32_t>(m_events.size());
   } else {
     if (std::find(m_late.begin(), m_late.end(), Late{c.a, c.b}) != m_late.end()) return;
     m_late.push_back({c.a, c.b});

@@ -19,35 +19,21 @@ constexpr double kMinKick = 1e-5;  // cells per tick: a floor for tolerances whe
 
 }  // namespace
 
-int RigidWorld::rootOf(int id) {
-  while (m_parent[at(id)] != id) {
-    m_parent[at(id)] = m_parent[at(m_parent[at(id)])];
-    id = m_parent[at(id)];
-  }
-  return id;
-}
-
-// The lowest id is the root.
-void RigidWorld::unite(int a, int b) {
-  const int one = rootOf(a), other = rootOf(b);
-  m_parent[at(std::max(one, other))] = std::min(one, other);
-}
-
 void RigidWorld::findIslands() {
-  for (const int id : m_active) m_parent[at(id)] = id;
+  m_sets.reset(m_bodies.size());
   const auto isMember = [&](int id) { return m_extras[at(id)].is_active && isMovable(id); };
   for (const ContactConstraint& c : m_constraints) {
-    if (c.pair >= 0 && isMember(c.a) && isMember(c.b)) unite(c.a, c.b);
+    if (c.pair >= 0 && isMember(c.a) && isMember(c.b)) m_sets.unite(c.a, c.b);
   }
   m_joints.visitLinks([&](int a, int b) {
-    if (a >= 0 && isMember(a) && isMember(b)) unite(a, b);
+    if (a >= 0 && isMember(a) && isMember(b)) m_sets.unite(a, b);
   });
 }
 
 // −1 if neither moves.
 int RigidWorld::islandOf(int a, int b) {
   for (const int id : {a, b}) {
-    if (id >= 0 && m_extras[at(id)].is_active && isMovable(id)) return m_island_of[at(rootOf(id))];
+    if (id >= 0 && m_extras[at(id)].is_active && isMovable(id)) return m_island_of[at(m_sets.rootOf(id))];
   }
   return -1;
 }
@@ -58,12 +44,12 @@ void RigidWorld::gatherIslands(bool is_first) {
   const std::span<const ContactConstraint> constraints_now(m_constraints.data(), m_first_late);
   m_islands.clear();
   for (const int id : m_active) {
-    if (rootOf(id) != id) continue;
+    if (m_sets.rootOf(id) != id) continue;
     m_island_of[at(id)] = static_cast<int>(m_islands.size());
     m_islands.emplace_back();
   }
   const auto ofConstraint = [&](const ContactConstraint& c) { return islandOf(c.a, c.b); };
-  for (const int id : m_active) ++m_islands[at(m_island_of[at(rootOf(id))])].bodies;
+  for (const int id : m_active) ++m_islands[at(m_island_of[at(m_sets.rootOf(id))])].bodies;
   for (const ContactConstraint& c : constraints_now) ++m_islands[at(ofConstraint(c))].constraints;
   int counted = 0;
   m_joints.visitLinks([&](int a, int b) {
@@ -78,7 +64,7 @@ void RigidWorld::gatherIslands(bool is_first) {
     island.first_link = links, links += island.links;
   }
   for (const int id : m_active) {
-    if (rootOf(id) != id) continue;
+    if (m_sets.rootOf(id) != id) continue;
     Island& island = m_islands[at(m_island_of[at(id)])];
     Extra& extra = m_extras[at(id)];
     island.root = id;
@@ -91,13 +77,13 @@ void RigidWorld::gatherIslands(bool is_first) {
   }
   if (is_first) {
     for (const int id : m_active) {
-      const int root = rootOf(id);
+      const int root = m_sets.rootOf(id);
       m_islands[at(m_island_of[at(root)])].has_fast |= m_extras[at(id)].is_fast;
       if (root != id) m_extras[at(id)].budget = -1;  // it may become one within the step
     }
   }
   for (const int id : m_active) {
-    const Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
+    const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
     if (!is_first) break;
     Extra& extra = m_extras[at(id)];
     extra.is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
@@ -109,7 +95,7 @@ void RigidWorld::gatherIslands(bool is_first) {
   m_island_constraints.resize(at(constraints));
   m_island_links.resize(at(links));
   for (const int id : m_active) {
-    Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
+    Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
     m_island_bodies[at(island.first_body + island.bodies++)] = id;
     island.is_restless = island.is_restless || m_extras[at(id)].is_restless;
     island.kick = std::max(island.kick, length(m_states[at(id)].kick) + kMinKick);
@@ -124,7 +110,7 @@ void RigidWorld::gatherIslands(bool is_first) {
     m_island_links[at(island.first_link + island.links++)] = link++;
   });
   for (const int id : m_active) {
-    const Island& island = m_islands[at(m_island_of[at(rootOf(id))])];
+    const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
     m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : island.is_restless ? kCrowdPushSweeps : 1;
   }
 }
@@ -146,7 +132,7 @@ void RigidWorld::sleep(double dt) {
     const double speed = length(body.velocity) + std::fabs(body.spin) * extra.reach;
     if (extra.still == 0) extra.first_speed = speed;
     extra.still = speed < m_options.sleep_speed ? extra.still + dt : 0;
-    const int root = rootOf(id);
+    const int root = m_sets.rootOf(id);
     Gain& gain = m_island_gain[at(root)];
     gain.before = std::max(gain.before, extra.first_speed);
     gain.now = std::max(gain.now, speed);
@@ -155,7 +141,7 @@ void RigidWorld::sleep(double dt) {
   }
   const auto lean = [&](int on, int member) {  // `on` may be what holds the member
     if (isMovable(on) || !m_extras[at(member)].is_active || !isMovable(member)) return;
-    m_island_flags[at(rootOf(member))] |= isMoving(on) ? kIsDriven : kIsHeld;
+    m_island_flags[at(m_sets.rootOf(member))] |= isMoving(on) ? kIsDriven : kIsHeld;
   };
   for (const ContactConstraint& c : m_constraints) {
     if (c.points[0].normal_impulse + c.points[1].normal_impulse == 0) continue;
@@ -164,7 +150,7 @@ void RigidWorld::sleep(double dt) {
   }
   m_joints.visitLinks([&](int a, int b) {
     if (a < 0) {
-      m_island_flags[at(rootOf(b))] |= kIsHeld;
+      m_island_flags[at(m_sets.rootOf(b))] |= kIsHeld;
     } else {
       lean(a, b);
       lean(b, a);
@@ -173,7 +159,7 @@ void RigidWorld::sleep(double dt) {
   for (const int id : m_active) {
     Extra& extra = m_extras[at(id)];
     if (extra.is_frozen || !isMovable(id)) continue;
-    const int root = rootOf(id);
+    const int root = m_sets.rootOf(id);
     const std::uint8_t flags = m_island_flags[at(root)];
     if (m_island_still[at(root)] < m_options.sleep_delay || (flags & kIsDriven) != 0) continue;
     if (m_island_gain[at(root)].now > m_island_gain[at(root)].before + kCreep) {
@@ -219,12 +205,10 @@ void RigidWorld::wakeNeighbours(int id) {
     if (pair.first < 0 || (pair.a != id && pair.b != id)) continue;
     wakeRing(pair.a == id ? pair.b : pair.a);
   }
-  for (int i = 0; i < m_joints.limit(); ++i) {
-    if (!m_joints.isWorking(i) || m_joints.joint(i).kind == JointKind::kMouse) continue;
-    const Joint& joint = m_joints.joint(i);
-    if (joint.a == id) wakeRing(joint.b);
-    if (joint.b == id) wakeRing(joint.a);
-  }
+  m_joints.visitWorking([&](int a, int b) {
+    if (a == id) wakeRing(b);
+    if (a >= 0 && b == id) wakeRing(a);
+  });
 }
 
 }  // namespace naiad::physics

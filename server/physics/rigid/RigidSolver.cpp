@@ -213,6 +213,17 @@ void beginConstraint(const TurnedShape& a, const TurnedShape& b, Vec2 offset, co
   }
 }
 
+void measureFromStart(ContactConstraint& c, Vec2 start, const RigidState& a, const RigidState& b) {
+  c.offset = start;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    p.core_a = inverse(a.turn) * p.core_a;
+    p.core_b = inverse(b.turn) * p.core_b;
+  }
+  if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(a.turn) * c.first_normal;
+  if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(b.turn) * c.first_normal;
+}
+
 void refresh(ContactConstraint& c, std::span<const RigidState> bodies) {
   const RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
   const Vec2 apart = c.offset + (b.displacement - a.displacement);
@@ -319,7 +330,13 @@ double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_
   Pushed a(state_a), b(state_b);
   if (c.friction > 0) {
     // Friction needs something to press on.
-    if (c.points[0].normal_warm + c.points[1].normal_warm == 0) solveNormals(c, a, b, is_second);
+    const ContactPoint &p = c.points[0], &q = c.points[1];
+    if (p.normal_warm + q.normal_warm == 0) {
+      const double change = solveNormals(c, a, b, is_second);
+      const bool is_idle = p.normal_impulse == 0 && q.normal_impulse == 0 && change == 0 &&
+                           p.friction_impulse == 0 && q.friction_impulse == 0;
+      if (is_idle) return 0;
+    }
     solveFriction(c, a, b);
   }
   const double change = solveNormals(c, a, b, is_second);

@@ -16,6 +16,10 @@ namespace naiad::physics {
 void beginConstraint(const TurnedShape& a, const TurnedShape& b, Vec2 offset, const Manifold& manifold,
                      ContactConstraint& constraint);
 
+/// Puts a constraint that was found within the step into the coordinates of the start of the step, when B was
+/// `start` from A.
+void measureFromStart(ContactConstraint& constraint, Vec2 start, const RigidState& a, const RigidState& b);
+
 /// Where it is now, and the masses that follow from it.
 void refresh(ContactConstraint& constraint, std::span<const RigidState> bodies);
 

@@ -22,6 +22,15 @@ constexpr double kFast = 2;
 constexpr double kPass =
     0.5;  // most that such a body moves in a sub-step: it passes nothing of half its size
 
+// Kicks whose accelerations grow, from below their mean to above it. The last factor makes the path end where
+// that of an acceleration ends which grows steadily: half a kick at both ends of a sub-step is not that.
+void bendKicks(RigidState& state, Vec2 jerk, double h, double substeps) {
+  if (substeps < 2) return;
+  const double square = substeps * substeps;
+  state.kick_growth = (0.5 * h * h * square / (square - 1)) * jerk;
+  state.kick -= (0.5 * (substeps - 1)) * state.kick_growth;
+}
+
 }  // namespace
 
 void RigidWorld::beginBody(int id, double dt) {
@@ -30,7 +39,7 @@ void RigidWorld::beginBody(int id, double dt) {
   const bool is_movable = isMovable(id);
   Vec2 acceleration;
   double spin_gain = 0;
-  if (body.inverse_mass > 0) acceleration = body.acceleration + body.inverse_mass * body.force;
+  if (body.inverse_mass > 0) acceleration = body.acceleration;
   if (body.inverse_inertia > 0) spin_gain = body.inverse_inertia * body.torque;
   const Vec2 displacement = dt * body.velocity + (0.5 * dt * dt) * acceleration;
   const double angle = dt * (std::fabs(body.spin) + 0.5 * dt * std::fabs(spin_gain));
@@ -45,16 +54,11 @@ void RigidWorld::beginBody(int id, double dt) {
   state.velocity = body.velocity;
   state.spin = body.spin;
   if (is_movable) {
-    const auto kept = [&](double damping) {  // over half a sub-step
-      const double part = 0.25 * m_h * damping;
-      return (1 - std::min(part, 1.0)) / (1 + part);
-    };
     state.inverse_mass = body.inverse_mass;
     state.inverse_inertia = body.inverse_inertia;
     state.kick = (0.5 * m_h) * acceleration;
+    if (body.jerk != Vec2{}) bendKicks(state, body.jerk, m_h, m_options.substeps);
     state.spin_kick = 0.5 * m_h * spin_gain;
-    state.keep = kept(body.linear_damping);
-    state.spin_keep = kept(body.angular_damping);
   }
   extra.moved = extra.rolled = extra.travelled = 0;
   extra.search_displacement = {};
@@ -118,13 +122,9 @@ void RigidWorld::beginStep(double dt) {
 void RigidWorld::kick(bool is_second) {
   for (const int id : m_active) {
     RigidState& s = m_states[at(id)];
-    if (is_second) {
-      s.velocity = s.keep * s.velocity + s.kick;
-      s.spin = s.spin_keep * s.spin + s.spin_kick;
-    } else {
-      s.velocity = s.keep * (s.velocity + s.kick);
-      s.spin = s.spin_keep * (s.spin + s.spin_kick);
-    }
+    s.velocity += s.kick;
+    s.spin += s.spin_kick;
+    if (is_second) s.kick += s.kick_growth;
   }
 }
 
@@ -304,19 +304,6 @@ void RigidWorld::substep(double h) {
   m_time += h;
 }
 
-// What an impact made too fast to be calculated with goes on, but no faster. What was given is kept.
-void RigidWorld::limit(int id) {
-  RigidState& s = m_states[at(id)];
-  const RigidBody& before = m_bodies[at(id)];
-  const double speed = std::max(std::fabs(s.velocity.x), std::fabs(s.velocity.y));
-  const double most = std::max({kMaxSpeed, std::fabs(before.velocity.x), std::fabs(before.velocity.y)});
-  const double most_spin = std::max(kMaxSpin, std::fabs(before.spin));
-  if (speed <= most && std::fabs(s.spin) <= most_spin) return;
-  ++m_counters.limited;
-  if (speed > most) s.velocity = (most / speed) * s.velocity;
-  s.spin = std::clamp(s.spin, -most_spin, most_spin);
-}
-
 void RigidWorld::finishStep(double dt) {
   for (const int id : m_active) {
     RigidBody& body = m_bodies[at(id)];
@@ -329,7 +316,6 @@ void RigidWorld::finishStep(double dt) {
     body.place = body.place + s.displacement;
     if (s.turn != Rotation{}) body.rotation = renormalised(s.turn * body.rotation);
     if (isMovable(id)) {
-      limit(id);
       body.velocity = s.velocity;
       body.spin = s.spin;
     }
@@ -343,11 +329,7 @@ void RigidWorld::finishStep(double dt) {
   sleep(dt);
   for (const int id : m_dirty) m_extras[at(id)].is_dirty = false;
   m_dirty.clear();
-  std::sort(m_events.begin(), m_events.end(), [](const RigidEvent& x, const RigidEvent& y) {
-    if (x.time != y.time) return x.time < y.time;
-    if (x.first != y.first) return x.first < y.first;
-    return x.second != y.second ? x.second < y.second : x.is_begin < y.is_begin;
-  });
+  sortEvents();
 }
 
 void RigidWorld::stepOnce(double dt) {
@@ -365,20 +347,9 @@ void RigidWorld::stepOnce(double dt) {
   finishStep(dt);
 }
 
-RigidStatus RigidWorld::step(double dt) {
-  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
-  const std::int64_t frozen_before = m_counters.quarantined;
+void RigidWorld::step() {
   ++m_counters.ticks;
-  m_earlier_events.clear();
-  const double parts = std::ceil(dt / kLongestStep), part = dt / parts;
-  for (double done = 0; done < parts; ++done) {
-    stepOnce(part);
-    if (parts == 1) break;
-    for (RigidEvent& event : m_events) event.time += done * part;
-    m_earlier_events.insert(m_earlier_events.end(), m_events.begin(), m_events.end());
-  }
-  if (parts > 1) m_events.swap(m_earlier_events);
-  return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
+  stepOnce(1);
 }
 
 }  // namespace naiad::physics

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "physics/geometry/ConvexShape.h"
-#include "physics/joint/Joint.h"
+#include "physics/joint/JointStore.h"
 #include "physics/rigid/RigidBody.h"
 
 namespace naiad::physics {
@@ -20,12 +20,6 @@ struct RigidEvent {
   bool is_begin = false;
   double impulse = 0;  ///< when it begins: along the normal, on second, until the end of the step
   Vec2 normal;         ///< when it begins: from first to second
-};
-
-enum class RigidStatus : std::uint8_t {
-  kDone,
-  kQuarantined,  ///< done, and at least one body had to be frozen
-  kRefused       ///< not a time; nothing happened
 };
 
 /// Not thread-safe.
@@ -45,6 +39,9 @@ class RigidStepper {
   /// Its contacts end without an event; joints with it go, too. What it carried wakes.
   virtual bool remove(int id) = 0;
   virtual const RigidBody& body(int id) const = 0;
+  virtual bool exists(int id) const = 0;
+  /// Ids are below this.
+  virtual int idLimit() const = 0;
   /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   virtual bool isFrozen(int id) const = 0;
   /// Did it move only a part of its way in the last step, though nothing has pushed it?
@@ -52,21 +49,35 @@ class RigidStepper {
 
   /// Between bodies that exist; `joint.a` and `joint.b` are ids. Bodies on a joint do not touch each other
   /// unless `may_touch`. Returns the joint's id, or −1 if it is not valid.
-  virtual int addJoint(const Joint& joint, bool may_touch) = 0;
+  int addJoint(const Joint& joint, bool may_touch = false);
   /// Changes targets, speeds, strengths and lengths: not the kind nor the bodies. Wakes the bodies.
-  virtual bool setJoint(int id, const Joint& joint) = 0;
-  virtual bool removeJoint(int id) = 0;
-  virtual bool jointExists(int id) const = 0;
+  bool setJoint(int id, const Joint& joint);
+  bool removeJoint(int id);
+  bool jointExists(int id) const { return joints().exists(id); }
   /// As it was given, with what the last step wrote: force, torque, is_broken. A broken one stays, and does
   /// nothing, until it is removed.
-  virtual const Joint& joint(int id) const = 0;
+  const Joint& joint(int id) const { return joints().joint(id); }
 
   /// May groups at rest sleep?
   virtual void setSleeping(bool may_sleep) = 0;
-  /// Goes on by `dt` > 0 ticks, up to 1e6.
-  virtual RigidStatus step(double dt) = 0;
+  /// Goes on by a tick.
+  virtual void step() = 0;
   /// Of the last step, by (time, ids).
-  virtual const std::vector<RigidEvent>& events() const = 0;
+  const std::vector<RigidEvent>& events() const { return m_events; }
+
+ protected:
+  void removeJointsOf(int body);
+  void sortEvents();
+
+  std::vector<RigidEvent> m_events;
+  bool m_joints_changed = false;
+
+ private:
+  virtual const JointStore& joints() const = 0;
+  virtual JointStore& joints() = 0;
+  /// The body, and what fell asleep with it.
+  virtual void wakeRing(int id) = 0;
+  void wakeEnds(const Joint& joint);
 };
 
 }  // namespace naiad::physics

@@ -176,7 +176,6 @@ void RigidWorld::wakeInFlight(int id) {
   extra.margin = extra.moved = extra.rolled = extra.travelled = 0;  // nothing was searched around it
   extra.search_displacement = {};
   extra.part = 1;
-  m_parent[at(id)] = id;
   m_states[at(id)] = {};
   m_states[at(id)].inverse_mass = m_bodies[at(id)].inverse_mass;
   m_states[at(id)].inverse_inertia = m_bodies[at(id)].inverse_inertia;
@@ -225,14 +224,7 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   ContactConstraint& c = addConstraint(a, b);
   beginConstraint(turned_a, turned_b, offset, manifold, c);
   c.first_time = m_time + impact.time * h;
-  // In the coordinates of the start of the step.
-  c.offset = start;
-  for (std::int32_t i = 0; i < c.count; ++i) {
-    c.points[at(i)].core_a = inverse(one.turn) * c.points[at(i)].core_a;
-    c.points[at(i)].core_b = inverse(other.turn) * c.points[at(i)].core_b;
-  }
-  if (c.kind == ContactKind::kFaceA) c.first_normal = inverse(one.turn) * c.first_normal;
-  if (c.kind == ContactKind::kFaceB) c.first_normal = inverse(other.turn) * c.first_normal;
+  measureFromStart(c, start, one, other);
   refresh(c, m_states);
   applyImpact(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
   if (most > kMaxImpacts) giveUp();

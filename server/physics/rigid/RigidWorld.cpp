@@ -24,7 +24,6 @@ int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) 
     m_bodies.emplace_back();
     m_extras.emplace_back();
     m_states.emplace_back();
-    m_parent.emplace_back();
     m_island_of.emplace_back();
     m_island_still.emplace_back();
     m_island_gain.emplace_back();
@@ -80,11 +79,7 @@ bool RigidWorld::remove(int id) {
   if (!exists(id)) return false;
   wakeRing(id);
   wakeNeighbours(id);
-  for (int j = 0; j < m_joints.limit(); ++j) {
-    if (!m_joints.exists(j)) continue;
-    const Joint& joint = m_joints.joint(j);
-    if (joint.b == id || (joint.kind != JointKind::kMouse && joint.a == id)) removeJoint(j);
-  }
+  removeJointsOf(id);
   leave(id);
   forgetPairs(id);
   m_extras[at(id)].exists = false;
@@ -154,32 +149,6 @@ void RigidWorld::freeze(int id) {
   m_extras[at(id)].is_frozen = true;
   m_states[at(id)] = {};
   ++m_counters.quarantined;
-}
-
-int RigidWorld::addJoint(const Joint& joint, bool may_touch) {
-  if (!isValid(joint, idLimit()) || !exists(joint.b)) return -1;
-  if (joint.kind != JointKind::kMouse && !exists(joint.a)) return -1;
-  wakeRing(joint.b);
-  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
-  m_joints_changed = true;
-  return m_joints.add(joint, may_touch);
-}
-
-bool RigidWorld::setJoint(int id, const Joint& joint) {
-  if (!m_joints.exists(id) || !isValid(joint, idLimit()) || !m_joints.set(id, joint)) return false;
-  wakeRing(joint.b);
-  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
-  return true;
-}
-
-bool RigidWorld::removeJoint(int id) {
-  if (!m_joints.exists(id)) return false;
-  const Joint& joint = m_joints.joint(id);
-  wakeRing(joint.b);
-  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
-  m_joints.remove(id);
-  m_joints_changed = true;
-  return true;
 }
 
 }  // namespace naiad::physics

@@ -15,6 +15,7 @@
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/geometry/ConvexShape.h"
 #include "physics/geometry/Index.h"
+#include "physics/geometry/UnionFind.h"
 #include "physics/rigid/MagnetTurn.h"
 #include "physics/rigid/RigidContact.h"
 #include "physics/rigid/RigidDirect.h"
@@ -37,8 +38,7 @@ struct RigidCounters {
   std::int64_t direct_rounds = 0;    ///< factorisations, about, that it took
   std::int64_t direct_failures = 0;  ///< of these solves, those that were given up
   std::int64_t quarantined = 0;      ///< bodies frozen
-  std::int64_t limited = 0;  ///< speeds or spins taken back to kMaxSpeed or kMaxSpin, once per step each
-  std::int64_t broken = 0;   ///< joints
+  std::int64_t broken = 0;           ///< joints
 };
 
 struct RigidOptions {
@@ -51,13 +51,6 @@ struct RigidOptions {
 /// Not thread-safe. No allocation in step() once the scene has shown what it needs.
 class RigidWorld final : public RigidStepper {
  public:
-  static constexpr double kLongestStep =
-      32;  ///< ticks; longer ones are divided: at once they throw heaps apart
-  /// An impact makes no body faster than that: metric cells per tick along each axis, and rad per tick. It
-  /// loses the rest. What was set to more is left as it is.
-  static constexpr double kMaxSpeed = 1.6e7;
-  static constexpr double kMaxSpin = 1e6;
-
   explicit RigidWorld(RigidOptions options = {}) : m_options(options) {}
 
   /// Shapes are relative to the centre of mass; none: a body that touches nothing, for joints. Returns the
@@ -78,34 +71,18 @@ class RigidWorld final : public RigidStepper {
 
   const RigidBody& body(int id) const override { return m_bodies[at(id)]; }
   std::span<const ConvexShape> shapes(int id) const { return m_extras[at(id)].shapes; }
-  bool exists(int id) const { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
+  bool exists(int id) const override { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
   /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   bool isFrozen(int id) const override { return m_extras[at(id)].is_frozen; }
   bool isStopped(int /*id*/) const override { return false; }
   bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
   /// Wakes it and what sleeps with it.
   void wake(int id);
-  /// Ids are below this.
-  int idLimit() const { return static_cast<int>(m_bodies.size()); }
+  int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
-  /// Between bodies that exist; `joint.a` and `joint.b` are ids. Bodies on a joint do not touch each other
-  /// unless `may_touch`. Returns the joint's id, the lowest free one, or −1 if it is not valid.
-  int addJoint(const Joint& joint, bool may_touch = false) override;
-  /// Changes targets, speeds, strengths and lengths: not the kind nor the bodies. Wakes the bodies.
-  bool setJoint(int id, const Joint& joint) override;
-  bool removeJoint(int id) override;
-  bool jointExists(int id) const override { return m_joints.exists(id); }
-  /// As it was given, with what the last step wrote: force, torque, is_broken. A broken one stays, and does
-  /// nothing, until it is removed.
-  const Joint& joint(int id) const override { return m_joints.joint(id); }
-  int jointLimit() const { return m_joints.limit(); }
-
-  /// Goes on by `dt` > 0 ticks, up to 1e6; by more than kLongestStep in several equal parts.
   void setSleeping(bool may_sleep) override;
-  RigidStatus step(double dt = 1) override;
+  void step() override;
 
-  /// Of the last step, by (time, ids).
-  const std::vector<RigidEvent>& events() const override { return m_events; }
   const RigidCounters& counters() const { return m_counters; }
   const RigidOptions& options() const { return m_options; }
 
@@ -124,11 +101,10 @@ class RigidWorld final : public RigidStepper {
   struct Extra {
     std::vector<ConvexShape> shapes;
     std::vector<TurnedShape> turned;
-    std::int32_t proxy = -1;
     double reach = 0;          // of all shapes from the centre
+    double margin = 0;         // how far around it contacts were searched in this step
     double thickness = 0;      // the least half width of any shape
     double size = 0;           // the radius of a disc of the same area
-    double margin = 0;         // how far around it contacts were searched in this step
     double moved = 0;          // how far any of its points has got in this step, at most
     double rolled = 0;         // the part of it that is due to turning
     Vec2 search_displacement;  // its displacement at the last search
@@ -137,6 +113,7 @@ class RigidWorld final : public RigidStepper {
     double scope = 0;          // how far around it the broad phase searched in this step
     double still = 0;          // ticks
     double first_speed = 0;    // when it began to be still
+    std::int32_t proxy = -1;   // in the broad phase
     double budget = 0;         // of the group of which it is the root, for solving at once
     int wait = 0;              // steps until its group may be solved at once again …
     int patience = 0;          // … and how many they were the last time
@@ -158,6 +135,7 @@ class RigidWorld final : public RigidStepper {
   struct Pair {
     std::int32_t a, b;
     std::int32_t first = -1;  // of its contacts
+    std::int32_t event = -1;  // that it began, in this step
     bool is_touching = false;
     bool is_seen = false;     // in this step
     bool is_jointed = false;  // a joint keeps them from touching
@@ -221,7 +199,9 @@ class RigidWorld final : public RigidStepper {
   void leave(int id);
   void freeze(int id);
   void wakeNeighbours(int id);
-  void wakeRing(int id);
+  void wakeRing(int id) override;
+  const JointStore& joints() const override { return m_joints; }
+  JointStore& joints() override { return m_joints; }
   Bounds turnShapes(int id, Rotation rotation);
 
   // RigidStep.cpp
@@ -236,7 +216,6 @@ class RigidWorld final : public RigidStepper {
   void drift(double h);
   void move(int id, double h);
   void finishStep(double dt);
-  void limit(int id);
   bool isFlying(int id) const;
   void dropParted();
 
@@ -280,8 +259,6 @@ class RigidWorld final : public RigidStepper {
   void hold(int id);
 
   // RigidSleep.cpp
-  int rootOf(int id);
-  void unite(int a, int b);
   void findIslands();
   void gatherIslands(bool is_first);
   int islandOf(int a, int b);
@@ -311,7 +288,7 @@ class RigidWorld final : public RigidStepper {
   std::vector<Flight> m_flights;
   std::vector<Impact> m_impacts;
   std::vector<int> m_near;
-  std::vector<int> m_parent;
+  UnionFind m_sets;              // of bodies
   std::vector<int> m_island_of;  // by root
   std::vector<Island> m_islands;
   std::vector<int> m_island_bodies, m_island_constraints, m_island_links;
@@ -320,8 +297,6 @@ class RigidWorld final : public RigidStepper {
   std::vector<double> m_island_still;
   std::vector<Gain> m_island_gain;
   std::vector<std::uint8_t> m_island_flags;
-  std::vector<RigidEvent> m_events;
-  std::vector<RigidEvent> m_earlier_events;  // of a long step's earlier parts
   RigidCounters m_counters;
   double m_time = 0;    // within the step
   Manifold m_manifold;  // of the pair at hand: one on the stack would be set to zero first
@@ -330,7 +305,6 @@ class RigidWorld final : public RigidStepper {
   bool m_active_changed = false;
   bool m_is_restless = false;  // a body is
   bool m_has_flown = false;    // one was swept in this step
-  bool m_joints_changed = false;
 };
 
 }  // namespace naiad::physics

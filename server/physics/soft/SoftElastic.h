@@ -71,7 +71,6 @@ class SoftElastic {
   int rows() const { return static_cast<int>(m_change.size()); }
   const std::vector<Vec2>& starts() const { return m_start; }
   Vec2 startOf(int node) const { return m_start[at(node)]; }
-  Vec2 startVelocityOf(int node) const { return m_start_velocity[at(node)]; }
   double beta() const { return m_beta; }
 
  private:

@@ -61,19 +61,13 @@ void SoftWorld::substep(double h, std::span<SoftObstacle> obstacles) {
 // Groups are what rows connect, through bodies and movable obstacles.
 void SoftWorld::findGroups() {
   const int bodies = idLimit();
-  m_links.resize(at(bodies) + m_obstacle_motions.size());
-  for (std::size_t i = 0; i < m_links.size(); ++i) m_links[i] = static_cast<int>(i);
-  const auto root = [&](int i) {
-    while (m_links[at(i)] != i) i = m_links[at(i)] = m_links[at(m_links[at(i)])];
-    return i;
-  };
+  m_links.reset(at(bodies) + m_obstacle_motions.size());
   for (const SoftRow& row : m_rows) {
     const bool joins = row.b.body >= 0 || isMovable(m_obstacle_motions[at(row.obstacle)]);
     if (!joins) continue;
-    const int a = root(row.a.body), b = root(row.b.body >= 0 ? row.b.body : bodies + row.obstacle);
-    m_links[at(std::max(a, b))] = std::min(a, b);
+    m_links.unite(row.a.body, row.b.body >= 0 ? row.b.body : bodies + row.obstacle);
   }
-  for (const SoftView& view : m_views) m_states[at(view.id)].group = root(view.id);
+  for (const SoftView& view : m_views) m_states[at(view.id)].group = m_links.rootOf(view.id);
 }
 
 void SoftWorld::solveGroups(double h) {

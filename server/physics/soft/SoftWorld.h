@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "physics/geometry/Index.h"
+#include "physics/geometry/UnionFind.h"
 #include "physics/soft/SoftBody.h"
 #include "physics/soft/SoftContact.h"
 #include "physics/soft/SoftCrowd.h"
 #include "physics/soft/SoftElastic.h"
-#include "physics/soft/SoftPush.h"
 #include "physics/soft/SoftRows.h"
 
 namespace naiad::physics {
@@ -190,7 +190,7 @@ class SoftWorld {
   std::vector<SoftRow> m_wide_rows;  // of wide bodies, taken out of m_rows
   std::vector<SoftPush> m_pushes;
   std::vector<int> m_sharing;  // pushes on an obstacle or on a node of another body
-  std::vector<int> m_links;    // union-find over bodies and obstacles
+  UnionFind m_links;           // bodies and obstacles
   std::vector<int> m_group;
   std::vector<SoftRow*> m_group_rows;
   SoftRowSolver m_solver;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "physics/geometry/Reserve.h"
+#include "physics/geometry/ShapeDistance.h"
 #include "physics/substep/SubstepWorld.h"
 
 namespace naiad::physics {
@@ -117,10 +118,9 @@ void SubstepWorld::wakeChanged() {
   for (const Pair& pair : m_pairs) {
     if (pair.first >= 0) wakeBoth(pair.a, pair.b);
   }
-  for (int j = 0; j < m_joints.limit(); ++j) {
-    if (!m_joints.isWorking(j) || m_joints.joint(j).kind == JointKind::kMouse) continue;
-    wakeBoth(m_joints.joint(j).a, m_joints.joint(j).b);
-  }
+  m_joints.visitWorking([&](int a, int b) {
+    if (a >= 0) wakeBoth(a, b);
+  });
 }
 
 void SubstepWorld::updatePairs() {
@@ -208,13 +208,8 @@ double SubstepWorld::gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset) {
   double nearest = kEverywhere;
   const std::vector<ConvexShape>& shapes = m_forms[large.form].shapes;
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(shapes.size()); ++k) {
-    const TurnedView shape = turnedShape(large, k);
-    double most = gap;
-    for (std::size_t i = 0; i < at(shape.count) && shape.count > 2; ++i) {
-      most = std::max(most, dot(shape.normals[i], to_small - shape.vertices[i]) - shape.radius -
-                                (is_a_large ? b : a).reach);
-    }
-    nearest = std::min(nearest, most);
+    const double reach = (is_a_large ? b : a).reach;
+    nearest = std::min(nearest, std::max(gap, faceGap(turnedShape(large, k), to_small, reach)));
   }
   return nearest;
 }
@@ -228,7 +223,7 @@ double SubstepWorld::marginOf(const SubstepBody& a, const SubstepBody& b) const 
 
 void SubstepWorld::stir(const SubstepBody& b, double by) {
   if (b.state == 0 || !isMovable(b)) return;
-  double& own = m_stirs[at(rootOf(b.state))];
+  double& own = m_stirs[at(m_sets.rootOf(b.state))];
   m_has_stirred = m_has_stirred || own < by;
   own = std::max(own, by);
 }
@@ -272,14 +267,15 @@ bool SubstepWorld::mayMeet(Pair& pair) {
 void SubstepWorld::choosePairs() {
   m_calm.clear();
   m_stirs.assign(m_states.size(), 0);
-  standAlone();
+  m_sets.reset(m_states.size());
   for (Pair& pair : m_pairs) pair.is_examined = !pair.is_jointed && mayMeet(pair);
   m_joints.visitWorking([&](int a, int b) {
     if (a >= 0) stir(m_bodies[at(a)], kEverywhere);
     stir(m_bodies[at(b)], kEverywhere);
   });
   passStirsOn();
-  for (std::size_t i = 1; i < m_stirs.size(); ++i) m_stirs[i] = m_stirs[at(rootOf(static_cast<int>(i)))];
+  for (std::size_t i = 1; i < m_stirs.size(); ++i)
+    m_stirs[i] = m_stirs[at(m_sets.rootOf(static_cast<int>(i)))];
   for (const Calm& calm : m_calm) {
     Pair& pair = m_pairs[at(calm.pair)];
     const double by = m_stirs[at(m_bodies[at(pair.a)].state)] + m_stirs[at(m_bodies[at(pair.b)].state)];

@@ -29,63 +29,14 @@ void push(SubstepState& s, float inverse_mass, float inverse_inertia, float nx, 
 
 }  // namespace
 
-int SubstepJoints::add(const Joint& joint, bool may_touch) {
-  int id = limit();
-  if (m_free.empty()) {
-    m_entries.emplace_back();
-  } else {
-    id = m_free.back();
-    m_free.pop_back();
-  }
-  entryOf(id) = {joint, true, may_touch, m_next_number++, {}};
-  entryOf(id).joint.is_broken = false;
-  m_order.push_back(id);
-  m_is_apart_sorted = false;
-  return id;
-}
-
-bool SubstepJoints::set(int id, const Joint& joint) {
-  Entry& entry = entryOf(id);
-  if (joint.kind != entry.joint.kind || joint.b != entry.joint.b) return false;
-  if (joint.kind != JointKind::kMouse && joint.a != entry.joint.a) return false;
-  const bool is_broken = entry.joint.is_broken;
-  entry.joint = joint;
-  entry.joint.is_broken = is_broken;
-  return true;
-}
-
-void SubstepJoints::remove(int id) {
-  entryOf(id).exists = false;
-  m_order.erase(std::find(m_order.begin(), m_order.end(), id));
-  m_free.push_back(id);
-  m_is_apart_sorted = false;
-}
-
-void SubstepJoints::sortApart() {
-  m_is_apart_sorted = true;
-  m_apart.clear();
-  for (const int id : m_order) {
-    const Joint& j = joint(id);
-    if (entryOf(id).may_touch || j.is_broken || j.kind == JointKind::kMouse) continue;
-    m_apart.emplace_back(std::min(j.a, j.b), std::max(j.a, j.b));
-  }
-  std::sort(m_apart.begin(), m_apart.end());
-}
-
-bool SubstepJoints::keepsApart(int a, int b) {
-  if (!m_is_apart_sorted) sortApart();
-  return std::binary_search(m_apart.begin(), m_apart.end(), std::pair(std::min(a, b), std::max(a, b)));
-}
-
 void SubstepJoints::begin(std::span<SubstepBody> bodies, float h) {
   m_links.clear();
   m_rows.clear();
   m_h = h;
-  for (const int id : m_order) {
+  for (const int id : ids()) {
     const Joint& j = joint(id);
     if (j.is_broken) continue;
-    if (bodies[at(j.b)].state > 0 || (j.kind != JointKind::kMouse && bodies[at(j.a)].state > 0))
-      load(id, bodies);
+    if (bodies[at(j.b)].state > 0 || (firstOf(j) >= 0 && bodies[at(j.a)].state > 0)) load(id, bodies);
   }
   stiffen(bodies);
   for (Link& link : m_links) {
@@ -99,9 +50,10 @@ void SubstepJoints::begin(std::span<SubstepBody> bodies, float h) {
 // "Geometric stiffness for real-time constrained multibody dynamics", 2017.)
 void SubstepJoints::stiffen(std::span<SubstepBody> bodies) {
   for (const Link& link : m_links) {
-    const Entry& entry = entryOf(link.id);
-    const float along = entry.memory[0],
-                across = link.count > 1 && !isAngleRow(entry.joint.kind, 1) ? entry.memory[1] : 0;
+    const Memory& memory = memoryOf(link.id);
+    const bool holds_point = link.count > 1 && !isAngleRow(joint(link.id).kind, 1);
+    const auto along = static_cast<float>(memory[0]),
+               across = holds_point ? static_cast<float>(memory[1]) : 0;
     const float force = std::sqrt(along * along + across * across);
     const auto add = [&](int id, Vec2 arm) {
       if (id >= 0) bodies[at(id)].pull += m_h * m_h * force * static_cast<float>(length(arm));
@@ -123,12 +75,11 @@ void SubstepJoints::stiffen(std::span<SubstepBody> bodies) {
 }
 
 void SubstepJoints::load(int id, std::span<const SubstepBody> bodies) {
-  const Entry& entry = entryOf(id);
-  const Joint& j = entry.joint;
+  const Joint& j = joint(id);
   const SubstepBody& b = bodies[at(j.b)];
   Link link = {};
   link.id = id;
-  link.a = j.kind == JointKind::kMouse ? -1 : j.a;
+  link.a = firstOf(j);
   link.b = j.b;
   link.state_b = b.state;
   link.row = static_cast<int>(m_rows.size());
@@ -150,7 +101,7 @@ void SubstepJoints::load(int id, std::span<const SubstepBody> bodies) {
   m_links.push_back(link);
   for (int k = 0; k < link.count; ++k) {
     Row row;
-    row.impulse = entry.memory[at(k)] * m_h;
+    row.impulse = static_cast<float>(memoryOf(id)[at(k)]) * m_h;
     row.is_spring = j.kind == JointKind::kSpring || j.kind == JointKind::kMouse;
     m_rows.push_back(row);
   }
@@ -312,16 +263,9 @@ void SubstepJoints::solve(std::span<SubstepState> states, bool is_soft) {
 int SubstepJoints::end() {
   int broken = 0;
   for (const Link& link : m_links) {
-    Entry& entry = entryOf(link.id);
-    entry.joint.force = link.force;
-    entry.joint.torque = link.torque;
-    for (int k = 0; k < link.count; ++k) entry.memory[at(k)] = m_rows[at(link.row + k)].impulse / m_h;
-    if (length(entry.joint.force) > entry.joint.break_force ||
-        std::fabs(entry.joint.torque) > entry.joint.break_torque) {
-      entry.joint.is_broken = true;
-      m_is_apart_sorted = false;
-      ++broken;
-    }
+    for (int k = 0; k < link.count; ++k)
+      memoryOf(link.id)[at(k)] = double{m_rows[at(link.row + k)].impulse / m_h};
+    broken += finish(link.id, link.force, link.torque) ? 1 : 0;
   }
   return broken;
 }

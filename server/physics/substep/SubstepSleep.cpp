@@ -19,29 +19,17 @@ bool isMoving(const SubstepBody& b) {
 
 }  // namespace
 
-int SubstepWorld::rootOf(int state) {
-  while (m_parent[at(state)] != state) state = m_parent[at(state)] = m_parent[at(m_parent[at(state)])];
-  return state;
-}
-
 void SubstepWorld::unite(const SubstepBody& a, const SubstepBody& b) {
   if (isMovable(a) && isMovable(b)) {
     if (a.state == 0 || b.state == 0) return;
-    const int one = rootOf(a.state), other = rootOf(b.state);
-    m_parent[at(std::max(one, other))] = std::min(one, other);
+    m_sets.unite(a.state, b.state);
   }
-}
-
-// Each is a group of its own.
-void SubstepWorld::standAlone() {
-  m_parent.resize(m_states.size());
-  for (std::size_t i = 0; i < m_parent.size(); ++i) m_parent[i] = static_cast<std::int32_t>(i);
 }
 
 // Groups are what joints and contacts that push connect; what cannot move holds them, or drives them if it
 // goes its own way.
 void SubstepWorld::findGroups() {
-  standAlone();
+  m_sets.reset(m_states.size());
   const auto forEachHold = [&](auto visit) {
     for (const Contact& c : m_contacts) {
       if (m_pairs[at(c.pair)].is_pushing) visit(m_bodies[at(c.a)], m_bodies[at(c.b)]);

@@ -31,7 +31,7 @@ double rollOf(const SubstepBody& b) {
 }
 
 Vec2 accelerationOf(const RigidBody& body) {
-  return body.inverse_mass > 0 ? body.acceleration + body.inverse_mass * body.force : Vec2{};
+  return body.inverse_mass > 0 ? body.acceleration : Vec2{};
 }
 double spinGainOf(const RigidBody& body) {
   return body.inverse_inertia > 0 ? body.inverse_inertia * body.torque : 0;
@@ -167,7 +167,7 @@ void SubstepWorld::moveStates() {
   }
 }
 
-void SubstepWorld::stepOnce() {
+void SubstepWorld::step() {
   m_events.clear();
   ++m_counters.ticks;
   m_h = 1 / static_cast<float>(m_options.substeps);
@@ -207,21 +207,6 @@ void SubstepWorld::stepOnce() {
   m_rows.bounce(m_states);
   for (const std::int32_t id : m_active) m_bodies[at(id)].turn = m_turns[at(m_bodies[at(id)].state)];
   finish();
-}
-
-RigidStatus SubstepWorld::step(double dt) {
-  if (!(dt > 0 && dt < 1e6)) return RigidStatus::kRefused;
-  const std::int64_t frozen_before = m_counters.quarantined;
-  m_earlier_events.clear();
-  const double parts = std::max(std::floor(dt), 1.0);
-  for (double done = 0; done < parts; ++done) {
-    stepOnce();
-    if (parts == 1) break;
-    for (RigidEvent& event : m_events) event.time += done;
-    m_earlier_events.insert(m_earlier_events.end(), m_events.begin(), m_events.end());
-  }
-  if (parts > 1) m_events.swap(m_earlier_events);
-  return m_counters.quarantined == frozen_before ? RigidStatus::kDone : RigidStatus::kQuarantined;
 }
 
 Vec2 SubstepWorld::movedBy(const SubstepBody& b) const {
@@ -453,8 +438,7 @@ void SubstepWorld::keepMomentum() {
   findGroups();
   const auto changeOf = [&](const SubstepBody& b) {
     const SubstepState& s = m_states[at(b.state)];
-    const Vec2 gained = b.body.acceleration + b.body.inverse_mass * b.body.force;
-    return gained - Vec2{s.vx, s.vy};
+    return b.body.acceleration - Vec2{s.vx, s.vy};
   };
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
@@ -499,11 +483,7 @@ void SubstepWorld::finish() {
     m_joints_changed = true;
   }
   sleep();
-  std::sort(m_events.begin(), m_events.end(), [](const RigidEvent& x, const RigidEvent& y) {
-    if (x.time != y.time) return x.time < y.time;
-    if (x.first != y.first) return x.first < y.first;
-    return x.second != y.second ? x.second < y.second : x.is_begin < y.is_begin;
-  });
+  sortEvents();
 }
 
 }  // namespace naiad::physics

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRollKept = 0.02;  // thicknesses that a corner may move before bounds are measured again
 
 bool isPulled(const RigidBody& body) {
-  return body.acceleration != Vec2{} || body.force != Vec2{} || body.torque != 0;
+  return body.acceleration != Vec2{} || body.torque != 0;
 }
 
 }  // namespace
@@ -175,11 +175,7 @@ bool SubstepWorld::setShapes(int id, std::span<const ConvexShape> shapes) {
 bool SubstepWorld::remove(int id) {
   if (!exists(id)) return false;
   wakeRing(id);
-  for (int j = 0; j < m_joints.limit(); ++j) {
-    if (!m_joints.exists(j)) continue;
-    const Joint& joint = m_joints.joint(j);
-    if (joint.b == id || (joint.kind != JointKind::kMouse && joint.a == id)) removeJoint(j);
-  }
+  removeJointsOf(id);
   leave(id);
   m_forms.giveBack(std::exchange(m_bodies[at(id)].form, -1));
   m_bodies[at(id)].exists = false;
@@ -205,32 +201,6 @@ void SubstepWorld::setSleeping(bool may_sleep) {
   m_options.may_sleep = may_sleep;
   if (may_sleep) return;
   for (int id = 0; id < idLimit(); ++id) wakeRing(id);
-}
-
-int SubstepWorld::addJoint(const Joint& joint, bool may_touch) {
-  if (!isValid(joint, idLimit()) || !exists(joint.b)) return -1;
-  if (joint.kind != JointKind::kMouse && !exists(joint.a)) return -1;
-  wakeRing(joint.b);
-  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
-  m_joints_changed = true;
-  return m_joints.add(joint, may_touch);
-}
-
-bool SubstepWorld::setJoint(int id, const Joint& joint) {
-  if (!m_joints.exists(id) || !isValid(joint, idLimit()) || !m_joints.set(id, joint)) return false;
-  wakeRing(joint.b);
-  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
-  return true;
-}
-
-bool SubstepWorld::removeJoint(int id) {
-  if (!m_joints.exists(id)) return false;
-  const Joint& joint = m_joints.joint(id);
-  wakeRing(joint.b);
-  if (joint.kind != JointKind::kMouse) wakeRing(joint.a);
-  m_joints.remove(id);
-  m_joints_changed = true;
-  return true;
 }
 
 }  // namespace naiad::physics

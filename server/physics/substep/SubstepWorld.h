@@ -15,6 +15,7 @@
 #include "physics/broadphase/ImpactTree.h"
 #include "physics/geometry/Index.h"
 #include "physics/geometry/TimeOfImpact.h"
+#include "physics/geometry/UnionFind.h"
 #include "physics/rigid/MagnetTurn.h"
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
@@ -53,25 +54,17 @@ class SubstepWorld final : public RigidStepper {
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
   bool remove(int id) override;
   const RigidBody& body(int id) const override { return m_bodies[at(id)].body; }
-  bool exists(int id) const { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
+  bool exists(int id) const override { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
   bool isFrozen(int id) const override { return m_bodies[at(id)].is_frozen; }
   bool isStopped(int id) const override {
     const SubstepBody& b = m_bodies[at(id)];
     return b.state > 0 && (b.part < 1 || b.is_diverted);
   }
   bool isAsleep(int id) const { return m_bodies[at(id)].is_asleep; }
-  int idLimit() const { return static_cast<int>(m_bodies.size()); }
-
-  int addJoint(const Joint& joint, bool may_touch) override;
-  bool setJoint(int id, const Joint& joint) override;
-  bool removeJoint(int id) override;
-  bool jointExists(int id) const override { return m_joints.exists(id); }
-  const Joint& joint(int id) const override { return m_joints.joint(id); }
+  int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
   void setSleeping(bool may_sleep) override;
-  /// By whole ticks: `dt` is rounded down, 1 at least.
-  RigidStatus step(double dt) override;
-  const std::vector<RigidEvent>& events() const override { return m_events; }
+  void step() override;
   const SubstepCounters& counters() const { return m_counters; }
   /// How deep the deepest overlap was at the start of the last step.
   double deepest() const { return m_deepest; }
@@ -156,11 +149,12 @@ class SubstepWorld final : public RigidStepper {
   void enter(int id);
   void leave(int id);
   void freeze(int id);
-  void wakeRing(int id);
+  void wakeRing(int id) override;
+  const JointStore& joints() const override { return m_joints; }
+  JointStore& joints() override { return m_joints; }
   void markChanged(int id);
 
   // SubstepStep.cpp
-  void stepOnce();
   void listActive();
   void begin(int id);
   void pushByMagnets();
@@ -200,7 +194,7 @@ class SubstepWorld final : public RigidStepper {
   void stir(const SubstepBody& body, double by);
   void choosePairs();
   void passStirsOn();
-  double stirOf(const SubstepBody& b) { return m_stirs[at(rootOf(b.state))]; }
+  double stirOf(const SubstepBody& b) { return m_stirs[at(m_sets.rootOf(b.state))]; }
   double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);
   static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset,
@@ -218,10 +212,8 @@ class SubstepWorld final : public RigidStepper {
   std::vector<Pair>::const_iterator findPair(std::int32_t one, std::int32_t other) const;
 
   // SubstepSleep.cpp
-  void standAlone();
   void findGroups();
-  int rootOf(int state);
-  Group& groupOf(const SubstepBody& b) { return m_groups[at(rootOf(b.state))]; }
+  Group& groupOf(const SubstepBody& b) { return m_groups[at(m_sets.rootOf(b.state))]; }
   void unite(const SubstepBody& a, const SubstepBody& b);
   void sleep();
 
@@ -257,14 +249,12 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_by_colour;
   ContactRows m_rows;
   SubstepJoints m_joints;
-  std::vector<std::int32_t> m_parent;  // by state
-  std::vector<Group> m_groups;         // by root
-  std::vector<RigidEvent> m_events, m_earlier_events;
+  UnionFind m_sets;             // of states
+  std::vector<Group> m_groups;  // by root
   SubstepCounters m_counters;
   double m_deepest = 0;
   float m_h = 0.25f;
   bool m_active_changed = false;
-  bool m_joints_changed = false;
   bool m_has_stirred = false;
   bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of what they lie on
 };

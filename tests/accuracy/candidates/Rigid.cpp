@@ -30,7 +30,7 @@ class Rigid : public Simulation {
     if (!scene.rigid() || scene.field || !scene.joints.empty() || !scene.collides || scene.tick != kTick)
       return false;
     for (const Body& body : scene.bodies) {
-      if (body.shapes.empty()) return false;
+      if (body.shapes.empty() || body.linear_drag != 0) return false;
     }
     return true;
   }
@@ -85,7 +85,6 @@ class Rigid : public Simulation {
       rigid.inverse_mass = is_pushed ? 1 / body.mass : 0;
       rigid.inverse_inertia = is_pushed && body.rotates ? 1 / (body.mass * inertia) : 0;
       if (is_pushed) rigid.acceleration = kTick * kTick * down(m_scene.gravity);
-      rigid.linear_damping = kTick * body.linear_drag / body.mass;
       rigid.friction = body.friction;
       rigid.restitution = body.restitution;
       m_world.add(rigid, shapes);

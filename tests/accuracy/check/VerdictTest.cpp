@@ -33,9 +33,6 @@ constexpr Miss kMisses[] = {
     // Pyramids of 20 rows whose neighbours touch do not come to rest.
     {"default", "stir_m_20", 0.01},
     {"default", "stir_m_30", 0.05},
-    // A field in sub-steps: bounded, but by turns above and below its start.
-    {"default", "energy_gain_field1e0", 0.06},
-    {"default", "energy_gain_field1e-2", 0.001},
 };
 
 const Miss* findMiss(const std::string& level, const std::string& metric) {

@@ -5,6 +5,7 @@
 //   naiad_recovery long GAME COUNT SEED    the same, in a round of ten minutes
 //   naiad_recovery scores COUNT SEED       the same with a game that adds scores: its server keeps them
 //   naiad_recovery worlds GAME COUNT SEED  the same, of worlds under a server that lives
+//   naiad_recovery hangs COUNT SEED        the same, of worlds that hang, with the server's own --hang-time
 //   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
 #include <algorithm>
 #include <chrono>
@@ -30,6 +31,7 @@ using naiad::test::RecoveryRun;
 using std::chrono::milliseconds;
 
 constexpr int kPlayers = 4;
+constexpr const char* kHangingModule = NAIAD_BINARY_DIR "/../lib/hanging_module.so";
 /// Kills in one round: each of them compares pictures by executing the round from its beginning.
 constexpr int kKillsInARound = 10;
 constexpr milliseconds kMaxPlay{1500};
@@ -203,6 +205,31 @@ int worlds(const std::string& game, int count, std::uint64_t seed) {
   return went_on == count && verified ? 0 : 1;
 }
 
+/// The first hang of a round each time, some seconds after the newest copy.
+int hangs(int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<long> took;
+  int verified = 0;
+  try {
+    for (int i = 0; i < count; ++i) {
+      RecoveryRun run(kHangingModule, kPlayers, random(), std::chrono::microseconds(33'333));
+      run.play(kBetweenCopies + milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count())));
+      const auto time = run.hangWorld(df::Keyboard::H);
+      if (!time) break;
+      took.push_back(time->count());
+      std::string said;
+      verified += run.verify(said) ? 1 : 0;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
+    return 1;
+  }
+  const int went_on = static_cast<int>(took.size());
+  std::printf("hangs hangs=%d went_on=%d p50_ms=%ld max_ms=%ld verified=%d\n", count, went_on,
+              percentile(took, 50), percentile(took, 100), verified);
+  return went_on == count && verified == count ? 0 : 1;
+}
+
 int journal(const std::string& game, std::uint32_t ticks) {
   naiad::Recorder recorder;
   const auto file = recorder.record({.game = game, .seed = 1, .ticks = ticks, .players = kPlayers});
@@ -232,10 +259,12 @@ int main(int argc, char** argv) {
     return scores(std::atoi(words[1].c_str()), std::strtoull(words[2].c_str(), nullptr, 10));
   if (words.size() == 4 && words[0] == "worlds")
     return worlds(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
+  if (words.size() == 3 && words[0] == "hangs")
+    return hangs(std::atoi(words[1].c_str()), std::strtoull(words[2].c_str(), nullptr, 10));
   if (words.size() == 3 && words[0] == "journal")
     return journal(words[1], static_cast<std::uint32_t>(std::atoi(words[2].c_str())));
   std::fprintf(stderr,
                "usage: naiad_recovery kills GAME COUNT SEED | long GAME COUNT SEED | scores COUNT SEED | "
-               "worlds GAME COUNT SEED | journal GAME TICKS\n");
+               "worlds GAME COUNT SEED | hangs COUNT SEED | journal GAME TICKS\n");
   return 2;
 }

@@ -8,7 +8,7 @@
 #include "Script.h"
 #include "host/journal/DfrReader.h"
 #include "host/journal/DfrWriter.h"
-#include "shared/values/LittleEndian.h"
+#include "shared/replica/Bytes.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -60,11 +60,10 @@ std::string chunksOf(Script& script) {
 }
 
 std::string turnsOf(Script& script) {
-  std::string payload(kDfrTurnHead, '\0');
-  payload[4] = static_cast<char>(script.byte());
+  const std::uint64_t packing = script.byte() & 1;
   const std::string records = script.rest();
-  storeLittleEndian(static_cast<std::uint32_t>(records.size() * (payload[4] == kDfrModelled ? 4 : 1)),
-                    payload.data() + kDfrTurnHead - 4);
+  std::string payload(kDfrTurnPlace, '\0');
+  ByteWriter(payload).varint(records.size() * (packing == kDfrModelled ? 4 : 1) << 1 | packing);
   return spellDfrHeader({}) + spellDfrChunk(kDfrTurn, payload + records);
 }
 

@@ -22,6 +22,24 @@ inline Rotation anyRotation(SplitMix64& random) {
   return rotationBy(between(random, -3.14, 3.14));
 }
 
+/// The corners of the convex hull, from x to y (A. Andrew's monotone chains).
+inline std::vector<Vec2> hullOf(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<Vec2> hull;
+  for (int half = 0; half < 2; ++half) {
+    const std::size_t first = hull.size();
+    for (const Vec2 p : points) {
+      while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
 /// Circle, capsule, box, polygon; sharp or rounded; about 1 in size, off its origin now and then.
 inline ConvexShape anyShape(SplitMix64& random) {
   for (;;) {
@@ -42,7 +60,7 @@ inline ConvexShape anyShape(SplitMix64& random) {
       std::vector<Vec2> points;
       const int count = 3 + static_cast<int>(random.unit() * 20);
       for (int i = 0; i < count; ++i) points.push_back(centre + anyVec(random, 1));
-      status = makeHull(points, radius, shape);
+      status = makePolygon(hullOf(points), radius, shape);
     }
     if (status == ShapeStatus::kOk) return shape;
   }

@@ -195,8 +195,8 @@ TEST(DfrTest, AChangedByteGivesNoOtherRecords) {
 
 TEST(DfrTest, AnotherVersionIsRefusedWithASentence) {
   std::string bytes = SmallFile().bytes;
-  bytes[8] = 2;
-  EXPECT_EQ(DfrReader(bytes).problem(), "its format is version 2, and this program reads version 1");
+  bytes[8] = 1;
+  EXPECT_EQ(DfrReader(bytes).problem(), "its format is version 1, and this program reads version 2");
   EXPECT_EQ(DfrReader("#!/bin/sh\n").problem(), "it is no recording of a round");
 }
 

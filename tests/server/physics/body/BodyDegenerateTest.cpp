@@ -8,7 +8,6 @@
 #include "physics/body/BodyLayer.h"
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
-#include "tests/server/physics/rigid/RigidScene.h"
 
 namespace df::test {
 namespace {
@@ -189,33 +188,6 @@ TEST_F(BodyDegenerate, FourThatMeetInAPointAreNotFrozen) {
   }
   EXPECT_LT(momentum.getMagnitude(), 1e-12);
   EXPECT_LE(squares, 4 * 0.02);
-}
-
-// A tick that lasts a thousand ticks, in the middle of a heap: bounded, and afterwards all is as ever.
-TEST_F(BodyDegenerate, ASpikeOfTheStepStaysBounded) {
-  using namespace naiad::physics;
-  using namespace naiad::physics::test;
-  for (const double spike : {1e-6, 100.0, 1e3}) {
-    RigidWorld heap = onFloor();
-    const naiad::physics::ConvexShape crate = boxShape(0.5, 0.5), disc = circleShape(0.4);
-    for (int i = 0; i < 12; ++i) {
-      const naiad::physics::ConvexShape& shape = i % 3 == 0 ? disc : crate;
-      heap.add(movable({0.3 * (i % 2), -0.6 - 1.1 * i}, shape), shape);
-    }
-    for (int i = 0; i < 30; ++i) heap.step();
-    EXPECT_NE(heap.step(spike), RigidStatus::kRefused);
-    for (int id = 1; id <= 12; ++id) {
-      EXPECT_LE(length(heap.body(id).velocity), kGravityPerTick * (spike + 60)) << spike << ' ' << id;
-      EXPECT_LT(whereIs(heap, id).y, 1) << spike << ' ' << id;  // nothing went through the floor
-    }
-    for (int i = 0; i < 3000; ++i) heap.step();
-    for (int id = 1; id <= 12; ++id) {
-      const Vec2 at = whereIs(heap, id);
-      EXPECT_TRUE(at.y < 0 || std::fabs(at.x) > 1000) << spike << ' ' << id;  // discs may roll off the floor
-    }
-    EXPECT_LT(heap.deepest(), 0.01) << spike;
-    EXPECT_EQ(heap.counters().quarantined, 0) << spike;
-  }
 }
 
 }  // namespace

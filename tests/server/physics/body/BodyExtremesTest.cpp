@@ -13,6 +13,7 @@
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
 #include "tests/support/NotANumber.h"
+#include "tests/support/Sanitizers.h"
 
 namespace df::test {
 namespace {
@@ -240,7 +241,7 @@ class InOnePlace : public testing::TestWithParam<Kind> {};
 
 TEST_P(InOnePlace, HundredsStayBounded) {
   constexpr int kTicks = 5;
-  const int many = GetParam().is_dear ? 100 : 200;
+  const int many = (GetParam().is_dear ? 100 : 200) / (naiad::test::kSanitized ? 2 : 1);
   constexpr double kFall = 0.01 * kTicks, kFastest = 10;
   const auto run = [&] {
     Witnesses those;

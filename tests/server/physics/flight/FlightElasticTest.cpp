@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "physics/flight/FlightElastic.h"
 #include "physics/flight/FlightSpring.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/server/physics/ElasticField.h"
 
 namespace naiad::physics {
 namespace {

@@ -49,8 +49,6 @@ TEST(Flight, IsTheSameBitsEverywhere) {
     hash.add(flyFree(v, a, t));
     hash.add(flyLinearDrag(v, a, big, t));
     hash.add(flySpring(p, v, a, {big, i % 2 == 0 ? 0 : 4 * random.unit() * std::sqrt(big)}, t));
-    const FlownPair pair = PairFlow(big, 0.1, 1, 0.25, t)(p, v, a, a, {});
-    hash.add(pair.first), hash.add(pair.second);
     const FlownOnLine line = flyQuadraticDragOnLine(v.x, a.x, 0.1 * random.unit(), t);
     hash.add(line.displacement), hash.add(line.velocity);
     Flown flown;
@@ -73,7 +71,7 @@ TEST(Flight, IsTheSameBitsEverywhere) {
   }
   hash.add(static_cast<double>(counters.evaluations));
   hash.add(static_cast<double>(counters.newton_failures));
-  EXPECT_EQ(hash.value(), 0x187bf464a8610fc0ULL) << std::hex << hash.value();
+  EXPECT_EQ(hash.value(), 0x9a289a4a57f8f2eeULL) << std::hex << hash.value();
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "physics/flight/FlightDrag.h"
-#include "physics/flight/FlightElastic.h"
 #include "physics/flight/FlightSpring.h"
+#include "tests/server/physics/ElasticField.h"
 #include "tests/support/AllocationCount.h"
 
 namespace naiad::physics {

@@ -153,43 +153,5 @@ TEST(Spring, WithoutStiffnessIsLinearDragAndWithoutAnythingFree) {
   }
 }
 
-TEST(Pair, MovesLikeTwoBodiesOnASpring) {
-  for (const double k : {2.0, 1e6, 1e10}) {
-    const double w1 = 0.5, w2 = 0.125, c = 0.3, h = 1.0 / 30;  // masses 2 and 8
-    const PairFlow flow(k, c, w1, w2, h);
-    Vec2 x1 = {0, 0}, x2 = {3, 4}, v1 = {1, 0}, v2 = {0, -1};
-    const Vec2 g = {0, 10};
-    const int ticks = 300;
-    for (int i = 0; i < ticks; ++i) {
-      const FlownPair f = flow(x2 - x1, v1, v2, g, g);
-      x1 += f.first.displacement, x2 += f.second.displacement;
-      v1 = f.first.velocity, v2 = f.second.velocity;
-    }
-    const Quad t = ticks * q(h);
-    const double relative_k = k * (w1 + w2), relative_c = c * (w1 + w2);
-    const double omega = std::sqrt(relative_k);
-    const double bound = 5 * (1e-11 + 4 * 0x1p-52 * omega * 10);
-    const QuadState rx = reference(relative_k, relative_c, 0, 3, -1, t),
-                    ry = reference(relative_k, relative_c, 0, 4, -1, t);
-    EXPECT_NEAR(x2.x - x1.x, static_cast<double>(rx.x), bound);
-    EXPECT_NEAR(x2.y - x1.y, static_cast<double>(ry.x), bound);
-    // the centre: (2·x1 + 8·x2) / 10 from (2.4, 3.2), momentum (2, −8) + 10·g·t
-    const auto time = static_cast<double>(t);
-    EXPECT_NEAR((2 * x1.x + 8 * x2.x) / 10, 2.4 + 0.2 * time, 1e-11 + 1e-14 * omega);
-    EXPECT_NEAR((2 * x1.y + 8 * x2.y) / 10, 3.2 - 0.8 * time + 5 * time * time, 1e-9);
-    EXPECT_NEAR(2 * v1.x + 8 * v2.x, 2, 1e-12 * std::fmax(10, omega));
-    EXPECT_NEAR(2 * v1.y + 8 * v2.y, -8 + 100 * time, 1e-11 + 1e-14 * omega);
-  }
-}
-
-TEST(Pair, ImmovableBodiesKeepTheirVelocity) {
-  const FlownPair f = PairFlow(100, 1, 0, 2, 0.5)({1, 0}, {3, 0}, {0, 1}, {0, 10}, {0, 10});
-  EXPECT_EQ(f.first.velocity, (Vec2{3, 0}));
-  EXPECT_EQ(f.first.displacement, (Vec2{1.5, 0}));
-  const FlownPair both = PairFlow(100, 1, 0, 0, 0.5)({1, 0}, {3, 0}, {0, 1}, {0, 10}, {0, 10});
-  EXPECT_EQ(both.second.velocity, (Vec2{0, 1}));
-  EXPECT_EQ(both.first.displacement, (Vec2{1.5, 0}));
-}
-
 }  // namespace
 }  // namespace naiad::physics

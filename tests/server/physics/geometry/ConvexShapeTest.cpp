@@ -58,7 +58,6 @@ TEST(ConvexShape, RefusesWhatIsNoShapeAndLeavesTheOldOne) {
     EXPECT_EQ(makeCapsule({0, bad}, {1, 0}, 1, shape), ShapeStatus::kNotFinite);
     const std::array<Vec2, 3> points = {Vec2{0, 0}, {1, 0}, {0, bad}};
     EXPECT_EQ(makePolygon(points, 0, shape), ShapeStatus::kNotFinite);
-    EXPECT_EQ(makeHull(points, 0, shape), ShapeStatus::kNotFinite);
   }
   for (const double bad : {0.0, -1.0, 1e-7, 1e-310}) {
     EXPECT_EQ(makeCircle(bad, {}, shape), ShapeStatus::kTooSmall);
@@ -83,35 +82,8 @@ TEST(ConvexShape, RefusesWhatIsNoShapeAndLeavesTheOldOne) {
   std::vector<Vec2> star;
   for (int i = 0; i < 5; ++i) star.push_back({std::cos(i * 4 * kPi / 5), std::sin(i * 4 * kPi / 5)});
   EXPECT_EQ(polygon(star), ShapeStatus::kNotConvex);
-  EXPECT_EQ(makeHull(std::array<Vec2, 3>{Vec2{0, 0}, {1, 1}, {2, 2}}, 0, shape), ShapeStatus::kTooSmall);
-  EXPECT_EQ(makeHull({}, 0, shape), ShapeStatus::kTooFew);
-  EXPECT_EQ(makeHull(std::vector<Vec2>(5000), 0, shape), ShapeStatus::kTooMany);
   EXPECT_EQ(shape.count, 1);
   EXPECT_EQ(shape.radius, 2);
-}
-
-TEST(ConvexShape, AHullHoldsItsPoints) {
-  SplitMix64 random(1);
-  for (int i = 0; i < 5000; ++i) {
-    std::vector<Vec2> points;
-    const int count = 3 + static_cast<int>(random.below(10));
-    for (int k = 0; k < count; ++k) points.push_back(anyVec(random, 5));
-    points.push_back(points[0]);
-    ConvexShape hull;
-    if (makeHull(points, 0, hull) != ShapeStatus::kOk) continue;
-    for (const Vec2 p : points) EXPECT_LE(closestPoint(hull, p).distance, 1e-4);
-    const std::span<const Vec2> corners(hull.vertices.data(), static_cast<std::size_t>(hull.count));
-    ConvexShape again;
-    EXPECT_EQ(makePolygon(corners, 0, again), ShapeStatus::kOk);
-  }
-  // More corners than there is room for: the hull loses little.
-  std::vector<Vec2> ring;
-  for (int k = 0; k < 1000; ++k) ring.push_back(rotationBy(k * 2 * kPi / 1000) * Vec2{1, 0});
-  ConvexShape hull;
-  ASSERT_EQ(makeHull(ring, 0, hull), ShapeStatus::kOk);
-  EXPECT_EQ(hull.count, kMaxVertices);
-  EXPECT_GT(massOf(hull, 1).mass, 0.95 * kPi);
-  EXPECT_LT(massOf(hull, 1).mass, kPi);
 }
 
 TEST(Mass, HasTheTextbooksValues) {
@@ -279,29 +251,6 @@ TEST(ShapeRaster, CoversTheCellsWhoseCentresAreInside) {
     }
   }
   EXPECT_GT(covered, 50000);
-}
-
-TEST(ShapeRaster, TheOutlineIsWhatHasANeighbourOutside) {
-  ConvexShape circle;
-  ASSERT_EQ(makeCircle(6, {}, circle), ShapeStatus::kOk);
-  TurnedShape placed;
-  turn(circle, {}, placed);
-  std::vector<CellSpan> spans;
-  rasterise(placed, {0.2, 0.1}, 2, spans);
-  const auto inside = [&](int column, int row) {
-    return std::any_of(spans.begin(), spans.end(), [&](const CellSpan& s) {
-      return s.row == row && s.first <= column && column <= s.last;
-    });
-  };
-  for (std::size_t i = 0; i < spans.size(); ++i) {
-    for (int c = spans[i].first; c <= spans[i].last; ++c) {
-      const int row = spans[i].row;
-      const bool truth =
-          !(inside(c - 1, row) && inside(c + 1, row) && inside(c, row - 1) && inside(c, row + 1));
-      EXPECT_EQ(isOutline(spans, i, c), truth) << c << ", " << row;
-    }
-  }
-  EXPECT_EQ(spans.size(), 6U);
 }
 
 TEST(ShapeRaster, WhatIsHugeIsCutOff) {

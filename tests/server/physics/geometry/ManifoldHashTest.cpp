@@ -55,7 +55,7 @@ TEST(Manifold, AndAllGeometryIsTheSameBitsEverywhere) {
     broad.add(i, gridBounds(placeAt(10 * offset), boundsOf(placed), 0.1), true);
   }
   for (const BroadPhasePair& pair : broad.updatePairs()) hash.add(std::uint64_t{pair.id_a} << 32 | pair.id_b);
-  EXPECT_EQ(hash.value(), 7559859416901886927U);
+  EXPECT_EQ(hash.value(), 9358134255254305601U);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ double smallest(const Manifold& m) {
 TEST(ShapeDistance, IsWhatEveryCornerAgainstEveryEdgeSays) {
   SplitMix64 random(1);
   double worst = 0;
-  int apart = 0, overlapping = 0;
+  int apart = 0, overlapping = 0, seen_by_faces = 0;
   for (int i = 0; i < 100000; ++i) {
     const ConvexShape a = anyShape(random), b = anyShape(random);
     const Rotation qa = anyRotation(random), qb = anyRotation(random);
@@ -44,6 +44,9 @@ TEST(ShapeDistance, IsWhatEveryCornerAgainstEveryEdgeSays) {
       ++apart;
       worst = std::max(worst, std::fabs(s.distance - truth));
       ASSERT_NEAR(s.distance, truth, 1e-13) << i;
+      const double least = faceGap(ta, offset, tb.reach + tb.radius);
+      ASSERT_LE(least, truth - ta.radius - tb.radius + 1e-13) << i;
+      seen_by_faces += least > 0 ? 1 : 0;
     } else {
       ++overlapping;
       ASSERT_LE(s.distance, 1e-13) << i;
@@ -53,6 +56,7 @@ TEST(ShapeDistance, IsWhatEveryCornerAgainstEveryEdgeSays) {
     }
   }
   EXPECT_GT(apart, 30000);
+  EXPECT_GT(seen_by_faces, 10000);
   EXPECT_GT(overlapping, 5000);
   std::printf("distance: largest error %.2g of %d apart, %d overlapping\n", worst, apart, overlapping);
 }

@@ -182,6 +182,55 @@ TEST(ImpactWorld, AStackStands) {
   }
 }
 
+std::vector<int> addStack(ImpactWorld& world, int count, double above) {
+  std::vector<int> ids;
+  for (int i = 0; i < count; ++i) {
+    ImpactBody body = falling(box({0, -0.5 - above - i}));
+    body.friction = 0.5;
+    ids.push_back(world.add(body));
+  }
+  world.add(fixed(box({0, 1}, {5, 1})));
+  return ids;
+}
+
+// Not crate by crate, each time with a solution for all below it. Also where others stood before.
+TEST(ImpactWorld, AStackThatHasJustBeenPutDownIsSolvedForOnce) {
+  constexpr int kCount = 100;
+  ImpactWorld world;
+  world.setReserve(ImpactWorld::kUsualReserve);
+  for (int time = 1; time <= 2; ++time) {
+    std::vector<int> ids = addStack(world, kCount, 0);
+    world.step();
+    EXPECT_EQ(world.counters().rest_solves, time);
+    EXPECT_EQ(world.events().size(), kCount);
+    for (const ImpactEvent& event : world.events()) EXPECT_TRUE(event.is_begin);
+    for (int i = 0; i < kCount; ++i) EXPECT_EQ(at(world, ids[i]).y, -0.5 - i);
+    world.step();
+    EXPECT_TRUE(world.events().empty());
+    ids.push_back(kCount);
+    for (const int id : ids) world.remove(id);
+  }
+}
+
+// Each impact that goes through a large stack costs a solution for all of it: such a tick takes what its
+// bodies and events allow, and what does not fit is given up.
+TEST(ImpactWorld, ATickTakesNoMoreThanItsBodiesAndEventsAllow) {
+  for (const int count : {30, 100, 300}) {
+    ImpactWorld world;
+    world.setReserve(ImpactWorld::kUsualReserve);
+    addStack(world, count, 0.3);
+    for (int tick = 0; tick < 30; ++tick) {
+      const std::int64_t before = world.counters().impacts;
+      world.step();
+      const auto impacts = static_cast<double>(world.counters().impacts - before);
+      ASSERT_LE(world.work(), 1.1 * (ImpactWorld::kWorkOfTick + ImpactWorld::kWorkOfBody * (count + 1) +
+                                     ImpactWorld::kWorkOfEvent * impacts))
+          << count << ' ' << tick;
+    }
+    EXPECT_EQ(world.counters().given_up > 0, count > 30) << count;
+  }
+}
+
 // Boxes with air between them fall on one another and come to rest as a stack.
 TEST(ImpactWorld, AStackThatFallsTogetherStands) {
   for (const double restitution : {0.0, 0.3}) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "physics/flight/FlightElastic.h"
 #include "physics/numerics/IntegratorAutomatic.h"
+#include "tests/server/physics/ElasticField.h"
 #include "tests/server/physics/QuadReference.h"
 
 namespace naiad::physics {
@@ -280,10 +280,46 @@ TEST(Stiff, GivesUpAtItsLimitsAndSaysSo) {
   options.max_steps = 3;
   IntegratorCounters counters;
   Flown flown;
-  EXPECT_EQ(flyField(field, {2, 0}, {0, 0}, 0, 1, options, flown, counters), IntegratorStatus::kTooManySteps);
-  EXPECT_EQ(counters.failed_calls, 1);
+  EXPECT_EQ(flyField(field, {2, 0}, {0, 0}, 0, 1, options, flown, counters), IntegratorStatus::kDone);
+  EXPECT_EQ(counters.coarse_calls, 1);
   EXPECT_EQ(counters.stiff_calls, 1);
   EXPECT_LE(counters.evaluations, 2000);
+  options.method = IntegratorMethod::kRadau;
+  EXPECT_EQ(flyField(field, {2, 0}, {0, 0}, 0, 1, options, flown, counters), IntegratorStatus::kTooManySteps);
+  EXPECT_EQ(counters.failed_calls, 1);
+}
+
+// Nonlinear, and stiffer than any limit follows: it is not thrown, and not given up.
+TEST(Stiff, WhatNoLimitFollowsIsSolvedCoarsely) {
+  struct Cubic : ForceField {
+    double stiffness = 1;
+    Vec2 acceleration(Vec2 p, Vec2, double) const override {
+      return -stiffness * lengthSquared(p) * p + Vec2{0, 1};
+    }
+  } field;
+  for (double k = 1; k < 2e12; k *= 100) {
+    field.stiffness = k;
+    for (const int most : {1, 8000}) {
+      IntegratorOptions options;
+      options.max_evaluations = most;
+      options.max_steps = most == 1 ? 16 : options.max_steps;
+      Vec2 p = {1, 0}, v = {0.1, 0.2};
+      const auto energy = [&] {
+        const double square = lengthSquared(p);
+        return 0.5 * lengthSquared(v) + 0.25 * k * square * square - p.y;
+      };
+      const double start = energy();
+      for (int i = 0; i < 30; ++i) {
+        IntegratorCounters counters;
+        Flown flown;
+        ASSERT_EQ(flyField(field, p, v, i, 1, options, flown, counters), IntegratorStatus::kDone) << k;
+        EXPECT_LE(counters.evaluations, most == 1 ? 400 : 18'000) << k;
+        p += flown.displacement;
+        v = flown.velocity;
+        ASSERT_LE(energy(), start * (1 + 1e-3) + 1) << k << ' ' << most << ' ' << i;
+      }
+    }
+  }
 }
 
 // No hidden memory: a call in between, or another order, changes nothing.

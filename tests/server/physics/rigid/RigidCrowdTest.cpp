@@ -51,13 +51,17 @@ TEST(RigidCrowd, TheyComeApart) {
   for (int i = 0; i < kMany; ++i) {
     RigidBody body = afloat({0.01 * (i % 10), 0.01 * (i / 10)});
     body.rotation = rotationBy(0.1 * i);
-    body.linear_damping = 0.05;
     world.add(body, cross());
   }
   double fastest = 0;
   for (int i = 0; i < kTicks; ++i) {
     world.step();
-    for (int id = 0; id < kMany; ++id) fastest = std::max(fastest, length(world.body(id).velocity));
+    for (int id = 0; id < kMany; ++id) {
+      RigidBody body = world.body(id);
+      fastest = std::max(fastest, length(body.velocity));
+      body.velocity *= 0.95;  // they come to rest
+      world.set(id, body);
+    }
   }
   const std::int64_t passed = world.counters().passed;
   EXPECT_GT(passed, 0);

@@ -149,7 +149,8 @@ TEST(SubstepFast, SpeedsBeyondCalculationAreFrozen) {
   RigidBody ball = movable({0, 0}, disc);
   ball.velocity = {1e20, 0};
   const int id = scene.add(ball, disc);
-  EXPECT_EQ(scene.world.step(1), RigidStatus::kQuarantined);
+  scene.world.step();
+  EXPECT_EQ(scene.world.counters().quarantined, 1);
   EXPECT_TRUE(scene.world.isFrozen(id));
   EXPECT_EQ(scene.at(id), Vec2{});
 }

@@ -50,7 +50,7 @@ class Neighbours {
   void run(std::vector<Bits>& seen) {
     for (int tick = 0; tick < kGroupTicks; ++tick) {
       change(tick);
-      m_world.step(1);
+      m_world.step();
       for (const int id : m_watched) seen.push_back(bitsOf(m_world.body(id)));
     }
   }
@@ -188,7 +188,7 @@ TEST(SubstepIsolation, FastOnesDoNotDependOnIds) {
     }
     std::vector<Bits> seen;
     for (int tick = 0; tick < 6; ++tick) {
-      world.step(1);
+      world.step();
       for (const int id : ids) seen.push_back(bitsOf(world.body(id)));
     }
     EXPECT_GT(world.counters().stopped, 0);

@@ -30,7 +30,7 @@ struct SubstepScene {
     return world.addJoint(joint, false);
   }
   void ticks(int n) {
-    for (int i = 0; i < n; ++i) world.step(1);
+    for (int i = 0; i < n; ++i) world.step();
   }
   Vec2 at(int id) const { return world.body(id).place - Place{}; }
   double speed(int id) const { return length(world.body(id).velocity); }

@@ -1,4 +1,4 @@
-#include "physics/impact/ImpactRoots.h"
+#include "physics/numerics/PolynomialRoots.h"
 
 #include <cmath>
 #include <utility>
@@ -7,7 +7,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kHighestDegree = 4;
+constexpr int kHighestDegree = 6;
 
 // Newton's method, kept within a bracket at whose ends the signs differ.
 double rootBetween(const double* c, int degree, double low, double high) {

@@ -8,7 +8,7 @@ double evaluate(const double* c, int degree, double s);
 
 /// The first s in [low, high] from which on the polynomial is negative (low if it is so there), or −1. The
 /// polynomial's derivatives cut the interval into monotone pieces, so no crossing is missed that reaches
-/// beyond rounding. 1 <= degree <= 4.
+/// beyond rounding. 1 <= degree <= 6.
 double firstBelowZero(const double* c, int degree, double low, double high);
 
 /// The last s in [low, high] at which the polynomial goes from >= 0 to negative; low if there is none.

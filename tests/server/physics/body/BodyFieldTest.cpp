@@ -1,0 +1,83 @@
+// Fields however stiff: what they cost, and what stays of the energy.
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "physics/body/Field.h"
+#include "tests/server/physics/BodyScene.h"
+
+namespace df::test {
+namespace {
+
+class BodyFields : public BodyScene {};
+
+// Pulls as the distance, or its third power, or is van der Pol's: smooth, then stiff, then a jump within a
+// tick.
+class CountedField : public Field {
+ public:
+  explicit CountedField(int kind, double stiffness) : m_kind(kind), m_stiffness(stiffness) {}
+  Vector accelerationAt(Vector d, Vector v, double /*time*/) const override {
+    ++calls;
+    const double x = d.x();
+    if (m_kind == 0) return Vector(-m_stiffness * x, 0);
+    if (m_kind == 1) return Vector(-m_stiffness * x * x * x, 0);
+    return Vector(m_stiffness * (900 * (1 - x * x) * v.x() / 30 - x) / 900, 0);
+  }
+  mutable std::int64_t calls = 0;
+
+ private:
+  int m_kind;
+  double m_stiffness;
+};
+
+// However stiff it is and however many bodies are in it, a tick calls it a bounded number of times: one body
+// in the air, one that is about to touch a floor, and a hundred.
+TEST_F(BodyFields, ATickCallsAFieldABoundedNumberOfTimes) {
+  wall(Vector(0, 0.5), Vector(50, 0.5));
+  for (const int count : {1, 100}) {
+    for (const int kind : {0, 1, 2}) {
+      for (const double k : {1.0, 1e4, 1e6, 1e12}) {
+        CountedField field(kind, k);
+        std::vector<Body*> bodies;
+        for (int i = 0; i < count; ++i) {
+          Body* p_body = crate(Vector(2 - 0.001 * i, i == 0 ? -0.5 : -2.0 * i));
+          bodies.push_back(p_body);
+          p_body->setTurning();
+          p_body->setField(&field, Vector(0, -0.5));
+        }
+        const std::int64_t most = kind == 0 ? 700 * count : 18'000 + 450 * count;
+        for (int i = 0; i < 30; ++i) {
+          field.calls = 0;
+          ticks(1);
+          ASSERT_LE(field.calls, most) << count << ' ' << kind << ' ' << k << ' ' << i;
+        }
+        for (Body* p_body : bodies) {
+          EXPECT_FALSE(p_body->isFrozen()) << count << ' ' << kind << ' ' << k;
+          EXPECT_LE(std::abs(p_body->getPosition().x()), 3) << count << ' ' << kind << ' ' << k;
+          delete p_body;
+        }
+      }
+    }
+  }
+}
+
+// What is linear swings on, by formula, at any stiffness.
+TEST_F(BodyFields, AStiffFieldInTheAirKeepsItsEnergy) {
+  for (const double k : {1.0, 1e3, 1e4, 1e6, 1e10}) {
+    const CountedField field(0, k);
+    Body* p_ball = ball(Vector(1, 0), Vector());
+    p_ball->setField(&field);
+    PM.setGravity(Vector(0, 0.001));
+    for (int i = 0; i < 300; ++i) {
+      ticks(1);
+      const double x = p_ball->getPosition().x(), v = p_ball->getVelocity().x();
+      ASSERT_NEAR((v * v + k * x * x) / k, 1, 1e-8) << k << ' ' << i;
+      const double fallen = 0.5 * 0.001 * (i + 1) * (i + 1);
+      ASSERT_NEAR(p_ball->getPosition().y(), fallen, 1e-8 * fallen) << k << ' ' << i;
+    }
+    delete p_ball;
+  }
+}
+
+}  // namespace
+}  // namespace df::test
