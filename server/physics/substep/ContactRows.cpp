@@ -24,7 +24,6 @@ constexpr float kLastingDamping = 4;
 constexpr float kTrendKept = 0.7f;
 constexpr float kGiven = 0.35f;
 constexpr float kLent = 0.5f;
-constexpr float kFastPushes = 20;  // in the greatest speed at which overlap is undone
 
 struct Body {
   Lanes vx, vy, spin, unused;
@@ -95,6 +94,7 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.friction[lane] = row.friction, block.restitution[lane] = row.restitution;
   block.max_push[lane] = row.max_push;
   block.rest[lane] = row.rest;
+  block.fast[lane] = row.fast;
   block.bounces = block.bounces || row.restitution > 0;
   const Softness& softness = (row.is_lasting ? m_lasting_softness : m_softness).at(row.is_held ? 1 : 0);
   block.follows[lane] = row.is_lasting ? 1 : 0;
@@ -212,8 +212,8 @@ void ContactRows::solveRows(std::span<SubstepState> states, float h, float time)
       const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
       const Lanes speed = vx * k.nx + vy * k.ny;
       // What comes fast is stopped at once: the rest that softness leaves of its speed would carry it
-      // through.
-      const LaneMask is_hard = is_open | (speed < lanesOf(-kFastPushes) * k.max_push);
+      // through. Fast for what lies still is a blow.
+      const LaneMask is_hard = is_open | (speed < -k.fast);
       const Lanes mass_scale = kIsSoft ? select(is_hard, one, k.mass_scale) : one;
       const Lanes impulse_scale = kIsSoft ? select(is_hard, zero, k.impulse_scale) : zero;
       const Lanes wanted =

@@ -29,7 +29,8 @@ struct ContactRow {
   float rest = 0;                ///< slower impacts do not bounce
   float spin_a = 0, spin_b = 0;  ///< at the start of the step
   bool is_held = false;          ///< an immovable body is in it: stiffer
-  bool is_lasting = false;  ///< it pushed in the last step, and its bodies hardly move against each other
+  bool is_lasting = false;  ///< it only carries what lies still: a spring of its own, impulses with a trend
+  float fast = 1e9f;        ///< what comes faster than that is stopped at once
 };
 
 /// What is known of an impulse from sub-step to sub-step.
@@ -92,7 +93,7 @@ class ContactRows {
     Lanes inverse_mass_a = {}, inverse_mass_b = {}, inverse_inertia_a = {}, inverse_inertia_b = {};
     Lanes nx = {}, ny = {}, vx = {}, vy = {};
     Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // softness
-    Lanes friction = {}, restitution = {}, max_push = {}, rest = {};
+    Lanes friction = {}, restitution = {}, max_push = {}, rest = {}, fast = {};
     Lanes follows = {};              // 1 if its impulses have a trend, or 0
     Lanes first = {-1, -1, -1, -1};  // time of the first impulse
     bool bounces = false;            // any of them

@@ -46,6 +46,7 @@ struct alignas(64) SubstepBody {
   bool is_busy = true;                          ///< it hardly moves, or something pushed it in the last step
   bool exists = false, is_asleep = false, is_frozen = false;
   bool is_changed = false;   ///< it cannot be moved, and was set or removed since the last step
+  bool is_shaken = false;    ///< in this step it meets something fast, or overlaps something by much
   bool is_diverted = false;  ///< in this step another fast body changed its path
   double turn = 0;           ///< rad, in this step
   double part = 1;           ///< of its motion in this step: less than 1 if it is stopped

@@ -18,11 +18,12 @@ namespace {
 constexpr std::int32_t kColours = 64;
 constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 // In thicknesses of the thinner body.
-constexpr double kMaxPush = 0.2;       // per tick: the greatest speed at which overlap is undone
-constexpr double kSlowMargin = 0.12;   // what moves by less throws nothing off its path
-constexpr double kLinger = 0.01;       // a larger gap ends a contact
-constexpr double kLasting = 0.05;      // per tick: the bodies of a lasting contact move by less …
-constexpr double kLastingDepth = 0.1;  // … and overlap by less
+constexpr double kMaxPush = 0.2;      // per tick: the greatest speed at which overlap is undone
+constexpr double kFast = 4;           // per tick: what comes so fast is stopped at once
+constexpr double kSlowMargin = 0.12;  // what moves by less throws nothing off its path
+constexpr double kLinger = 0.01;      // a larger gap ends a contact
+constexpr double kCalm = 0.05;        // per tick: what moves by less against each other may lie for long …
+constexpr double kCalmDepth = 0.1;    // … if it overlaps by less
 constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
 constexpr std::size_t kFetched = 8;     // contacts ahead
 constexpr std::size_t kCacheLine = 64;  // bytes
@@ -43,15 +44,10 @@ double speedBetween(const SubstepBody& a, const SubstepBody& b) {
 }
 
 // Did it push in the last step, and does it only carry what lies still? What a blow drives deep into
-// something is to come out fast.
-bool isLasting(const std::array<KnownImpulse, 2>& normal, const Manifold& manifold, const SubstepBody& a,
-               const SubstepBody& b) {
-  const double thickness = std::min(a.thickness, b.thickness);
-  double deepest = 0;
-  for (std::int32_t i = 0; i < manifold.count; ++i)
-    deepest = std::max(deepest, -manifold.points[at(i)].separation);
-  return normal[0].kept + normal[1].kept > 0 && speedBetween(a, b) < kLasting * thickness &&
-         deepest < kLastingDepth * thickness;
+// something is to come out fast. All springs of a body are of one kind: what lies on it would press it into
+// the floor if the floor's were the weaker one.
+bool isLasting(const std::array<KnownImpulse, 2>& normal, const SubstepBody& a, const SubstepBody& b) {
+  return normal[0].kept + normal[1].kept > 0 && !a.is_shaken && !b.is_shaken;
 }
 
 // They are at least so far apart.
@@ -319,6 +315,7 @@ void SubstepWorld::updatePair(std::int32_t index) {
   }
   const double linger = kLinger * std::min(a.thickness, b.thickness);
   bool is_near = false;
+  double deepest = 0;
   std::int32_t old = pair.first, last = -1;
   pair.first = -1;
   const auto shapes_a = static_cast<std::int32_t>(m_forms[a.form].shapes.size());
@@ -341,7 +338,7 @@ void SubstepWorld::updatePair(std::int32_t index) {
       for (std::int32_t k = 0; k < known.manifold.count; ++k) {
         const ManifoldPoint& point = known.manifold.points[at(k)];
         is_near = is_near || point.separation <= linger;
-        m_deepest = std::max(m_deepest, -point.separation);
+        deepest = std::max(deepest, -point.separation);
         for (std::int32_t l = 0; l < known.count; ++l) {
           if (known.id[at(l)] != point.id) continue;
           contact.impulse.normal[at(k)] = known.normal[at(l)];
@@ -352,6 +349,16 @@ void SubstepWorld::updatePair(std::int32_t index) {
   }
   if (!is_near && !pair.is_pushing) endPair(pair);
   pair.is_pushing = false;
+  m_deepest = std::max(m_deepest, deepest);
+  if (pair.first >= 0) shake(a, b, deepest);
+}
+
+// Do they move against each other, or overlap, so much that neither only lies there?
+void SubstepWorld::shake(SubstepBody& a, SubstepBody& b, double depth) {
+  const double thickness = std::min(a.thickness, b.thickness);
+  if (depth < kCalmDepth * thickness && speedBetween(a, b) < kCalm * thickness) return;
+  a.is_shaken = a.is_shaken || isMovable(a);
+  b.is_shaken = b.is_shaken || isMovable(b);
 }
 
 // Wakes what is touched by what moves, and all that fell asleep with it. Was there any?
@@ -485,7 +492,8 @@ void SubstepWorld::fillRows() {
     row.restitution = static_cast<float>(std::max(a.body.restitution, b.body.restitution));
     row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
     row.is_held = !isMovable(a) || !isMovable(b);
-    row.is_lasting = isLasting(contact.impulse.normal, m_memory[at(contact.memory)].manifold, a, b);
+    row.is_lasting = isLasting(contact.impulse.normal, a, b);
+    row.fast = static_cast<float>((row.is_lasting ? kCalm : kFast) * std::min(a.thickness, b.thickness));
     const auto gain = [&](const SubstepBody& of) {
       return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
     };

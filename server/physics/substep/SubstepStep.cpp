@@ -461,6 +461,7 @@ void SubstepWorld::finish() {
   keepMomentum();
   for (const std::int32_t id : m_active) {
     SubstepBody& b = m_bodies[at(id)];
+    b.is_shaken = false;
     const SubstepState& s = m_states[at(b.state)];
     const Vec2 moved = b.part * movedBy(b);
     const bool is_sound = isFinite(moved) && isFinite(Vec2{s.vx, s.vy}) && isFinite(Vec2{s.spin, b.turn}) &&

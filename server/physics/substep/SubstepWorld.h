@@ -197,6 +197,7 @@ class SubstepWorld final : public RigidStepper {
   double stirOf(const SubstepBody& b) { return m_stirs[at(m_sets.rootOf(b.state))]; }
   double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);
+  static void shake(SubstepBody& a, SubstepBody& b, double depth);
   static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset,
                             double margin);
   bool findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
