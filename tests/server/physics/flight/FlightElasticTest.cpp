@@ -28,8 +28,14 @@ TEST(ElasticField, ItsJacobianIsThatOfItsAcceleration) {
   }
 }
 
+// Of the last one a tick is 53 turns, for which the calls of a tick are too few: it is followed as well as
+// they allow.
 TEST(ElasticField, AlongItsLineItIsTheClosedFormAboutTheRestLength) {
-  for (const double k : {10.0, 1e4, 1e8}) {
+  const struct {
+    double k;
+    double most;
+  } kCases[] = {{10, 1e-9}, {1e4, 1e-9}, {1e8, 2e-6}};
+  for (const auto& [k, most] : kCases) {
     const double c = 0.2 * std::sqrt(k);
     const ElasticField field(k, c, 2, {0, 10});
     const Vec2 p = {0, 2.1}, v = {0, -0.3};
@@ -37,8 +43,9 @@ TEST(ElasticField, AlongItsLineItIsTheClosedFormAboutTheRestLength) {
     Flown flown;
     ASSERT_EQ(flyField(field, p, v, 0, 1.0 / 30, {}, flown, counters), IntegratorStatus::kDone);
     const Flown exact = flySpring(p - Vec2{0, 2}, v, {0, 10}, {k, c}, 1.0 / 30);
-    EXPECT_NEAR(flown.displacement.y, exact.displacement.y, 1e-9);
-    EXPECT_NEAR(flown.velocity.y, exact.velocity.y, 1e-9 * std::sqrt(k));
+    EXPECT_NEAR(flown.displacement.y, exact.displacement.y, most);
+    EXPECT_NEAR(flown.velocity.y, exact.velocity.y, most * std::sqrt(k));
+    EXPECT_LE(counters.evaluations, 10'000);
     EXPECT_EQ(flown.displacement.x, 0);
   }
 }
