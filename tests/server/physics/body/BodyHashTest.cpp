@@ -48,8 +48,8 @@ class Noisy : public Body {
   Hashed& m_hash;
 };
 
-constexpr std::uint64_t kHash = 4224026847775303335u;
-constexpr std::uint64_t kFastHash = 7886943150456050192u;
+constexpr std::uint64_t kHash = 14741527708141772400u;
+constexpr std::uint64_t kFastHash = 10466656127780809921u;
 
 std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
   World world;

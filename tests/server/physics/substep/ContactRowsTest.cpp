@@ -68,6 +68,13 @@ Trial trialOf(std::uint64_t seed) {
   }
   trial.a.spin = row.spin_a;
   trial.b.spin = row.spin_b;
+  row.is_lasting = numbers.chance(0.5);
+  if (!row.is_lasting) return trial;
+  row.fast = 0.1f;
+  for (std::size_t i = 0; i < 2; ++i) {
+    trial.memory.normal[i].trend = static_cast<float>(numbers.between(-0.02, 0.02));
+    trial.memory.friction[i].trend = static_cast<float>(numbers.between(-0.01, 0.01));
+  }
   return trial;
 }
 
@@ -198,6 +205,68 @@ TEST(ContactRows, PushesOnlyAndRubsWithinItsCone) {
     sliding += slip > 0.5f && std::fabs(outcome.impulse.friction[0].kept) > 0.99f * most ? 1 : 0;
   }
   EXPECT_EQ(sliding, 1);
+}
+
+// On a floor, pressed by `kick` in each sub-step; it was pressed so before by a tenth of it less.
+Trial lyingOne(float kick) {
+  Trial trial;
+  trial.row.is_held = true;
+  trial.row.inverse_mass_b = 1;
+  trial.row.max_push = 0.1f;
+  trial.kick = -kick;
+  trial.manifold.normal = {0, 1};  // b lies above
+  trial.manifold.count = 1;
+  trial.memory.normal[0].kept = 0.9f * kick;
+  trial.memory.normal[0].trend = 0.1f * kick;
+  return trial;
+}
+
+TEST(ContactRows, ATrendFadesWhenThePushIsEven) {
+  Trial trial = lyingOne(0.05f);
+  trial.row.is_lasting = true;
+  float before = trial.memory.normal[0].trend;
+  for (int step = 0; step < 20; ++step) {
+    trial.memory = stepOf({trial}, 1)[0].impulse;
+    const float trend = std::fabs(trial.memory.normal[0].trend);
+    EXPECT_LE(trend, 0.5f * before + 1e-7f) << step;
+    before = trend;
+  }
+  EXPECT_NEAR(trial.memory.normal[0].kept, 0.05f, 1e-6f);
+}
+
+TEST(ContactRows, OnlyWhatLastsFollowsItsTrend) {
+  for (const bool is_lasting : {false, true}) {
+    Trial trial = lyingOne(0.05f), flat = trial;
+    trial.row.is_lasting = flat.row.is_lasting = is_lasting;
+    flat.memory.normal[0].trend = 0;
+    EXPECT_EQ(stepOf({trial}, 1)[0].bits == stepOf({flat}, 1)[0].bits, !is_lasting);
+  }
+}
+
+// Whatever is remembered: where nothing pushed before, there is no trend to go on with.
+TEST(ContactRows, ABlowHasNoTrend) {
+  Trial trial = lyingOne(0), flat;
+  trial.row.is_lasting = true;
+  trial.row.velocity = {0, -0.3};
+  trial.memory.normal[0] = {};
+  flat = trial;
+  trial.memory.normal[0].trend = 0.01f;
+  EXPECT_EQ(stepOf({trial}, 1)[0].bits[6], stepOf({flat}, 1)[0].bits[6]);
+}
+
+TEST(ContactRows, ABlowMeetsNoSoftSpring) {
+  for (const float fast : {0.1f, 1.0f}) {
+    Trial trial = lyingOne(0);
+    trial.row.is_lasting = true;
+    trial.row.fast = fast;
+    trial.row.velocity = {0, -0.3};
+    trial.memory.normal[0] = {};
+    const float y = std::bit_cast<float>(stepOf({trial}, 1)[0].bits[9]) - 0.3f;
+    if (fast < 0.3f)
+      EXPECT_NEAR(y, 0, 1e-6f);
+    else
+      EXPECT_LT(y, -1e-3f);
+  }
 }
 
 TEST(ContactRows, AGapMayCloseAndNoMore) {

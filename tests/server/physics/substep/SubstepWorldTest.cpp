@@ -58,6 +58,39 @@ TEST(SubstepWorld, APyramidStandsAndSleeps) {
   for (const int id : ids) EXPECT_TRUE(scene.world.isAsleep(id)) << id;
 }
 
+// A pile's slow swings are damped, and it does not creep sideways.
+TEST(SubstepWorld, ATallPyramidOfNeighboursThatTouchComesToRest) {
+  constexpr int kRows = 20;
+  SubstepScene scene;
+  scene.addFloor();
+  std::vector<int> ids;
+  for (int row = 0; row < kRows; ++row) {
+    for (int i = 0; i < kRows - row; ++i) ids.push_back(scene.addCrate({i + 0.5 * row, -0.5 - row}));
+  }
+  scene.ticks(75);
+  for (const int id : ids) EXPECT_TRUE(scene.world.isAsleep(id)) << id;
+  EXPECT_NEAR(scene.at(ids.back()).y, 0.5 - kRows, 0.1);
+  EXPECT_NEAR(scene.at(ids.back()).x, 0.5 * (kRows - 1), 0.05);
+}
+
+// It is set down on three light ones, wherever on the top one.
+TEST(SubstepWorld, TheHeaviestPressesNothingThroughTheFloor) {
+  for (double off = 0; off < 0.5; off += 0.0127) {
+    SubstepScene scene;
+    scene.add(immovable({0, 0.5}), boxShape(50, 0.5));
+    std::vector<int> ids;
+    for (int i = 0; i < 3; ++i) ids.push_back(scene.addCrate({0, -0.5 - i}));
+    const ConvexShape shape = boxShape(0.5, 0.5);
+    ids.push_back(scene.add(movable({off, -3.51}, shape, 1e12), shape));
+    double lowest = -1;
+    for (int tick = 0; tick < 150; ++tick) {
+      scene.ticks(1);
+      for (const int id : ids) lowest = std::max(lowest, scene.at(id).y);
+    }
+    EXPECT_LT(lowest, 0.5) << off;
+  }
+}
+
 // Where nothing holds them: rounding leaves them a speed, but what drifts goes on.
 TEST(SubstepWorld, WhatFloatsAtRestSleepsAndWhatDriftsDoesNot) {
   for (const double drift : {0.0, 1e-9}) {
