@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 /// Rounds of worlds for single players are not gone on with, so they are written down when asked for alone.
 void useDefaultJournal(HostOptions& options) {
-  if (options.journal == kOff) return options.journal.clear();
+  if (options.journal == kOffWord) return options.journal.clear();
   const bool has_none = options.no_journal || options.in_process || options.players == "private";
   if (has_none || !options.journal.empty() || options.state.empty()) return;
   options.journal = options.state + "/rounds";
@@ -38,7 +38,7 @@ std::error_code makeFolder(const fs::path& folder) {
 
 void useDefaultFolders(HostOptions& options) {
   options.control_by_port = options.control.empty();
-  if (options.control == kOff) options.control.clear();
+  if (options.control == kOffWord) options.control.clear();
   const auto folder = userDirectory("XDG_STATE_HOME", ".local/state");
   if (options.state.empty() && folder) options.state = folder->string();
   useDefaultJournal(options);

@@ -10,7 +10,7 @@
 namespace naiad {
 
 /// In place of a path: there is to be none.
-inline constexpr std::string_view kOff = "off";
+inline constexpr std::string_view kOffWord = "off";
 
 /// Fill in what dfserver does where these options do not say. Games that are programs themselves have no such
 /// folders.

@@ -540,8 +540,8 @@ std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOption
   if (given.count("address") == 0 && !options.is_public) options.address = kLoopback;
   if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
-  if (options.control == kOff) options.control.clear();
-  if (options.journal == kOff) options.journal.clear();
+  if (options.control == kOffWord) options.control.clear();
+  if (options.journal == kOffWord) options.journal.clear();
   return given;
 }
 

@@ -146,7 +146,7 @@ void Rooms::putToSleep(Room& room) {
   port->setOnTick({});
   port->close();
   m_ending.push_back(std::move(port));
-  room.sleep() = {.asleep = true};
+  room.sleep() = {.asleep = true, .empty_since = {}};
   room.countShortRounds(false);
 }
 

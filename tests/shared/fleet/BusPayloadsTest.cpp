@@ -211,9 +211,12 @@ TEST(BusPayloads, EveryTruncationAndEveryFlippedBitIsRefusedOrLegal) {
     for (std::size_t bit = 0; bit < good.size() * 8; ++bit) {
       std::string bad = good;
       bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
-      if (const auto presence = Presence::parse(bad))
+      if (const auto presence = Presence::parse(bad)) {
         EXPECT_EQ(Presence::parse(presence->payload()), presence);
-      if (const auto result = GameResult::parse(bad)) EXPECT_EQ(GameResult::parse(result->payload()), result);
+      }
+      if (const auto result = GameResult::parse(bad)) {
+        EXPECT_EQ(GameResult::parse(result->payload()), result);
+      }
     }
   }
 }

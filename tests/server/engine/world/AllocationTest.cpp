@@ -22,6 +22,11 @@ void* counted(std::size_t size) {
   return p;
 }
 
+// Not inlined: GCC would see free() of what the operator above gave, and warn.
+[[gnu::noinline]] void release(void* p) {
+  std::free(p);
+}
+
 }  // namespace
 
 // The only way to see every allocation in the process: replace the operators.
@@ -32,16 +37,16 @@ void* operator new[](std::size_t size) {
   return counted(size);
 }
 void operator delete(void* p) noexcept {
-  std::free(p);
+  release(p);
 }
 void operator delete[](void* p) noexcept {
-  std::free(p);
+  release(p);
 }
 void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
+  release(p);
 }
 void operator delete[](void* p, std::size_t) noexcept {
-  std::free(p);
+  release(p);
 }
 
 namespace df::test {
