@@ -8,6 +8,7 @@
 #include "physics/impact/ImpactWorld.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/support/AllocationCount.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad::physics {
 namespace {
@@ -101,7 +102,7 @@ Kept keptOf(const ImpactWorld& world) {
 
 TEST(ImpactProperty, NothingOverlapsAndWhatIsKeptIsKept) {
   std::int64_t impacts = 0, solves = 0, unconverged = 0;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+  for (std::uint64_t seed = 0; seed < 1000 / test::kShare; ++seed) {
     const Scene scene = randomScene(seed);
     ImpactWorld world;
     fill(world, scene);
@@ -122,14 +123,14 @@ TEST(ImpactProperty, NothingOverlapsAndWhatIsKeptIsKept) {
     solves += world.counters().rest_solves;
     unconverged += world.counters().unconverged;
   }
-  EXPECT_GT(impacts, 50000);
+  EXPECT_GT(impacts, 50000 / test::kShare);
   RecordProperty("impacts", static_cast<int>(impacts));
   EXPECT_LE(static_cast<double>(unconverged), 1e-3 * static_cast<double>(solves));
 }
 
 // Row 16: to the last bit.
 TEST(ImpactProperty, FarAwayIsAsHere) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < 200 / test::kShare; ++seed) {
     const Scene scene = randomScene(seed);
     ImpactWorld here;
     fill(here, scene);
@@ -150,7 +151,7 @@ TEST(ImpactProperty, FarAwayIsAsHere) {
 
 // A scene far off changes nothing here, whether its bodies come first or last, are frozen or well.
 TEST(ImpactProperty, ASceneFarAwayChangesNothing) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < 200 / test::kShare; ++seed) {
     const Scene scene = randomScene(seed), other = randomScene(seed + 5000);
     ImpactWorld alone, first, last;
     fill(alone, scene);
@@ -218,7 +219,7 @@ TEST(ImpactProperty, TheScenesThatOnceWentWrongGoWell) {
 TEST(ImpactProperty, NothingTunnels) {
   SplitMix64 random(14);
   int shots = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 20000 / test::kShare; ++i) {
     const double speed = std::pow(10, 1 + 3.5 * random.unit()) / 30 * 10;  // to 1e6 per second
     ImpactBody bullet, target;
     for (ImpactBody* body : {&bullet, &target}) {
@@ -256,7 +257,7 @@ TEST(ImpactProperty, NothingTunnels) {
     ASSERT_GE(touch.gap, -1e-9) << i;
     ASSERT_GE(dot(gone, touch.normal), -1e-6 * speed) << i;
   }
-  EXPECT_GT(shots, 10000);
+  EXPECT_GT(shots, 10000 / test::kShare);
 }
 
 TEST(ImpactProperty, BadNumbersAreRefused) {
