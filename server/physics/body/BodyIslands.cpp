@@ -174,9 +174,11 @@ void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::B
                                  const std::vector<BodyState>& states) {
   m_groups.assign(states.size(), {});
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i].is_kinematic || !(states[i].is_costly || states[i].must_be_held)) continue;
+    const bool is_heap = states[i].is_in_heap;
+    if (states[i].is_kinematic || !(is_heap || states[i].is_costly || states[i].must_be_held)) continue;
     Group& group = m_groups[at(m_sets.rootOf(static_cast<int>(i)))];
     group.is_general = group.is_general || states[i].is_costly;
+    group.is_heap = group.is_heap || is_heap;
     group.is_rigid = group.may_touch = true;
     group.is_elastic = false;
   }
@@ -185,10 +187,11 @@ void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::B
     if (state.is_kinematic) continue;
     Group& group = m_groups[at(m_sets.rootOf(i))];
     const auto last_solver = static_cast<BodySolver>(table.row(state.index).last_solver);
-    const bool may_stay = last_solver == BodySolver::kRigid || last_solver == BodySolver::kSubstep;
+    const bool may_stay = last_solver == BodySolver::kRigid || isSoft(last_solver);
     const bool stays = may_stay && contacts.isTouching(state.key);
     group.is_general =
         group.is_general || (stays && last_solver == BodySolver::kSubstep && !m_leaves_substeps);
+    group.is_heap = group.is_heap || (stays && last_solver == BodySolver::kHeap);
     ++group.bodies;
     const double inverse_mass = table.row(state.index).inverse_mass;
     group.max_inverse_mass = std::max(group.max_inverse_mass, inverse_mass);
@@ -250,7 +253,7 @@ void BodyIslands::markKinematic(std::vector<BodyState>& states) const {
     BodyState& kinematic = a.is_kinematic ? a : b;
     const BodySolver solver = (a.is_kinematic ? b : a).solver;
     if (solver == BodySolver::kRigid) kinematic.is_near_rigid = true;
-    if (solver == BodySolver::kSubstep) kinematic.is_near_substep = true;
+    if (isSoft(solver)) kinematic.is_near_substep = true;
   }
 }
 
@@ -284,7 +287,7 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
   m_leaves_substeps = false;
   findObstacles(store, table, states);
   bool has_joint_impacts = false;
-  m_has_general = false;
+  m_has_general = m_has_heaps = false;
   for (std::size_t i = 0; i < states.size(); ++i) {
     BodyState& state = states[i];
     const Group& group = m_groups[at(m_sets.rootOf(static_cast<int>(i)))];
@@ -292,10 +295,11 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
     const double max_ratio = group.fastest > kBlow ? kMaxMassRatio : kMaxRestingRatio;
     const bool needs_substeps =
         group.bodies > kMaxBodies || group.max_inverse_mass > max_ratio * group.min_inverse_mass;
-    if (group.is_general || (group.is_rigid && group.may_touch && needs_substeps)) {
+    const bool is_general = group.is_general || (group.is_rigid && group.may_touch && needs_substeps);
+    if (is_general || group.is_heap) {
       if (!state.is_hard && !state.is_joined && !state.must_be_held) continue;
-      state.solver = BodySolver::kSubstep;
-      m_has_general = true;
+      state.solver = is_general ? BodySolver::kSubstep : BodySolver::kHeap;
+      (is_general ? m_has_general : m_has_heaps) = true;
     } else if (group.is_rigid && group.may_touch) {
       const bool is_elastic = group.is_elastic && !group.has_obstacle;
       state.solver = is_elastic ? BodySolver::kJointImpacts : BodySolver::kRigid;
@@ -309,7 +313,7 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
   for (BodyState& state : states) {
     if (!state.is_kinematic || !links.isJoined(state.index)) continue;
     state.is_near_rigid = true;  // what hangs on it may be
-    state.is_near_substep = m_has_general;
+    state.is_near_substep = m_has_general || m_has_heaps;
   }
 }
 

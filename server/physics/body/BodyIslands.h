@@ -4,7 +4,8 @@
 // turning bodies, shapes of their own and joints goes to the event-exact ImpactWorld; one in which no body
 // can touch anything, to the JointSolver or to each body's own flight; one of circles that bounce, some of
 // them joined, to the JointSolver from impact to impact; the others to the RigidWorld. What would cost one of
-// these more than its size allows goes to the SubstepWorld as a whole, and stays until it touches nothing.
+// these more than its size allows goes to the SubstepWorld as a whole, and stays until it touches nothing. So
+// does what a RigidWorld gives up, to a SubstepWorld of finer steps.
 #pragma once
 
 #include <vector>
@@ -31,12 +32,14 @@ class BodyIslands {
   /// No islands: instead of chooseSolvers().
   void skip() {
     m_candidates.clear();
-    m_has_general = false;
+    m_has_general = m_has_heaps = false;
   }
   /// In the next chooseSolvers() no body stays with the SubstepWorld because it was there.
   void leaveSubsteps() { m_leaves_substeps = true; }
   /// Is any body for the SubstepWorld?
   bool hasGeneral() const { return m_has_general; }
+  /// Is any a heap?
+  bool hasHeaps() const { return m_has_heaps; }
   /// Of bodies with solver kJointImpacts, by group.
   const std::vector<naiad::physics::BodyCandidatePair>& candidates() const { return m_candidates; }
 
@@ -44,6 +47,7 @@ class BodyIslands {
   struct Group {
     bool is_rigid = false;    // not for an ImpactWorld
     bool is_general = false;  // for the SubstepWorld
+    bool is_heap = false;     // for that of heaps, unless it is general
     int bodies = 0;           // HARD and free to move
     bool may_touch = false;
     bool has_obstacle = false;
@@ -73,7 +77,7 @@ class BodyIslands {
   void findObstacles(const WorldStore& store, const naiad::physics::BodyTable& table,
                      const std::vector<naiad::physics::BodyState>& states);
 
-  bool m_has_general = false;
+  bool m_has_general = false, m_has_heaps = false;
   bool m_leaves_substeps = false;
   naiad::physics::UnionFind m_sets;        // of states
   std::vector<std::uint8_t> m_is_settled;  // by root: no further pair of it would change what kind it is

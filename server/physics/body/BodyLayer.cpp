@@ -68,10 +68,12 @@ void BodyLayer::step(World& world) {
   }
   if (m_is_mixed || !m_rigids.isEmpty()) {
     m_rigids.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
-    logCrowd(world);
   }
   if (m_has_substeps || !m_substeps.isEmpty())
     m_substeps.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
+  if (m_islands.hasHeaps() || !m_heaps.isEmpty())
+    m_heaps.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
+  logCrowd(world);
   for (State& state : m_states) settle(world, state);
   for (const Moved& moved : m_moved) {
     if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
@@ -117,10 +119,11 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   const bool turns = form.is_turning && !row.is_kinematic;
   m_unit_inertias.push_back(turns ? m_table->unitInertia(index, store.box(row.key.slot)) : 0);
   fly(state);
+  state.is_in_heap = m_rigids.isGivenUp(*m_table, index);
+  state.is_costly = state.is_joined && m_links.isCostly(index);
+  m_is_mixed = m_is_mixed || state.is_in_heap || state.is_costly;
   if (state.is_joined) {
     state.solver = BodySolver::kJoints;
-    state.is_costly = m_links.isCostly(index);
-    m_is_mixed = m_is_mixed || state.is_costly;
     // What is no constant force counts by what it does in the tick.
     if (state.is_bent && !state.is_sprung && state.turn_rate == 0)
       state.push = state.flown.velocity - row.velocity;
@@ -222,7 +225,7 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
     state.is_simple = BodyImpacts::canHave(form, m_table->metric, box, body, offset) &&
                       !m_table->row(state.index).touches_soft && !state.is_sprung && state.turn_rate == 0;
     const bool was_general =
-        m_table->row(state.index).last_solver == static_cast<std::uint8_t>(BodySolver::kSubstep);
+        naiad::physics::isSoft(static_cast<BodySolver>(m_table->row(state.index).last_solver));
     if (!state.is_simple || state.is_joined || was_general) m_is_mixed = true;
     if (state.is_simple && body.shape == ImpactShape::kCircle) state.radius = body.half.x;
   }
@@ -374,9 +377,11 @@ void BodyLayer::publish(World& world, const State& state, BodyRow& row, FixedVec
     m_moved.push_back({row.key, row.published_position});
 }
 
-// Once: it counts on in RigidCounters::passed.
+// Once.
 void BodyLayer::logCrowd(World& world) {
-  if (m_has_logged_crowd || m_rigid_world.counters().passed == 0) return;
+  const bool is_crowded =
+      m_rigid_world.hasThinned() || m_substep_world.hasThinned() || m_heap_world.hasThinned();
+  if (m_has_logged_crowd || !is_crowded) return;
   m_has_logged_crowd = true;
   world.log("physics: too many bodies in one place: some pass through one another until there is room");
 }

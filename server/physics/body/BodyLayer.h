@@ -44,6 +44,7 @@ class BodyLayer : public Layer {
   std::int64_t sensorPairs() const { return m_sensors.pairs(); }
   const naiad::physics::RigidCounters& rigidCounters() const { return m_rigid_world.counters(); }
   const naiad::physics::SubstepCounters& substepCounters() const { return m_substep_world.counters(); }
+  const naiad::physics::SubstepCounters& heapCounters() const { return m_heap_world.counters(); }
 
  private:
   using State = naiad::physics::BodyState;
@@ -79,8 +80,11 @@ class BodyLayer : public Layer {
   BodyIslands m_islands;
   naiad::physics::RigidWorld m_rigid_world{naiad::physics::RigidOptions{.sleep_speed = kSleepSpeed}};
   naiad::physics::SubstepWorld m_substep_world;
+  // 500 boxes in a drum take it less time than Box2D with 4 times 8 + 3 iterations, and overlap by less.
+  naiad::physics::SubstepWorld m_heap_world{naiad::physics::SubstepOptions{.searches = 2, .substeps = 5}};
   BodyRigids m_rigids{naiad::physics::BodySolver::kRigid, m_rigid_world};
   BodyRigids m_substeps{naiad::physics::BodySolver::kSubstep, m_substep_world};
+  BodyRigids m_heaps{naiad::physics::BodySolver::kHeap, m_heap_world};
   naiad::physics::BodyContacts m_contacts;
   BodySensors m_sensors;
   // Of this step; kept for their memory.

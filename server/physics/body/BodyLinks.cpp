@@ -44,8 +44,7 @@ void BodyLinks::leaveOut(BodyTable& table, const std::vector<BodyState>& states)
   m_is_rigid.resize(m_kinds.size(), 0);
   for (const BodyState& state : states) {
     if (!isJoined(state.index) || state.is_kinematic) continue;
-    const std::uint8_t is_rigid =
-        state.solver == BodySolver::kRigid || state.solver == BodySolver::kSubstep ? 1 : 0;
+    const std::uint8_t is_rigid = state.solver == BodySolver::kRigid || isSoft(state.solver) ? 1 : 0;
     is_other = is_other || m_is_rigid[state.index] != is_rigid;
     m_is_rigid[state.index] = is_rigid;
     m_has_left_out = m_has_left_out || is_rigid != 0;

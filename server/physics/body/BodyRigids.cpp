@@ -52,6 +52,11 @@ int BodyRigids::rigidOf(int row) const {
   return m_proxies[at(row)].is_used ? m_proxies[at(row)].id : -1;
 }
 
+bool BodyRigids::isGivenUp(const BodyTable& table, BodyTable::Index row) const {
+  const int id = rigidOf(static_cast<int>(row));
+  return id >= 0 && m_proxies[row].order == table.row(row).order && m_world.isGivenUp(id);
+}
+
 void BodyRigids::identify(int id, ObjectKey key, std::uint64_t order, int state) {
   if (id >= static_cast<int>(m_identities.size())) m_identities.resize(at(id) + 1);
   m_identities[at(id)] = {key, order, state};
@@ -316,9 +321,8 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
     const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));
     const bool is_touched =
         state.is_touched || state.is_joined || state.must_be_held || contacts.isTouching(state.key);
-    const bool is_alone = m_solver == BodySolver::kSubstep
-                              ? !m_world.isStopped(proxy.id)
-                              : state.turn_rate != 0 || length(pushed) <= rounding;
+    const bool is_alone =
+        isSoft(m_solver) ? !m_world.isStopped(proxy.id) : state.turn_rate != 0 || length(pushed) <= rounding;
     if (!is_touched && is_alone) {  // exactly as on its own
       state.place = state.start + state.flown.displacement;
       state.velocity = state.flown.velocity;

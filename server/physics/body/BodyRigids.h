@@ -14,7 +14,7 @@ namespace df {
 
 class BodyRigids {
  public:
-  /// `solver`: kRigid or kSubstep, which `stepper` is.
+  /// `solver`: kRigid, kSubstep or kHeap, which `stepper` is.
   BodyRigids(naiad::physics::BodySolver solver, naiad::physics::RigidStepper& stepper)
       : m_solver(solver), m_world(stepper) {}
   BodyRigids(const BodyRigids&) = delete;
@@ -22,6 +22,8 @@ class BodyRigids {
 
   /// Does no body take part, and did none in the last tick?
   bool isEmpty() const { return m_count == 0; }
+  /// Did the last step give it up, as a heap?
+  bool isGivenUp(const naiad::physics::BodyTable& table, naiad::physics::BodyTable::Index row) const;
   /// Steps the bodies with this solver by a tick, with the kinematic ones near them. `unit_inertias` by
   /// state; 0: it does not turn.
   void step(const WorldStore& store, naiad::physics::BodyTable& table,

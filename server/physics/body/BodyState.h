@@ -16,7 +16,13 @@ enum class BodySolver : std::uint8_t {
   kRigid,         ///< RigidWorld
   kJointImpacts,  ///< JointSolver, from impact to impact (JointImpacts): circles may hit it
   kSubstep,       ///< SubstepWorld: at ACCURACY_FAST, or what would cost the others too much
+  kHeap,          ///< another one, in finer steps: large groups that a RigidWorld has given up
 };
+
+/// Is that a SubstepWorld?
+constexpr bool isSoft(BodySolver solver) {
+  return solver == BodySolver::kSubstep || solver == BodySolver::kHeap;
+}
 
 struct BodyState {
   BodyTable::Index index;
@@ -25,7 +31,8 @@ struct BodyState {
   BodySolver solver = BodySolver::kFlight;
   bool is_hard = false;
   bool is_soft = false;
-  bool is_costly = false;  ///< on joints, or after impacts, that cost more than their number allows
+  bool is_costly = false;   ///< on joints, or after impacts, that cost more than their number allows
+  bool is_in_heap = false;  ///< the RigidWorld has given it up in the last tick
   bool is_kinematic = false;
   bool is_joined = false;
   bool is_simple = false;         ///< an ImpactWorld can have it

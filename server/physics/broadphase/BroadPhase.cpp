@@ -226,6 +226,7 @@ void BroadPhase::findPairs(std::int32_t proxy) {
     own.is_thinned = true;
     keepNearest();
   }
+  m_has_thinned = m_has_thinned || own.is_thinned;
   for (const Heaped& heaped : m_heaped) m_found.push_back(heaped.pair);
 }
 

@@ -55,6 +55,9 @@ class BroadPhase {
   /// Has it found so many in one place that some are left out of its pairs?
   bool isThinned(std::int32_t proxy) const { return m_proxies[index(proxy)].is_thinned; }
 
+  /// The same of any proxy, since it was made.
+  bool hasThinned() const { return m_has_thinned; }
+
   const BroadPhaseTree& tree() {
     updateTree();
     return m_tree;
@@ -93,6 +96,7 @@ class BroadPhase {
   void sortFound();
 
   bool m_thins_crowds;
+  bool m_has_thinned = false;
   BroadPhaseTree m_tree;
   std::vector<Proxy> m_proxies;
   std::vector<std::int32_t> m_free;

@@ -9,10 +9,6 @@ namespace naiad::physics {
 
 namespace {
 
-// After a direct solution that failed, or would cost too much, a group is swept for kMinWait steps, and for
-// twice as many each further time, up to kMaxWait: a heap must not cost both in every step.
-constexpr int kMinWait = 8;
-constexpr int kMaxWait = 256;
 // Rounds of factorisation and solution of a group; one that takes more is swept. A leaning stack of 40 takes
 // up to 30, each of which costs it next to nothing.
 constexpr int kRounds = 16;
@@ -24,8 +20,7 @@ constexpr double kSlender = 100;  // … a factorisation takes no more multiplic
 // wider heap, which would hardly settle, has what kWideAttempt pays for.
 constexpr double kAttemptStart = 1e6;
 constexpr double kAttempt = 22'000, kWideAttempt = 14'000;
-constexpr double kSmallCost =
-    1e4;  // multiplications: a failure that cost less is tried again in the next step
+constexpr double kSmallCost = 1e4;  // multiplications: after a failure that cost less it is tried again
 // Relative to the speed that acceleration adds in half a sub-step, the natural unit of what rest must
 // balance.
 constexpr double kSpeedError = 1e-6;  // of a single contact: change of a sweep at which sweeps end
@@ -34,7 +29,6 @@ constexpr double kDirectTolerance =
 // Sweeps of Gauss and Seidel where a group is not solved directly.
 constexpr int kSingleSweeps = 16;  // at most, of one contact alone
 constexpr int kJointSweeps = 8;    // of a group with joints
-constexpr int kCrowdSweeps = 4;    // of a moving heap (docs/physics/rigid.md)
 
 constexpr double kUnequalMassRatio = 1.3;  // a mass ratio at which sweeps crush or throw what is light
 
@@ -100,9 +94,7 @@ void dropHarmfulWarmStart(std::span<const int> bodies, std::span<const int> cons
 }  // namespace
 
 void RigidWorld::solveIsland(Island& island, bool is_second) {
-  if (!m_extras[at(island.root)].is_in_heap && m_extras[at(island.root)].budget > 0 &&
-      island.constraints + island.links > 1 && solveAtOnce(island, is_second))
-    return;
+  if (island.budget > 0 && island.constraints + island.links > 1 && solveAtOnce(island, is_second)) return;
   if (island.constraints == 1 && island.links == 0) {  // friction and pressure find each other quickly
     ContactConstraint& c = m_constraints[at(m_island_constraints[at(island.first_constraint)])];
     for (int i = 0; i < kSingleSweeps && solveContact(c, m_states, is_second) > kSpeedError * island.kick;
@@ -114,12 +106,9 @@ void RigidWorld::solveIsland(Island& island, bool is_second) {
       std::span(m_island_bodies).subspan(at(island.first_body), at(island.bodies));
   const std::span<const int> constraints =
       std::span(m_island_constraints).subspan(at(island.first_constraint), at(island.constraints));
-  const bool is_unequal = !m_extras[at(island.root)].is_in_heap && areUnequal(bodies, m_states);
+  const bool is_unequal = areUnequal(bodies, m_states);
   if (is_unequal) dropHarmfulWarmStart(bodies, constraints, m_constraints, m_states);
-  for (int sweep = 0; sweep < (island.links > 0                       ? kJointSweeps
-                               : m_extras[at(island.root)].is_in_heap ? kCrowdSweeps
-                                                                      : 1);
-       ++sweep) {
+  for (int sweep = 0; sweep < (island.links > 0 ? kJointSweeps : 1); ++sweep) {
     for (int i = 0; i < island.links; ++i) {
       m_joints.solve(m_island_links[at(island.first_link + i)], m_states, is_second);
     }
@@ -134,6 +123,12 @@ void RigidWorld::solveIsland(Island& island, bool is_second) {
     ContactConstraint& c = m_constraints[at(i)];
     if (!isMovable(c.a) || !isMovable(c.b)) solveContact(c, m_states, is_second);
   }
+}
+
+void RigidWorld::giveUp(Island& island) {
+  island.budget = 0;
+  for (int i = 0; i < island.bodies; ++i)
+    m_extras[at(m_island_bodies[at(island.first_body + i)])].is_given_up = true;
 }
 
 bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
@@ -189,31 +184,26 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   }
   const double tolerance = kDirectTolerance * island.kick;
   if (m_direct.worstError() <= tolerance) return true;
-  Extra& extra = m_extras[at(island.root)];
-  const auto giveUp = [&] {
-    extra.budget = 0;
-    extra.wait = extra.patience = std::clamp(2 * extra.patience, kMinWait, kMaxWait);
-    return false;
-  };
   const double price = m_direct.order();
   const double cost = price + 100.0 * static_cast<double>(rows.size());
-  if (cost > extra.budget) return giveUp();
+  const double parts = island.constraints + island.links;
+  if (cost > kDirectBudget * parts * m_options.substeps) giveUp(island);
+  if (cost > island.budget) return false;
   ++m_counters.direct_solves;
   int rounds = 0;
   const bool is_tall = island.bodies >= kTall && price <= kSlender * island.bodies;
   int most_rounds = is_tall ? kTallRounds : kRounds;
-  const double parts = island.constraints + island.links;
   if (most_rounds * cost > kAttemptStart + kAttempt * parts) {
     most_rounds = std::min(most_rounds, static_cast<int>((kAttemptStart + kWideAttempt * parts) / cost));
   }
   const bool is_found = m_direct.solve(m_states, tolerance, most_rounds, rounds);
   m_counters.direct_rounds += rounds;
-  extra.budget = std::max(extra.budget - rounds * cost, 0.0);  // below 0, it would be as if it had none yet
+  island.budget -= rounds * cost;
   if (!is_found) {
     ++m_counters.direct_failures;
-    return cost > kSmallCost ? giveUp() : false;
+    if (cost > kSmallCost) giveUp(island);
+    return false;
   }
-  extra.patience = 0;
   std::size_t next = 0;
   for (int i = 0; i < island.links; ++i) {
     for (RigidRow& row : m_joints.rowsOfLink(m_island_links[at(island.first_link + i)])) {

@@ -110,13 +110,11 @@ void RigidWorld::updatePairs() {
       m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
     }
     m_pairs.back().is_seen = m_pairs.back().is_pushing = m_pairs.back().is_near = false;
-    m_pairs.back().is_passed = false;
     m_pairs.back().event = -1;
     if (m_joints_changed) m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
   }
   while (next < m_pairs_before.size()) dropPair(m_pairs_before[next++]);
   m_joints_changed = false;
-  thinCrowds();
   for (const Late& late : m_late_before) {
     const std::int32_t pair = findPair(late.a, late.b);
     if (pair >= 0) {
@@ -155,11 +153,8 @@ ContactConstraint& RigidWorld::addConstraint(int a, int b) {
 void RigidWorld::updatePair(std::int32_t index, double dt) {
   Pair& pair = m_pairs[at(index)];
   if (pair.is_seen) return;
-  if (pair.is_passed) return dropContacts(pair);
   const Extra &a = m_extras[at(pair.a)], &b = m_extras[at(pair.b)];
-  const RigidState &state_a = m_states[at(pair.a)], &state_b = m_states[at(pair.b)];
-  const Vec2 start = m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place;
-  const Vec2 offset = start + (state_b.displacement - state_a.displacement);
+  const Vec2 offset = m_bodies[at(pair.b)].place - m_bodies[at(pair.a)].place;
   const double margin = a.margin + b.margin;
   const double reach = a.reach + b.reach + margin;
   const bool is_far = lengthSquared(offset) > reach * reach;
@@ -168,7 +163,6 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
     return;
   }
   if (!(a.is_active || a.is_dirty || b.is_active || b.is_dirty)) return;
-  if ((a.is_late || b.is_late) && !(a.is_restless || b.is_restless)) return;  // in the next step
   const bool a_sleeps = a.is_asleep, b_sleeps = b.is_asleep;
   if ((a_sleeps || !isMovable(pair.a)) && (b_sleeps || !isMovable(pair.b)) &&
       !(a_sleeps && (b.is_active || b.is_dirty)) && !(b_sleeps && (a.is_active || a.is_dirty))) {
@@ -219,10 +213,9 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
       ContactConstraint& c = addConstraint(pair.a, pair.b);
       c.pair = index, c.contact = contact;
       beginConstraint(a.turned[at(i)], b.turned[at(j)], offset, manifold, c);
-      if (m_time > 0) measureFromStart(c, start, state_a, state_b);
       for (std::int32_t k = 0; k < c.count; ++k) {
         ContactPoint& p = c.points[at(k)];
-        if (m_time == 0) m_deepest = std::max(m_deepest, -p.separation);
+        m_deepest = std::max(m_deepest, -p.separation);
         for (std::int32_t l = 0; l < memory.count; ++l) {
           if (memory.id[at(l)] != p.id) continue;
           p.normal_impulse = m_h * memory.normal_impulse[at(l)];
@@ -247,45 +240,6 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
     } while (member != id);
   }
   for (std::size_t i = first_constraint; i < m_constraints.size(); ++i) refresh(m_constraints[i], m_states);
-}
-
-bool RigidWorld::isRestless(const ContactConstraint& c) const {
-  if (!m_extras[at(c.a)].is_restless && !m_extras[at(c.b)].is_restless) return false;
-  return c.pair >= 0 || findPair(c.a, c.b) >= 0;
-}
-
-// Between sub-steps: finds the contacts of bodies that move in a heap again.
-void RigidWorld::updateHeapContacts(double dt) {
-  for (const ContactConstraint& c : m_constraints) {
-    if (!isRestless(c)) continue;
-    storeContact(c, m_h);
-    publishBegin(c, dt);
-  }
-  std::erase_if(m_constraints, [&](const ContactConstraint& c) { return isRestless(c); });
-  for (const int id : m_active) {
-    Extra& extra = m_extras[at(id)];
-    if (extra.proxy < 0) continue;
-    const RigidState& s = m_states[at(id)];
-    turnShapes(id, s.turn * m_bodies[at(id)].rotation);
-    if (!extra.is_restless) continue;
-    ++m_counters.looks;
-    extra.margin = std::max(kLeastMargin * extra.thickness,
-                            1.1 * m_h * (length(s.velocity) + std::fabs(s.spin) * extra.reach));
-    extra.margin = std::min(extra.margin, 2 * extra.thickness);
-    extra.moved = extra.rolled = 0;
-    extra.search_displacement = s.displacement;
-  }
-  for (Pair& pair : m_pairs) {
-    if (m_extras[at(pair.a)].is_restless || m_extras[at(pair.b)].is_restless) {
-      pair.is_seen = pair.is_near = false;
-    }
-  }
-  const auto isEarly = [](const ContactConstraint& c) { return c.pair >= 0; };
-  updateContacts(dt);
-  const auto late = std::stable_partition(m_constraints.begin(), m_constraints.end(), isEarly);
-  m_first_late = static_cast<std::size_t>(late - m_constraints.begin());
-  findIslands();
-  gatherIslands(false);
 }
 
 void RigidWorld::storeContact(const ContactConstraint& c, double h) {

@@ -10,10 +10,7 @@ namespace {
 
 enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
 
-// What a direct solution of a group may cost, in multiplications per constraint and sub-step: a stack's band
-// fits, a wide heap is swept.
-constexpr double kDirectBudget = 5000;
-constexpr int kCrowd = 32;         // bodies: a group of as many, or with joints, counts as large
+constexpr int kCrowd = 32;         // bodies: a group of as many counts as large
 constexpr double kCreep = 1e-6;    // cells per tick that a group at rest may gain while it is watched
 constexpr double kMinKick = 1e-5;  // cells per tick: a floor for tolerances where nothing accelerates
 
@@ -39,9 +36,8 @@ int RigidWorld::islandOf(int a, int b) {
 }
 
 // Bodies, constraints and joints by island, in the order that they had.
-void RigidWorld::gatherIslands(bool is_first) {
-  if (is_first) m_first_late = m_constraints.size();
-  const std::span<const ContactConstraint> constraints_now(m_constraints.data(), m_first_late);
+void RigidWorld::gatherIslands() {
+  m_first_late = m_constraints.size();
   m_islands.clear();
   for (const int id : m_active) {
     if (m_sets.rootOf(id) != id) continue;
@@ -49,8 +45,12 @@ void RigidWorld::gatherIslands(bool is_first) {
     m_islands.emplace_back();
   }
   const auto ofConstraint = [&](const ContactConstraint& c) { return islandOf(c.a, c.b); };
-  for (const int id : m_active) ++m_islands[at(m_island_of[at(m_sets.rootOf(id))])].bodies;
-  for (const ContactConstraint& c : constraints_now) ++m_islands[at(ofConstraint(c))].constraints;
+  for (const int id : m_active) {
+    Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
+    ++island.bodies;
+    island.has_fast = island.has_fast || m_extras[at(id)].is_fast;
+  }
+  for (const ContactConstraint& c : m_constraints) ++m_islands[at(ofConstraint(c))].constraints;
   int counted = 0;
   m_joints.visitLinks([&](int a, int b) {
     Island& island = m_islands[at(islandOf(a, b))];
@@ -62,33 +62,12 @@ void RigidWorld::gatherIslands(bool is_first) {
     island.first_body = bodies, bodies += island.bodies;
     island.first_constraint = constraints, constraints += island.constraints;
     island.first_link = links, links += island.links;
-  }
-  for (const int id : m_active) {
-    if (m_sets.rootOf(id) != id) continue;
-    Island& island = m_islands[at(m_island_of[at(id)])];
-    Extra& extra = m_extras[at(id)];
-    island.root = id;
-    if (is_first && extra.wait > 0) {
-      --extra.wait;
-      extra.budget = 0;
-    } else if (is_first || extra.budget < 0) {
-      extra.budget = kDirectBudget * (island.constraints + island.links) * m_options.substeps;
-    }
-  }
-  if (is_first) {
-    for (const int id : m_active) {
-      const int root = m_sets.rootOf(id);
-      m_islands[at(m_island_of[at(root)])].has_fast |= m_extras[at(id)].is_fast;
-      if (root != id) m_extras[at(id)].budget = -1;  // it may become one within the step
-    }
+    island.budget = kDirectBudget * (island.constraints + island.links) * m_options.substeps;
   }
   for (const int id : m_active) {
     const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
-    if (!is_first) break;
-    Extra& extra = m_extras[at(id)];
-    extra.is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
-    extra.is_crowded = island.has_fast && extra.is_in_crowd;
-    extra.is_in_heap = extra.is_crowded && island.hard_links == 0;
+    m_extras[at(id)].is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
+    m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : 1;
   }
   for (Island& island : m_islands) island.bodies = island.constraints = island.links = 0;
   m_island_bodies.resize(at(bodies));
@@ -97,10 +76,9 @@ void RigidWorld::gatherIslands(bool is_first) {
   for (const int id : m_active) {
     Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
     m_island_bodies[at(island.first_body + island.bodies++)] = id;
-    island.is_restless = island.is_restless || m_extras[at(id)].is_restless;
     island.kick = std::max(island.kick, length(m_states[at(id)].kick) + kMinKick);
   }
-  for (std::size_t i = 0; i < constraints_now.size(); ++i) {
+  for (std::size_t i = 0; i < m_constraints.size(); ++i) {
     Island& island = m_islands[at(ofConstraint(m_constraints[i]))];
     m_island_constraints[at(island.first_constraint + island.constraints++)] = static_cast<int>(i);
   }
@@ -109,9 +87,8 @@ void RigidWorld::gatherIslands(bool is_first) {
     Island& island = m_islands[at(islandOf(a, b))];
     m_island_links[at(island.first_link + island.links++)] = link++;
   });
-  for (const int id : m_active) {
-    const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
-    m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : island.is_restless ? kCrowdPushSweeps : 1;
+  for (Island& island : m_islands) {
+    if (island.has_fast && island.bodies >= kCrowd && island.hard_links == 0) giveUp(island);
   }
 }
 

@@ -14,13 +14,8 @@ constexpr double kFarthestTurn = 1e9;  // rad, likewise
 // Distances below are in thicknesses of a body: the least half width of its shapes.
 constexpr double kSlack = 0.02;  // least margin of the search for contacts
 constexpr double kBoundsSlack =
-    0.1;  // by which the tree's bounds are wider, so that small moves leave them alone
-// A large group in which a body moves by more than kRestless in a step is a moving heap: the contacts of
-// those of its bodies that move by less than kFast in a sub-step are searched again in every sub-step.
-constexpr double kRestless = 0.25;
-constexpr double kFast = 2;
-constexpr double kPass =
-    0.5;  // most that such a body moves in a sub-step: it passes nothing of half its size
+    0.1;                        // by which the tree's bounds are wider, so that small moves leave them alone
+constexpr double kFast = 0.25;  // a large group in which one moves so far in a step is given up
 
 // Kicks whose accelerations grow, from below their mean to above it. The last factor makes the path end where
 // that of an acceleration ends which grows steadily: half a kick at both ends of a sub-step is not that.
@@ -60,23 +55,15 @@ void RigidWorld::beginBody(int id, double dt) {
     if (body.jerk != Vec2{}) bendKicks(state, body.jerk, m_h, m_options.substeps);
     state.spin_kick = 0.5 * m_h * spin_gain;
   }
-  extra.moved = extra.rolled = extra.travelled = 0;
-  extra.search_displacement = {};
-  extra.is_restless = extra.is_late = false;
-  extra.part = 1;
+  extra.moved = extra.rolled = 0;
+  extra.is_given_up = false;
   if (extra.proxy < 0) return;
   const double movement = length(displacement) + std::min(angle, 2.0) * extra.reach;
-  extra.margin = extra.scope = std::min(movement, extra.thickness) + kSlack * extra.thickness;
-  const double steps = m_options.substeps;
-  extra.is_fast = movement > kRestless * extra.thickness;
-  if (extra.is_crowded && movement < kFast * steps * extra.thickness) {
-    extra.is_restless = m_is_restless = true;
-    extra.margin = std::max(kLeastMargin * extra.thickness, 1.1 / steps * movement);
-    extra.scope = movement + extra.thickness;
-  }
+  extra.margin = std::min(movement, extra.thickness) + kSlack * extra.thickness;
+  extra.is_fast = movement > kFast * extra.thickness;
   const Bounds bounds = turnShapes(id, body.rotation);
-  m_broad.move(extra.proxy, gridBounds(body.place, bounds, extra.scope),
-               gridBounds(body.place, bounds, extra.scope + kBoundsSlack * extra.thickness));
+  m_broad.move(extra.proxy, gridBounds(body.place, bounds, extra.margin),
+               gridBounds(body.place, bounds, extra.margin + kBoundsSlack * extra.thickness));
 }
 
 void RigidWorld::beginStep(double dt) {
@@ -87,7 +74,7 @@ void RigidWorld::beginStep(double dt) {
   m_time = 0;
   m_h = dt / m_options.substeps;
   m_deepest = 0;
-  m_is_restless = m_has_flown = false;
+  m_has_flown = false;
   if (m_active_changed) {
     m_active_changed = false;
     m_active.clear();
@@ -159,8 +146,7 @@ void RigidWorld::pushOut(double h) {
     return m_extras[at(id)].is_active && isMovable(id) ? m_extras[at(id)].push_sweeps : 0;
   };
   const bool has_joints = !m_joints.rows().empty();
-  const int most = has_joints ? kPushSweeps : m_is_restless ? kCrowdPushSweeps : 1;
-  for (int i = 0; i < most; ++i) {
+  for (int i = 0; i < (has_joints ? kPushSweeps : 1); ++i) {
     for (ContactConstraint& c : m_constraints) {
       if (i == 0 || i < std::max(sweepsOf(c.a), sweepsOf(c.b))) pushApart(c, m_states);
     }
@@ -186,9 +172,8 @@ void RigidWorld::solve(bool is_second) {
 
 void RigidWorld::move(int id, double h) {
   RigidState& s = m_states[at(id)];
-  const double time = m_extras[at(id)].part * h;
-  s.displacement += time * s.velocity;
-  s.turn = turned(s.turn, time * s.spin);
+  s.displacement += h * s.velocity;
+  s.turn = turned(s.turn, h * s.spin);
 }
 
 // A body that moves farther than its contacts were searched for goes from impact to impact.
@@ -200,16 +185,8 @@ void RigidWorld::drift(double h) {
     if (extra.proxy < 0) continue;
     const double roll = h * std::fabs(s.spin) * extra.reach;
     extra.rolled += roll;
-    const double movement = h * length(s.velocity) + roll;
-    extra.moved += movement;
-    if (extra.is_restless) {
-      const double most =
-          std::min(std::max(extra.margin, kPass * extra.thickness), extra.scope - extra.travelled);
-      extra.part = movement > most ? most / movement : 1;
-      extra.travelled += extra.part * movement;
-    } else if (extra.moved > extra.margin) {
-      addFlight(id, 0);
-    }
+    extra.moved += h * length(s.velocity) + roll;
+    if (extra.moved > extra.margin) addFlight(id, 0);
   }
   for (const ContactConstraint& c : m_constraints) {
     if (!c.points[0].is_bending && !c.points[1].is_bending) continue;
@@ -241,7 +218,7 @@ void RigidWorld::drift(double h) {
 
 bool RigidWorld::isFlying(int id) const {
   const Extra& extra = m_extras[at(id)];
-  return extra.is_active && !extra.is_restless && extra.moved > extra.margin;
+  return extra.is_active && extra.moved > extra.margin;
 }
 
 // A contact of fast bodies says nothing any more once they have parted and what it was measured by has
@@ -339,11 +316,8 @@ void RigidWorld::stepOnce(double dt) {
   m_joints.begin(m_bodies, m_states, m_h,
                  [&](int id) { return m_extras[at(id)].is_active && isMovable(id); });
   findIslands();
-  gatherIslands(true);
-  for (int i = 0; i < m_options.substeps; ++i) {
-    if (i > 0 && m_is_restless) updateHeapContacts(dt);
-    substep(m_h);
-  }
+  gatherIslands();
+  for (int i = 0; i < m_options.substeps; ++i) substep(m_h);
   finishStep(dt);
 }
 

@@ -60,6 +60,10 @@ class RigidStepper {
 
   /// May groups at rest sleep?
   virtual void setSleeping(bool may_sleep) = 0;
+  /// Did the last step take what a SubstepWorld would do better, with all that it touches?
+  virtual bool isGivenUp(int id) const = 0;
+  /// Were ever so many in one place that some pass through others?
+  virtual bool hasThinned() const = 0;
   /// Goes on by a tick.
   virtual void step() = 0;
   /// Of the last step, by (time, ids).

@@ -57,8 +57,6 @@ RigidWorld::Pose RigidWorld::poseAt(int id, double time, double h) const {
   if (flight >= 0) {
     const Flight& f = m_flights[at(flight)];
     left = f.is_held ? 0 : f.part * h * (time - f.time);
-  } else {
-    left *= m_extras[at(id)].part;
   }
   if (left == 0) return {s.displacement, s.turn};
   return {s.displacement + left * s.velocity, turned(s.turn, left * s.spin)};
@@ -92,8 +90,6 @@ bool RigidWorld::isSolved(int a, int b, int shape_a, int shape_b) const {
 
 void RigidWorld::forecastPair(int one, int other, double h) {
   const int a = isBefore(one, other) ? one : other, b = a == one ? other : one;
-  const std::int32_t known = findPair(a, b);
-  if (known >= 0 && m_pairs[at(known)].is_passed) return;
   const Extra &of_a = m_extras[at(a)], &of_b = m_extras[at(b)];
   const auto flightOf = [&](const Extra& e) { return e.flight >= 0 ? &m_flights[at(e.flight)] : nullptr; };
   const Flight *flight_a = flightOf(of_a), *flight_b = flightOf(of_b);
@@ -105,7 +101,7 @@ void RigidWorld::forecastPair(int one, int other, double h) {
     const RigidState& s = m_states[at(id)];
     const Rotation rotation = poseAt(id, start, h).turn * m_bodies[at(id)].rotation;
     if (flight != nullptr && flight->is_held) return {{}, rotation, 0};
-    const double time = left * (flight != nullptr ? flight->part : m_extras[at(id)].part);
+    const double time = flight != nullptr ? left * flight->part : left;
     return {time * s.velocity, rotation, time * s.spin};
   };
   // Of what has turned far since the step began, other corners come to touch than those that were found then.
@@ -115,12 +111,10 @@ void RigidWorld::forecastPair(int one, int other, double h) {
       is_bending || of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
   // At the start of the step they were farther apart than contacts were searched for, if nothing keeps them
   // apart now. Do they come nearer by more than that, or have they already?
-  if (!has_met && !has_turned && of_a.is_restless == of_b.is_restless) {
+  if (!has_met && !has_turned) {
     const double most = of_a.margin + of_b.margin - of_a.rolled - of_b.rolled;
     const auto isNear = [&](double time) {
-      const Vec2 nearer = (poseAt(b, time, h).displacement - of_b.search_displacement) -
-                          (poseAt(a, time, h).displacement - of_a.search_displacement);
-      return lengthSquared(nearer) < most * most;
+      return lengthSquared(poseAt(b, time, h).displacement - poseAt(a, time, h).displacement) < most * most;
     };
     if (most > 0 && isNear(1) && isNear(start)) return;
   }
@@ -171,11 +165,7 @@ void RigidWorld::wakeInFlight(int id) {
   extra.is_active = true;
   m_active.push_back(id);
   extra.push_sweeps = 1;
-  extra.is_late = true;
-  extra.is_restless = false;
-  extra.margin = extra.moved = extra.rolled = extra.travelled = 0;  // nothing was searched around it
-  extra.search_displacement = {};
-  extra.part = 1;
+  extra.margin = extra.moved = extra.rolled = 0;  // nothing was searched around it
   m_states[at(id)] = {};
   m_states[at(id)].inverse_mass = m_bodies[at(id)].inverse_mass;
   m_states[at(id)].inverse_inertia = m_bodies[at(id)].inverse_inertia;
@@ -233,17 +223,16 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   }
 }
 
-// A body that has hit something in a large group is swept no more, or every body of the group would be: it
-// moves on a little, and its contacts are searched again before the next sub-step.
+// A body that has hit something in a large group, or on joints, is swept no more in this sub-step, or every
+// body of the group would be: it moves on a little.
 void RigidWorld::land(int id, double h) {
-  Extra& extra = m_extras[at(id)];
+  const Extra& extra = m_extras[at(id)];
   Flight& flight = m_flights[at(extra.flight)];
   const RigidState& s = m_states[at(id)];
   const double movement = h * (1 - flight.time) * (length(s.velocity) + std::fabs(s.spin) * extra.reach);
   const double most = kLanded * extra.thickness;
   flight.part = movement > most ? most / movement : 1;
   flight.has_landed = true;
-  extra.is_restless = m_is_restless = true;
 }
 
 // The impact's impulses, at once. Velocities are those of the middle of the sub-step: what acceleration adds

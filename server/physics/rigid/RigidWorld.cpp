@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/geometry/Mass.h"
 #include "physics/geometry/Reserve.h"
-#include "shared/math/Elementary.h"
 
 namespace naiad::physics {
 
@@ -92,13 +90,10 @@ void RigidWorld::measure(int id) {
   extra.turned.resize(extra.shapes.size());
   extra.reach = 0;
   extra.thickness = extra.shapes.empty() ? 0 : kLargestShape;
-  double area = 0;
   for (const ConvexShape& shape : extra.shapes) {
     extra.reach = std::max(extra.reach, shape.reach + shape.radius);
     extra.thickness = std::min(extra.thickness, thicknessOf(shape));
-    area += massOf(shape, 1).mass;
   }
-  extra.size = std::sqrt(area / df::math::kPi);
 }
 
 Bounds RigidWorld::turnShapes(int id, Rotation rotation) {
@@ -127,7 +122,7 @@ void RigidWorld::enter(int id) {
   if (extra.shapes.empty()) return;
   const RigidBody& body = m_bodies[at(id)];
   const Bounds bounds = turnShapes(id, body.rotation);
-  extra.proxy = m_broad.add(rankOf(id), gridBounds(body.place, bounds, 0), isMovable(id));
+  extra.proxy = m_broad.add(rankOf(id), gridBounds(body.place, bounds, 0), isMovable(id), rankOf(id));
 }
 
 // Out of the broad phase; its contacts are forgotten.

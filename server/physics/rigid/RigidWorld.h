@@ -29,9 +29,7 @@ struct RigidCounters {
   std::int64_t ticks = 0;
   std::int64_t contacts = 0;         ///< manifolds solved for, once per step each
   std::int64_t sweeps = 0;           ///< pairs whose time of impact was asked for
-  std::int64_t looks = 0;            ///< bodies whose contacts were searched again within a step
   std::int64_t impacts = 0;          ///< of fast bodies, handled at their moment
-  std::int64_t passed = 0;           ///< pairs in crowds that were left out, once per step each
   std::int64_t held = 0;             ///< times that a fast body had to wait for the next sub-step
   std::int64_t unresolved = 0;       ///< times of impact that were not found to the end
   std::int64_t direct_solves = 0;    ///< groups that were solved for at once
@@ -75,6 +73,8 @@ class RigidWorld final : public RigidStepper {
   /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
   bool isFrozen(int id) const override { return m_extras[at(id)].is_frozen; }
   bool isStopped(int /*id*/) const override { return false; }
+  bool isGivenUp(int id) const override { return m_extras[at(id)].is_given_up; }
+  bool hasThinned() const override { return m_broad.hasThinned(); }
   bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
   /// Wakes it and what sleeps with it.
   void wake(int id);
@@ -90,34 +90,25 @@ class RigidWorld final : public RigidStepper {
   double deepest() const { return m_deepest; }
 
  private:
-  /// In a body's thickness: the least margin of the search for contacts in a moving heap.
-  static constexpr double kLeastMargin = 0.25;
-  // Likewise: how far corners turn before others than those found may touch.
+  /// What a direct solution of a group may cost, in multiplications per constraint and sub-step: a stack's
+  /// band fits, a wide heap's does not.
+  static constexpr double kDirectBudget = 5000;
+  /// In a body's thickness: how far corners turn before others than those found may touch.
   static constexpr double kMaxRoll = 0.5;
-  // Sweeps that undo overlap; one, without joints or a moving heap.
-  static constexpr int kPushSweeps = 8;       // of a group with joints
-  static constexpr int kCrowdPushSweeps = 2;  // of a moving heap
+  static constexpr int kPushSweeps = 8;  // that undo overlap in a group with joints; one, without
 
   struct Extra {
     std::vector<ConvexShape> shapes;
     std::vector<TurnedShape> turned;
-    double reach = 0;          // of all shapes from the centre
-    double margin = 0;         // how far around it contacts were searched in this step
-    double thickness = 0;      // the least half width of any shape
-    double size = 0;           // the radius of a disc of the same area
-    double moved = 0;          // how far any of its points has got in this step, at most
-    double rolled = 0;         // the part of it that is due to turning
-    Vec2 search_displacement;  // its displacement at the last search
-    double travelled = 0;      // how far any of its points has got in the whole step, at most
-    double part = 1;           // of the sub-step that it moves, if it is restless
-    double scope = 0;          // how far around it the broad phase searched in this step
-    double still = 0;          // ticks
-    double first_speed = 0;    // when it began to be still
-    std::int32_t proxy = -1;   // in the broad phase
-    double budget = 0;         // of the group of which it is the root, for solving at once
-    int wait = 0;              // steps until its group may be solved at once again …
-    int patience = 0;          // … and how many they were the last time
-    int ring = -1;             // the next body that fell asleep with it
+    double reach = 0;         // of all shapes from the centre
+    double margin = 0;        // how far around it contacts were searched in this step
+    double thickness = 0;     // the least half width of any shape
+    double moved = 0;         // how far any of its points has got in this step, at most
+    double rolled = 0;        // the part of it that is due to turning
+    double still = 0;         // ticks
+    double first_speed = 0;   // when it began to be still
+    std::int32_t proxy = -1;  // in the broad phase
+    int ring = -1;            // the next body that fell asleep with it
     bool exists = false;
     bool is_frozen = false;
     bool is_asleep = false;
@@ -125,10 +116,7 @@ class RigidWorld final : public RigidStepper {
     bool is_active = false;  // in m_active
     bool is_fast = false;
     bool is_in_crowd = false;  // in a group that is large or has joints, in the last step
-    bool is_crowded = false;   // … and a body of it was fast
-    bool is_in_heap = false;   // … and it has no joints: it is never solved at once
-    bool is_restless = false;  // in a moving heap: contacts are searched in every sub-step
-    bool is_late = false;      // hit in its sleep, in this step
+    bool is_given_up = false;  // in the last step, with its group
     int push_sweeps = 1;       // of its group
     int flight = -1;           // in m_flights: it moves impact by impact in this sub-step
   };
@@ -139,15 +127,8 @@ class RigidWorld final : public RigidStepper {
     bool is_touching = false;
     bool is_seen = false;     // in this step
     bool is_jointed = false;  // a joint keeps them from touching
-    bool is_passed = false;   // in this step: too many others are nearer
     bool is_pushing = false;  // in this step
     bool is_near = false;     // at the end of this step
-  };
-  struct Choice {  // of a body in a crowd: one that may push it
-    std::int32_t by;
-    double square;  // of the distance
-    std::uint32_t turn;
-    std::int32_t pair;
   };
   struct Late {  // a contact found within the step
     std::int32_t a, b;
@@ -168,9 +149,8 @@ class RigidWorld final : public RigidStepper {
     int first_link = 0, links = 0;
     int hard_links = 0;  // of these, what springs and mice are not
     double kick = 0;     // the greatest of its bodies
-    int root = 0;        // its lowest body
+    double budget = 0;   // for solving at once, in this step
     bool has_fast = false;
-    bool is_restless = false;
   };
   struct Gain {  // the greatest speed in a group, when it began to be still and now
     double before = 0, now = 0;
@@ -226,8 +206,6 @@ class RigidWorld final : public RigidStepper {
   void addEvent(RigidEvent event);
   void updateContacts(double dt);
   void updatePair(std::int32_t index, double dt);
-  bool isRestless(const ContactConstraint& constraint) const;
-  void updateHeapContacts(double dt);
   ContactConstraint& addConstraint(int a, int b);
   std::int32_t makeContact();
   void dropContacts(Pair& pair);
@@ -235,10 +213,6 @@ class RigidWorld final : public RigidStepper {
   void storeContact(const ContactConstraint& constraint, double h);
   void publishBegin(const ContactConstraint& constraint, double dt);
   void publishEnds(double dt);
-
-  // RigidCrowd.cpp
-  bool areHeaped(const Pair& pair) const;
-  void thinCrowds();
 
   // RigidSweep.cpp
   struct Pose {
@@ -260,12 +234,13 @@ class RigidWorld final : public RigidStepper {
 
   // RigidSleep.cpp
   void findIslands();
-  void gatherIslands(bool is_first);
+  void gatherIslands();
   int islandOf(int a, int b);
 
   // RigidIslands.cpp
   void solveIsland(Island& island, bool is_second);
   bool solveAtOnce(Island& island, bool is_second);
+  void giveUp(Island& island);
   void sleep(double dt);
 
   RigidOptions m_options;
@@ -273,7 +248,7 @@ class RigidWorld final : public RigidStepper {
   std::vector<Extra> m_extras;
   std::vector<RigidState> m_states;
   int m_first_free = 0;  // no id below it is free
-  BroadPhase m_broad;
+  BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
   std::vector<RigidContact> m_contacts;
   std::int32_t m_free_contact = -1;
@@ -283,8 +258,6 @@ class RigidWorld final : public RigidStepper {
   std::vector<int> m_dirty;                           // ids of immovable ones that were set
   RigidJoints m_joints;
   std::vector<Late> m_late, m_late_before;
-  std::vector<std::uint32_t> m_others;  // by body: how many are where it is
-  std::vector<Choice> m_choices;
   std::vector<Flight> m_flights;
   std::vector<Impact> m_impacts;
   std::vector<int> m_near;
@@ -303,8 +276,7 @@ class RigidWorld final : public RigidStepper {
   double m_deepest = 0;
   double m_h = 0;
   bool m_active_changed = false;
-  bool m_is_restless = false;  // a body is
-  bool m_has_flown = false;    // one was swept in this step
+  bool m_has_flown = false;  // one was swept in this step
 };
 
 }  // namespace naiad::physics

@@ -33,7 +33,7 @@ struct alignas(64) SubstepBody {
   double reach = 0;        ///< of all shapes, from the centre
   double thickness = 0;    ///< the least half width of a shape
   double margin = 0;       ///< how far around it contacts are searched for in this step
-  double push = 0;         ///< its speed that the pushes of the last step gave, corners included
+  double push = 0;         ///< how far the speed takes it that the last step's pushes gave, corners included
   double roll = 0;         ///< how far its spin moves a corner in this step
   Bounds box = {};         ///< around its shapes at the start of the step
   Vec2 drift;              ///< its displacement in this step if nothing pushes it
@@ -48,6 +48,7 @@ struct alignas(64) SubstepBody {
   bool is_changed = false;   ///< it cannot be moved, and was set or removed since the last step
   bool is_shaken = false;    ///< in this step it meets something fast, or overlaps something by much
   bool is_diverted = false;  ///< in this step another fast body changed its path
+  bool is_stopped = false;   ///< in a step of this tick it was, or was diverted
   double turn = 0;           ///< rad, in this step
   double part = 1;           ///< of its motion in this step: less than 1 if it is stopped
   double still = 0;          ///< ticks

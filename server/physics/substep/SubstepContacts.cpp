@@ -90,7 +90,7 @@ void SubstepWorld::dropMemory(Pair& pair) {
 
 void SubstepWorld::endPair(Pair& pair) {
   if (pair.is_touching && m_bodies[at(pair.a)].exists && m_bodies[at(pair.b)].exists) {
-    m_events.push_back({0, pair.low, pair.high, false, 0, {}});
+    m_events.push_back({m_time, pair.low, pair.high, false, 0, {}});
   }
   pair.is_touching = pair.is_pushing = false;
 }
@@ -141,7 +141,7 @@ void SubstepWorld::updatePairs() {
     }
     Pair& now = m_pairs.back();
     now.is_seen = false;
-    now.event = -1;
+    if (m_time == 0) now.event = -1;
     if (is_new || m_joints_changed) now.is_jointed = m_joints.keepsApart(low, high);
   }
   while (old != m_pairs_before.end()) drop();
@@ -497,7 +497,7 @@ void SubstepWorld::fillRows() {
     const auto gain = [&](const SubstepBody& of) {
       return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
     };
-    row.rest = kRest * static_cast<float>(m_options.substeps) * std::max(gain(a), gain(b));
+    row.rest = kRest / m_h * std::max(gain(a), gain(b));
     contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse);
   }
   m_counters.blocks += static_cast<std::int64_t>(m_rows.blocks());
@@ -516,14 +516,14 @@ void SubstepWorld::storeContacts() {
     if (impulse.first < 0) continue;
     Pair& pair = m_pairs[at(contact.pair)];
     pair.is_pushing = true;
-    m_bodies[at(pair.a)].pushed_at = m_bodies[at(pair.b)].pushed_at = m_counters.ticks;
+    m_bodies[at(pair.a)].pushed_at = m_bodies[at(pair.b)].pushed_at = m_steps;
     if (pair.event >= 0) m_events[at(pair.event)].impulse += double{impulse.total};
     if (pair.is_touching) continue;
     pair.is_touching = true;
     pair.event = static_cast<std::int32_t>(m_events.size());
     const Vec2 normal = pair.a == pair.low ? known.manifold.normal : -known.manifold.normal;
-    m_events.push_back(
-        {std::max(double{impulse.first}, 0.0), pair.low, pair.high, true, double{impulse.total}, normal});
+    m_events.push_back({m_time + std::max(double{impulse.first}, 0.0), pair.low, pair.high, true,
+                        double{impulse.total}, normal});
   }
 }
 

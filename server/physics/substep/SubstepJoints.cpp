@@ -260,12 +260,12 @@ void SubstepJoints::solve(std::span<SubstepState> states, bool is_soft) {
   }
 }
 
-int SubstepJoints::end() {
+int SubstepJoints::end(double dt) {
   int broken = 0;
   for (const Link& link : m_links) {
     for (int k = 0; k < link.count; ++k)
       memoryOf(link.id)[at(k)] = double{m_rows[at(link.row + k)].impulse / m_h};
-    broken += finish(link.id, link.force, link.torque) ? 1 : 0;
+    broken += finish(link.id, link.force / dt, link.torque / dt) ? 1 : 0;
   }
   return broken;
 }

@@ -20,8 +20,8 @@ class SubstepJoints : public JointStore {
   /// Where the bodies are now; `time`: since the step began.
   void place(std::span<const SubstepState> states, float time);
   void solve(std::span<SubstepState> states, bool is_soft);
-  /// Writes forces; returns how many broke.
-  int end();
+  /// After `dt`. Writes forces; returns how many broke.
+  int end(double dt);
   /// visit(a, b) for every joint of this step; a is −1 for a mouse.
   template <class Visit>
   void visitLinks(Visit visit) const {

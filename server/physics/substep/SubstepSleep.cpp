@@ -64,7 +64,7 @@ void SubstepWorld::sleep() {
     if (b.is_frozen || !isMovable(b)) continue;
     const double speed = length(b.body.velocity) + std::fabs(b.body.spin) * b.reach;
     if (b.still == 0) b.first_speed = speed;
-    b.still = speed < m_options.sleep_speed ? b.still + 1 : 0;
+    b.still = speed < m_options.sleep_speed ? b.still + m_dt : 0;
     Group& group = groupOf(b);
     group.still = std::min(group.still, b.still);
     group.speed_before = std::max(group.speed_before, b.first_speed);

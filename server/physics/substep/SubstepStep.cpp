@@ -37,10 +37,11 @@ double spinGainOf(const RigidBody& body) {
   return body.inverse_inertia > 0 ? body.inverse_inertia * body.torque : 0;
 }
 
-// By what it was pushed in this step: of its velocity, corners included.
-double pushOn(const SubstepBody& b, const SubstepState& s) {
-  const double spun = double{s.spin} - b.body.spin - spinGainOf(b.body);
-  return length(Vec2{s.vx, s.vy} - accelerationOf(b.body)) + std::min(std::fabs(spun), 2.0) * b.reach;
+// By what it was pushed in a step over `dt`: of its velocity, corners included, as far as that takes it.
+double pushOn(const SubstepBody& b, const SubstepState& s, double dt) {
+  const double spun = double{s.spin} - b.body.spin - dt * spinGainOf(b.body);
+  const Vec2 gained = Vec2{s.vx, s.vy} - dt * accelerationOf(b.body);
+  return dt * (length(gained) + std::min(std::fabs(spun), 2.0) * b.reach);
 }
 
 SweptBox relativeTo(const Place& origin, const GridBounds& bounds) {
@@ -87,6 +88,7 @@ void SubstepWorld::begin(int id) {
   b.turn = 0;
   b.part = 1;
   b.is_diverted = false;
+  if (m_time == 0) b.is_stopped = false;
   b.colours = b.held_colours = 0;
   b.inverse_mass = inverseOf(body.inverse_mass);
   b.inverse_inertia = inverseOf(body.inverse_inertia);
@@ -102,12 +104,12 @@ void SubstepWorld::begin(int id) {
 
 // How far it gets on its own.
 void SubstepWorld::forecast(SubstepBody& b) const {
-  const double angle = std::fabs(b.body.spin) + std::fabs(spinGainOf(b.body));
-  b.drift = b.body.velocity + 0.5 * accelerationOf(b.body);
+  const double angle = m_dt * (std::fabs(b.body.spin) + m_dt * std::fabs(spinGainOf(b.body)));
+  b.drift = m_dt * (b.body.velocity + (0.5 * m_dt) * accelerationOf(b.body));
   b.roll = std::min(angle, 2.0) * b.reach;
   const double movement = length(b.drift) + b.roll;
   b.margin = std::min(movement, b.thickness) + kSlack * b.thickness;
-  const bool was_pushed = b.pushed_at + 1 == m_counters.ticks;
+  const bool was_pushed = b.pushed_at + 1 == m_steps;
   if (!was_pushed) b.push = 0;
   b.is_busy = !isMovable(b) || movement <= kSlow * b.thickness || was_pushed;
 }
@@ -170,7 +172,16 @@ void SubstepWorld::moveStates() {
 void SubstepWorld::step() {
   m_events.clear();
   ++m_counters.ticks;
-  m_h = 1 / static_cast<float>(m_options.substeps);
+  m_h = 1 / static_cast<float>(m_options.searches * m_options.substeps);
+  for (int i = 0; i < m_options.searches; ++i) {
+    m_time = i * m_dt;
+    stepOnce();
+  }
+  sortEvents();
+}
+
+void SubstepWorld::stepOnce() {
+  ++m_steps;
   wakeChanged();
   listActive();
   m_states.assign(1, {});
@@ -212,7 +223,7 @@ void SubstepWorld::step() {
 Vec2 SubstepWorld::movedBy(const SubstepBody& b) const {
   if (b.state == 0) return {};
   const SubstepState& s = m_states[at(b.state)];
-  return b.body.velocity + Vec2{s.x, s.y};
+  return m_dt * b.body.velocity + Vec2{s.x, s.y};
 }
 
 bool SubstepWorld::isFast(const SubstepBody& b) const {
@@ -419,7 +430,7 @@ bool SubstepWorld::goOnTogether(Fast& one, Fast& other, double time) {
   }
   for (Fast* const p_fast : {&one, &other}) {
     SubstepBody& b = m_bodies[at(p_fast->id)];
-    const Vec2 gained = pathOf(*p_fast) - b.body.velocity;
+    const Vec2 gained = pathOf(*p_fast) - m_dt * b.body.velocity;
     SubstepState& s = m_states[at(b.state)];
     s.x = static_cast<float>(gained.x), s.y = static_cast<float>(gained.y);
     p_fast->path = movedBy(b);
@@ -438,7 +449,7 @@ void SubstepWorld::keepMomentum() {
   findGroups();
   const auto changeOf = [&](const SubstepBody& b) {
     const SubstepState& s = m_states[at(b.state)];
-    return b.body.acceleration - Vec2{s.vx, s.vy};
+    return m_dt * b.body.acceleration - Vec2{s.vx, s.vy};
   };
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
@@ -462,6 +473,7 @@ void SubstepWorld::finish() {
   for (const std::int32_t id : m_active) {
     SubstepBody& b = m_bodies[at(id)];
     b.is_shaken = false;
+    b.is_stopped = b.is_stopped || b.part < 1 || b.is_diverted;
     const SubstepState& s = m_states[at(b.state)];
     const Vec2 moved = b.part * movedBy(b);
     const bool is_sound = isFinite(moved) && isFinite(Vec2{s.vx, s.vy}) && isFinite(Vec2{s.spin, b.turn}) &&
@@ -473,18 +485,17 @@ void SubstepWorld::finish() {
     b.body.place = b.body.place + moved;
     if (b.turn != 0) b.body.rotation = turned(b.body.rotation, b.part * b.turn);
     if (!isMovable(b)) continue;
-    b.push = pushOn(b, s);
+    b.push = pushOn(b, s, m_dt);
     b.body.velocity += Vec2{s.vx, s.vy};
     const Group& group = groupOf(b);
     if (group.mass > 0 && isFinite(group.missing)) b.body.velocity += group.missing / group.mass;
     b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
   }
-  if (const int broken = m_joints.end(); broken > 0) {
+  if (const int broken = m_joints.end(m_dt); broken > 0) {
     m_counters.broken += broken;
     m_joints_changed = true;
   }
   sleep();
-  sortEvents();
 }
 
 }  // namespace naiad::physics

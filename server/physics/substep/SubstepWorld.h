@@ -1,9 +1,10 @@
 // Bodies that stack, slide, roll and hang on joints, fast rather than exact.
 //
-// What touches what is found once per step and solved for in soft sub-steps (ContactRows.h, SubstepJoints.h),
-// in an order that follows from the bodies' own order alone: groups that do not touch do not see each other.
-// A body that moves farther than its contacts were searched for stops where it first touches something, until
-// the next step. Groups at rest sleep, exactly still.
+// What touches what is found at the beginning of a step, and solved for in soft sub-steps (ContactRows.h,
+// SubstepJoints.h), in an order that follows from the bodies' own order alone: groups that do not touch do
+// not see each other. A tick is one step, or several. A body that moves farther than its contacts were
+// searched for stops where it first touches something, until the next step. Groups at rest sleep, exactly
+// still.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,8 @@
 namespace naiad::physics {
 
 struct SubstepOptions {
-  int substeps = 4;  ///< 1 … 64
+  int searches = 1;  ///< times a tick that contacts are found, 1 … 64 …
+  int substeps = 4;  ///< … and sub-steps from one to the next, 1 … 64
   bool may_sleep = true;
   double sleep_speed = 1e-3;  ///< cells per tick, of every point of a body: slower counts as still …
   double sleep_delay = 15;  ///< … and ticks that a group must be still, and not speed up, before it sleeps
@@ -45,7 +47,8 @@ struct SubstepCounters {
 
 class SubstepWorld final : public RigidStepper {
  public:
-  explicit SubstepWorld(SubstepOptions options = {}) : m_options(options), m_states(1) {}
+  explicit SubstepWorld(SubstepOptions options = {})
+      : m_options(options), m_states(1), m_dt(1.0 / options.searches) {}
 
   void expect(std::size_t bodies) override;
   /// Of two bodies the one of the lower order comes first in everything.
@@ -56,10 +59,9 @@ class SubstepWorld final : public RigidStepper {
   const RigidBody& body(int id) const override { return m_bodies[at(id)].body; }
   bool exists(int id) const override { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
   bool isFrozen(int id) const override { return m_bodies[at(id)].is_frozen; }
-  bool isStopped(int id) const override {
-    const SubstepBody& b = m_bodies[at(id)];
-    return b.state > 0 && (b.part < 1 || b.is_diverted);
-  }
+  bool isStopped(int id) const override { return m_bodies[at(id)].state > 0 && m_bodies[at(id)].is_stopped; }
+  bool isGivenUp(int /*id*/) const override { return false; }
+  bool hasThinned() const override { return m_broad.hasThinned(); }
   bool isAsleep(int id) const { return m_bodies[at(id)].is_asleep; }
   int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
@@ -92,7 +94,7 @@ class SubstepWorld final : public RigidStepper {
     bool is_pushing = false;   // in the last step
     bool is_jointed = false;   // a joint keeps them from touching
     bool is_seen = false;      // in this step
-    std::int32_t event = -1;   // of this step
+    std::int32_t event = -1;   // of this tick
     bool is_examined = false;  // in this step: they may meet
   };
   struct Calm {     // a pair that is near, but does not meet if nothing pushes it
@@ -155,6 +157,7 @@ class SubstepWorld final : public RigidStepper {
   void markChanged(int id);
 
   // SubstepStep.cpp
+  void stepOnce();
   void listActive();
   void begin(int id);
   void pushByMagnets();
@@ -254,7 +257,10 @@ class SubstepWorld final : public RigidStepper {
   std::vector<Group> m_groups;  // by root
   SubstepCounters m_counters;
   double m_deepest = 0;
+  double m_dt;        // how long a step is
+  double m_time = 0;  // in this tick, when this step began
   float m_h = 0.25f;
+  std::int64_t m_steps = 0;
   bool m_active_changed = false;
   bool m_has_stirred = false;
   bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of what they lie on

@@ -99,8 +99,8 @@ class DefaultBodies : public Simulation {
   }
   std::optional<Work> work() const override {
     const df::BodyLayer& layer = *m_p_layer;
-    const auto contacts =
-        layer.rigidCounters().contacts + layer.substepCounters().contacts + layer.sensorPairs();
+    const auto contacts = layer.rigidCounters().contacts + layer.substepCounters().contacts +
+                          layer.heapCounters().contacts + layer.sensorPairs();
     const auto impacts = layer.impactCounters().impacts + layer.rigidCounters().impacts;
     return Work{static_cast<double>(contacts), static_cast<double>(impacts)};
   }
