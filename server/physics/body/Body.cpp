@@ -22,7 +22,8 @@ constexpr double kMinMass = 1e-30;  // its inverse is kMaxBodyNumber
 
 }  // namespace
 
-Body::Body() : m_table(BodyLayer::of(*getWorld()).table()), m_index(m_table->add(this, key())) {
+Body::Body()
+    : m_table(naiad::physics::BodyLayer::of(*getWorld()).table()), m_index(m_table->add(this, key())) {
   WorldStore& store = getWorld()->store();
   store.set(key().slot, WorldStore::kBody, true);
   BodyRow& mine = row();

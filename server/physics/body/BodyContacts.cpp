@@ -31,7 +31,7 @@ void BodyContacts::add(const BodyContact& contact) {
 }
 
 void BodyContacts::count(const BodyContact& contact, int by) {
-  for (const df::ObjectKey key : {contact.first, contact.second}) {
+  for (const ObjectKey key : {contact.first, contact.second}) {
     if (key.slot >= m_counts.size()) m_counts.resize(key.slot + 1);
     TouchCount& its = m_counts[key.slot];
     const bool is_free = its.count == 0 && (m_other_counts.empty() || !m_other_counts.contains(nameOf(key)));
@@ -44,7 +44,7 @@ void BodyContacts::count(const BodyContact& contact, int by) {
   }
 }
 
-void BodyContacts::expireIn(df::ObjectKey key, int ticks, const BodySolver* p_by) {
+void BodyContacts::expireIn(ObjectKey key, int ticks, const BodySolver* p_by) {
   applyHandOvers();
   m_has_expiring = true;
   for (auto& [slots, touch] : m_touching) {
@@ -58,9 +58,9 @@ void BodyContacts::expireIn(df::ObjectKey key, int ticks, const BodySolver* p_by
 void BodyContacts::applyHandOvers() {
   if (m_handed_over.empty()) return;
   m_has_expiring = true;
-  const auto isBefore = [](df::ObjectKey a, df::ObjectKey b) { return a.slot < b.slot; };
+  const auto isBefore = [](ObjectKey a, ObjectKey b) { return a.slot < b.slot; };
   std::sort(m_handed_over.begin(), m_handed_over.end(), isBefore);
-  const auto isHandedOver = [&](df::ObjectKey key) {
+  const auto isHandedOver = [&](ObjectKey key) {
     const auto at = std::lower_bound(m_handed_over.begin(), m_handed_over.end(), key, isBefore);
     return at != m_handed_over.end() && *at == key;
   };
@@ -71,7 +71,7 @@ void BodyContacts::applyHandOvers() {
   m_handed_over.clear();
 }
 
-bool BodyContacts::isTouching(df::ObjectKey key) const {
+bool BodyContacts::isTouching(ObjectKey key) const {
   if (key.slot >= m_counts.size()) return false;
   const TouchCount& its = m_counts[key.slot];
   return its.generation == key.generation ? its.count > 0 : m_other_counts.contains(nameOf(key));

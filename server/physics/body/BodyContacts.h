@@ -23,15 +23,15 @@ class BodyContacts {
   /// What a solver found; from each in the order of time. What is known already changes nothing.
   void add(const BodyContact& contact);
   /// The body or obstacle is gone: its contacts end with this tick.
-  void expire(df::ObjectKey key) { expireIn(key, 1, nullptr); }
+  void expire(ObjectKey key) { expireIn(key, 1, nullptr); }
   /// The same for what this solver found.
-  void expire(df::ObjectKey key, BodySolver by) { expireIn(key, 1, &by); }
+  void expire(ObjectKey key, BodySolver by) { expireIn(key, 1, &by); }
   /// The body was handed to another solver: its contacts end, unless that solver finds them soon.
-  void handOver(df::ObjectKey key) { m_handed_over.push_back(key); }
+  void handOver(ObjectKey key) { m_handed_over.push_back(key); }
   /// The tick ends: contacts that began or ended in it.
   std::vector<BodyContact>& finishTick();
 
-  bool isTouching(df::ObjectKey key) const;
+  bool isTouching(ObjectKey key) const;
   bool isEmpty() const { return m_touching.empty(); }
 
  private:
@@ -44,11 +44,11 @@ class BodyContacts {
     int count = 0;  // of what it touches
   };
   static constexpr int kHandOverTicks = 3;  // ticks: a solver may find a contact a tick before it presses
-  void expireIn(df::ObjectKey key, int ticks, const BodySolver* p_by);
+  void expireIn(ObjectKey key, int ticks, const BodySolver* p_by);
   static std::uint64_t keyOf(const BodyContact& contact) {
     return std::uint64_t{contact.first.slot} << 32 | contact.second.slot;
   }
-  static std::uint64_t nameOf(df::ObjectKey key) { return std::uint64_t{key.slot} << 32 | key.generation; }
+  static std::uint64_t nameOf(ObjectKey key) { return std::uint64_t{key.slot} << 32 | key.generation; }
   void applyHandOvers();
   void count(const BodyContact& contact, int by);
 
@@ -56,8 +56,8 @@ class BodyContacts {
       m_touching;  // in no order: what changes is sorted by those who hear it
   std::vector<TouchCount> m_counts;
   std::unordered_map<std::uint64_t, int>
-      m_other_counts;                        // of others in a slot that is counted already, by name
-  std::vector<df::ObjectKey> m_handed_over;  // in this tick, and not yet looked for
+      m_other_counts;                    // of others in a slot that is counted already, by name
+  std::vector<ObjectKey> m_handed_over;  // in this tick, and not yet looked for
   bool m_has_expiring = false;
   std::vector<BodyContact> m_changes;
 };

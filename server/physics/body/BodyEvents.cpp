@@ -9,23 +9,21 @@
 #include "physics/body/EventContactEnd.h"
 #include "physics/body/SoftObject.h"
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
-
-using naiad::physics::BodyContact;
 
 bool hearsEnds(const WorldStore& store, ObjectKey key) {
   if (!store.hears(key.slot) || !store.has(key.slot, WorldStore::kBody)) return false;
   const Object* p_object = store.object(key.slot);
-  if (const auto* p_body = dynamic_cast<const Body*>(p_object)) return p_body->hasContactEnds();
-  const auto* p_soft = dynamic_cast<const SoftBody*>(p_object);
+  if (const auto* p_body = dynamic_cast<const df::Body*>(p_object)) return p_body->hasContactEnds();
+  const auto* p_soft = dynamic_cast<const df::SoftBody*>(p_object);
   return p_soft != nullptr && p_soft->hasContactEnds();
 }
 
 void sendContactEnd(World& world, const BodyContact& contact) {
   const WorldStore& store = world.store();
-  const EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
+  const df::EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
   world.nameClassOf(event);
   if (hearsEnds(store, contact.first)) {
     world.runHandler(contact.first, *event.getObject1(), event);
@@ -52,11 +50,11 @@ void sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
       continue;
     }
     const std::uint32_t slot = contact.first.slot;
-    EventCollision event(store.object(slot), store.object(contact.second.slot),
-                         Vector::fromFixed(store.position(slot)));
+    df::EventCollision event(store.object(slot), store.object(contact.second.slot),
+                             Vector::fromFixed(store.position(slot)));
     event.setImpulse(contact.impulse);
     sendToBoth(world, contact.first, contact.second, event);
   }
 }
 
-}  // namespace df
+}  // namespace naiad::physics

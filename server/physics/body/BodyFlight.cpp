@@ -192,8 +192,6 @@ IntegratorStatus flyBody(const BodyRow& row, const BodyMedium& medium, Vec2 acce
       flown = flyFree(row.velocity, acceleration, t);
       break;
     case FlightKind::kLinearDrag:
-      flown = flyLinearDrag(row.velocity, acceleration, medium.linear_drag, t);
-      break;
     case FlightKind::kSpring: {
       const Spring spring{medium.spring.stiffness, medium.spring.damping + medium.linear_drag};
       flown = flySpring(row.place - medium.anchor, row.velocity, acceleration, spring, t);

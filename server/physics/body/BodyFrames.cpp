@@ -39,15 +39,6 @@ std::int32_t rounded(double x) {
   return static_cast<std::int32_t>(std::clamp(std::floor(x + 0.5), -1e6, 1e6));
 }
 
-/// The character of a line that runs so, in cells.
-char32_t lineAlong(Vec2 direction, double aspect) {
-  const double x = std::abs(direction.x), y = std::abs(direction.y) / aspect;
-  constexpr double kFlat = 0.4142135623730951;  // tan 22.5 degrees
-  if (y <= kFlat * x) return U'-';
-  if (x <= kFlat * y) return U'|';
-  return (direction.x > 0) == (direction.y > 0) ? U'\\' : U'/';
-}
-
 class Drawing {
  public:
   Drawing(std::span<const ConvexShape> shapes, Rotation rotation, double aspect, const FrameStyle& style)
@@ -315,6 +306,14 @@ double reachOf(std::span<const ConvexShape> shapes, double aspect, const FrameSt
 }
 
 }  // namespace
+
+char32_t lineAlong(Vec2 direction, double aspect) {
+  const double x = std::abs(direction.x), y = std::abs(direction.y) / aspect;
+  constexpr double kFlat = 0.4142135623730951;  // tan 22.5°
+  if (y <= kFlat * x) return U'-';
+  if (x <= kFlat * y) return U'|';
+  return (direction.x > 0) == (direction.y > 0) ? U'\\' : U'/';
+}
 
 Appearance drawShapes(std::span<const ConvexShape> shapes, Rotation rotation, double aspect,
                       const FrameStyle& style) {

@@ -24,6 +24,9 @@ struct FrameStyle {
   bool spoke = false;                ///< circles show how they are turned
 };
 
+/// The character of a line that runs so, in cells. The borders are at 22.5° and 67.5°.
+char32_t lineAlong(Vec2 direction, double aspect);
+
 /// The shapes, turned, as they look in character cells.
 Appearance drawShapes(std::span<const ConvexShape> shapes, Rotation rotation, double aspect,
                       const FrameStyle& style);

@@ -3,24 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
-
-using naiad::physics::BodyContacts;
-using naiad::physics::BodyForm;
-using naiad::physics::BodyRow;
-using naiad::physics::BodySolver;
-using naiad::physics::BodyState;
-using naiad::physics::BodyTable;
-using naiad::physics::ConvexShape;
-using naiad::physics::ImpactBody;
-using naiad::physics::ImpactEvent;
-using naiad::physics::ImpactShape;
-using naiad::physics::Metric;
-using naiad::physics::Place;
-using naiad::physics::Rotation;
-using naiad::physics::Vec2;
 
 constexpr int kMaxRounds =
     100;  // of stepping and searching for obstacles; then no more are searched in this tick
@@ -256,4 +241,4 @@ void BodyImpacts::finish(std::vector<BodyState>& states, BodyContacts& contacts)
   }
 }
 
-}  // namespace df
+}  // namespace naiad::physics

@@ -11,53 +11,51 @@
 #include "physics/body/BodySurroundings.h"
 #include "physics/impact/ImpactWorld.h"
 
-namespace df {
+namespace naiad::physics {
 
 class BodyImpacts {
  public:
-  BodyImpacts() { m_world.setReserve(naiad::physics::ImpactWorld::kUsualReserve); }
-  using Index = naiad::physics::BodyTable::Index;
+  BodyImpacts() { m_world.setReserve(ImpactWorld::kUsualReserve); }
+  using Index = BodyTable::Index;
 
   /// Can an ImpactWorld have a body of this form, and this box of its Object? Then `body` gets the shape, and
   /// `offset` says where its middle is from the body's place.
-  static bool canHave(const naiad::physics::BodyForm& form, const naiad::physics::Metric& metric,
-                      const FixedBox& box, naiad::physics::ImpactBody& body, naiad::physics::Vec2& offset);
+  static bool canHave(const BodyForm& form, const Metric& metric, const FixedBox& box, ImpactBody& body,
+                      Vec2& offset);
 
   /// No body takes part in this tick, until it is added.
   void beginTick();
   /// The body takes part in this tick: with the shape in `body`, the rest is filled in here. False if its
   /// numbers are beyond what can be calculated with.
-  bool add(const naiad::physics::BodyState& state, const naiad::physics::BodyRow& row,
-           naiad::physics::ImpactBody body, naiad::physics::Vec2 offset);
+  bool add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset);
   /// No body takes part, nor did one in the last tick.
   bool isEmpty() const { return m_active.empty() && !m_was_active; }
   /// Steps the bodies that were added by a tick. `is_costly` of their states says which were given up, as
   /// they would have cost too much.
-  void step(World& world, const naiad::physics::BodyTable& table,
-            std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts);
+  void step(World& world, const BodyTable& table, std::vector<BodyState>& states, BodyContacts& contacts);
 
   bool hasGivenUp() const { return m_world.hasGivenUp(); }
   /// Another solver moves the body in this tick: what the step has done to it is forgotten.
-  void passOn(const naiad::physics::BodyState& state);
+  void passOn(const BodyState& state);
   /// Appends the contacts of those that are still here, whose states get places and velocities.
-  void finish(std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts);
+  void finish(std::vector<BodyState>& states, BodyContacts& contacts);
 
-  const naiad::physics::ImpactCounters& counters() const { return m_world.counters(); }
+  const ImpactCounters& counters() const { return m_world.counters(); }
 
  private:
   struct Proxy {              // by index of the table
     std::uint64_t order = 0;  // of the body's construction: which body it stands for
     int id = -1;
-    bool is_used = false;               // in this tick
-    naiad::physics::Place row_place;    // what the table got last,
-    naiad::physics::Place world_place;  // which is this to the ImpactWorld,
-    naiad::physics::Vec2 offset;        // with this between them
+    bool is_used = false;  // in this tick
+    Place row_place;       // what the table got last,
+    Place world_place;     // which is this to the ImpactWorld,
+    Vec2 offset;           // with this between them
   };
   struct ActiveBody {
     Index index;
-    naiad::physics::ImpactBody body;
-    naiad::physics::Place search_centre;  // where obstacles were searched, and how far
-    naiad::physics::Vec2 search_half;
+    ImpactBody body;
+    Place search_centre;  // where obstacles were searched, and how far
+    Vec2 search_half;
   };
   struct Identity {  // by id
     ObjectKey key;
@@ -65,20 +63,18 @@ class BodyImpacts {
     int state = -1;  // −1: an obstacle
   };
   struct FoundContact {
-    naiad::physics::BodyContact contact;
+    BodyContact contact;
     std::array<int, 2> states;  // −1: an obstacle's
   };
 
-  void adapt(const naiad::physics::BodyState& state, const naiad::physics::BodyRow& row,
-             naiad::physics::ImpactBody& body);
+  void adapt(const BodyState& state, const BodyRow& row, ImpactBody& body);
   void updateBodies();
-  void searchAround(const naiad::physics::BodyTable& table, ActiveBody& active, double left, double room);
-  void updateObstacles(World& world, const naiad::physics::BodyTable& table,
-                       naiad::physics::BodyContacts& contacts);
+  void searchAround(const BodyTable& table, ActiveBody& active, double left, double room);
+  void updateObstacles(World& world, const BodyTable& table, BodyContacts& contacts);
   void identify(int id, ObjectKey key, std::uint64_t order, int state);
   void collect(double since);
 
-  naiad::physics::ImpactWorld m_world;
+  ImpactWorld m_world;
   std::vector<Proxy> m_proxies;
   std::vector<ActiveBody> m_active;
   std::vector<int> m_state_of;  // by active body
@@ -89,4 +85,4 @@ class BodyImpacts {
   bool m_was_active = false;
 };
 
-}  // namespace df
+}  // namespace naiad::physics

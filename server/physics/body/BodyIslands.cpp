@@ -7,16 +7,9 @@
 #include "physics/body/BodyObstacles.h"
 #include "physics/geometry/Index.h"
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
-
-using naiad::physics::at;
-using naiad::physics::BodyJoints;
-using naiad::physics::BodySolver;
-using naiad::physics::BodyState;
-using naiad::physics::BodyTable;
-using naiad::physics::Vec2;
 
 // An island of more HARD bodies is moved in soft sub-steps, whose cost grows with its contacts alone: above
 // it, direct solutions are too dear for a tick, and sweeps without them are no better than sub-steps.
@@ -45,7 +38,7 @@ bool isLine(const BodyState& state) {
 
 // Where it may get in this tick: anywhere within its reach, or along its path if that is long and nothing is
 // on it, for then nothing sends it elsewhere.
-naiad::physics::SweptBox BodyIslands::boxOf(const BodyState& state, Vec2 centre, bool is_alone) const {
+SweptBox BodyIslands::boxOf(const BodyState& state, Vec2 centre, bool is_alone) const {
   const Vec2 d = state.flown.displacement;
   if (!is_alone || !isLine(state)) return {centre - state.reach, centre + state.reach};
   return {centre + Vec2{std::min(d.x, 0.0), std::min(d.y, 0.0)} - state.size,
@@ -126,7 +119,7 @@ void BodyIslands::uniteJointed(const BodyTable& table, const std::vector<BodySta
   const auto stateOf = [&](int row) {
     return row >= 0 && row < static_cast<int>(m_state_of.size()) ? m_state_of[at(row)] : -1;
   };
-  for (const naiad::physics::JointEntry& entry : table.joints.entries()) {
+  for (const JointEntry& entry : table.joints.entries()) {
     if (!entry.used) continue;
     const int a = stateOf(entry.joint.a), b = stateOf(entry.joint.b);
     if (a < 0 || b < 0 || states[at(a)].is_kinematic || states[at(b)].is_kinematic) continue;
@@ -138,7 +131,7 @@ bool BodyIslands::areJoined(const BodyTable& table, int row_a, int row_b) {
   if (m_joint_changes != table.joints.changes()) {
     m_joint_changes = table.joints.changes();
     m_joined.clear();
-    for (const naiad::physics::JointEntry& entry : table.joints.entries()) {
+    for (const JointEntry& entry : table.joints.entries()) {
       if (entry.used) m_joined.push_back(std::minmax(entry.joint.a, entry.joint.b));
     }
     std::sort(m_joined.begin(), m_joined.end());
@@ -169,8 +162,7 @@ void BodyIslands::connect(const BodyTable& table, const std::vector<BodyState>& 
 }
 
 // What kind of group is each?
-void BodyIslands::classifyGroups(const BodyTable& table, const naiad::physics::BodyLinks& links,
-                                 const naiad::physics::BodyContacts& contacts,
+void BodyIslands::classifyGroups(const BodyTable& table, const BodyLinks& links, const BodyContacts& contacts,
                                  const std::vector<BodyState>& states) {
   m_groups.assign(states.size(), {});
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -273,10 +265,8 @@ void BodyIslands::passToSubsteps(const BodyTable& table, std::vector<BodyState>&
   markKinematic(states);
 }
 
-void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
-                                const naiad::physics::BodyLinks& links,
-                                const naiad::physics::BodyContacts& contacts,
-                                std::vector<BodyState>& states) {
+void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table, const BodyLinks& links,
+                                const BodyContacts& contacts, std::vector<BodyState>& states) {
   m_candidates.clear();
   connect(table, states);
   classifyGroups(table, links, contacts, states);
@@ -317,4 +307,4 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
   }
 }
 
-}  // namespace df
+}  // namespace naiad::physics

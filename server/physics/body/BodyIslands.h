@@ -17,18 +17,17 @@
 #include "physics/broadphase/ImpactTree.h"
 #include "physics/geometry/UnionFind.h"
 
-namespace df {
+namespace naiad::physics {
 
 class BodyIslands {
  public:
   /// Sets the solvers of `states`, and which kinematic bodies are near rigid ones. Not needed while no HARD
   /// body is joined or more than a box or a circle, and none was moved by the SubstepWorld.
-  void chooseSolvers(const WorldStore& store, const naiad::physics::BodyTable& table,
-                     const naiad::physics::BodyLinks& links, const naiad::physics::BodyContacts& contacts,
-                     std::vector<naiad::physics::BodyState>& states);
+  void chooseSolvers(const WorldStore& store, const BodyTable& table, const BodyLinks& links,
+                     const BodyContacts& contacts, std::vector<BodyState>& states);
   /// Of bodies that an ImpactWorld has given up (`is_costly`), all that may touch them in this tick is for
   /// the SubstepWorld.
-  void passToSubsteps(const naiad::physics::BodyTable& table, std::vector<naiad::physics::BodyState>& states);
+  void passToSubsteps(const BodyTable& table, std::vector<BodyState>& states);
   /// No islands: instead of chooseSolvers().
   void skip() {
     m_candidates.clear();
@@ -41,7 +40,7 @@ class BodyIslands {
   /// Is any a heap?
   bool hasHeaps() const { return m_has_heaps; }
   /// Of bodies with solver kJointImpacts, by group.
-  const std::vector<naiad::physics::BodyCandidatePair>& candidates() const { return m_candidates; }
+  const std::vector<BodyCandidatePair>& candidates() const { return m_candidates; }
 
  private:
   struct Group {
@@ -57,44 +56,38 @@ class BodyIslands {
     double min_inverse_mass = 0;
   };
 
-  naiad::physics::SweptBox boxOf(const naiad::physics::BodyState& state, naiad::physics::Vec2 centre,
-                                 bool is_alone) const;
-  bool passesBy(const naiad::physics::BodyState& flyer, const naiad::physics::BodyState& other) const;
-  void findPairs(const naiad::physics::BodyTable& table,
-                 const std::vector<naiad::physics::BodyState>& states);
-  void addPair(const naiad::physics::BodyTable& table, const std::vector<naiad::physics::BodyState>& states,
-               int i, int j);
-  void uniteJointed(const naiad::physics::BodyTable& table,
-                    const std::vector<naiad::physics::BodyState>& states);
-  void connect(const naiad::physics::BodyTable& table, const std::vector<naiad::physics::BodyState>& states);
-  void classifyGroups(const naiad::physics::BodyTable& table, const naiad::physics::BodyLinks& links,
-                      const naiad::physics::BodyContacts& contacts,
-                      const std::vector<naiad::physics::BodyState>& states);
-  bool widenReaches(std::vector<naiad::physics::BodyState>& states);
-  void markKinematic(std::vector<naiad::physics::BodyState>& states) const;
-  void collectCandidates(std::vector<naiad::physics::BodyState>& states);
-  bool areJoined(const naiad::physics::BodyTable& table, int row_a, int row_b);
-  void findObstacles(const WorldStore& store, const naiad::physics::BodyTable& table,
-                     const std::vector<naiad::physics::BodyState>& states);
+  SweptBox boxOf(const BodyState& state, Vec2 centre, bool is_alone) const;
+  bool passesBy(const BodyState& flyer, const BodyState& other) const;
+  void findPairs(const BodyTable& table, const std::vector<BodyState>& states);
+  void addPair(const BodyTable& table, const std::vector<BodyState>& states, int i, int j);
+  void uniteJointed(const BodyTable& table, const std::vector<BodyState>& states);
+  void connect(const BodyTable& table, const std::vector<BodyState>& states);
+  void classifyGroups(const BodyTable& table, const BodyLinks& links, const BodyContacts& contacts,
+                      const std::vector<BodyState>& states);
+  bool widenReaches(std::vector<BodyState>& states);
+  void markKinematic(std::vector<BodyState>& states) const;
+  void collectCandidates(std::vector<BodyState>& states);
+  bool areJoined(const BodyTable& table, int row_a, int row_b);
+  void findObstacles(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states);
 
   bool m_has_general = false, m_has_heaps = false;
   bool m_leaves_substeps = false;
-  naiad::physics::UnionFind m_sets;        // of states
+  UnionFind m_sets;                        // of states
   std::vector<std::uint8_t> m_is_settled;  // by root: no further pair of it would change what kind it is
   std::vector<Group> m_groups;
   std::vector<int> m_state_of;  // by row of the table
-  naiad::physics::ImpactTree m_tree;
-  std::vector<naiad::physics::SweptBox> m_boxes;
+  ImpactTree m_tree;
+  std::vector<SweptBox> m_boxes;
   std::vector<int> m_ids;
-  std::vector<std::uint8_t> m_is_paired;                  // by state
-  const naiad::physics::BodyState* m_p_states = nullptr;  // during findPairs()
+  std::vector<std::uint8_t> m_is_paired;     // by state
+  const BodyState* m_p_states = nullptr;     // during findPairs()
   std::vector<std::pair<int, int>> m_pairs;  // whose reaches overlap, but not all of a settled group …
   std::vector<std::pair<int, int>>
       m_touchable;  // … of which one can be pushed, and no joint keeps them apart
-  std::vector<naiad::physics::BodyCandidatePair> m_candidates;
+  std::vector<BodyCandidatePair> m_candidates;
   std::vector<ObjectKey> m_found;
   std::vector<std::pair<int, int>> m_joined;  // rows that a joint connects, in order …
   std::uint64_t m_joint_changes = 0;          // … after as many changes of the joints
 };
 
-}  // namespace df
+}  // namespace naiad::physics

@@ -13,24 +13,12 @@
 #include "physics/body/BodyLimits.h"
 #include "physics/geometry/Reserve.h"
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
 
-using naiad::physics::BodyForm;
-using naiad::physics::BodyJoints;
-using naiad::physics::BodyMedium;
-using naiad::physics::BodyRow;
-using naiad::physics::BodySolver;
-using naiad::physics::BodyTable;
-using naiad::physics::FlightKind;
-using naiad::physics::Flown;
-using naiad::physics::ImpactBody;
-using naiad::physics::ImpactShape;
-using naiad::physics::IntegratorStatus;
-using naiad::physics::Vec2;
-
-constexpr double kFarthest = 1e12;  // metric cells in a tick: below the 2^51 that a Place can be moved by
+constexpr double kFarthestFlight =
+    1e12;  // metric cells in a tick: below the 2^51 that a Place can be moved by
 constexpr double kFollowed =
     16;  // per tick²: the JointSolver follows a spring on joints up to this stiffness
 constexpr const char* kBeyond = "it has left all bounds of place or velocity";
@@ -41,6 +29,12 @@ BodyLayer& BodyLayer::of(World& world) {
   if (auto* p_layer = world.findLayer<BodyLayer>()) return *p_layer;
   world.addLayer(std::make_unique<BodyLayer>());
   return *world.findLayer<BodyLayer>();
+}
+
+void placeMoved(World& world, const std::vector<MovedObject>& all) {
+  for (const MovedObject& moved : all) {
+    if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
+  }
 }
 
 // All bodies are stepped from their states at the beginning of the tick; then positions are published, and
@@ -75,10 +69,8 @@ void BodyLayer::step(World& world) {
     m_heaps.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
   logCrowd(world);
   for (State& state : m_states) settle(world, state);
-  for (const Moved& moved : m_moved) {
-    if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
-  }
-  std::vector<naiad::physics::BodyContact>& news = m_contacts.finishTick();
+  placeMoved(world, m_moved);
+  std::vector<BodyContact>& news = m_contacts.finishTick();
   m_sensors.step(world.store(), *m_table, m_states, news);
   if (!news.empty()) sendContactEvents(world, news);
 }
@@ -136,7 +128,7 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
 Vec2 BodyLayer::pushBesideMagnet(State& state) {
   const BodyRow& row = m_table->row(state.index);
   const bool may_be_held = !row.is_kinematic && !state.is_sprung && (state.is_hard || state.is_joined);
-  naiad::physics::Magnet magnet;
+  Magnet magnet;
   const BodyMedium& medium = std::as_const(*m_table).medium(state.index);
   if (!may_be_held || !magnetOf(row, medium, state.push, static_cast<double>(m_table->ticks), magnet))
     return state.push;
@@ -152,10 +144,10 @@ IntegratorStatus BodyLayer::flyFreely(const State& state, Flown& flown) {
   const BodyRow& row = m_table->row(state.index);
   const BodyMedium& medium = std::as_const(*m_table).medium(state.index);
   const auto time = static_cast<double>(m_table->ticks);
-  naiad::physics::IntegratorCounters& counters = m_table->counters.integrator;
-  naiad::physics::IntegratorOptions options = m_table->settings.integrator;
+  IntegratorCounters& counters = m_table->counters.integrator;
+  IntegratorOptions options = m_table->settings.integrator;
   const auto own = kOwnEvaluations * static_cast<std::int64_t>(m_states.size());
-  const bool is_spent = options.method == naiad::physics::IntegratorMethod::kAutomatic &&
+  const bool is_spent = options.method == IntegratorMethod::kAutomatic &&
                         counters.evaluations - m_evaluations_before > kSharedEvaluations + own;
   if (is_spent) options.max_evaluations = 1, options.max_steps = std::min(options.max_steps, kFewSteps);
   return flyBody(row, medium, state.push, time, 1, options, flown, counters);
@@ -167,8 +159,7 @@ void BodyLayer::fly(State& state) {
   const BodyMedium& medium = std::as_const(*m_table).medium(state.index);
   const auto time = static_cast<double>(m_table->ticks);
   IntegratorStatus status = IntegratorStatus::kDone;
-  const naiad::physics::JointEntry* p_spring =
-      row.is_kinematic ? nullptr : m_links.hangsOn(*m_table, state.index);
+  const JointEntry* p_spring = row.is_kinematic ? nullptr : m_links.hangsOn(*m_table, state.index);
   state.is_bent = !row.is_kinematic && (p_spring != nullptr || row.flight != FlightKind::kFree);
   if (state.is_bent && p_spring == nullptr) {
     state.is_sprung = pullOf(row, medium, state.push, time, state.pull);
@@ -183,7 +174,7 @@ void BodyLayer::fly(State& state) {
       (state.turn_rate != 0 && (state.is_joined || is_touching)) ||
       (state.is_sprung && (state.is_joined ? state.pull.spring.stiffness > kFollowed : is_touching));
   if (!state.is_bent || state.must_be_held) {
-    state.flown = naiad::physics::flyFree(row.velocity, held_push, 1);
+    state.flown = flyFree(row.velocity, held_push, 1);
   } else if (p_spring != nullptr) {
     status = flyHanging(row, medium, p_spring->joint, p_spring->anchor, state.push, time,
                         m_table->settings.integrator, state.flown, m_table->counters.integrator);
@@ -192,14 +183,14 @@ void BodyLayer::fly(State& state) {
   }
   if (status != IntegratorStatus::kDone && state.is_sprung) {  // what solves for it needs no flight
     state.must_be_held = true;
-    state.flown = naiad::physics::flyFree(row.velocity, state.push, 1);
+    state.flown = flyFree(row.velocity, state.push, 1);
     status = IntegratorStatus::kDone;
   }
   state.push = held_push;
   m_is_mixed = m_is_mixed || state.must_be_held;
   if (status != IntegratorStatus::kDone) state.p_failure = "what moves it cannot be worked out";
-  const bool is_near =
-      isFinite(state.flown.velocity) && lengthSquared(state.flown.displacement) < kFarthest * kFarthest;
+  const bool is_near = isFinite(state.flown.velocity) &&
+                       lengthSquared(state.flown.displacement) < kFarthestFlight * kFarthestFlight;
   if (state.p_failure == nullptr && !is_near) state.p_failure = kBeyond;
   if (state.p_failure != nullptr) return;
   if (state.is_bent) state.acceleration = state.flown.velocity - row.velocity;
@@ -314,7 +305,7 @@ void BodyLayer::turnByTorque(State& state) {
   const double gain =
       unit_inertia > 0 ? m_table->row(state.index).inverse_mass / unit_inertia * form.torque : 0;
   state.spin = form.spin + gain;
-  if (std::abs(state.spin) <= kMaxSpin) state.rotation = turned(form.rotation, form.spin + 0.5 * gain);
+  if (std::abs(state.spin) <= df::kMaxSpin) state.rotation = turned(form.rotation, form.spin + 0.5 * gain);
 }
 
 // What a world has no number for: it goes on as fast as a body can, or where it was.
@@ -322,7 +313,7 @@ void BodyLayer::limit(World& world, State& state) {
   const Vec2 fastest = m_table->metric.fromCells(Vector(kMaxVelocityCells, kMaxVelocityCells));
   const Vec2 velocity = {std::clamp(state.velocity.x, -fastest.x, fastest.x),
                          std::clamp(state.velocity.y, -fastest.y, fastest.y)};
-  const double spin = std::clamp(state.spin, -kMaxSpin, kMaxSpin);
+  const double spin = std::clamp(state.spin, -df::kMaxSpin, df::kMaxSpin);
   const bool is_in_range = m_table->metric.isInRange(state.place);
   if (velocity == state.velocity && spin == state.spin && is_in_range) return;
   state.velocity = velocity;
@@ -366,7 +357,7 @@ void BodyLayer::settle(World& world, State& state) {
 
 void BodyLayer::publish(World& world, const State& state, BodyRow& row, FixedVector velocity) {
   WorldStore& store = world.store();
-  const naiad::physics::Metric& metric = m_table->metric;
+  const Metric& metric = m_table->metric;
   row.published_position = metric.fixedOf(row.place);
   row.published_velocity = velocity;
   store.setVelocity(row.key.slot, row.published_velocity);
@@ -402,4 +393,4 @@ void BodyLayer::quarantine(World& world, State& state, const char* p_why) {
   world.log("physics: a " + (p_object != nullptr ? p_object->getType() : "body") + " is frozen: " + p_why);
 }
 
-}  // namespace df
+}  // namespace naiad::physics

@@ -21,7 +21,7 @@
 #include "physics/rigid/RigidWorld.h"
 #include "physics/substep/SubstepWorld.h"
 
-namespace df {
+namespace naiad::physics {
 
 /// Of what is a body, rigid or soft: is it there, and neither inactive nor about to be deleted?
 inline bool takesPart(const WorldStore& store, ObjectKey key) {
@@ -29,31 +29,34 @@ inline bool takesPart(const WorldStore& store, ObjectKey key) {
   return store.isCurrent(key) && (store.flags(key.slot) & kNeeded) == kNeeded;
 }
 
-class BodyLayer : public Layer {
+/// All have moved: places these, if they take part. Handlers run.
+void placeMoved(World& world, const std::vector<MovedObject>& all);
+
+class BodyLayer : public df::Layer {
  public:
-  BodyLayer() : m_table(std::make_shared<naiad::physics::BodyTable>()) {}
+  BodyLayer() : m_table(std::make_shared<BodyTable>()) {}
   /// The layer of this world; made if there is none.
   static BodyLayer& of(World& world);
 
   void step(World& world) override;
-  const std::shared_ptr<naiad::physics::BodyTable>& table() { return m_table; }
+  const std::shared_ptr<BodyTable>& table() { return m_table; }
   /// Of this tick, for layers that come after.
-  const std::vector<naiad::physics::BodyState>& states() const { return m_states; }
+  const std::vector<BodyState>& states() const { return m_states; }
   bool isTouching(ObjectKey key) const { return m_contacts.isTouching(key); }
-  const naiad::physics::ImpactCounters& impactCounters() const { return m_impacts.counters(); }
+  const ImpactCounters& impactCounters() const { return m_impacts.counters(); }
   std::int64_t sensorPairs() const { return m_sensors.pairs(); }
-  const naiad::physics::RigidCounters& rigidCounters() const { return m_rigid_world.counters(); }
-  const naiad::physics::SubstepCounters& substepCounters() const { return m_substep_world.counters(); }
-  const naiad::physics::SubstepCounters& heapCounters() const { return m_heap_world.counters(); }
+  const RigidCounters& rigidCounters() const { return m_rigid_world.counters(); }
+  const SubstepCounters& substepCounters() const { return m_substep_world.counters(); }
+  const SubstepCounters& heapCounters() const { return m_heap_world.counters(); }
 
  private:
-  using State = naiad::physics::BodyState;
+  using State = BodyState;
 
-  void beginBody(World& world, naiad::physics::BodyTable::Index index);
-  naiad::physics::Vec2 pushBesideMagnet(State& state);
-  naiad::physics::IntegratorStatus flyFreely(const State& state, naiad::physics::Flown& flown);
+  void beginBody(World& world, BodyTable::Index index);
+  Vec2 pushBesideMagnet(State& state);
+  IntegratorStatus flyFreely(const State& state, Flown& flown);
   void fly(State& state);
-  naiad::physics::Vec2 swingOf(const State& state) const;
+  Vec2 swingOf(const State& state) const;
   void measure(const WorldStore& store, State& state);
   void chooseSolvers(const WorldStore& store);
   void chooseFast();
@@ -61,7 +64,7 @@ class BodyLayer : public Layer {
   void assignSolver(const WorldStore& store, State& state);
   void turnByTorque(State& state);
   void settle(World& world, State& state);
-  void publish(World& world, const State& state, naiad::physics::BodyRow& row, FixedVector velocity);
+  void publish(World& world, const State& state, BodyRow& row, FixedVector velocity);
   void limit(World& world, State& state);
   void countLimited(World& world, const State& state);
   void quarantine(World& world, State& state, const char* p_why);
@@ -70,22 +73,18 @@ class BodyLayer : public Layer {
   /// Cells per tick. What has just begun to slide down a slope is slow for long, and must not fall asleep.
   static constexpr double kSleepSpeed = 1e-5;
 
-  struct Moved {
-    ObjectKey key;
-    FixedVector where;
-  };
-  std::shared_ptr<naiad::physics::BodyTable> m_table;
-  naiad::physics::BodyLinks m_links;
+  std::shared_ptr<BodyTable> m_table;
+  BodyLinks m_links;
   BodyImpacts m_impacts;
   BodyIslands m_islands;
-  naiad::physics::RigidWorld m_rigid_world{naiad::physics::RigidOptions{.sleep_speed = kSleepSpeed}};
-  naiad::physics::SubstepWorld m_substep_world;
+  RigidWorld m_rigid_world{RigidOptions{.sleep_speed = kSleepSpeed}};
+  SubstepWorld m_substep_world;
   // 500 boxes in a drum take it less time than Box2D with 4 times 8 + 3 iterations, and overlap by less.
-  naiad::physics::SubstepWorld m_heap_world{naiad::physics::SubstepOptions{.searches = 2, .substeps = 5}};
-  BodyRigids m_rigids{naiad::physics::BodySolver::kRigid, m_rigid_world};
-  BodyRigids m_substeps{naiad::physics::BodySolver::kSubstep, m_substep_world};
-  BodyRigids m_heaps{naiad::physics::BodySolver::kHeap, m_heap_world};
-  naiad::physics::BodyContacts m_contacts;
+  SubstepWorld m_heap_world{SubstepOptions{.searches = 2, .substeps = 5}};
+  BodyRigids m_rigids{BodySolver::kRigid, m_rigid_world};
+  BodyRigids m_substeps{BodySolver::kSubstep, m_substep_world};
+  BodyRigids m_heaps{BodySolver::kHeap, m_heap_world};
+  BodyContacts m_contacts;
   BodySensors m_sensors;
   // Of this step; kept for their memory.
   std::vector<State> m_states;
@@ -96,8 +95,8 @@ class BodyLayer : public Layer {
   std::int64_t m_evaluations_before = 0;  // of fields, before this tick
   bool m_was_fast = false;
   bool m_has_substeps = false;  // is any for the SubstepWorld?
-  std::vector<Moved> m_moved;
+  std::vector<MovedObject> m_moved;
   bool m_has_logged_crowd = false;
 };
 
-}  // namespace df
+}  // namespace naiad::physics

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
 
 // Clamped to the range of the store's numbers.
-FixedVector clamped(const naiad::physics::Metric& metric, const naiad::physics::Place& place) {
+FixedVector clamped(const Metric& metric, const Place& place) {
   if (metric.isInRange(place)) return metric.fixedOf(place);
   const Vector at = metric.cellsOf(place);
-  return {*toFixed(std::clamp(at.x(), -kMaxCells, kMaxCells)),
-          *toFixed(std::clamp(at.y(), -kMaxCells, kMaxCells))};
+  const auto clamp = [](double x) { return std::clamp(x, -df::kMaxCells, df::kMaxCells); };
+  return *toFixed(Vector(clamp(at.x()), clamp(at.y())));
 }
 
 }  // namespace
@@ -32,12 +32,11 @@ void BodyObstacles::markNear(ObjectKey key) {
   at->is_near = true;
 }
 
-FixedBox regionOf(const naiad::physics::Metric& metric, const naiad::physics::Place& centre,
-                  naiad::physics::Vec2 half) {
+FixedBox regionOf(const Metric& metric, const Place& centre, Vec2 half) {
   constexpr double kFarthest = 1 << 28;  // metric cells to either side: the box's size stays in range
-  const naiad::physics::Vec2 reach = {std::min(half.x, kFarthest), std::min(half.y, kFarthest)};
+  const Vec2 reach = {std::min(half.x, kFarthest), std::min(half.y, kFarthest)};
   const FixedVector low = clamped(metric, centre + -reach), high = clamped(metric, centre + reach);
   return {{low.x - 1, low.y - 1}, {high.x - low.x + 2, high.y - low.y + 2}};
 }
 
-}  // namespace df
+}  // namespace naiad::physics

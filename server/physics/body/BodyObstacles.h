@@ -8,8 +8,9 @@
 
 #include "engine/world/WorldStore.h"
 #include "physics/body/Metric.h"
+#include "physics/body/WorldNames.h"
 
-namespace df {
+namespace naiad::physics {
 
 class BodyObstacles {
  public:
@@ -39,7 +40,6 @@ class BodyObstacles {
 };
 
 /// Everything within `half` to either side of `centre`, in the world's own numbers, and a little more.
-FixedBox regionOf(const naiad::physics::Metric& metric, const naiad::physics::Place& centre,
-                  naiad::physics::Vec2 half);
+FixedBox regionOf(const Metric& metric, const Place& centre, Vec2 half);
 
-}  // namespace df
+}  // namespace naiad::physics

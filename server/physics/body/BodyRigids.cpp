@@ -6,28 +6,9 @@
 
 #include "physics/geometry/Index.h"
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
-
-using naiad::physics::at;
-using naiad::physics::BodyContact;
-using naiad::physics::BodyContacts;
-using naiad::physics::BodyForm;
-using naiad::physics::BodyJoints;
-using naiad::physics::BodyRow;
-using naiad::physics::BodySolver;
-using naiad::physics::BodyState;
-using naiad::physics::BodyTable;
-using naiad::physics::ConvexShape;
-using naiad::physics::FlightKind;
-using naiad::physics::Flown;
-using naiad::physics::RigidBody;
-using naiad::physics::RigidEvent;
-using naiad::physics::RigidStepper;
-using naiad::physics::ShapeStatus;
-using naiad::physics::Vec2;
-using RawJoint = naiad::physics::Joint;
 
 // Of an acceleration that grows or falls steadily from `velocity` on, so that the path ends where, and as
 // fast as, the flight does. None where it does not change so: what brakes within a part of the tick would be
@@ -190,14 +171,14 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
 }
 
 // A joint is here if all of its bodies are.
-bool BodyRigids::isHere(const naiad::physics::JointEntry& entry) const {
+bool BodyRigids::isHere(const JointEntry& entry) const {
   const auto isEndHere = [&](int row) { return row == BodyJoints::kWorld || rigidOf(row) >= 0; };
   return entry.used && isEndHere(entry.joint.a) && isEndHere(entry.joint.b);
 }
 
 // What is gone, with its body or without, before anything is added: a number is given again at once.
 void BodyRigids::removeJoints(const BodyTable& table, const std::vector<BodyState>& states) {
-  const std::vector<naiad::physics::JointEntry>& entries = table.joints.entries();
+  const std::vector<JointEntry>& entries = table.joints.entries();
   for (std::size_t i = 0; i < m_joint_proxies.size(); ++i) {
     JointProxy& proxy = m_joint_proxies[i];
     if (proxy.id < 0) continue;
@@ -221,15 +202,15 @@ void BodyRigids::removeJoints(const BodyTable& table, const std::vector<BodyStat
 }
 
 void BodyRigids::updateJoints(const BodyTable& table) {
-  const std::vector<naiad::physics::JointEntry>& entries = table.joints.entries();
+  const std::vector<JointEntry>& entries = table.joints.entries();
   if (m_joint_proxies.size() < entries.size()) m_joint_proxies.resize(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const naiad::physics::JointEntry& entry = entries[i];
+    const JointEntry& entry = entries[i];
     if (!isHere(entry)) continue;
     JointProxy& proxy = m_joint_proxies[i];
     const bool is_world_a = entry.joint.a == BodyJoints::kWorld;
     const bool is_world_b = entry.joint.b == BodyJoints::kWorld;
-    RawJoint joint = entry.joint;
+    Joint joint = entry.joint;
     if (proxy.id < 0 && (is_world_a || is_world_b)) {
       RigidBody anchor;
       anchor.place = entry.anchor;
@@ -260,7 +241,7 @@ void BodyRigids::updatePulls(const BodyTable& table, const std::vector<BodyState
     PullProxy& proxy = m_pull_proxies[state.index];
     const BodyRow& row = table.row(state.index);
     if (proxy.id >= 0 && proxy.pull == state.pull && proxy.mass == row.mass) continue;
-    RawJoint joint = jointOf(state.pull, row.mass);
+    Joint joint = jointOf(state.pull, row.mass);
     joint.b = rigidOf(static_cast<int>(state.index));
     if (proxy.id < 0) {
       proxy.id = m_world.addJoint(joint, true);
@@ -340,16 +321,16 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
       state.acceleration = body.velocity - state.start_velocity;
     }
   }
-  const std::vector<naiad::physics::JointEntry>& entries = std::as_const(table).joints.entries();
+  const std::vector<JointEntry>& entries = std::as_const(table).joints.entries();
   for (std::size_t i = 0; i < m_joint_proxies.size() && i < entries.size(); ++i) {
     const JointProxy& proxy = m_joint_proxies[i];
     if (proxy.id < 0 || !entries[i].used || entries[i].generation != proxy.generation) continue;
-    const RawJoint& joint = m_world.joint(proxy.id);
-    naiad::physics::JointEntry& entry = table.joints.entries()[i];
+    const Joint& joint = m_world.joint(proxy.id);
+    JointEntry& entry = table.joints.entries()[i];
     entry.joint.force = joint.force;
     entry.joint.torque = joint.torque;
     if (joint.is_broken) table.joints.remove({static_cast<std::uint32_t>(i), proxy.generation});
   }
 }
 
-}  // namespace df
+}  // namespace naiad::physics

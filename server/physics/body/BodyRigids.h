@@ -10,25 +10,23 @@
 #include "physics/body/BodySurroundings.h"
 #include "physics/rigid/RigidStepper.h"
 
-namespace df {
+namespace naiad::physics {
 
 class BodyRigids {
  public:
   /// `solver`: kRigid, kSubstep or kHeap, which `stepper` is.
-  BodyRigids(naiad::physics::BodySolver solver, naiad::physics::RigidStepper& stepper)
-      : m_solver(solver), m_world(stepper) {}
+  BodyRigids(BodySolver solver, RigidStepper& stepper) : m_solver(solver), m_world(stepper) {}
   BodyRigids(const BodyRigids&) = delete;
   BodyRigids& operator=(const BodyRigids&) = delete;
 
   /// Does no body take part, and did none in the last tick?
   bool isEmpty() const { return m_count == 0; }
   /// Did the last step give it up, as a heap?
-  bool isGivenUp(const naiad::physics::BodyTable& table, naiad::physics::BodyTable::Index row) const;
+  bool isGivenUp(const BodyTable& table, BodyTable::Index row) const;
   /// Steps the bodies with this solver by a tick, with the kinematic ones near them. `unit_inertias` by
   /// state; 0: it does not turn.
-  void step(const WorldStore& store, naiad::physics::BodyTable& table,
-            std::vector<naiad::physics::BodyState>& states, const std::vector<double>& unit_inertias,
-            naiad::physics::BodyContacts& contacts);
+  void step(const WorldStore& store, BodyTable& table, std::vector<BodyState>& states,
+            const std::vector<double>& unit_inertias, BodyContacts& contacts);
 
  private:
   struct Proxy {  // by row of the table
@@ -47,7 +45,7 @@ class BodyRigids {
   struct PullProxy {  // by row of the table: the joint that pulls it
     std::uint64_t order = 0;
     int id = -1;
-    naiad::physics::Pull pull;
+    Pull pull;
     double mass = 0;
     bool is_used = false;
   };
@@ -57,30 +55,25 @@ class BodyRigids {
     int state = -1;  // −1: an obstacle
   };
 
-  bool isStepped(const naiad::physics::BodyState& state) const;
-  void updateBodies(const WorldStore& store, const naiad::physics::BodyTable& table,
-                    const std::vector<naiad::physics::BodyState>& states,
+  bool isStepped(const BodyState& state) const;
+  void updateBodies(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
                     const std::vector<double>& unit_inertias);
-  void shape(Proxy& proxy, const naiad::physics::BodyTable& table, const naiad::physics::BodyState& state,
-             const FixedBox& box, const naiad::physics::RigidBody& body);
-  void updateObstacles(const WorldStore& store, const naiad::physics::BodyTable& table,
-                       const std::vector<naiad::physics::BodyState>& states,
-                       naiad::physics::BodyContacts& contacts);
-  bool isHere(const naiad::physics::JointEntry& entry) const;
-  bool isPulledHere(const naiad::physics::BodyState& state) const;
-  void removeJoints(const naiad::physics::BodyTable& table,
-                    const std::vector<naiad::physics::BodyState>& states);
-  void updateJoints(const naiad::physics::BodyTable& table);
-  void updatePulls(const naiad::physics::BodyTable& table,
-                   const std::vector<naiad::physics::BodyState>& states);
+  void shape(Proxy& proxy, const BodyTable& table, const BodyState& state, const FixedBox& box,
+             const RigidBody& body);
+  void updateObstacles(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
+                       BodyContacts& contacts);
+  bool isHere(const JointEntry& entry) const;
+  bool isPulledHere(const BodyState& state) const;
+  void removeJoints(const BodyTable& table, const std::vector<BodyState>& states);
+  void updateJoints(const BodyTable& table);
+  void updatePulls(const BodyTable& table, const std::vector<BodyState>& states);
   void identify(int id, ObjectKey key, std::uint64_t order, int state);
-  void collect(std::vector<naiad::physics::BodyState>& states, naiad::physics::BodyContacts& contacts) const;
-  void finish(naiad::physics::BodyTable& table, std::vector<naiad::physics::BodyState>& states,
-              const naiad::physics::BodyContacts& contacts);
+  void collect(std::vector<BodyState>& states, BodyContacts& contacts) const;
+  void finish(BodyTable& table, std::vector<BodyState>& states, const BodyContacts& contacts);
   int rigidOf(int row) const;
 
-  naiad::physics::BodySolver m_solver;
-  naiad::physics::RigidStepper& m_world;
+  BodySolver m_solver;
+  RigidStepper& m_world;
   std::vector<Proxy> m_proxies;
   std::vector<JointProxy> m_joint_proxies;
   std::vector<PullProxy> m_pull_proxies;
@@ -92,4 +85,4 @@ class BodyRigids {
   bool m_may_sleep = true;
 };
 
-}  // namespace df
+}  // namespace naiad::physics

@@ -10,20 +10,9 @@
 #include "physics/body/BodyObstacles.h"
 #include "physics/impact/ImpactTime.h"
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
-
-using naiad::physics::BodyContact;
-using naiad::physics::BodyState;
-using naiad::physics::BodyTable;
-using naiad::physics::ImpactBody;
-using naiad::physics::ImpactShape;
-using naiad::physics::Metric;
-using naiad::physics::Place;
-using naiad::physics::RelativeMotion;
-using naiad::physics::SweptBox;
-using naiad::physics::Vec2;
 
 // The shape of the Object's box, and its middle.
 Vec2 boxOf(const Metric& metric, const FixedBox& box, ImpactBody& body) {
@@ -102,7 +91,7 @@ void BodySensors::findBodyPairs() {
     const Vec2 from = mover.shape.place - m_movers[0].shape.place, to = from + mover.displacement;
     const Vec2 half = halfExtentOf(mover.shape);
     const auto margin = [](double x, double y) {  // wider than what rounding takes away
-      return naiad::physics::kImpactSlop + 1e-9 * (1 + std::max(std::fabs(x), std::fabs(y)));
+      return kImpactSlop + 1e-9 * (1 + std::max(std::fabs(x), std::fabs(y)));
     };
     const Vec2 wide = half + Vec2{margin(from.x, to.x), margin(from.y, to.y)};
     return SweptBox{Vec2{std::min(from.x, to.x), std::min(from.y, to.y)} - wide,
@@ -177,9 +166,7 @@ void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<Body
   const Mover &first = m_movers[pair.a], &second = m_movers[pair.b];
   const Vec2 offset = second.shape.place - first.shape.place;
   const Vec2 displacement = second.displacement - first.displacement;
-  const auto touch = [&](Vec2 apart) {
-    return naiad::physics::touchOf(first.shape, second.shape, apart).gap <= naiad::physics::kImpactSlop;
-  };
+  const auto touch = [&](Vec2 apart) { return touchOf(first.shape, second.shape, apart).gap <= kImpactSlop; };
   const bool is_touching = touch(offset + displacement);
   if (is_touching) m_now.push_back(pair.touch);
   if (is_touching && were_touching) return;
@@ -187,9 +174,8 @@ void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<Body
   if (!were_touching) {
     const double time =
         touch(offset) ? 0
-                      : naiad::physics::forecastImpact(first.shape, second.shape,
-                                                       RelativeMotion{offset, displacement, {}}, 1,
-                                                       naiad::physics::restSpeed(displacement, {}), false)
+                      : forecastImpact(first.shape, second.shape, RelativeMotion{offset, displacement, {}}, 1,
+                                       restSpeed(displacement, {}), false)
                             .time;
     if (time < 0 && !is_touching) return;
     contact.time = time < 0 ? 1 : time;
@@ -225,4 +211,4 @@ void BodySensors::step(const WorldStore& store, const BodyTable& table, const st
   std::swap(m_touching, m_now);
 }
 
-}  // namespace df
+}  // namespace naiad::physics

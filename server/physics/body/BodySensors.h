@@ -10,7 +10,7 @@
 #include "physics/broadphase/ImpactTree.h"
 #include "physics/impact/ImpactBody.h"
 
-namespace df {
+namespace naiad::physics {
 
 /// The contacts of sensors, kept from tick to tick. Shapes that an ImpactWorld does not know count as the
 /// Object's box.
@@ -18,9 +18,8 @@ class BodySensors {
  public:
   /// After all bodies have moved: appends the contacts that began on their paths, or ended. (A pair of which
   /// neither is SOFT belongs to the solvers.)
-  void step(const WorldStore& store, const naiad::physics::BodyTable& table,
-            const std::vector<naiad::physics::BodyState>& states,
-            std::vector<naiad::physics::BodyContact>& contacts);
+  void step(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
+            std::vector<BodyContact>& contacts);
 
   /// Pairs examined since the world was made.
   std::int64_t pairs() const { return m_examined; }
@@ -31,8 +30,8 @@ class BodySensors {
     std::uint64_t order = 0;
     bool is_body = false;
     bool is_soft = false;
-    naiad::physics::ImpactBody shape;   ///< where its middle was when the tick began
-    naiad::physics::Vec2 displacement;  ///< since then
+    ImpactBody shape;   ///< where its middle was when the tick began
+    Vec2 displacement;  ///< since then
   };
   struct Touch {
     ObjectKey first, second;  ///< a body, and a body made later or an Object
@@ -47,15 +46,14 @@ class BodySensors {
 
   static bool isBefore(const Touch& a, const Touch& b);
   static bool isPairBefore(const Pair& a, const Pair& b) { return isBefore(a.touch, b.touch); }
-  static Mover moverOf(const WorldStore& store, const naiad::physics::BodyTable& table,
-                       const naiad::physics::BodyState& state);
-  static Mover moverOf(const WorldStore& store, const naiad::physics::Metric& metric, ObjectKey key);
+  static Mover moverOf(const WorldStore& store, const BodyTable& table, const BodyState& state);
+  static Mover moverOf(const WorldStore& store, const Metric& metric, ObjectKey key);
   void findBodyPairs();
-  void findObjectPairs(const WorldStore& store, const naiad::physics::Metric& metric);
-  void findPartedPairs(const WorldStore& store, const naiad::physics::Metric& metric);
+  void findObjectPairs(const WorldStore& store, const Metric& metric);
+  void findPartedPairs(const WorldStore& store, const Metric& metric);
   void add(std::size_t a, std::size_t b);
   void sortPairs();
-  void examine(const Pair& pair, bool were_touching, std::vector<naiad::physics::BodyContact>& contacts);
+  void examine(const Pair& pair, bool were_touching, std::vector<BodyContact>& contacts);
 
   std::vector<Mover> m_movers;    // bodies, by order; behind them the Objects of m_pairs
   std::size_t m_bodies = 0;       // how many movers are bodies
@@ -65,11 +63,11 @@ class BodySensors {
   std::vector<Touch> m_now;
   std::vector<std::uint32_t> m_by_slot;  // the bodies among the movers
   std::vector<std::size_t> m_asking;     // movers, by number of their region
-  naiad::physics::ImpactTree m_soft;     // of SOFT bodies
-  std::vector<naiad::physics::SweptBox> m_boxes;
+  ImpactTree m_soft;                     // of SOFT bodies
+  std::vector<SweptBox> m_boxes;
   std::vector<int> m_ids;
   BodySurroundings m_surroundings;
   std::int64_t m_examined = 0;
 };
 
-}  // namespace df
+}  // namespace naiad::physics

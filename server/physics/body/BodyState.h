@@ -26,7 +26,7 @@ constexpr bool isSoft(BodySolver solver) {
 
 struct BodyState {
   BodyTable::Index index;
-  df::ObjectKey key;
+  ObjectKey key;
   std::uint64_t order = 0;  ///< the Object's, in the world
   BodySolver solver = BodySolver::kFlight;
   bool is_hard = false;
@@ -75,10 +75,16 @@ struct BodyCandidatePair {
   }
 };
 
+/// An Object that gets another position once all have moved.
+struct MovedObject {
+  ObjectKey key;
+  FixedVector where;
+};
+
 /// What becomes of contacts.
 struct BodyContact {
   double time = 0;  ///< 0 … 1, within the tick
-  df::ObjectKey first, second;
+  ObjectKey first, second;
   std::uint64_t first_order = 0, second_order = 0;
   double impulse = 0;
   bool is_begin = true;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
 
@@ -14,7 +14,7 @@ constexpr std::size_t kScanned = 16;   // Objects looked at for a region, at mos
 constexpr std::size_t kTogether = 32;  // regions, added one after the other, that are compared first
 
 // Regions that begin in the same 8 by 8 cells, and are not larger than that, are asked for together.
-constexpr int kTileBits = kFixedBits + 3;
+constexpr int kTileBits = df::kFixedBits + 3;
 constexpr Fixed kLargest = Fixed{1} << kTileBits;
 
 bool isLarge(const FixedBox& region) {
@@ -107,4 +107,4 @@ void BodySurroundings::searchGrid(const WorldStore& store) {
   });
 }
 
-}  // namespace df
+}  // namespace naiad::physics

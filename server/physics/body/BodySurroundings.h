@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "engine/world/WorldStore.h"
+#include "physics/body/WorldNames.h"
 
-namespace df {
+namespace naiad::physics {
 
 class BodySurroundings {
  public:
@@ -50,4 +51,4 @@ class BodySurroundings {
   std::vector<Other> m_others, m_close;  // in creation order
 };
 
-}  // namespace df
+}  // namespace naiad::physics

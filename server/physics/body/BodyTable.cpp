@@ -8,7 +8,7 @@ namespace naiad::physics {
 const BodyMedium BodyTable::kNoMedium;
 const BodyForm BodyTable::kNoForm;
 
-BodyTable::Index BodyTable::add(const df::Object* p_object, df::ObjectKey key) {
+BodyTable::Index BodyTable::add(const Object* p_object, ObjectKey key) {
   Index index = 0;
   if (m_free.empty()) {
     index = static_cast<Index>(m_rows.size());
@@ -49,13 +49,13 @@ BodyForm& BodyTable::form(Index index) {
   return m_forms[index];
 }
 
-double BodyTable::unitInertia(Index index, const df::FixedBox& box) const {
+double BodyTable::unitInertia(Index index, const FixedBox& box) const {
   const BodyForm& its = form(index);
   if (!its.shapes.empty()) return its.unit_inertia;
-  return lengthSquared(metric.fromCells(df::Vector::fromFixed(box.size))) / 12;
+  return lengthSquared(metric.fromCells(Vector::fromFixed(box.size))) / 12;
 }
 
-void BodyTable::absorb(Index index, df::FixedVector position, df::FixedVector velocity) {
+void BodyTable::absorb(Index index, FixedVector position, FixedVector velocity) {
   BodyRow& row = m_rows[index];
   if (position != row.published_position) {
     row.place = metric.placeOf(position);
@@ -63,7 +63,7 @@ void BodyTable::absorb(Index index, df::FixedVector position, df::FixedVector ve
     row.frozen = false;
   }
   if (velocity != row.published_velocity) {
-    row.velocity = metric.fromCells(df::Vector::fromFixed(velocity));
+    row.velocity = metric.fromCells(Vector::fromFixed(velocity));
     row.published_velocity = velocity;
     row.frozen = false;
   }

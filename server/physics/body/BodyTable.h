@@ -8,19 +8,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/world/WorldView.h"
 #include "physics/body/BodyForm.h"
 #include "physics/body/BodyJoints.h"
 #include "physics/body/Metric.h"
+#include "physics/body/WorldNames.h"
 #include "physics/flight/FlightField.h"
 #include "physics/flight/FlightSpring.h"
 #include "physics/geometry/Place.h"
 #include "physics/geometry/Vec2.h"
 #include "physics/numerics/Integrator.h"
-
-namespace df {
-class Object;
-}
 
 namespace naiad::physics {
 
@@ -38,8 +34,8 @@ inline constexpr double kUsualFriction = 0.5;
 
 /// Of every body, read and written in each step.
 struct BodyRow {
-  df::ObjectKey key;
-  const df::Object* p_object = nullptr;
+  ObjectKey key;
+  const Object* p_object = nullptr;
   std::uint64_t order = 0;       ///< of construction
   std::uint8_t last_solver = 0;  ///< the BodySolver that moved it in the last step
   Place place;                   ///< the Object's position
@@ -56,9 +52,9 @@ struct BodyRow {
   bool hears_ends = false;    ///< of contacts
   bool touches_soft = false;  ///< a soft body has pushed it since its last step: no case for event-exactness
   bool frozen = false;        ///< quarantined: stands until the game sets its place or velocity
-  df::FixedVector
+  FixedVector
       published_position;  ///< as the store got it last; if it holds another now, the game moved the body
-  df::FixedVector published_velocity;
+  FixedVector published_velocity;
 };
 
 /// Of those that use it.
@@ -92,7 +88,7 @@ class BodyTable {
  public:
   using Index = std::uint32_t;
 
-  Index add(const df::Object* p_object, df::ObjectKey key);
+  Index add(const Object* p_object, ObjectKey key);
   void remove(Index index);
   BodyRow& row(Index index) { return m_rows[index]; }
   const BodyRow& row(Index index) const { return m_rows[index]; }
@@ -103,10 +99,10 @@ class BodyTable {
   BodyForm& form(Index index);
   const BodyForm& form(Index index) const { return index < m_forms.size() ? m_forms[index] : kNoForm; }
   /// Moment of inertia per mass, of a body with this Object's box if it has no other shape.
-  double unitInertia(Index index, const df::FixedBox& box) const;
+  double unitInertia(Index index, const FixedBox& box) const;
   /// Take over what the game has done to position and velocity since the last step, by the Object's own
   /// setters: these are what the store holds now.
-  void absorb(Index index, df::FixedVector position, df::FixedVector velocity);
+  void absorb(Index index, FixedVector position, FixedVector velocity);
   /// What kind of flight its medium asks for.
   void classify(Index index);
 

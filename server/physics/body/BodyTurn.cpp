@@ -5,8 +5,8 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/Body.h"
-#include "physics/body/BodyLayer.h"
 #include "physics/body/BodyLimits.h"
+#include "physics/body/BodyTable.h"
 #include "physics/geometry/Mass.h"
 #include "physics/geometry/ShapeQuery.h"
 

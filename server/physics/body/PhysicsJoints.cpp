@@ -11,6 +11,7 @@ namespace df {
 namespace {
 
 using naiad::physics::BodyJoints;
+using naiad::physics::BodyLayer;
 using naiad::physics::BodyTable;
 using naiad::physics::inverse;
 using naiad::physics::JointKind;

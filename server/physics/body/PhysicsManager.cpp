@@ -15,7 +15,7 @@ using naiad::physics::IntegratorOptions;
 using naiad::physics::Metric;
 
 BodyTable& table() {
-  return *BodyLayer::of(World::current()).table();
+  return *naiad::physics::BodyLayer::of(World::current()).table();
 }
 
 bool isTolerance(double value) {

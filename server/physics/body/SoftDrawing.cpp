@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/managers/DisplayManager.h"
+#include "physics/body/BodyFrames.h"
 #include "physics/geometry/Index.h"
 #include "shared/values/Vector.h"
 
@@ -14,15 +15,6 @@ namespace {
 // They bound the cost of a picture.
 constexpr int kMaxSteps = 2000;          // cells of one line, rows of a filling
 constexpr std::size_t kMaxCells = 8000;  // of a picture
-
-// By how steep it is on the screen; the borders are at 22.5° and 67.5°.
-char32_t lineChar(Vec2 direction) {
-  constexpr double kFlat = 0.4142135623730951;  // tan 22.5°
-  const double x = std::fabs(direction.x), y = std::fabs(direction.y);
-  if (y <= kFlat * x) return U'-';
-  if (x <= kFlat * y) return U'|';
-  return (direction.x > 0) == (direction.y > 0) ? U'\\' : U'/';
-}
 
 std::int64_t cellOf(double at) {
   return static_cast<std::int64_t>(std::floor(at + 0.5));
@@ -36,7 +28,7 @@ class Pen {
 
   void line(int a, int b) {
     const df::Vector from = m_points[at(a)], displacement = m_points[at(b)] - from;
-    const char32_t ch = m_drawn.ch != 0 ? m_drawn.ch : lineChar(m_metric.fromCells(displacement));
+    const char32_t ch = m_drawn.ch != 0 ? m_drawn.ch : lineAlong(m_metric.fromCells(displacement), 1);
     const double longer = std::max(std::fabs(displacement.x()), std::fabs(displacement.y()));
     const int steps = static_cast<int>(std::min(std::ceil(longer), static_cast<double>(kMaxSteps)));
     for (int i = 0; i <= steps; ++i) {

@@ -9,19 +9,9 @@
 #include "physics/body/BodyEvents.h"
 #include "physics/body/BodyLayer.h"
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
-
-using naiad::physics::Metric;
-using naiad::physics::MovedObject;
-using naiad::physics::SoftAttachedNode;
-using naiad::physics::SoftEntry;
-using naiad::physics::SoftEvent;
-using naiad::physics::SoftNode;
-using naiad::physics::SoftTable;
-using naiad::physics::SoftWorld;
-using naiad::physics::Vec2;
 
 constexpr double kSearchRoom = 0.5;      // metric cells around a soft body in which obstacles are searched
 constexpr double kStillSpeed = 2e-3;     // metric cells per tick: slower is still, of what lies or hangs
@@ -32,7 +22,7 @@ constexpr double kStillDistance = 0.02;  // cells: a smaller move of a still bod
 // Around all nodes, with some room, so that it need not follow each of their movements.
 FixedBox boxOf(SoftTable& table, int id, FixedVector position, const FixedBox& before) {
   constexpr double kMargin = 0.25, kLargest = 1e6;  // cells: around the nodes; of the box
-  const naiad::physics::SoftBody& body = table.world().body(id);
+  const SoftBody& body = table.world().body(id);
   const Metric& metric = table.metric();
   const Vector middle = metric.toCells(metric.placeOf(position) - body.place);
   const Vector thick = metric.toCells({body.radius, body.radius});
@@ -101,10 +91,7 @@ void SoftLayer::step(World& world) {
     if (table.entry(id).is_in && !table.entry(id).is_asleep) settle(world, id);
   }
   m_sleep.update(table);
-  // Only now do handlers run.
-  for (const MovedObject& moved : m_moved) {
-    if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
-  }
+  placeMoved(world, m_moved);
   if (!m_contact_changes.empty()) sendContactEvents(world, m_contact_changes);
 }
 
@@ -133,7 +120,7 @@ void SoftLayer::collectContacts(const WorldStore& store) {
     }
     m_contact_changes.push_back({1, current.first, current.second, store.order(current.first.slot),
                                  store.order(current.second.slot), event.impulse, event.is_begin,
-                                 naiad::physics::BodySolver::kFlight});
+                                 BodySolver::kFlight});
   }
 }
 
@@ -250,4 +237,4 @@ void SoftLayer::publish(World& world, int id) {
     m_moved.push_back({entry.key, entry.published_position});
 }
 
-}  // namespace df
+}  // namespace naiad::physics

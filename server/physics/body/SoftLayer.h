@@ -14,23 +14,23 @@
 #include "physics/body/SoftSleep.h"
 #include "physics/body/SoftTable.h"
 
-namespace df {
+namespace naiad::physics {
 
 class BodyLayer;
 
-class SoftLayer : public Layer {
+class SoftLayer : public df::Layer {
  public:
-  SoftLayer(BodyLayer& bodies, std::shared_ptr<naiad::physics::BodyTable> table)
-      : m_bodies(bodies), m_table(std::make_shared<naiad::physics::SoftTable>(std::move(table))) {}
+  SoftLayer(BodyLayer& bodies, std::shared_ptr<BodyTable> table)
+      : m_bodies(bodies), m_table(std::make_shared<SoftTable>(std::move(table))) {}
   /// The layer of this world; made if there is none, after the one of bodies.
   static SoftLayer& of(World& world);
   /// The grab of a soft body is the obstacle with this id. Others have their Object's slot as id.
   static int grabIdOf(int id) { return SoftObstacles::kFirstGrabId + id; }
   /// Publishes a new soft body: its Object gets position and box.
-  static void publishNow(World& world, naiad::physics::SoftTable& table, int id);
+  static void publishNow(World& world, SoftTable& table, int id);
 
   void step(World& world) override;
-  const std::shared_ptr<naiad::physics::SoftTable>& table() { return m_table; }
+  const std::shared_ptr<SoftTable>& table() { return m_table; }
 
  private:
   struct Touch {
@@ -50,15 +50,15 @@ class SoftLayer : public Layer {
   void logCrowd(World& world);
 
   BodyLayer& m_bodies;  // lives as long: it is a layer of the same world, and came before
-  std::shared_ptr<naiad::physics::SoftTable> m_table;
+  std::shared_ptr<SoftTable> m_table;
   SoftObstacles m_obstacles;
   std::vector<Touch> m_touching;
-  naiad::physics::SoftSleep m_sleep;
-  naiad::physics::Vec2 m_gravity;
+  SoftSleep m_sleep;
+  Vec2 m_gravity;
   bool m_has_logged_crowd = false;
   // Of this step; kept for their memory.
-  std::vector<naiad::physics::MovedObject> m_moved;
-  std::vector<naiad::physics::BodyContact> m_contact_changes;
+  std::vector<MovedObject> m_moved;
+  std::vector<BodyContact> m_contact_changes;
 };
 
-}  // namespace df
+}  // namespace naiad::physics

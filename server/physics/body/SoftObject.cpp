@@ -21,6 +21,7 @@ using naiad::physics::at;
 using naiad::physics::SoftAttachedNode;
 using naiad::physics::SoftEntry;
 using naiad::physics::SoftGrab;
+using naiad::physics::SoftLayer;
 using naiad::physics::Vec2;
 
 constexpr double kMaxRatio = 1e6;  // of gravity scale, friction, drag

@@ -9,24 +9,9 @@
 #include "physics/body/BodyLimits.h"
 #include "physics/body/BodyObstacles.h"
 
-namespace df {
+namespace naiad::physics {
 
 namespace {
-
-using naiad::physics::BodyForm;
-using naiad::physics::BodyRow;
-using naiad::physics::BodyState;
-using naiad::physics::BodyTable;
-using naiad::physics::Metric;
-using naiad::physics::MovedObject;
-using RawShape = naiad::physics::ConvexShape;
-using naiad::physics::ShapeStatus;
-using naiad::physics::SoftEntry;
-using naiad::physics::SoftGrab;
-using naiad::physics::SoftObstacle;
-using naiad::physics::SoftTable;
-using naiad::physics::SoftWorld;
-using naiad::physics::Vec2;
 
 // The sub-steps change an obstacle's velocity first, and then move it: so it is half a sub-step ahead.
 constexpr double kAhead = 0.5 / SoftWorld::kDefaultSubsteps;
@@ -81,9 +66,9 @@ void SoftObstacles::gather(const World& world, const BodyLayer& bodies, SoftTabl
   const std::vector<BodyState>& states = bodies.states();
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState& state = states[i];
-    const bool is_held = std::any_of(
-        entry.attached_nodes.begin(), entry.attached_nodes.end(),
-        [&](const naiad::physics::SoftAttachedNode& attached) { return attached.key == state.key; });
+    const bool is_held =
+        std::any_of(entry.attached_nodes.begin(), entry.attached_nodes.end(),
+                    [&](const SoftAttachedNode& attached) { return attached.key == state.key; });
     if (!is_held && (!state.is_hard || areApart(state.start - entry.centre, reach + state.reach))) continue;
     addBody(world, bodies, table.bodies(), static_cast<int>(i));
   }
@@ -95,7 +80,7 @@ void SoftObstacles::addObject(const World& world, const BodyTable& table, Object
   sum(key, store.position(key.slot), box);
   if (isKnown(static_cast<int>(key.slot))) return;
   const Vec2 half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
-  RawShape shape;
+  ConvexShape shape;
   if (makeBox(half.x, half.y, {}, {}, 0, shape) != ShapeStatus::kOk) return;
   SoftObstacle obstacle;
   obstacle.id = static_cast<int>(key.slot);
@@ -161,7 +146,7 @@ bool SoftObstacles::setShape(const WorldStore& store, const BodyTable& table, co
   const FixedBox box = store.box(state.key.slot);
   const Vec2 half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
   const Vec2 centre = table.metric.fromCells(Vector::fromFixed(box.corner)) + half;
-  RawShape shape;
+  ConvexShape shape;
   if (makeBox(half.x, half.y, centre, {}, 0, shape) != ShapeStatus::kOk) return false;
   source.shape = static_cast<int>(m_shapes.size());
   m_shapes.push_back(shape);
@@ -248,9 +233,9 @@ void SoftObstacles::push(World& world, const BodyLayer& bodies, BodyTable& table
   const Vec2 velocity = row.velocity + (gain - source.gained);
   const double spin = std::as_const(table).form(index).spin + (turning - source.turned);
   const Vec2 end = obstacle.velocity + obstacle.acceleration + gain;
-  const naiad::physics::Place place = obstacle.place + (obstacle.displacement - kAhead * end);
+  const Place place = obstacle.place + (obstacle.displacement - kAhead * end);
   const bool is_sound = toFixed(metric.toCells(velocity), kMaxVelocityCells) && metric.isInRange(place) &&
-                        std::fabs(spin) <= kMaxSpin;
+                        std::fabs(spin) <= df::kMaxSpin;
   if (!is_sound) return;
   row.velocity = velocity;
   row.place = place;
@@ -299,4 +284,4 @@ ObjectKey SoftObstacles::keyOf(int obstacle) const {
   return {};
 }
 
-}  // namespace df
+}  // namespace naiad::physics

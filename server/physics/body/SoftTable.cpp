@@ -6,7 +6,7 @@
 
 namespace naiad::physics {
 
-int SoftTable::add(const df::Object* p_object, df::ObjectKey key, const SoftBody& body) {
+int SoftTable::add(const Object* p_object, ObjectKey key, const SoftBody& body) {
   const int id = m_world.add(body);
   if (id < 0) return -1;
   if (id >= idLimit()) m_entries.resize(static_cast<std::size_t>(id) + 1);
@@ -90,11 +90,10 @@ void SoftTable::setVelocity(int id, Vec2 velocity) {
   measure(id);
 }
 
-void SoftTable::absorb(int id, df::FixedVector position, df::FixedVector velocity) {
+void SoftTable::absorb(int id, FixedVector position, FixedVector velocity) {
   SoftEntry& its = entry(id);
   if (position != its.published_position) moveTo(id, metric().placeOf(position));
-  if (velocity != its.published_velocity)
-    setVelocity(id, metric().fromCells(df::Vector::fromFixed(velocity)));
+  if (velocity != its.published_velocity) setVelocity(id, metric().fromCells(Vector::fromFixed(velocity)));
   its.published_position = position;
   its.published_velocity = velocity;
 }

@@ -5,13 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "engine/world/WorldView.h"
 #include "physics/body/BodyTable.h"
+#include "physics/body/WorldNames.h"
 #include "physics/soft/SoftWorld.h"
-
-namespace df {
-class Object;
-}
 
 namespace naiad::physics {
 
@@ -28,17 +24,17 @@ struct SoftGrab {
 struct SoftAttachedNode {
   int attachment = -1;
   int node = 0;
-  df::ObjectKey key;
+  ObjectKey key;
 };
 
 /// By id in the SoftWorld.
 struct SoftEntry {
-  df::ObjectKey key;
-  const df::Object* p_object = nullptr;  ///< null: the entry is free
-  SoftBody made;                         ///< as it was built, to come back to after a quarantine
-  df::FixedVector
+  ObjectKey key;
+  const Object* p_object = nullptr;  ///< null: the entry is free
+  SoftBody made;                     ///< as it was built, to come back to after a quarantine
+  FixedVector
       published_position;  ///< as the store got it last; if it holds another now, the game moved the body
-  df::FixedVector published_velocity;
+  FixedVector published_velocity;
   Place centre;  ///< of mass
   Vec2 velocity;
   Vec2 force;                     ///< on the whole, for the next step
@@ -64,7 +60,7 @@ class SoftTable {
   explicit SoftTable(std::shared_ptr<BodyTable> bodies) : m_bodies(std::move(bodies)) {}
 
   /// −1 if the body is not sound.
-  int add(const df::Object* p_object, df::ObjectKey key, const SoftBody& body);
+  int add(const Object* p_object, ObjectKey key, const SoftBody& body);
   void remove(int id);
   SoftEntry& entry(int id) { return m_entries[static_cast<std::size_t>(id)]; }
   /// Limit of ids; some are free.
@@ -83,7 +79,7 @@ class SoftTable {
   void moveTo(int id, const Place& centre);
   void setVelocity(int id, Vec2 velocity);
   /// What the game has done by the Object's setters: the store holds these now.
-  void absorb(int id, df::FixedVector position, df::FixedVector velocity);
+  void absorb(int id, FixedVector position, FixedVector velocity);
   void wake(int id) {
     entry(id).is_asleep = false;
     entry(id).still = 0;

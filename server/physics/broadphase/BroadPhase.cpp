@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "physics/geometry/Reserve.h"
 namespace naiad::physics {
 
 namespace {
@@ -17,9 +16,9 @@ namespace {
 constexpr std::size_t kMaxHeaped = 32;   // of which a proxy keeps all pairs that it finds …
 constexpr std::size_t kKeptHeaped = 16;  // … and of more only the nearest
 constexpr std::size_t kCollected = 64;   // before the farthest are dropped
-// A tree is built in about a quarter of the time that it takes to move each of its leaves.
-constexpr std::size_t kRebuiltShare = 4;
-constexpr std::size_t kRebuilt = 16;  // fewer are moved
+// All pairs of a tree are found in about the time that it takes to ask for those of a quarter of its bodies.
+constexpr std::size_t kManyShare = 4;
+constexpr std::size_t kMany = 16;  // of fewer, each is asked for
 
 std::int64_t twiceMiddle(std::int64_t lower, std::int64_t upper) {
   return lower + upper;
@@ -54,11 +53,9 @@ std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool move
     proxy = m_free.back();
     m_free.pop_back();
   }
-  Proxy& own = m_proxies[index(proxy)];
-  const bool is_pending = own.is_pending;  // since the one that had this number before
-  own = {id, BroadPhaseTree::kNone, moves, false, false, is_pending, false, 0, order, wide};
+  m_proxies[index(proxy)] = {id, moves, false, false, false, false, 0, order, wide};
   ++m_count;
-  markPending(proxy);
+  m_loose.push_back(proxy);
   markChanged(proxy);
   return proxy;
 }
@@ -66,9 +63,8 @@ std::int32_t BroadPhase::add(std::uint32_t id, const GridBounds& wide, bool move
 void BroadPhase::remove(std::int32_t proxy) {
   Proxy& own = m_proxies[index(proxy)];
   assert(!own.is_removed);
-  if (own.leaf != BroadPhaseTree::kNone) m_tree.remove(own.leaf);
-  own.leaf = BroadPhaseTree::kNone;
   own.is_removed = true;
+  own.is_filed = false;
   --m_count;
   markChanged(proxy);  // its number is free only after its pairs are gone
 }
@@ -80,53 +76,39 @@ bool BroadPhase::move(std::int32_t proxy, const GridBounds& tight, const GridBou
 }
 
 void BroadPhase::set(std::int32_t proxy, const GridBounds& bounds) {
-  m_proxies[index(proxy)].bounds = bounds;
-  markPending(proxy);
+  Proxy& own = m_proxies[index(proxy)];
+  own.bounds = bounds;
   markChanged(proxy);
-}
-
-void BroadPhase::markPending(std::int32_t proxy) {
-  if (m_proxies[index(proxy)].is_pending) return;
-  m_proxies[index(proxy)].is_pending = true;
-  m_pending.push_back(proxy);
-}
-
-bool BroadPhase::areMany(std::size_t proxies) const {
-  return proxies >= kRebuilt && proxies * kRebuiltShare >= m_count;
-}
-
-// Where many have new bounds the tree is built again.
-void BroadPhase::updateTree() {
-  if (m_pending.empty()) return;
-  const bool are_many = areMany(m_pending.size());
-  for (const std::int32_t proxy : m_pending) {
-    Proxy& own = m_proxies[index(proxy)];
-    own.is_pending = false;
-    if (are_many || own.is_removed) continue;
-    if (own.leaf == BroadPhaseTree::kNone) {
-      own.leaf = m_tree.insert(own.bounds, static_cast<std::uint32_t>(proxy));
-    } else {
-      m_tree.move(own.leaf, own.bounds);
-    }
+  if (!own.is_filed) return;
+  const SweptBox box = relative(bounds);
+  own.is_filed = overlaps(m_tree.box(proxy), box);
+  if (own.is_filed) {
+    m_tree.grow(proxy, box);
+    ++m_widened;
+  } else {
+    m_loose.push_back(proxy);
   }
-  m_pending.clear();
-  if (are_many) rebuildTree();
 }
 
-void BroadPhase::rebuildTree() {
-  m_leaves.clear();
-  m_leaf_proxies.clear();
-  reserveFor(m_leaves, m_count);
-  reserveFor(m_leaf_proxies, m_count);
+SweptBox BroadPhase::relative(const GridBounds& bounds) const {
+  const auto from = [](std::int64_t x, std::int64_t origin) { return static_cast<double>(x - origin); };
+  return {{from(bounds.lower_x, m_origin.lower_x), from(bounds.lower_y, m_origin.lower_y)},
+          {from(bounds.upper_x, m_origin.lower_x), from(bounds.upper_y, m_origin.lower_y)}};
+}
+
+void BroadPhase::fileAll() {
+  m_boxes.clear();
+  m_numbers.clear();
+  m_loose.clear();
+  m_widened = 0;
+  m_origin = m_proxies[0].bounds;
   for (std::size_t i = 0; i < m_proxies.size(); ++i) {
     if (m_proxies[i].is_removed) continue;
-    m_leaves.push_back({m_proxies[i].bounds, static_cast<std::uint32_t>(i)});
-    m_leaf_proxies.push_back(static_cast<std::int32_t>(i));
+    m_proxies[i].is_filed = true;
+    m_boxes.push_back(relative(m_proxies[i].bounds));
+    m_numbers.push_back(static_cast<int>(i));
   }
-  m_leaf_numbers.resize(m_leaves.size());
-  m_tree.rebuild(m_leaves, m_leaf_numbers);
-  for (std::size_t i = 0; i < m_leaves.size(); ++i)
-    m_proxies[index(m_leaf_proxies[i])].leaf = m_leaf_numbers[i];
+  m_tree.update(m_boxes, m_numbers, static_cast<int>(m_proxies.size()));
 }
 
 void BroadPhase::markChanged(std::int32_t proxy) {
@@ -161,23 +143,13 @@ bool BroadPhase::isHeap(const Proxy& a, const Proxy& b) const {
 
 // Of those that find too many the pairs are looked for once more, one after the other.
 void BroadPhase::findAllPairs() {
-  m_boxes.clear();
-  m_numbers.clear();
-  const GridBounds& origin = m_proxies[0].bounds;
-  const auto relative = [&](std::int64_t x, std::int64_t y) {
-    return Vec2{static_cast<double>(x - origin.lower_x), static_cast<double>(y - origin.lower_y)};
-  };
-  for (std::size_t i = 0; i < m_proxies.size(); ++i) {
-    const GridBounds& b = m_proxies[i].bounds;
-    m_proxies[i].heaped = 0;
-    if (m_proxies[i].is_removed) continue;
-    m_boxes.push_back({relative(b.lower_x, b.lower_y), relative(b.upper_x, b.upper_y)});
-    m_numbers.push_back(static_cast<int>(i));
-    if (m_proxies[i].changed) m_proxies[i].is_thinned = false;
+  fileAll();
+  for (Proxy& own : m_proxies) {
+    own.heaped = 0;
+    if (own.changed) own.is_thinned = false;
   }
-  m_all.update(m_boxes, m_numbers, static_cast<int>(m_proxies.size()));
   bool is_crowded = false;
-  m_all.queryPairs([&](int a, int b) {
+  m_tree.queryPairs([&](int a, int b) {
     const Proxy &one = m_proxies[index(a)], &other = m_proxies[index(b)];
     if (!(one.changed || other.changed) || !(one.moves || other.moves)) return;
     if (isHeap(one, other) && ++finderOf(a, b).heaped > kMaxHeaped) {
@@ -188,7 +160,6 @@ void BroadPhase::findAllPairs() {
                                         : BroadPhasePair{other.id, one.id, b, a});
   });
   if (!is_crowded) return;
-  updateTree();
   std::erase_if(m_found, [&](const BroadPhasePair& pair) {
     return finderOf(pair.proxy_a, pair.proxy_b).heaped > kMaxHeaped;
   });
@@ -203,9 +174,8 @@ void BroadPhase::findPairs(std::int32_t proxy) {
   m_heaped.clear();
   own.is_thinned = false;
   double farthest = std::numeric_limits<double>::infinity();  // of those that may be kept
-  m_tree.query(bounds, [&](std::uint32_t value) {
-    const auto other = static_cast<std::int32_t>(value);
-    const Proxy& that = m_proxies[value];
+  visitAll(bounds, [&](std::int32_t other) {
+    const Proxy& that = m_proxies[index(other)];
     if (other == proxy || (that.changed && isBefore(other, proxy)) || !(own.moves || that.moves)) return;
     const BroadPhasePair pair = own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
                                                  : BroadPhasePair{that.id, own.id, other, proxy};
@@ -251,10 +221,10 @@ void BroadPhase::sortFound() {
 std::span<const BroadPhasePair> BroadPhase::updatePairs() {
   if (m_changed.empty()) return m_pairs;
   m_found.clear();
-  if (areMany(m_changed.size())) {
+  if (m_changed.size() >= kMany && m_changed.size() * kManyShare >= m_count) {
     findAllPairs();
   } else {
-    updateTree();
+    if (isUntidy()) fileAll();
     for (const std::int32_t proxy : m_changed) {
       if (!m_proxies[index(proxy)].is_removed) findPairs(proxy);
     }
@@ -270,6 +240,7 @@ std::span<const BroadPhasePair> BroadPhase::updatePairs() {
   }
   m_spare.insert(m_spare.end(), m_found.begin() + static_cast<std::ptrdiff_t>(next), m_found.end());
   m_pairs.swap(m_spare);
+  std::erase_if(m_loose, [this](std::int32_t proxy) { return m_proxies[index(proxy)].is_removed; });
   for (const std::int32_t proxy : m_changed) {
     m_proxies[index(proxy)].changed = false;
     if (m_proxies[index(proxy)].is_removed) m_free.push_back(proxy);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/broadphase/BroadPhaseTree.h"
+#include "physics/broadphase/BroadPhaseBounds.h"
 #include "physics/broadphase/ImpactTree.h"
 
 namespace naiad::physics {
@@ -49,28 +49,21 @@ class BroadPhase {
   /// visit(id) for every body whose bounds overlap; in no particular order, but always the same one.
   template <class Visit>
   void query(const GridBounds& bounds, Visit&& visit) {
-    updateTree();
-    m_tree.query(bounds, [&](std::uint32_t proxy) { visit(m_proxies[proxy].id); });
+    if (isUntidy()) fileAll();
+    visitAll(bounds, [&](std::int32_t proxy) { visit(m_proxies[index(proxy)].id); });
   }
   /// Has it found so many in one place that some are left out of its pairs?
   bool isThinned(std::int32_t proxy) const { return m_proxies[index(proxy)].is_thinned; }
-
   /// The same of any proxy, since it was made.
   bool hasThinned() const { return m_has_thinned; }
-
-  const BroadPhaseTree& tree() {
-    updateTree();
-    return m_tree;
-  }
 
  private:
   struct Proxy {
     std::uint32_t id;
-    std::int32_t leaf;  // kNone: not in the tree
     bool moves;
     bool changed;  // it is in m_changed
     bool is_removed;
-    bool is_pending;  // its bounds are not those in the tree yet
+    bool is_filed;  // its bounds are within those in the tree; else it is in m_loose, or removed
     bool is_thinned;
     std::uint32_t heaped;  // pairs of a crowd that it has found, where all are looked for at once
     std::uint64_t order;
@@ -83,10 +76,23 @@ class BroadPhase {
     BroadPhasePair pair;
   };
   void markChanged(std::int32_t proxy);
-  void markPending(std::int32_t proxy);
-  void updateTree();
-  void rebuildTree();
-  bool areMany(std::size_t proxies) const;
+  SweptBox relative(const GridBounds& bounds) const;
+  void fileAll();
+  // Are so many not in the tree, or in it with bounds too wide, that another tree costs less?
+  bool isUntidy() const {
+    return m_loose.size() * m_loose.size() > kScannedPerBody * m_count || kWidenedShare * m_widened > m_count;
+  }
+  template <class Visit>
+  void visitAll(const GridBounds& bounds, Visit&& visit) const {
+    m_tree.query(relative(bounds), [&](int proxy) {
+      const Proxy& own = m_proxies[index(proxy)];
+      if (own.is_filed && overlap(own.bounds, bounds)) visit(proxy);
+    });
+    for (const std::int32_t proxy : m_loose) {
+      const Proxy& own = m_proxies[index(proxy)];
+      if (!own.is_removed && overlap(own.bounds, bounds)) visit(proxy);
+    }
+  }
   void findPairs(std::int32_t proxy);
   void findAllPairs();
   Proxy& finderOf(std::int32_t a, std::int32_t b);
@@ -95,21 +101,25 @@ class BroadPhase {
   void keepNearest();
   void sortFound();
 
+  // Refitting the tree takes about as long as comparing so many bounds, a body.
+  static constexpr std::size_t kScannedPerBody = 8;
+  // One of so many may have bounds in the tree that are too wide.
+  static constexpr std::size_t kWidenedShare = 4;
+
   bool m_thins_crowds;
   bool m_has_thinned = false;
-  BroadPhaseTree m_tree;
   std::vector<Proxy> m_proxies;
   std::vector<std::int32_t> m_free;
   std::vector<std::int32_t> m_changed;
-  std::vector<std::int32_t> m_pending;
-  std::size_t m_count = 0;                     // of bodies that are in it
-  std::vector<BroadPhaseTree::Leaf> m_leaves;  // of a tree that is built again
-  std::vector<std::int32_t> m_leaf_proxies, m_leaf_numbers;
+  std::size_t m_count = 0;  // of bodies that are in it
   std::vector<BroadPhasePair> m_pairs, m_found, m_spare;
   std::vector<Heaped> m_heaped;
-  ImpactTree m_all;  // of all bounds, where many are new: in grid units about the first of them
+  ImpactTree m_tree;      // of the bounds as they were when all were filed: by proxy, in grid units …
+  GridBounds m_origin{};  // … about these
   std::vector<SweptBox> m_boxes;
   std::vector<int> m_numbers;
+  std::vector<std::int32_t> m_loose;  // bodies that came, or went elsewhere, since then
+  std::size_t m_widened = 0;          // times that bounds in the tree were widened since then
 };
 
 }  // namespace naiad::physics

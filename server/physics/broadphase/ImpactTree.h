@@ -1,9 +1,7 @@
-// The broad phase of bodies that do not turn: a tree of boxes, each around what a body sweeps in a tick.
+// The one tree of boxes: around what bodies sweep in a tick, or around their widened bounds (BroadPhase.h).
 //
-// The problem is all pairs of swept boxes at once, and again whenever an impact gives a body another path:
-// the tree is built or refitted for a whole tick, and boxes only grow within it. BroadPhaseTree.h keeps its
-// pairs from tick to tick, which pays where widened bounds hardly change; where many of them do, BroadPhase.h
-// finds all pairs with a tree of this kind, too.
+// The problem is all pairs of boxes at once, and what overlaps a single one: the tree is built or refitted
+// for all of them, and then boxes only grow, as when an impact gives a body another path.
 //
 // The order in which a query finds bodies depends on the whole scene; no result may depend on it.
 #pragma once

@@ -1,7 +1,6 @@
 #include "physics/flight/FlightDrag.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -13,26 +12,6 @@ namespace naiad::physics {
 namespace math = df::math;
 
 namespace {
-
-constexpr int kTerms = 15;  // of the series below for |z| <= 0.5: the next is below rounding
-
-// 1 / 2!, 1 / 3! …
-constexpr std::array<double, kTerms> kCoefficients = [] {
-  std::array<double, kTerms> coefficients{};
-  double factorial = 1;
-  for (int i = 0; i < kTerms; ++i) {
-    factorial *= i + 2;
-    coefficients[i] = 1 / factorial;
-  }
-  return coefficients;
-}();
-
-// (e^z − 1 − z) / z² for −0.5 < z <= 0.
-double secondRemainder(double z) {
-  double sum = 0;
-  for (int i = kTerms - 1; i >= 0; --i) sum = sum * z + kCoefficients[i];
-  return sum;
-}
 
 // sin(x)/x or sinh(x)/x near 0, where the quotient would be 0/0.
 double quotient(double value, double x) {
@@ -57,19 +36,6 @@ FlownOnLine fall(double v, double a, double q, double t) {
 }
 
 }  // namespace
-
-LinearDragFlow::LinearDragFlow(double drag, double t) {
-  assert(drag >= 0 && t >= 0);
-  const double z = -drag * t;
-  m_velocity_response = math::exp(z);
-  if (z > -0.5) {
-    m_integral_response = t * t * secondRemainder(z);
-    m_displacement_response = t - drag * m_integral_response;
-  } else {
-    m_displacement_response = -math::expm1(z) / drag;
-    m_integral_response = (t - m_displacement_response) / drag;
-  }
-}
 
 FlownOnLine flyQuadraticDragOnLine(double velocity, double acceleration, double drag, double t) {
   assert(drag >= 0 && t >= 0);

@@ -1,33 +1,11 @@
-// Flight through a medium: drag that grows with the velocity (linear) or with its square (quadratic).
+// Flight through a medium whose drag grows with the square of the velocity. (One whose drag grows with the
+// velocity is a spring without stiffness: FlightSpring.h.)
 #pragma once
 
 #include "physics/flight/FlightFree.h"
 #include "physics/numerics/Integrator.h"
 
 namespace naiad::physics {
-
-/// The flow of v' = a − c·v over a time t: exact for every c >= 0 and t >= 0, from no drag at all to one that
-/// stops the body at once. Making one costs an exponential; using it, a few nanoseconds. Bodies with the same
-/// drag share it.
-class LinearDragFlow {
- public:
-  /// `drag` is c: force over velocity and mass, per unit of time.
-  LinearDragFlow(double drag, double t);
-
-  Flown operator()(Vec2 velocity, Vec2 acceleration) const {
-    return {m_displacement_response * velocity + m_integral_response * acceleration,
-            m_velocity_response * velocity + m_displacement_response * acceleration};
-  }
-
- private:
-  double m_velocity_response;      // e^−ct
-  double m_displacement_response;  // its integral
-  double m_integral_response;      // the integral of that
-};
-
-inline Flown flyLinearDrag(Vec2 velocity, Vec2 acceleration, double drag, double t) {
-  return LinearDragFlow(drag, t)(velocity, acceleration);
-}
 
 /// v' = a − q·|v|·v along one line, in closed form: tanh, tan, or 1/(1 + qvt), whichever fits. `drag` is q >=
 /// 0, per cell; its limit velocity is √(a/q).

@@ -27,6 +27,7 @@ SpringFlow::SpringFlow(Spring spring, double t) : m_stiffness(spring.stiffness) 
 namespace {
 
 constexpr int kShortTerms = 24;  // of the series for short steps: the next is below rounding
+constexpr int kDragTerms = 20;   // likewise, without stiffness
 
 constexpr std::array<double, kShortTerms + 2> kInverse = [] {
   std::array<double, kShortTerms + 2> inverse{};
@@ -41,7 +42,13 @@ void SpringFlow::series(double damping, double t) {
   const double z = damping * t, w = m_stiffness * t * t;
   double before = 0, term = 1;  // of the displacement, over t: the powers n − 1 and n
   double left = 1, displacement = 1, integral = 0.5;
-  for (int n = 1; n < kShortTerms; ++n) {
+  if (w == 0) {  // drag alone: the powers of z, nested
+    for (int n = kDragTerms; n > 2; --n) term = 1 - z * kInverse[static_cast<std::size_t>(n)] * term;
+    integral *= term;
+    displacement = 1 - z * integral;
+    left = 1 - z * displacement;
+  }
+  for (int n = 1; n < kShortTerms && w != 0; ++n) {
     const double next = -(z * term + w * kInverse[n] * before) * kInverse[n + 1];
     before = term;
     term = next;
@@ -58,7 +65,7 @@ void SpringFlow::series(double damping, double t) {
 // Two decays. The slow rate comes from the product of both, not from a difference.
 void SpringFlow::overdamped(double damping, double t) {
   const double half = 0.5 * damping, root = std::sqrt(m_stiffness);
-  const double split = std::sqrt((half - root) * (half + root));
+  const double split = root > 0 ? std::sqrt((half - root) * (half + root)) : half;  // drag alone
   const double fast = half + split, slow = m_stiffness / fast;
   const double decay_slow = math::exp(-slow * t), decay_fast = math::exp(-fast * t);
   const double width = 2 * split;

@@ -2,7 +2,8 @@
 //
 // x″ = a − k·x − c·x′, x from the spring's fixed point: solved by the exponential of its 2×2 matrix in each
 // of its three cases, so the stiffness sets no limit to the step. Error per step: a few units in the last
-// place of the amplitude, and of the phase ω·t (which is carried with 106 bits).
+// place of the amplitude, and of the phase ω·t (which is carried with 106 bits). Without stiffness it is
+// linear drag alone, exact for every c >= 0 and t >= 0.
 #pragma once
 
 #include "physics/flight/FlightFree.h"

@@ -63,7 +63,7 @@ class DefaultBodies : public Simulation {
     PM.setAccuracy(accuracy);
     PM.setSleeping(scene.may_sleep);
     if (scene.field) m_field = std::make_unique<SceneField>(scene.field, m_tick);
-    m_p_layer = &df::BodyLayer::of(m_world);
+    m_p_layer = &naiad::physics::BodyLayer::of(m_world);
     chooseObstacles(scene);
     for (const Body& body : scene.bodies) add(body);
     for (const Joint& joint : scene.joints) add(joint);
@@ -98,7 +98,7 @@ class DefaultBodies : public Simulation {
                          [](const auto& p_body) { return p_body != nullptr && p_body->isFrozen(); });
   }
   std::optional<Work> work() const override {
-    const df::BodyLayer& layer = *m_p_layer;
+    const naiad::physics::BodyLayer& layer = *m_p_layer;
     const auto contacts = layer.rigidCounters().contacts + layer.substepCounters().contacts +
                           layer.heapCounters().contacts + layer.sensorPairs();
     const auto impacts = layer.impactCounters().impacts + layer.rigidCounters().impacts;
@@ -194,7 +194,7 @@ class DefaultBodies : public Simulation {
   }
 
   df::World m_world;
-  const df::BodyLayer* m_p_layer = nullptr;
+  const naiad::physics::BodyLayer* m_p_layer = nullptr;
   Vec m_origin;
   double m_tick;
   bool m_is_hearing;

@@ -178,7 +178,7 @@ TEST_F(BodyDegenerate, FourThatMeetInAPointAreNotFrozen) {
     four.push_back(p_body);
   }
   ticks(60);
-  EXPECT_LT(BodyLayer::of(world).impactCounters().impacts, 100);
+  EXPECT_LT(naiad::physics::BodyLayer::of(world).impactCounters().impacts, 100);
   EXPECT_EQ(PM.getQuarantineCount(), 0u);
   Vector momentum;
   double squares = 0;

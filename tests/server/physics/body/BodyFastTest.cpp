@@ -16,9 +16,11 @@ class BodyFast : public BodyScene {
     EXPECT_EQ(PM.setAccuracy(ACCURACY_FAST), 0);
   }
   const naiad::physics::SubstepCounters& substeps() {
-    return world.findLayer<BodyLayer>()->substepCounters();
+    return world.findLayer<naiad::physics::BodyLayer>()->substepCounters();
   }
-  const naiad::physics::RigidCounters& rigid() { return world.findLayer<BodyLayer>()->rigidCounters(); }
+  const naiad::physics::RigidCounters& rigid() {
+    return world.findLayer<naiad::physics::BodyLayer>()->rigidCounters();
+  }
 
   static int begins(const Listener* p_listener) {
     int count = 0;

@@ -9,8 +9,12 @@ namespace {
 
 class BodyRigids : public BodyScene {
  protected:
-  const naiad::physics::RigidCounters& rigid() { return world.findLayer<BodyLayer>()->rigidCounters(); }
-  const naiad::physics::ImpactCounters& impacts() { return world.findLayer<BodyLayer>()->impactCounters(); }
+  const naiad::physics::RigidCounters& rigid() {
+    return world.findLayer<naiad::physics::BodyLayer>()->rigidCounters();
+  }
+  const naiad::physics::ImpactCounters& impacts() {
+    return world.findLayer<naiad::physics::BodyLayer>()->impactCounters();
+  }
   /// A slope through the origin that falls to the right.
   static Body* slope(double angle) {
     auto* p_slope = new Body;

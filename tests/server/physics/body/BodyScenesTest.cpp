@@ -18,9 +18,11 @@ constexpr double kFall = 10;  // per second²
 
 class BodyScenes : public BodyScene {
  protected:
-  const naiad::physics::ImpactCounters& impacts() { return world.findLayer<BodyLayer>()->impactCounters(); }
+  const naiad::physics::ImpactCounters& impacts() {
+    return world.findLayer<naiad::physics::BodyLayer>()->impactCounters();
+  }
   const naiad::physics::SubstepCounters& substeps() {
-    return world.findLayer<BodyLayer>()->substepCounters();
+    return world.findLayer<naiad::physics::BodyLayer>()->substepCounters();
   }
 
   Body* put(Body* p_body) {

@@ -126,7 +126,7 @@ TEST_F(BodySensorScene, ManyInOnePlaceHearEachBeginAndEndOnce) {
 TEST_F(BodySensorScene, FarFromOneAnotherAskForFewPairs) {
   for (int i = 0; i < 1024; ++i) ball(Vector(3 * (i % 32), 3 * (i / 32)), Vector(3, 0))->setSolidness(SOFT);
   ticks(3);
-  EXPECT_LE(BodyLayer::of(world).sensorPairs(), 3 * 2 * 1024);
+  EXPECT_LE(naiad::physics::BodyLayer::of(world).sensorPairs(), 3 * 2 * 1024);
 }
 
 }  // namespace

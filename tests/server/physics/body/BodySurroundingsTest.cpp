@@ -10,6 +10,7 @@
 namespace df::test {
 namespace {
 
+using naiad::physics::BodySurroundings;
 using BodySurrounding = BodyScene;
 
 struct Answer {

@@ -44,7 +44,7 @@ void expectNear(Vector a, Vector b, double tolerance) {
 TEST_F(Bodies, AWorldWithoutThemHasNoLayer) {
   new Object;
   ticks(3);
-  EXPECT_EQ(world.findLayer<BodyLayer>(), nullptr);
+  EXPECT_EQ(world.findLayer<naiad::physics::BodyLayer>(), nullptr);
 }
 
 // Problem 1 of the laboratory, through the public interface.

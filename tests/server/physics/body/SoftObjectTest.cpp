@@ -66,7 +66,7 @@ double lowest(const SoftBody& body) {
 TEST_F(SoftObjects, AWorldWithoutThemHasNoLayer) {
   new Body;
   ticks(3);
-  EXPECT_EQ(world.findLayer<SoftLayer>(), nullptr);
+  EXPECT_EQ(world.findLayer<naiad::physics::SoftLayer>(), nullptr);
 }
 
 TEST_F(SoftObjects, ABlobFallsLikeABody) {
@@ -432,7 +432,7 @@ TEST_F(SoftObjects, TheFirstOneMayComeFromAHandlerOfABody) {
   auto* p_body = new Spawner;
   p_body->setPosition(Vector(20, 15));
   ticks(100);
-  EXPECT_NE(world.findLayer<SoftLayer>(), nullptr);
+  EXPECT_NE(world.findLayer<naiad::physics::SoftLayer>(), nullptr);
   EXPECT_GT(WM.objectsOfType("Blob").getCount(), 0);
 }
 

@@ -102,7 +102,6 @@ TEST(BroadPhase, FindsThePairsThatAllAgainstAllFindInOrder) {
     step(broad, bodies);
     const std::span<const BroadPhasePair> pairs = broad.updatePairs();
     ASSERT_EQ(idsOf(pairs), slowPairs(broad, bodies)) << tick;
-    ASSERT_TRUE(broad.tree().isSound());
     most = std::max(most, pairs.size());
     for (const BroadPhasePair& pair : pairs) {
       // The proxies belong to the ids.
@@ -183,19 +182,16 @@ TEST(BroadPhase, WhatLiesStillCostsNothingAndNothingAllocatesOnceWarm) {
   EXPECT_EQ(naiad::test::allocationsSoFar(), before);
 }
 
-TEST(BroadPhase, TheTreeStaysLowHoweverBodiesCome) {
-  // In a row, left to right; then all in one place.
+// In a row, left to right; then all in one place.
+TEST(BroadPhase, FindsThePairsOfRowsAndHeaps) {
   BroadPhase broad;
   const Bounds unit = {{-0.5, -0.5}, {0.5, 0.5}};
   for (std::uint32_t i = 0; i < 10000; ++i)
     broad.add(i, gridBounds({2 * std::int64_t{i}, 0, 0, 0}, unit, 0.1), true);
-  EXPECT_LE(broad.tree().height(), 60);
   EXPECT_EQ(broad.updatePairs().size(), 0U);
-  std::printf("tree: height %d for a row of 10,000\n", broad.tree().height());
   BroadPhase heap;
   for (std::uint32_t i = 0; i < 500; ++i) heap.add(i, gridBounds({}, unit, 0.1), true);
   EXPECT_EQ(heap.updatePairs().size(), 500U * 499 / 2);
-  std::printf("tree: height %d for 500 in one place\n", heap.tree().height());
 }
 
 // Of 300 in one place, by the order of the bodies: whatever ids they have, and whenever these were given.

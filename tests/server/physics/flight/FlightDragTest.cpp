@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "physics/flight/FlightDrag.h"
+#include "physics/flight/FlightSpring.h"
 #include "physics/geometry/Place.h"
 #include "tests/server/physics/QuadReference.h"
 
@@ -26,7 +27,7 @@ TEST(LinearDrag, IsExactFromNoDragToDragThatStopsAtOnce) {
   double worst = 0;
   for (const double t : {1.0, 1.0 / 30, 2.0, 1e4}) {
     for (double c = 1e-300; c < 1e300; c *= 3.7) {
-      const Flown flown = flyLinearDrag({10, 0}, {0, -7}, c, t);
+      const Flown flown = flySpring({}, {10, 0}, {0, -7}, {0, c}, t);
       const Quad left = expq(-q(c) * q(t)), displacement = -expm1q(-q(c) * q(t)) / q(c);
       const auto relative = [&](double value, Quad truth) {
         if (fabsq(truth) < q(1e-300)) return std::fabs(value) < 1e-290 ? 0.0 : 1.0;
@@ -41,7 +42,7 @@ TEST(LinearDrag, IsExactFromNoDragToDragThatStopsAtOnce) {
       }
     }
   }
-  const Flown none = flyLinearDrag({3, 4}, {0, 2}, 0, 5);
+  const Flown none = flySpring({}, {3, 4}, {0, 2}, {0, 0}, 5);
   EXPECT_EQ(none.displacement, (Vec2{15, 45}));
   EXPECT_EQ(none.velocity, (Vec2{3, 14}));
   std::printf("linear drag: largest relative error %.2g\n", worst);
@@ -49,11 +50,10 @@ TEST(LinearDrag, IsExactFromNoDragToDragThatStopsAtOnce) {
 
 TEST(LinearDrag, EndsWhereTheFormulaSaysInManySteps) {
   for (const int steps : {1, 60, 3840}) {
-    const LinearDragFlow flow(2, 2.0 / steps);
     Place place{};
     Vec2 velocity = {10, 0};
     for (int i = 0; i < steps; ++i) {
-      const Flown flown = flow(velocity, {});
+      const Flown flown = flySpring({}, velocity, {}, {0, 2}, 2.0 / steps);
       place = place + flown.displacement;
       velocity = flown.velocity;
     }

@@ -60,13 +60,13 @@ TEST(Place, FlightIsTheSameAtABillionCells) {
     Vec2 v_free = {1e-7, 0.003}, v_sprung = v_free, v_dragged = {0.7, -0.2};
     const Vec2 gravity = {0, 0.01};
     const SpringFlow spring({0.05, 0.01}, 1);
-    const LinearDragFlow drag(0.02, 1);
+    const SpringFlow drag({0, 0.02}, 1);
     for (int i = 0; i < 1000; ++i) {
       Flown f = flyFree(v_free, gravity, 1);
       free = free + f.displacement, v_free = f.velocity;
       f = spring(sprung - anchor, v_sprung, gravity);
       sprung = sprung + f.displacement, v_sprung = f.velocity;
-      f = drag(v_dragged, gravity);
+      f = drag({}, v_dragged, gravity);
       dragged = dragged + f.displacement, v_dragged = f.velocity;
     }
     const auto relative = [&](Place p) { return Place{p.cell_x - far, p.cell_y + far, p.dx, p.dy}; };
