@@ -19,8 +19,12 @@ class BodyHeap : public BodyScene {
     PM.setGravity(perSecondSquared(Vector(0, kFall)));
     wall(Vector(0, 0.5), Vector(100, 0.5));
   }
-  const naiad::physics::RigidCounters& rigid() { return world.findLayer<BodyLayer>()->rigidCounters(); }
-  const naiad::physics::SubstepCounters& heaps() { return world.findLayer<BodyLayer>()->heapCounters(); }
+  const naiad::physics::RigidCounters& rigid() {
+    return world.findLayer<naiad::physics::BodyLayer>()->rigidCounters();
+  }
+  const naiad::physics::SubstepCounters& heaps() {
+    return world.findLayer<naiad::physics::BodyLayer>()->heapCounters();
+  }
   Listener* put(Vector where) {
     auto* p_crate = crate<Listener>(where);
     p_crate->setTurning();
