@@ -92,6 +92,11 @@ void JointConstraints::evaluate(const JointMotion& motion) {
       evaluateRod<kJacobian>(link.row[0], link, frame.offset);
       continue;
     }
+    if (!kJacobian && link.kind == JointKind::kHinge) {
+      value[at(link.row[0])] = frame.offset.x;
+      value[at(link.row[1])] = frame.offset.y;
+      continue;
+    }
     const Joint& joint = joints[link.index];
     if (link.holds_angle) {
       const Rotation& of_a = motion.rotation[at(link.a)];
