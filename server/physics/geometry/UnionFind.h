@@ -15,8 +15,15 @@ class UnionFind {
  public:
   /// So many numbers, each alone.
   void reset(std::size_t count) {
+    m_parent.clear();
+    extend(count);
+  }
+  /// So many in all; the new ones alone.
+  void extend(std::size_t count) {
+    const std::size_t before = m_parent.size();
     m_parent.resize(count);
-    std::iota(m_parent.begin(), m_parent.end(), 0);
+    std::iota(m_parent.begin() + static_cast<std::ptrdiff_t>(before), m_parent.end(),
+              static_cast<int>(before));
   }
   int rootOf(int i) {
     while (m_parent[at(i)] != i) i = m_parent[at(i)] = m_parent[at(m_parent[at(i)])];

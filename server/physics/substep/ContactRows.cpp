@@ -65,15 +65,14 @@ void scatter(std::span<SubstepState> states, const std::array<std::int32_t, kLan
 
 }  // namespace
 
-void ContactRows::clear(std::size_t rows, float h) {
-  constexpr std::size_t kOpen = 32;  // blocks that are not full
+void ContactRows::clear(std::size_t blocks, float h) {
   const auto both = [h](float turns, float damping) {
     return std::array{softnessOf(turns, damping, h), softnessOf(2 * turns, damping, h)};
   };
   m_softness = both(kFastestTurns, kContactDamping);
   m_lasting_softness = both(kLastingTurns, kLastingDamping);
   m_blocks.clear();
-  reserveFor(m_blocks, rows / kLanes + kOpen);
+  reserveFor(m_blocks, blocks);
 }
 
 void ContactRows::beginBlock() {
@@ -146,9 +145,9 @@ void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most, Lanes most_tren
 }
 
 // A trend is what both ends of the last sub-step had: a blow has none.
-void ContactRows::warmStart(std::span<SubstepState> states) {
+void ContactRows::warmStart(std::span<SubstepState> states, Range range) {
   const Lanes unlimited = lanesOf(std::numeric_limits<float>::max());
-  for (Block& k : m_blocks) {
+  for (Block& k : within(range)) {
     Body a = gather(states, k.a), b = gather(states, k.b);
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
@@ -181,9 +180,9 @@ void ContactRows::updateGaps(Block& k, std::span<const SubstepState> states, flo
 }
 
 template <bool kIsSoft>
-void ContactRows::solveRows(std::span<SubstepState> states, float h, float time) {
+void ContactRows::solveRows(std::span<SubstepState> states, Range range, float h, float time) {
   const Lanes zero = {}, one = lanesOf(1), inverse_h = lanesOf(1 / h);
-  for (Block& k : m_blocks) {
+  for (Block& k : within(range)) {
     Body a = gather(states, k.a), b = gather(states, k.b);
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
@@ -235,8 +234,8 @@ void ContactRows::solveRows(std::span<SubstepState> states, float h, float time)
   }
 }
 
-template void ContactRows::solveRows<true>(std::span<SubstepState>, float, float);
-template void ContactRows::solveRows<false>(std::span<SubstepState>, float, float);
+template void ContactRows::solveRows<true>(std::span<SubstepState>, Range, float, float);
+template void ContactRows::solveRows<false>(std::span<SubstepState>, Range, float, float);
 
 void ContactRows::bounce(std::span<SubstepState> states) {
   const Lanes zero = {};

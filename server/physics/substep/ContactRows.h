@@ -48,17 +48,22 @@ struct ContactImpulse {
 
 class ContactRows {
  public:
-  /// `rows`: as many will be added, for sub-steps over `h`.
-  void clear(std::size_t rows, float h);
+  /// Of the order in which blocks were begun.
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+
+  /// For sub-steps over `h`; memory for so many blocks is taken once.
+  void clear(std::size_t blocks, float h);
   /// Rows of one block have no movable body in common: at most kLanes of them, then a new block must begin.
   void beginBlock();
   /// Returns where its impulses are read from.
   std::int32_t add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory);
 
-  void warmStart(std::span<SubstepState> states);
+  void warmStart(std::span<SubstepState> states, Range range);
   /// `time`: since the step began. Softly before bodies move, then, where they are, without softness.
-  void solve(std::span<SubstepState> states, float h, float time, bool is_soft) {
-    is_soft ? solveRows<true>(states, h, time) : solveRows<false>(states, h, time);
+  void solve(std::span<SubstepState> states, Range range, float h, float time, bool is_soft) {
+    is_soft ? solveRows<true>(states, range, h, time) : solveRows<false>(states, range, h, time);
   }
   /// What came fast enough leaves as its restitution says. After the last sub-step.
   void bounce(std::span<SubstepState> states);
@@ -67,7 +72,7 @@ class ContactRows {
 
  private:
   template <bool kIsSoft>
-  void solveRows(std::span<SubstepState> states, float h, float time);
+  void solveRows(std::span<SubstepState> states, Range range, float h, float time);
 
   struct Impulse {
     Lanes now = {};
@@ -99,6 +104,9 @@ class ContactRows {
     bool bounces = false;            // any of them
     std::array<Point, 2> point;
   };
+  std::span<Block> within(Range range) {
+    return std::span(m_blocks).subspan(range.begin, range.end - range.begin);
+  }
   static void updateGaps(Block& block, std::span<const SubstepState> states, float time);
   std::vector<Block> m_blocks;
   std::array<Softness, 2> m_softness, m_lasting_softness;  // the second one: held

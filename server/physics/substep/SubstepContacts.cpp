@@ -1,7 +1,7 @@
-// A SubstepWorld's contacts: kept from step to step, coloured and put into rows within one.
+// A SubstepWorld's contacts, kept from step to step: which are looked at, and what they are now.
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -13,23 +13,11 @@ namespace naiad::physics {
 
 namespace {
 
-// Bodies of one colour's contacts are all different, so these are solved for side by side. Contacts with what
-// cannot move have colours of their own, and come last: they hold the others.
-constexpr std::int32_t kColours = 64;
-constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 // In thicknesses of the thinner body.
-constexpr double kMaxPush = 0.2;      // per tick: the greatest speed at which overlap is undone
-constexpr double kFast = 4;           // per tick: what comes so fast is stopped at once
 constexpr double kSlowMargin = 0.12;  // what moves by less throws nothing off its path
 constexpr double kLinger = 0.01;      // a larger gap ends a contact
-constexpr double kCalm = 0.05;        // per tick: what moves by less against each other may lie for long …
-constexpr double kCalmDepth = 0.1;    // … if it overlaps by less
+constexpr double kCalmDepth = 0.1;    // what moves slowly and overlaps by less may lie for long
 constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
-constexpr std::size_t kFetched = 8;     // contacts ahead
-constexpr std::size_t kCacheLine = 64;  // bytes
-constexpr std::size_t kFetchedOfBody = 5 * kCacheLine;
-// In what acceleration adds to a speed in a tick: slower impacts do not bounce.
-constexpr float kRest = 2;
 constexpr double kPushedAgain = 0.5;   // of what pushed a body in the last step: it may again
 constexpr double kEverywhere = 1e300;  // metric cells
 constexpr double kLarge = 4;           // times the size of another body
@@ -41,13 +29,6 @@ constexpr int kMaxSweeps = 32;
 double speedBetween(const SubstepBody& a, const SubstepBody& b) {
   return length(b.body.velocity - a.body.velocity) + std::fabs(a.body.spin) * a.reach +
          std::fabs(b.body.spin) * b.reach;
-}
-
-// Did it push in the last step, and does it only carry what lies still? What a blow drives deep into
-// something is to come out fast. All springs of a body are of one kind: what lies on it would press it into
-// the floor if the floor's were the weaker one.
-bool isLasting(const std::array<KnownImpulse, 2>& normal, const SubstepBody& a, const SubstepBody& b) {
-  return normal[0].kept + normal[1].kept > 0 && !a.is_shaken && !b.is_shaken;
 }
 
 // They are at least so far apart.
@@ -265,22 +246,46 @@ void SubstepWorld::choosePairs() {
   m_stirs.assign(m_states.size(), 0);
   m_sets.reset(m_states.size());
   for (Pair& pair : m_pairs) pair.is_examined = !pair.is_jointed && mayMeet(pair);
-  m_joints.visitWorking([&](int a, int b) {
-    if (a >= 0) stir(m_bodies[at(a)], kEverywhere);
-    stir(m_bodies[at(b)], kEverywhere);
-  });
   passStirsOn();
-  for (std::size_t i = 1; i < m_stirs.size(); ++i)
-    m_stirs[i] = m_stirs[at(m_sets.rootOf(static_cast<int>(i)))];
-  for (const Calm& calm : m_calm) {
-    Pair& pair = m_pairs[at(calm.pair)];
-    const double by = m_stirs[at(m_bodies[at(pair.a)].state)] + m_stirs[at(m_bodies[at(pair.b)].state)];
-    pair.is_examined = calm.nearer + by >= 0;
+  for (const Calm& calm : m_calm) m_pairs[at(calm.pair)].is_examined = isReached(calm);
+}
+
+// The same again where bodies have woken, which have states from this one on: only their pairs, and those
+// that the stirs reach now.
+void SubstepWorld::choosePairsOfWoken(std::size_t first_state) {
+  const auto isOfWoken = [&](const Calm& calm) {
+    const Pair& pair = m_pairs[at(calm.pair)];
+    return at(std::max(m_bodies[at(pair.a)].state, m_bodies[at(pair.b)].state)) >= first_state;
+  };
+  std::erase_if(m_calm, isOfWoken);
+  m_stirs.resize(m_states.size(), 0);
+  m_sets.extend(m_states.size());
+  for (const std::int32_t i : m_woken_pairs) {
+    Pair& pair = m_pairs[at(i)];
+    pair.is_examined = !pair.is_jointed && mayMeet(pair);
   }
+  passStirsOn();
+  for (const Calm& calm : m_calm) {
+    bool& is_examined = m_pairs[at(calm.pair)].is_examined;
+    if (is_examined || !isReached(calm)) continue;
+    is_examined = true;
+    m_woken_pairs.push_back(calm.pair);
+  }
+  std::sort(m_woken_pairs.begin(), m_woken_pairs.end());
+}
+
+bool SubstepWorld::isReached(const Calm& calm) const {
+  const Pair& pair = m_pairs[at(calm.pair)];
+  return calm.nearer + (m_stirs[at(m_bodies[at(pair.a)].state)] + m_stirs[at(m_bodies[at(pair.b)].state)]) >=
+         0;
 }
 
 // There and back: along a row the pairs stand in the order of its bodies, or in that order reversed.
 void SubstepWorld::passStirsOn() {
+  m_joints.visitWorking([&](int a, int b) {
+    if (a >= 0) stir(m_bodies[at(a)], kEverywhere);
+    stir(m_bodies[at(b)], kEverywhere);
+  });
   const auto pass = [this](const Calm& calm) {
     const Pair& pair = m_pairs[at(calm.pair)];
     const SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
@@ -297,6 +302,8 @@ void SubstepWorld::passStirsOn() {
       std::for_each(m_calm.rbegin(), m_calm.rend(), pass);
     }
   }
+  for (std::size_t i = 1; i < m_stirs.size(); ++i)
+    m_stirs[i] = m_stirs[at(m_sets.rootOf(static_cast<int>(i)))];
 }
 
 void SubstepWorld::updatePair(std::int32_t index) {
@@ -376,34 +383,58 @@ bool SubstepWorld::wakeTouched(std::size_t first_contact) {
     }
   }
   for (std::size_t i = before; i < m_active.size(); ++i) begin(m_active[i]);
-  if (m_active.size() == before) return false;
-  std::sort(m_active.begin(), m_active.end(),
-            [&](int x, int y) { return m_bodies[at(x)].order < m_bodies[at(y)].order; });
-  return true;
+  return m_active.size() > before;
+}
+
+// The pairs of these bodies, each once.
+void SubstepWorld::listPairsOf(std::span<const std::int32_t> bodies) {
+  if (m_pair_ends.empty()) {
+    m_pair_ends.assign(m_bodies.size() + 1, 0);
+    for (const Pair& pair : m_pairs) ++m_pair_ends[at(pair.a)], ++m_pair_ends[at(pair.b)];
+    std::partial_sum(m_pair_ends.begin(), m_pair_ends.end(), m_pair_ends.begin());
+    m_pair_numbers.resize(2 * m_pairs.size());
+    for (std::int32_t i = static_cast<std::int32_t>(m_pairs.size()); i-- > 0;) {
+      for (const std::int32_t id : {m_pairs[at(i)].a, m_pairs[at(i)].b})
+        m_pair_numbers[at(--m_pair_ends[at(id)])] = i;
+    }
+  }
+  m_woken_pairs.clear();
+  for (const std::int32_t id : bodies) {
+    const auto numbers = m_pair_numbers.begin();
+    m_woken_pairs.insert(m_woken_pairs.end(), numbers + m_pair_ends[at(id)],
+                         numbers + m_pair_ends[at(id + 1)]);
+  }
+  std::sort(m_woken_pairs.begin(), m_woken_pairs.end());
+  m_woken_pairs.erase(std::unique(m_woken_pairs.begin(), m_woken_pairs.end()), m_woken_pairs.end());
 }
 
 // A pair of which one body wakes the other may give work to further pairs.
 void SubstepWorld::updateContacts() {
   m_contacts.clear();
   m_deepest = 0;
-  const auto pairs = static_cast<std::int32_t>(m_pairs.size());
   reserveFor(m_contacts, m_pairs.size());
   reserveFor(m_memory, m_pairs.size());
-  bool is_sorted = !m_is_shuffled;
+  m_pair_ends.clear();
+  const std::size_t awake = m_active.size();
+  choosePairs();
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(m_pairs.size()); ++i) updatePair(i);
   for (std::size_t first = 0;;) {
-    choosePairs();
-    for (std::int32_t i = 0; i < pairs; ++i) updatePair(i);
+    const std::size_t active = m_active.size(), states = m_states.size();
     if (!wakeTouched(first)) break;
     first = m_contacts.size();
-    is_sorted = false;
+    listPairsOf(std::span(m_active).subspan(active));
+    choosePairsOfWoken(states);
+    for (const std::int32_t i : m_woken_pairs) updatePair(i);
   }
+  const bool have_woken = m_active.size() > awake;
+  if (have_woken) sortActive();
   for (const std::int32_t id : m_changed) {
     m_bodies[at(id)].is_changed = false;
     if (!m_bodies[at(id)].exists) m_free.push_back(id);
   }
   m_changed.clear();
   m_counters.contacts += static_cast<std::int64_t>(m_contacts.size());
-  sequence(is_sorted);
+  sequence(!m_is_shuffled && !have_woken);
 }
 
 // By the order of the bodies, which may not be that of their ids.
@@ -419,112 +450,6 @@ void SubstepWorld::sequence(bool is_sorted) {
   std::sort(m_sequence.begin(), m_sequence.end(), [](const Turn& x, const Turn& y) {
     return std::tie(x.order_a, x.order_b, x.contact) < std::tie(y.order_a, y.order_b, y.contact);
   });
-}
-
-void SubstepWorld::chooseColours() {
-  std::array<std::int32_t, kUncoloured + 1> counts = {};
-  for (const Turn& turn : m_sequence) {
-    Contact& contact = m_contacts[at(turn.contact)];
-    SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
-    const bool moves_a = isMovable(a), moves_b = isMovable(b);
-    if (moves_a && moves_b) {
-      contact.colour = std::countr_one(a.colours | b.colours);
-      const std::uint64_t bit = contact.colour < kColours ? std::uint64_t{1} << contact.colour : 0;
-      a.colours |= bit;
-      b.colours |= bit;
-    } else {
-      SubstepBody& mover = moves_a ? a : b;
-      contact.colour = std::countr_one(mover.held_colours);
-      mover.held_colours |= contact.colour < kColours ? std::uint64_t{1} << contact.colour : 0;
-      contact.colour += contact.colour < kColours ? kColours : 0;
-    }
-    const bool is_coloured =
-        contact.colour < kColours || (!(moves_a && moves_b) && contact.colour < kUncoloured);
-    if (!is_coloured) contact.colour = kUncoloured;
-    ++counts[at(contact.colour)];
-  }
-  std::int32_t start = 0;
-  for (std::int32_t& count : counts) start += std::exchange(count, start);
-  m_by_colour.resize(m_contacts.size());
-  for (const Turn& turn : m_sequence) {
-    m_by_colour[at(counts[at(m_contacts[at(turn.contact)].colour)]++)] = turn.contact;
-  }
-}
-
-// Contacts of a colour lie all over the memory: what they are made of is on its way while others are filled
-// in.
-void SubstepWorld::fetch(const Contact& contact) const {
-  const auto fetchAll = [](const auto& object) {
-    for (std::size_t i = 0; i < sizeof object; i += kCacheLine) {
-      __builtin_prefetch(reinterpret_cast<const char*>(&object) + i);
-    }
-  };
-  fetchAll(m_memory[at(contact.memory)].manifold);
-  for (const std::int32_t id : {contact.a, contact.b}) {
-    const auto* p_body = reinterpret_cast<const char*>(&m_bodies[at(id)]);
-    for (std::size_t i = 0; i < kFetchedOfBody; i += kCacheLine) __builtin_prefetch(p_body + i);
-  }
-}
-
-void SubstepWorld::fillRows() {
-  m_rows.clear(m_by_colour.size(), m_h);
-  std::int32_t colour = -1;
-  std::size_t in_block = 0;
-  for (std::size_t turn = 0; turn < m_by_colour.size(); ++turn) {
-    if (turn + kFetched < m_by_colour.size()) fetch(m_contacts[at(m_by_colour[turn + kFetched])]);
-    Contact& contact = m_contacts[at(m_by_colour[turn])];
-    if (contact.colour != colour || in_block == kLanes || colour == kUncoloured) {
-      m_rows.beginBlock();
-      in_block = 0;
-      colour = contact.colour;
-    }
-    ++in_block;
-    const SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
-    ContactRow row;
-    row.a = a.state, row.b = b.state;
-    row.inverse_mass_a = a.inverse_mass;
-    row.inverse_mass_b = b.inverse_mass;
-    row.inverse_inertia_a = a.inverse_inertia;
-    row.inverse_inertia_b = b.inverse_inertia;
-    row.velocity = b.body.velocity - a.body.velocity;
-    row.spin_a = static_cast<float>(a.body.spin), row.spin_b = static_cast<float>(b.body.spin);
-    row.friction = static_cast<float>(std::sqrt(a.body.friction * b.body.friction));
-    row.restitution = static_cast<float>(std::max(a.body.restitution, b.body.restitution));
-    row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
-    row.is_held = !isMovable(a) || !isMovable(b);
-    row.is_lasting = isLasting(contact.impulse.normal, a, b);
-    row.fast = static_cast<float>((row.is_lasting ? kCalm : kFast) * std::min(a.thickness, b.thickness));
-    const auto gain = [&](const SubstepBody& of) {
-      return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
-    };
-    row.rest = kRest / m_h * std::max(gain(a), gain(b));
-    contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse);
-  }
-  m_counters.blocks += static_cast<std::int64_t>(m_rows.blocks());
-}
-
-void SubstepWorld::storeContacts() {
-  for (const Contact& contact : m_contacts) {
-    const ContactImpulse impulse = m_rows.impulse(contact.place);
-    Memory& known = m_memory[at(contact.memory)];
-    known.count = known.manifold.count;
-    for (std::int32_t k = 0; k < known.count; ++k) {
-      known.id[at(k)] = known.manifold.points[at(k)].id;
-      known.normal[at(k)] = impulse.normal[at(k)];
-      known.friction[at(k)] = impulse.friction[at(k)];
-    }
-    if (impulse.first < 0) continue;
-    Pair& pair = m_pairs[at(contact.pair)];
-    pair.is_pushing = true;
-    m_bodies[at(pair.a)].pushed_at = m_bodies[at(pair.b)].pushed_at = m_steps;
-    if (pair.event >= 0) m_events[at(pair.event)].impulse += double{impulse.total};
-    if (pair.is_touching) continue;
-    pair.is_touching = true;
-    pair.event = static_cast<std::int32_t>(m_events.size());
-    const Vec2 normal = pair.a == pair.low ? known.manifold.normal : -known.manifold.normal;
-    m_events.push_back({m_time + std::max(double{impulse.first}, 0.0), pair.low, pair.high, true,
-                        double{impulse.total}, normal});
-  }
 }
 
 }  // namespace naiad::physics

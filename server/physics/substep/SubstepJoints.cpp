@@ -4,13 +4,19 @@
 #include <cmath>
 
 #include "physics/geometry/Index.h"
-#include "physics/substep/Softness.h"
 
 namespace naiad::physics {
 
 namespace {
 
 constexpr float kJointDamping = 2;
+
+// A hinge's rows follow from its frame alone: that saves a look at the joint itself.
+constexpr Joint kAnyHinge = [] {
+  Joint joint;
+  joint.kind = JointKind::kHinge;
+  return joint;
+}();
 
 constexpr float kResolved = 0.25f;  // up to this (h·ω)² sub-steps follow a swing
 
@@ -33,6 +39,7 @@ void SubstepJoints::begin(std::span<SubstepBody> bodies, float h) {
   m_links.clear();
   m_rows.clear();
   m_h = h;
+  m_softness = softnessOf(kFastestTurns, kJointDamping, h);
   for (const int id : ids()) {
     const Joint& j = joint(id);
     if (j.is_broken) continue;
@@ -42,6 +49,7 @@ void SubstepJoints::begin(std::span<SubstepBody> bodies, float h) {
   for (Link& link : m_links) {
     if (link.a >= 0) take(bodies[at(link.a)], link.inverse_mass_a, link.inverse_inertia_a);
     take(bodies[at(link.b)], link.inverse_mass_b, link.inverse_inertia_b);
+    place(link, {}, {}, 0);
   }
 }
 
@@ -84,7 +92,8 @@ void SubstepJoints::load(int id, std::span<const SubstepBody> bodies) {
   link.state_b = b.state;
   link.row = static_cast<int>(m_rows.size());
   link.count = rowsOf(j);
-  link.is_point = j.kind == JointKind::kHinge || j.kind == JointKind::kWeld;
+  link.is_hinge = j.kind == JointKind::kHinge;
+  link.is_point = link.is_hinge || j.kind == JointKind::kWeld;
   link.frame.arm_b = b.body.rotation * j.anchor_b;
   link.velocity = b.body.velocity;
   if (link.a >= 0) {
@@ -103,46 +112,45 @@ void SubstepJoints::load(int id, std::span<const SubstepBody> bodies) {
     Row row;
     row.impulse = static_cast<float>(memoryOf(id)[at(k)]) * m_h;
     row.is_spring = j.kind == JointKind::kSpring || j.kind == JointKind::kMouse;
+    row.is_angle = isAngleRow(j.kind, k);
     m_rows.push_back(row);
   }
 }
 
-void SubstepJoints::place(std::span<const SubstepState> states, float time) {
-  for (Link& link : m_links) {
-    const SubstepState &a = states[at(link.state_a)], &b = states[at(link.state_b)];
-    const Rotation turn_a = {a.c, a.s}, turn_b = {b.c, b.s};
-    JointFrame frame;
-    frame.arm_a = turn_a * link.frame.arm_a;
-    frame.arm_b = turn_b * link.frame.arm_b;
-    frame.offset = link.frame.offset + time * link.velocity + Vec2{double{b.x} - a.x, double{b.y} - a.y} +
-                   (frame.arm_b - frame.arm_a);
+void SubstepJoints::place(Link& link, const SubstepState& a, const SubstepState& b, float time) {
+  const Rotation turn_a = {a.c, a.s}, turn_b = {b.c, b.s};
+  JointFrame frame;
+  frame.arm_a = turn_a * link.frame.arm_a;
+  frame.arm_b = turn_b * link.frame.arm_b;
+  frame.offset = link.frame.offset + time * link.velocity + Vec2{double{b.x} - a.x, double{b.y} - a.y} +
+                 (frame.arm_b - frame.arm_a);
+  const Joint& j = link.is_hinge ? kAnyHinge : joint(link.id);
+  if (!link.is_hinge) {
     frame.axis = turn_a * link.frame.axis;
     frame.between = link.frame.between * (inverse(turn_a) * turn_b);
-    const Joint& j = joint(link.id);
-    SpeedRows placed;
-    placeRows(j, frame, placed);
-    for (int k = 0; k < link.count; ++k) {
-      Row& row = m_rows[at(link.row + k)];
-      const SpeedRow& from = placed[at(k)];
-      row.nx = static_cast<float>(from.n.x), row.ny = static_cast<float>(from.n.y);
-      row.ja = static_cast<float>(from.ja), row.jb = static_cast<float>(from.jb);
-      row.value = static_cast<float>(from.value);
-      row.side = static_cast<std::int8_t>(from.side);
-      row.speed = static_cast<float>(dot(from.n, link.velocity));
-      const float inverse =
-          (link.inverse_mass_a + link.inverse_mass_b) * (row.nx * row.nx + row.ny * row.ny) +
-          link.inverse_inertia_a * row.ja * row.ja + link.inverse_inertia_b * row.jb * row.jb;
-      row.mass = inverse > 0 ? 1 / inverse : 0;
-      prepare(row, j);
-    }
-    if (!link.is_point) continue;
-    const Row &x = m_rows[at(link.row)], &y = m_rows[at(link.row + 1)];
-    const float between = link.inverse_inertia_a * x.ja * y.ja + link.inverse_inertia_b * x.jb * y.jb;
-    const float xx = x.mass > 0 ? 1 / x.mass : 0, yy = y.mass > 0 ? 1 / y.mass : 0;
-    const float determinant = xx * yy - between * between;
-    const float by = determinant > 0 ? 1 / determinant : 0;
-    link.inverse_xx = yy * by, link.inverse_yy = xx * by, link.inverse_xy = -between * by;
   }
+  SpeedRows placed;
+  placeRows(j, frame, placed);
+  for (int k = 0; k < link.count; ++k) {
+    Row& row = m_rows[at(link.row + k)];
+    const SpeedRow& from = placed[at(k)];
+    row.nx = static_cast<float>(from.n.x), row.ny = static_cast<float>(from.n.y);
+    row.ja = static_cast<float>(from.ja), row.jb = static_cast<float>(from.jb);
+    row.value = static_cast<float>(from.value);
+    row.side = static_cast<std::int8_t>(from.side);
+    row.speed = static_cast<float>(dot(from.n, link.velocity));
+    const float inverse = (link.inverse_mass_a + link.inverse_mass_b) * (row.nx * row.nx + row.ny * row.ny) +
+                          link.inverse_inertia_a * row.ja * row.ja + link.inverse_inertia_b * row.jb * row.jb;
+    row.mass = inverse > 0 ? 1 / inverse : 0;
+    prepare(row, j);
+  }
+  if (!link.is_point) return;
+  const Row &x = m_rows[at(link.row)], &y = m_rows[at(link.row + 1)];
+  const float between = link.inverse_inertia_a * x.ja * y.ja + link.inverse_inertia_b * x.jb * y.jb;
+  const float xx = x.mass > 0 ? 1 / x.mass : 0, yy = y.mass > 0 ? 1 / y.mass : 0;
+  const float determinant = xx * yy - between * between;
+  const float by = determinant > 0 ? 1 / determinant : 0;
+  link.inverse_xx = yy * by, link.inverse_yy = xx * by, link.inverse_xy = -between * by;
 }
 
 void SubstepJoints::prepare(Row& row, const Joint& joint) const {
@@ -183,10 +191,9 @@ void SubstepJoints::prepare(Row& row, const Joint& joint) const {
     row.is_spring = false;
     return;
   }
-  const Softness soft = softnessOf(kFastestTurns, kJointDamping, m_h);
-  row.bias = soft.rate * row.value;
-  row.mass_scale = soft.mass_scale;
-  row.impulse_scale = soft.impulse_scale;
+  row.bias = m_softness.rate * row.value;
+  row.mass_scale = m_softness.mass_scale;
+  row.impulse_scale = m_softness.impulse_scale;
 }
 
 void SubstepJoints::warmStart(std::span<SubstepState> states) {
@@ -238,20 +245,24 @@ void SubstepJoints::solveRow(const Link& link, Row& row, SubstepState& a, Subste
   push(b, link.inverse_mass_b, link.inverse_inertia_b, row.nx, row.ny, row.jb, more);
 }
 
-void SubstepJoints::solve(std::span<SubstepState> states, bool is_soft) {
-  for (std::size_t i = 0; i < m_links.size(); ++i) {
-    const Link& link = m_links[i];
-    SubstepState &a = states[at(link.state_a)], &b = states[at(link.state_b)];
-    int k = link.count;
-    while (k > (link.is_point ? 2 : 0)) solveRow(link, m_rows[at(link.row + --k)], a, b, is_soft);
-    if (link.is_point) solvePoint(link, a, b, is_soft);
-  }
-  if (is_soft) return;
+void SubstepJoints::solve(const Link& link, SubstepState& a, SubstepState& b, bool is_soft) {
+  int k = link.count;
+  while (k > (link.is_point ? 2 : 0)) solveRow(link, m_rows[at(link.row + --k)], a, b, is_soft);
+  if (link.is_point) solvePoint(link, a, b, is_soft);
+}
+
+void SubstepJoints::solveSoftly(std::span<SubstepState> states) {
+  for (const Link& link : m_links) solve(link, states[at(link.state_a)], states[at(link.state_b)], true);
+}
+
+void SubstepJoints::relax(std::span<SubstepState> states, float time) {
   for (Link& link : m_links) {
-    const JointKind kind = joint(link.id).kind;
+    SubstepState &a = states[at(link.state_a)], &b = states[at(link.state_b)];
+    place(link, a, b, time);
+    solve(link, a, b, false);
     for (int k = 0; k < link.count; ++k) {
       const Row& row = m_rows[at(link.row + k)];
-      if (isAngleRow(kind, k)) {
+      if (row.is_angle) {
         link.torque += row.impulse;
       } else {
         link.force += row.impulse * Vec2{row.nx, row.ny};

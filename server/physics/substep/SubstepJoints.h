@@ -8,18 +8,20 @@
 
 #include "physics/joint/JointRows.h"
 #include "physics/joint/JointStore.h"
+#include "physics/substep/Softness.h"
 #include "physics/substep/SubstepBody.h"
 
 namespace naiad::physics {
 
 class SubstepJoints : public JointStore {
  public:
-  /// Rows for those of which a body moves; `h`: length of a sub-step.
+  /// Rows for those of which a body moves, where all are at the start; `h`: length of a sub-step.
   void begin(std::span<SubstepBody> bodies, float h);
+  bool isEmpty() const { return m_links.empty(); }
   void warmStart(std::span<SubstepState> states);
-  /// Where the bodies are now; `time`: since the step began.
-  void place(std::span<const SubstepState> states, float time);
-  void solve(std::span<SubstepState> states, bool is_soft);
+  void solveSoftly(std::span<SubstepState> states);
+  /// Where the bodies are now, without softness; `time`: since the step began.
+  void relax(std::span<SubstepState> states, float time);
   /// After `dt`. Writes forces; returns how many broke.
   int end(double dt);
   /// visit(a, b) for every joint of this step; a is −1 for a mouse.
@@ -39,6 +41,7 @@ class SubstepJoints : public JointStore {
     float impulse = 0;
     float target = 0;
     bool is_spring = false;  // soft in both solutions
+    bool is_angle = false;
     std::int8_t side = 0;
   };
   struct Link {
@@ -50,6 +53,7 @@ class SubstepJoints : public JointStore {
     JointFrame frame;  // at the start of the step; the offset from centre to centre
     Vec2 velocity;     // of b's centre against a's, at the start of the step
     bool is_point;     // the first two rows hold a point
+    bool is_hinge;     // and there are no others
     float inverse_xx = 0, inverse_xy = 0, inverse_yy = 0;  // of their matrix
     Vec2 force;
     double torque = 0;
@@ -57,12 +61,15 @@ class SubstepJoints : public JointStore {
 
   void stiffen(std::span<SubstepBody> bodies);
   void load(int id, std::span<const SubstepBody> bodies);
+  void place(Link& link, const SubstepState& a, const SubstepState& b, float time);
   void prepare(Row& row, const Joint& joint) const;
+  void solve(const Link& link, SubstepState& a, SubstepState& b, bool is_soft);
   void solvePoint(const Link& link, SubstepState& a, SubstepState& b, bool is_soft);
   static void solveRow(const Link& link, Row& row, SubstepState& a, SubstepState& b, bool is_soft);
 
   std::vector<Link> m_links;
   std::vector<Row> m_rows;
+  Softness m_softness;
   float m_h = 1;
 };
 

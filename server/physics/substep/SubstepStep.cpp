@@ -69,7 +69,10 @@ void SubstepWorld::listActive() {
     if (!b.exists || b.is_frozen || b.is_asleep) continue;
     if (isMovable(b) || b.body.velocity != Vec2{} || b.body.spin != 0) m_active.push_back(id);
   }
-  if (!m_is_shuffled) return;
+  if (m_is_shuffled) sortActive();
+}
+
+void SubstepWorld::sortActive() {
   std::sort(m_active.begin(), m_active.end(),
             [&](int x, int y) { return m_bodies[at(x)].order < m_bodies[at(y)].order; });
 }
@@ -154,18 +157,39 @@ void SubstepWorld::undoMagnetWork() {
 }
 
 // The rotation by the half angle's tangent: of length one for any angle.
-void SubstepWorld::moveStates() {
-  for (std::size_t i = 1; i < m_states.size(); ++i) {
-    SubstepState& s = m_states[i];
+void SubstepWorld::moveStates(std::span<const std::int32_t> states) {
+  for (const std::int32_t i : states) {
+    SubstepState& s = m_states[at(i)];
     s.x += m_h * s.vx, s.y += m_h * s.vy;
     const float angle = m_h * s.spin;
-    m_turns[i] += double{angle};
+    m_turns[at(i)] += double{angle};
     const float square = 0.25f * angle * angle;
     const float by = 1 / (1 + square);
     const float cosine = (1 - square) * by, sine = angle * by;
     const float c = cosine * s.c - sine * s.s;
     s.s = sine * s.c + cosine * s.s;
     s.c = c;
+  }
+}
+
+void SubstepWorld::stepBatch(std::span<const std::int32_t> states, ContactRows::Range rows) {
+  float time = 0;
+  for (int i = 0; i < m_options.substeps; ++i) {
+    pushByMagnets();
+    for (const std::int32_t state : states) {
+      SubstepState& s = m_states[at(state)];
+      const SubstepKick& kick = m_kicks[at(state)];
+      s.vx += kick.x, s.vy += kick.y, s.spin += kick.spin;
+    }
+    m_joints.warmStart(m_states);
+    m_rows.warmStart(m_states, rows);
+    m_joints.solveSoftly(m_states);
+    m_rows.solve(m_states, rows, m_h, time, true);
+    undoMagnetWork();
+    moveStates(states);
+    time += m_h;
+    m_joints.relax(m_states, time);
+    m_rows.solve(m_states, rows, m_h, time, false);
   }
 }
 
@@ -193,27 +217,13 @@ void SubstepWorld::stepOnce() {
   updateContacts();
   m_joints.begin(m_bodies, m_h);
   chooseColours();
+  chooseBatches();
   fillRows();
-  float time = 0;
   m_turns.assign(m_states.size(), 0);
-  m_joints.place(m_states, time);
-  for (int i = 0; i < m_options.substeps; ++i) {
-    pushByMagnets();
-    for (std::size_t state = 1; state < m_states.size(); ++state) {
-      SubstepState& s = m_states[state];
-      const SubstepKick& kick = m_kicks[state];
-      s.vx += kick.x, s.vy += kick.y, s.spin += kick.spin;
-    }
-    m_joints.warmStart(m_states);
-    m_rows.warmStart(m_states);
-    m_joints.solve(m_states, true);
-    m_rows.solve(m_states, m_h, time, true);
-    undoMagnetWork();
-    moveStates();
-    time += m_h;
-    m_joints.place(m_states, time);
-    m_joints.solve(m_states, false);
-    m_rows.solve(m_states, m_h, time, false);
+  std::span<const std::int32_t> states = m_by_batch;
+  for (const Batch& batch : m_batches) {
+    stepBatch(states.first(batch.states), batch.rows);
+    states = states.subspan(batch.states);
   }
   m_rows.bounce(m_states);
   for (const std::int32_t id : m_active) m_bodies[at(id)].turn = m_turns[at(m_bodies[at(id)].state)];

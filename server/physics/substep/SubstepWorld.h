@@ -125,8 +125,15 @@ class SubstepWorld final : public RigidStepper {
     ContactImpulse impulse;
     std::int32_t pair, memory;
     std::int32_t a, b;
+    std::int32_t state;  // of one of them that has one
     std::int32_t colour;
     std::int32_t place;  // in the rows
+  };
+  // Groups, together small enough that their rows stay in a cache for all sub-steps.
+  struct Batch {
+    std::size_t contacts = 0;  // of those in m_by_colour …
+    std::size_t states = 0;    // … and m_by_batch, that come after those of the batch before
+    ContactRows::Range rows;
   };
 
   struct Magnet {  // a body that one turns, within a step
@@ -142,6 +149,9 @@ class SubstepWorld final : public RigidStepper {
     Vec2 missing;     // momentum that rounding has taken in this step
     double mass = 0;  // of those that it was taken from
   };
+
+  // Thicknesses per tick: what moves by less against each other may lie for long.
+  static constexpr double kCalm = 0.05;
 
   // SubstepWorld.cpp
   void measure(SubstepBody& body);
@@ -159,10 +169,12 @@ class SubstepWorld final : public RigidStepper {
   // SubstepStep.cpp
   void stepOnce();
   void listActive();
+  void sortActive();
   void begin(int id);
   void pushByMagnets();
   void undoMagnetWork();
-  void moveStates();
+  void stepBatch(std::span<const std::int32_t> states, ContactRows::Range rows);
+  void moveStates(std::span<const std::int32_t> states);
   void keepMomentum();
   void finish();
   bool isFast(const SubstepBody& body) const;
@@ -192,11 +204,14 @@ class SubstepWorld final : public RigidStepper {
   void wakeChanged();
   void updateContacts();
   bool wakeTouched(std::size_t first_contact);
+  void listPairsOf(std::span<const std::int32_t> bodies);
   bool mayMeet(Pair& pair);
   double gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset);
   void stir(const SubstepBody& body, double by);
   void choosePairs();
+  void choosePairsOfWoken(std::size_t first_state);
   void passStirsOn();
+  bool isReached(const Calm& calm) const;
   double stirOf(const SubstepBody& b) { return m_stirs[at(m_sets.rootOf(b.state))]; }
   double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);
@@ -206,14 +221,19 @@ class SubstepWorld final : public RigidStepper {
   bool findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
                     std::int32_t shape_b, Vec2 offset);
   void sequence(bool is_sorted);
-  void chooseColours();
-  void fetch(const Contact& contact) const;
-  void fillRows();
-  void storeContacts();
   std::int32_t makeMemory();
   void freeMemory(std::int32_t memory);
   void dropMemory(Pair& pair);
   std::vector<Pair>::const_iterator findPair(std::int32_t one, std::int32_t other) const;
+
+  // SubstepRows.cpp
+  void chooseColours();
+  void chooseBatches();
+  void sortByBatch();
+  void fetch(const Contact& contact) const;
+  void addRow(Contact& contact);
+  void fillRows();
+  void storeContacts();
 
   // SubstepSleep.cpp
   void findGroups();
@@ -246,11 +266,18 @@ class SubstepWorld final : public RigidStepper {
   std::vector<SubstepState> m_states;  // the first one is of all that does not move
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
+  std::vector<std::int32_t> m_pair_ends,
+      m_pair_numbers;  // of each body, by id; empty: not listed in this step
+  std::vector<std::int32_t> m_woken_pairs;
   std::vector<Memory> m_memory;
   std::int32_t m_free_memory = -1;
   std::vector<Contact> m_contacts;
   std::vector<Turn> m_sequence;
-  std::vector<std::int32_t> m_by_colour;
+  std::vector<std::int32_t> m_by_colour;  // contacts, by batch and colour
+  std::vector<Batch> m_batches;
+  std::vector<std::int32_t> m_batch_of;    // by state
+  std::vector<std::int32_t> m_by_batch;    // states
+  std::vector<std::size_t> m_turn_counts;  // by batch and colour
   ContactRows m_rows;
   SubstepJoints m_joints;
   UnionFind m_sets;             // of states

@@ -1,0 +1,192 @@
+// A SubstepWorld's contacts as rows: divided into colours and batches, filled in, and what they say kept.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "physics/substep/SubstepWorld.h"
+
+namespace naiad::physics {
+
+namespace {
+
+// Bodies of one colour's contacts are all different, so these are solved for side by side. Contacts with what
+// cannot move have colours of their own, and come last: they hold the others.
+constexpr std::int32_t kColours = 64;
+constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
+constexpr std::size_t kBatch = 1024;                // rows: 220 kB
+// In thicknesses of the thinner body.
+constexpr double kMaxPush = 0.2;        // per tick: the greatest speed at which overlap is undone
+constexpr double kFast = 4;             // per tick: what comes so fast is stopped at once
+constexpr std::size_t kFetched = 8;     // contacts ahead
+constexpr std::size_t kCacheLine = 64;  // bytes
+constexpr std::size_t kFetchedOfBody = 5 * kCacheLine;
+// In what acceleration adds to a speed in a tick: slower impacts do not bounce.
+constexpr float kRest = 2;
+
+// Did it push in the last step, and does it only carry what lies still? What a blow drives deep into
+// something is to come out fast. All springs of a body are of one kind: what lies on it would press it into
+// the floor if the floor's were the weaker one.
+bool isLasting(const std::array<KnownImpulse, 2>& normal, const SubstepBody& a, const SubstepBody& b) {
+  return normal[0].kept + normal[1].kept > 0 && !a.is_shaken && !b.is_shaken;
+}
+
+}  // namespace
+
+void SubstepWorld::chooseColours() {
+  m_sets.reset(m_states.size());
+  for (const Turn& turn : m_sequence) {
+    Contact& contact = m_contacts[at(turn.contact)];
+    SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
+    const bool moves_a = isMovable(a), moves_b = isMovable(b);
+    if (moves_a && moves_b) {
+      contact.colour = std::countr_one(a.colours | b.colours);
+      const std::uint64_t bit = contact.colour < kColours ? std::uint64_t{1} << contact.colour : 0;
+      a.colours |= bit;
+      b.colours |= bit;
+    } else {
+      SubstepBody& mover = moves_a ? a : b;
+      contact.colour = std::countr_one(mover.held_colours);
+      mover.held_colours |= contact.colour < kColours ? std::uint64_t{1} << contact.colour : 0;
+      contact.colour += contact.colour < kColours ? kColours : 0;
+    }
+    const bool is_coloured =
+        contact.colour < kColours || (!(moves_a && moves_b) && contact.colour < kUncoloured);
+    if (!is_coloured) contact.colour = kUncoloured;
+    contact.state = std::max(a.state, b.state);
+    if (a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);  // also with what pushes its own way
+  }
+}
+
+// Joints and magnets have one list, for all groups at once.
+void SubstepWorld::chooseBatches() {
+  m_batches.assign(1, {});
+  m_batch_of.assign(m_states.size(), 0);
+  m_by_batch.resize(m_states.size() - 1);
+  if (m_contacts.size() > kBatch && m_joints.isEmpty() && m_magnets.empty()) {
+    m_turn_counts.assign(m_states.size(), 0);  // by root
+    for (const Contact& contact : m_contacts) ++m_turn_counts[at(m_sets.rootOf(contact.state))];
+    std::size_t rows = 0;
+    for (std::size_t state = 1; state < m_states.size(); ++state) {
+      const std::size_t root = at(m_sets.rootOf(static_cast<int>(state)));
+      if (root == state && rows > 0 && rows + m_turn_counts[root] > kBatch) {
+        m_batches.emplace_back();
+        rows = 0;
+      }
+      if (root == state) rows += m_turn_counts[root];
+      m_batch_of[state] = root == state ? static_cast<std::int32_t>(m_batches.size()) - 1 : m_batch_of[root];
+    }
+  }
+  sortByBatch();
+}
+
+void SubstepWorld::sortByBatch() {
+  constexpr std::size_t kTurns = kUncoloured + 1;  // of a batch
+  m_turn_counts.assign(m_batches.size() * kTurns, 0);
+  const auto turnOf = [&](const Contact& contact) {
+    return at(m_batch_of[at(contact.state)]) * kTurns + at(contact.colour);
+  };
+  for (const Contact& contact : m_contacts) ++m_turn_counts[turnOf(contact)];
+  std::size_t start = 0, blocks = 0;
+  for (std::size_t i = 0; i < m_turn_counts.size(); ++i) {
+    const std::size_t count = std::exchange(m_turn_counts[i], start);
+    start += count;
+    m_batches[i / kTurns].contacts += count;
+    blocks += i % kTurns == kUncoloured ? count : (count + kLanes - 1) / kLanes;
+  }
+  m_rows.clear(blocks, m_h);
+  m_by_colour.resize(m_contacts.size());
+  for (const Turn& turn : m_sequence)
+    m_by_colour[m_turn_counts[turnOf(m_contacts[at(turn.contact)])]++] = turn.contact;
+  for (std::size_t state = 1; state < m_states.size(); ++state) ++m_batches[at(m_batch_of[state])].states;
+  m_turn_counts.assign(1, 0);
+  for (const Batch& batch : m_batches) m_turn_counts.push_back(m_turn_counts.back() + batch.states);
+  for (std::size_t state = 1; state < m_states.size(); ++state)
+    m_by_batch[m_turn_counts[at(m_batch_of[state])]++] = static_cast<std::int32_t>(state);
+}
+
+// Contacts of a colour lie all over the memory: what they are made of is on its way while others are filled
+// in.
+void SubstepWorld::fetch(const Contact& contact) const {
+  const auto fetchAll = [](const auto& object) {
+    for (std::size_t i = 0; i < sizeof object; i += kCacheLine) {
+      __builtin_prefetch(reinterpret_cast<const char*>(&object) + i);
+    }
+  };
+  fetchAll(m_memory[at(contact.memory)].manifold);
+  for (const std::int32_t id : {contact.a, contact.b}) {
+    const auto* p_body = reinterpret_cast<const char*>(&m_bodies[at(id)]);
+    for (std::size_t i = 0; i < kFetchedOfBody; i += kCacheLine) __builtin_prefetch(p_body + i);
+  }
+}
+
+void SubstepWorld::addRow(Contact& contact) {
+  const SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
+  ContactRow row;
+  row.a = a.state, row.b = b.state;
+  row.inverse_mass_a = a.inverse_mass;
+  row.inverse_mass_b = b.inverse_mass;
+  row.inverse_inertia_a = a.inverse_inertia;
+  row.inverse_inertia_b = b.inverse_inertia;
+  row.velocity = b.body.velocity - a.body.velocity;
+  row.spin_a = static_cast<float>(a.body.spin), row.spin_b = static_cast<float>(b.body.spin);
+  row.friction = static_cast<float>(std::sqrt(a.body.friction * b.body.friction));
+  row.restitution = static_cast<float>(std::max(a.body.restitution, b.body.restitution));
+  row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
+  row.is_held = !isMovable(a) || !isMovable(b);
+  row.is_lasting = isLasting(contact.impulse.normal, a, b);
+  row.fast = static_cast<float>((row.is_lasting ? kCalm : kFast) * std::min(a.thickness, b.thickness));
+  const auto gain = [&](const SubstepBody& of) {
+    return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
+  };
+  row.rest = kRest / m_h * std::max(gain(a), gain(b));
+  contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse);
+}
+
+void SubstepWorld::fillRows() {
+  std::size_t turn = 0;
+  for (Batch& batch : m_batches) {
+    batch.rows.begin = m_rows.blocks();
+    std::int32_t colour = -1;
+    std::size_t in_block = 0;
+    for (const std::size_t end = turn + batch.contacts; turn < end; ++turn) {
+      if (turn + kFetched < m_by_colour.size()) fetch(m_contacts[at(m_by_colour[turn + kFetched])]);
+      Contact& contact = m_contacts[at(m_by_colour[turn])];
+      if (contact.colour != colour || in_block == kLanes || colour == kUncoloured) {
+        m_rows.beginBlock();
+        in_block = 0;
+        colour = contact.colour;
+      }
+      ++in_block;
+      addRow(contact);
+    }
+    batch.rows.end = m_rows.blocks();
+  }
+  m_counters.blocks += static_cast<std::int64_t>(m_rows.blocks());
+}
+
+void SubstepWorld::storeContacts() {
+  for (const Contact& contact : m_contacts) {
+    const ContactImpulse impulse = m_rows.impulse(contact.place);
+    Memory& known = m_memory[at(contact.memory)];
+    known.count = known.manifold.count;
+    for (std::int32_t k = 0; k < known.count; ++k) {
+      known.id[at(k)] = known.manifold.points[at(k)].id;
+      known.normal[at(k)] = impulse.normal[at(k)];
+      known.friction[at(k)] = impulse.friction[at(k)];
+    }
+    if (impulse.first < 0) continue;
+    Pair& pair = m_pairs[at(contact.pair)];
+    pair.is_pushing = true;
+    m_bodies[at(pair.a)].pushed_at = m_bodies[at(pair.b)].pushed_at = m_steps;
+    if (pair.event >= 0) m_events[at(pair.event)].impulse += double{impulse.total};
+    if (pair.is_touching) continue;
+    pair.is_touching = true;
+    pair.event = static_cast<std::int32_t>(m_events.size());
+    const Vec2 normal = pair.a == pair.low ? known.manifold.normal : -known.manifold.normal;
+    m_events.push_back({m_time + std::max(double{impulse.first}, 0.0), pair.low, pair.high, true,
+                        double{impulse.total}, normal});
+  }
+}
+
+}  // namespace naiad::physics
