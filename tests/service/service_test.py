@@ -320,7 +320,9 @@ class ServiceTest(unittest.TestCase):
             self.manager.wait_for("READY=1")
         except AssertionError as error:
             self.fail(f"{error}\n{self.text('errors')}\n{self.text('log')}\n{server.poll()}")
-        port = re.search(r"on 127\.0\.0\.1:(\d+)", self.text("log")).group(1)
+        listening = r"on 127\.0\.0\.1:(\d+)"
+        self.wait_until(lambda: re.search(listening, self.text("log")), "the log says where it listens")
+        port = re.search(listening, self.text("log")).group(1)
         self.play(port)
         self.assertEqual(re.findall(GAPS, self.text("log")), [], "the sandbox is whole")
         with open(f"/proc/{server.pid}/status", encoding="ascii") as file:

@@ -126,13 +126,19 @@ class FakeSidecar {
                   error);
       const std::lock_guard lock(m_mutex);
       m_watchers.push_back(socket);
+      note(request);
     } else {
+      {  // first: who has the answer may be gone, and be asked about
+        const std::lock_guard lock(m_mutex);
+        note(request);
+      }
       asio::write(*socket,
                   asio::buffer("HTTP/1.1 " + std::to_string(status) +
                                " X\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body),
                   error);
     }
-    const std::lock_guard lock(m_mutex);
+  }
+  void note(const std::string& request) {
     m_requests.push_back(request);
     m_asked.notify_all();
   }

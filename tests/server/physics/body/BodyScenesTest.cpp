@@ -288,7 +288,9 @@ TEST_F(BodyScenes, AMagnetDoesNotBrakeWhatIsHeld) {
         for (const Body* p_body : bodies) {
           ASSERT_LE(p_body->getVelocity().getMagnitude(), 0.1 * (1 + 1e-6)) << i;
           const bool may_land = rate < 0 && p_body != bodies[0];  // it comes off the floor and falls back
-          if (!may_land) ASSERT_GE(p_body->getVelocity().getMagnitude(), least) << i;
+          if (!may_land) {
+            ASSERT_GE(p_body->getVelocity().getMagnitude(), least) << i;
+          }
         }
       }
       EXPECT_EQ(PM.getQuarantineCount(), 0U);
