@@ -1,5 +1,5 @@
 // Large groups at ACCURACY_DEFAULT: what moves, or costs too much to be solved at once, goes on in soft
-// sub-steps, and nobody hears of the change.
+// sub-steps, and the change sends no event.
 #include <algorithm>
 #include <map>
 #include <utility>
