@@ -21,12 +21,21 @@ bool isLarge(const FixedBox& region) {
   return region.size.x > kLargest || region.size.y > kLargest;
 }
 
-FixedBox around(const FixedBox& a, const FixedBox& b) {
-  const FixedVector low = {std::min(a.corner.x, b.corner.x), std::min(a.corner.y, b.corner.y)};
-  const FixedVector high = {std::max(a.corner.x + a.size.x, b.corner.x + b.size.x),
-                            std::max(a.corner.y + a.size.y, b.corner.y + b.size.y)};
-  return {low, high - low};
-}
+// Of regions at both ends of a world, which may be farther apart than the greatest size of a box.
+struct Span {
+  FixedVector low, high;
+
+  explicit Span(const FixedBox& box) : low(box.corner), high(box.corner + box.size) {}
+  void add(const FixedBox& box) {
+    const FixedVector end = box.corner + box.size;
+    low = {std::min(low.x, box.corner.x), std::min(low.y, box.corner.y)};
+    high = {std::max(high.x, end.x), std::max(high.y, end.y)};
+  }
+  bool mayTouch(const FixedBox& box) const {
+    return box.corner.x <= high.x && box.corner.y <= high.y && low.x <= box.corner.x + box.size.x &&
+           low.y <= box.corner.y + box.size.y;
+  }
+};
 
 }  // namespace
 
@@ -58,11 +67,11 @@ bool BodySurroundings::listOthers(const WorldStore& store) {
 void BodySurroundings::searchOthers() {
   for (std::size_t begin = 0, end = 0; begin < m_regions.size() && !m_others.empty(); begin = end) {
     end = std::min(begin + kTogether, m_regions.size());
-    FixedBox place = m_regions[begin].region;
-    for (std::size_t i = begin + 1; i < end; ++i) place = around(place, m_regions[i].region);
+    Span place(m_regions[begin].region);
+    for (std::size_t i = begin + 1; i < end; ++i) place.add(m_regions[i].region);
     m_close.clear();
     for (const Other& other : m_others) {
-      if (intersects(other.box, place)) m_close.push_back(other);
+      if (place.mayTouch(other.box)) m_close.push_back(other);
     }
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t turn = 0;
@@ -81,16 +90,16 @@ void BodySurroundings::searchGrid(const WorldStore& store) {
   });
   for (std::size_t i = 0, end = 0; i < m_regions.size(); i = end) {
     const Region& first = m_regions[i];
-    FixedBox place = first.region;
+    Span place(first.region);
     const auto isBeside = [&](const Region& region) {
       return region.tile_x == first.tile_x && region.tile_y == first.tile_y && !isLarge(first.region) &&
              !isLarge(region.region);
     };
     for (end = i + 1; end < m_regions.size() && isBeside(m_regions[end]); ++end) {
-      place = around(place, m_regions[end].region);
+      place.add(m_regions[end].region);
     }
     m_near.clear();
-    store.touching(place, kNoSlot, m_near);
+    store.touching({place.low, place.high - place.low}, kNoSlot, m_near);
     std::erase_if(m_near, [&](ObjectKey key) { return store.has(key.slot, WorldStore::kBody); });
     for (std::size_t k = i; k < end; ++k) {
       std::uint32_t turn = 0;
