@@ -69,6 +69,8 @@ class Rounds : public testing::Test {
     }
     return heard;
   }
+  /// An end that still waits to be sent when the theme begins again is replaced by that beginning.
+  static bool beganAgain(const std::string& theme) { return theme == "+-+" || theme == "++"; }
   /// What those who watch the server read of its game, which writes a line at this key.
   std::string watchedLine(TestClient& client, df::Keyboard::Key key) {
     Talk talk(game->control());
@@ -138,8 +140,8 @@ class RoundEnd : public Rounds {
     EXPECT_EQ(ann->connection().state(), Connection::State::kJoined);
     EXPECT_EQ(game->log().find("is back"), std::string::npos) << game->log();
     ASSERT_TRUE(serve([&] { return heard(*ann, line) && heard(*bob, line); })) << game->log();
-    EXPECT_TRUE(serve([&] { return (theme_of_ann += theme(*ann)) == "+-+"; })) << theme_of_ann;
-    EXPECT_TRUE(serve([&] { return (theme_of_bob += theme(*bob)) == "+-+"; })) << theme_of_bob;
+    EXPECT_TRUE(serve([&] { return beganAgain(theme_of_ann += theme(*ann)); })) << theme_of_ann;
+    EXPECT_TRUE(serve([&] { return beganAgain(theme_of_bob += theme(*bob)); })) << theme_of_bob;
     press(*bob, df::Keyboard::RIGHTARROW);
     EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "bob's keys arrive";
     const auto lists = [&](const std::string& name) {
