@@ -19,8 +19,9 @@ namespace naiad {
 
 namespace {
 
-/// For what waits for the disk, before it is read again.
-constexpr std::chrono::seconds kSyncTime{5};
+/// For what waits for the disk, before it is read again. The game goes on meanwhile, and other programs may
+/// keep the disk busy.
+constexpr std::chrono::seconds kSyncTime{20};
 /// For a program that only reads its options.
 constexpr std::chrono::seconds kCheckTime{20};
 constexpr std::size_t kMaxProblem = 200;
