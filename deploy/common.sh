@@ -80,7 +80,9 @@ need_packages() {
 build() {
   local preset=$1 log launcher=()
   shift
-  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  # GCC writes addresses of its own memory into precompiled headers. Where these are always the same, so are the headers,
+  # and what was compiled with one is found again after it was compiled anew.
+  command -v ccache >/dev/null && launcher=("-DCMAKE_CXX_COMPILER_LAUNCHER=$(setarch -R true 2>/dev/null && echo 'setarch;-R;')ccache")
   export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1  # another checkout has use for the same objects
   # Without these ccache stores nothing that is compiled with a precompiled header.
   export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
