@@ -145,9 +145,9 @@ void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most, Lanes most_tren
 }
 
 // A trend is what both ends of the last sub-step had: a blow has none.
-void ContactRows::warmStart(std::span<SubstepState> states, Range range) {
+void ContactRows::warmStart(std::span<SubstepState> states) {
   const Lanes unlimited = lanesOf(std::numeric_limits<float>::max());
-  for (Block& k : within(range)) {
+  for (Block& k : m_blocks) {
     Body a = gather(states, k.a), b = gather(states, k.b);
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
@@ -180,9 +180,9 @@ void ContactRows::updateGaps(Block& k, std::span<const SubstepState> states, flo
 }
 
 template <bool kIsSoft>
-void ContactRows::solveRows(std::span<SubstepState> states, Range range, float h, float time) {
+void ContactRows::solveRows(std::span<SubstepState> states, float h, float time) {
   const Lanes zero = {}, one = lanesOf(1), inverse_h = lanesOf(1 / h);
-  for (Block& k : within(range)) {
+  for (Block& k : m_blocks) {
     Body a = gather(states, k.a), b = gather(states, k.b);
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
@@ -234,8 +234,8 @@ void ContactRows::solveRows(std::span<SubstepState> states, Range range, float h
   }
 }
 
-template void ContactRows::solveRows<true>(std::span<SubstepState>, Range, float, float);
-template void ContactRows::solveRows<false>(std::span<SubstepState>, Range, float, float);
+template void ContactRows::solveRows<true>(std::span<SubstepState>, float, float);
+template void ContactRows::solveRows<false>(std::span<SubstepState>, float, float);
 
 void ContactRows::bounce(std::span<SubstepState> states) {
   const Lanes zero = {};

@@ -48,11 +48,6 @@ struct ContactImpulse {
 
 class ContactRows {
  public:
-  /// Of the order in which blocks were begun.
-  struct Range {
-    std::size_t begin = 0, end = 0;
-  };
-
   /// For sub-steps over `h`; memory for so many blocks is taken once.
   void clear(std::size_t blocks, float h);
   /// Rows of one block have no movable body in common: at most kLanes of them, then a new block must begin.
@@ -60,10 +55,10 @@ class ContactRows {
   /// Returns where its impulses are read from.
   std::int32_t add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory);
 
-  void warmStart(std::span<SubstepState> states, Range range);
+  void warmStart(std::span<SubstepState> states);
   /// `time`: since the step began. Softly before bodies move, then, where they are, without softness.
-  void solve(std::span<SubstepState> states, Range range, float h, float time, bool is_soft) {
-    is_soft ? solveRows<true>(states, range, h, time) : solveRows<false>(states, range, h, time);
+  void solve(std::span<SubstepState> states, float h, float time, bool is_soft) {
+    is_soft ? solveRows<true>(states, h, time) : solveRows<false>(states, h, time);
   }
   /// What came fast enough leaves as its restitution says. After the last sub-step.
   void bounce(std::span<SubstepState> states);
@@ -72,7 +67,7 @@ class ContactRows {
 
  private:
   template <bool kIsSoft>
-  void solveRows(std::span<SubstepState> states, Range range, float h, float time);
+  void solveRows(std::span<SubstepState> states, float h, float time);
 
   struct Impulse {
     Lanes now = {};
@@ -104,9 +99,6 @@ class ContactRows {
     bool bounces = false;            // any of them
     std::array<Point, 2> point;
   };
-  std::span<Block> within(Range range) {
-    return std::span(m_blocks).subspan(range.begin, range.end - range.begin);
-  }
   static void updateGaps(Block& block, std::span<const SubstepState> states, float time);
   std::vector<Block> m_blocks;
   std::array<Softness, 2> m_softness, m_lasting_softness;  // the second one: held

@@ -31,6 +31,13 @@ bool isLasting(const std::array<KnownImpulse, 2>& normal, const SubstepBody& a, 
   return normal[0].kept + normal[1].kept > 0 && !a.is_shaken && !b.is_shaken;
 }
 
+// GCC takes a function that does nothing but fetch for one that does nothing, and leaves its calls out. So it
+// must be inlined, and so must what calls it and does nothing else.
+[[gnu::always_inline]] inline void fetchLines(const void* p_first, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; i += kCacheLine)
+    __builtin_prefetch(static_cast<const char*>(p_first) + i);
+}
+
 }  // namespace
 
 void SubstepWorld::chooseColours() {
@@ -87,14 +94,14 @@ void SubstepWorld::sortByBatch() {
     return at(m_batch_of[at(contact.state)]) * kTurns + at(contact.colour);
   };
   for (const Contact& contact : m_contacts) ++m_turn_counts[turnOf(contact)];
-  std::size_t start = 0, blocks = 0;
+  std::size_t start = 0;
   for (std::size_t i = 0; i < m_turn_counts.size(); ++i) {
     const std::size_t count = std::exchange(m_turn_counts[i], start);
     start += count;
-    m_batches[i / kTurns].contacts += count;
-    blocks += i % kTurns == kUncoloured ? count : (count + kLanes - 1) / kLanes;
+    Batch& batch = m_batches[i / kTurns];
+    batch.contacts += count;
+    batch.blocks += i % kTurns == kUncoloured ? count : (count + kLanes - 1) / kLanes;
   }
-  m_rows.clear(blocks, m_h);
   m_by_colour.resize(m_contacts.size());
   for (const Turn& turn : m_sequence)
     m_by_colour[m_turn_counts[turnOf(m_contacts[at(turn.contact)])]++] = turn.contact;
@@ -106,18 +113,16 @@ void SubstepWorld::sortByBatch() {
 }
 
 // Contacts of a colour lie all over the memory: what they are made of is on its way while others are filled
-// in. Inlined always, since GCC leaves out calls of a function that does nothing but fetch.
-[[gnu::always_inline]] inline void SubstepWorld::fetch(const Contact& contact) const {
-  const auto fetchAll = [](const auto& object) {
-    for (std::size_t i = 0; i < sizeof object; i += kCacheLine) {
-      __builtin_prefetch(reinterpret_cast<const char*>(&object) + i);
-    }
-  };
-  fetchAll(m_memory[at(contact.memory)].manifold);
-  for (const std::int32_t id : {contact.a, contact.b}) {
-    const auto* p_body = reinterpret_cast<const char*>(&m_bodies[at(id)]);
-    for (std::size_t i = 0; i < kFetchedOfBody; i += kCacheLine) __builtin_prefetch(p_body + i);
-  }
+// in.
+[[gnu::always_inline]] inline void SubstepWorld::fetchAhead(std::span<const std::int32_t> contacts,
+                                                            std::size_t turn) const {
+  if (turn + 2 * kFetched < contacts.size())
+    fetchLines(&m_contacts[at(contacts[turn + 2 * kFetched])], sizeof(Contact));
+  if (turn + kFetched >= contacts.size()) return;
+  const Contact& contact = m_contacts[at(contacts[turn + kFetched])];
+  fetchLines(&m_memory[at(contact.memory)].manifold, sizeof(Manifold));
+  fetchLines(&m_bodies[at(contact.a)], kFetchedOfBody);
+  fetchLines(&m_bodies[at(contact.b)], kFetchedOfBody);
 }
 
 void SubstepWorld::addRow(Contact& contact) {
@@ -143,49 +148,54 @@ void SubstepWorld::addRow(Contact& contact) {
   contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse);
 }
 
-void SubstepWorld::fillRows() {
-  std::size_t turn = 0;
-  for (Batch& batch : m_batches) {
-    batch.rows.begin = m_rows.blocks();
-    std::int32_t colour = -1;
-    std::size_t in_block = 0;
-    for (const std::size_t end = turn + batch.contacts; turn < end; ++turn) {
-      if (turn + kFetched < m_by_colour.size()) fetch(m_contacts[at(m_by_colour[turn + kFetched])]);
-      Contact& contact = m_contacts[at(m_by_colour[turn])];
-      if (contact.colour != colour || in_block == kLanes || colour == kUncoloured) {
-        m_rows.beginBlock();
-        in_block = 0;
-        colour = contact.colour;
-      }
-      ++in_block;
-      addRow(contact);
+void SubstepWorld::fillRows(std::span<const std::int32_t> contacts) {
+  std::int32_t colour = -1;
+  std::size_t in_block = 0;
+  for (std::size_t turn = 0; turn < contacts.size(); ++turn) {
+    fetchAhead(contacts, turn);
+    Contact& contact = m_contacts[at(contacts[turn])];
+    if (contact.colour != colour || in_block == kLanes || colour == kUncoloured) {
+      m_rows.beginBlock();
+      in_block = 0;
+      colour = contact.colour;
     }
-    batch.rows.end = m_rows.blocks();
+    ++in_block;
+    addRow(contact);
   }
   m_counters.blocks += static_cast<std::int64_t>(m_rows.blocks());
 }
 
-void SubstepWorld::storeContacts() {
-  for (const Contact& contact : m_contacts) {
-    const ContactImpulse impulse = m_rows.impulse(contact.place);
+void SubstepWorld::storeImpulses(std::span<const std::int32_t> contacts) {
+  for (std::size_t turn = 0; turn < contacts.size(); ++turn) {
+    if (turn + 2 * kFetched < contacts.size())
+      fetchLines(&m_contacts[at(contacts[turn + 2 * kFetched])], sizeof(Contact));
+    if (turn + kFetched < contacts.size())
+      fetchLines(&m_memory[at(m_contacts[at(contacts[turn + kFetched])].memory)], sizeof(Memory));
+    Contact& contact = m_contacts[at(contacts[turn])];
+    contact.impulse = m_rows.impulse(contact.place);
     Memory& known = m_memory[at(contact.memory)];
     known.count = known.manifold.count;
-    for (std::int32_t k = 0; k < known.count; ++k) {
-      known.id[at(k)] = known.manifold.points[at(k)].id;
-      known.normal[at(k)] = impulse.normal[at(k)];
-      known.friction[at(k)] = impulse.friction[at(k)];
-    }
-    if (impulse.first < 0) continue;
+    for (std::int32_t k = 0; k < known.count; ++k) known.id[at(k)] = known.manifold.points[at(k)].id;
+    known.normal = contact.impulse.normal;
+    known.friction = contact.impulse.friction;
+  }
+}
+
+void SubstepWorld::reportContacts() {
+  for (const Contact& contact : m_contacts) {
+    if (contact.impulse.first < 0) continue;
+    const double impulse = contact.impulse.total;
     Pair& pair = m_pairs[at(contact.pair)];
     pair.is_pushing = true;
     m_bodies[at(pair.a)].pushed_at = m_bodies[at(pair.b)].pushed_at = m_steps;
-    if (pair.event >= 0) m_events[at(pair.event)].impulse += double{impulse.total};
+    if (pair.event >= 0) m_events[at(pair.event)].impulse += impulse;
     if (pair.is_touching) continue;
     pair.is_touching = true;
     pair.event = static_cast<std::int32_t>(m_events.size());
-    const Vec2 normal = pair.a == pair.low ? known.manifold.normal : -known.manifold.normal;
-    m_events.push_back({m_time + std::max(double{impulse.first}, 0.0), pair.low, pair.high, true,
-                        double{impulse.total}, normal});
+    const Vec2 from_a = m_memory[at(contact.memory)].manifold.normal;
+    const Vec2 normal = pair.a == pair.low ? from_a : -from_a;
+    m_events.push_back(
+        {m_time + std::max(double{contact.impulse.first}, 0.0), pair.low, pair.high, true, impulse, normal});
   }
 }
 

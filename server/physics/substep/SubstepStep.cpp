@@ -172,7 +172,7 @@ void SubstepWorld::moveStates(std::span<const std::int32_t> states) {
   }
 }
 
-void SubstepWorld::stepBatch(std::span<const std::int32_t> states, ContactRows::Range rows) {
+void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
   float time = 0;
   for (int i = 0; i < m_options.substeps; ++i) {
     pushByMagnets();
@@ -182,15 +182,16 @@ void SubstepWorld::stepBatch(std::span<const std::int32_t> states, ContactRows::
       s.vx += kick.x, s.vy += kick.y, s.spin += kick.spin;
     }
     m_joints.warmStart(m_states);
-    m_rows.warmStart(m_states, rows);
+    m_rows.warmStart(m_states);
     m_joints.solveSoftly(m_states);
-    m_rows.solve(m_states, rows, m_h, time, true);
+    m_rows.solve(m_states, m_h, time, true);
     undoMagnetWork();
     moveStates(states);
     time += m_h;
     m_joints.relax(m_states, time);
-    m_rows.solve(m_states, rows, m_h, time, false);
+    m_rows.solve(m_states, m_h, time, false);
   }
+  m_rows.bounce(m_states);
 }
 
 void SubstepWorld::step() {
@@ -218,14 +219,17 @@ void SubstepWorld::stepOnce() {
   m_joints.begin(m_bodies, m_h);
   chooseColours();
   chooseBatches();
-  fillRows();
   m_turns.assign(m_states.size(), 0);
-  std::span<const std::int32_t> states = m_by_batch;
+  std::span<const std::int32_t> states = m_by_batch, contacts = m_by_colour;
   for (const Batch& batch : m_batches) {
-    stepBatch(states.first(batch.states), batch.rows);
+    const auto of_batch = contacts.first(batch.contacts);
+    m_rows.clear(batch.blocks, m_h);
+    fillRows(of_batch);
+    stepBatch(states.first(batch.states));
+    storeImpulses(of_batch);
+    contacts = contacts.subspan(batch.contacts);
     states = states.subspan(batch.states);
   }
-  m_rows.bounce(m_states);
   for (const std::int32_t id : m_active) m_bodies[at(id)].turn = m_turns[at(m_bodies[at(id)].state)];
   finish();
 }
@@ -477,7 +481,7 @@ void SubstepWorld::keepMomentum() {
 }
 
 void SubstepWorld::finish() {
-  storeContacts();
+  reportContacts();
   stopFast();
   keepMomentum();
   for (const std::int32_t id : m_active) {

@@ -133,7 +133,7 @@ class SubstepWorld final : public RigidStepper {
   struct Batch {
     std::size_t contacts = 0;  // of those in m_by_colour …
     std::size_t states = 0;    // … and m_by_batch, that come after those of the batch before
-    ContactRows::Range rows;
+    std::size_t blocks = 0;    // of its rows
   };
 
   struct Magnet {  // a body that one turns, within a step
@@ -173,7 +173,7 @@ class SubstepWorld final : public RigidStepper {
   void begin(int id);
   void pushByMagnets();
   void undoMagnetWork();
-  void stepBatch(std::span<const std::int32_t> states, ContactRows::Range rows);
+  void stepBatch(std::span<const std::int32_t> states);
   void moveStates(std::span<const std::int32_t> states);
   void keepMomentum();
   void finish();
@@ -230,10 +230,11 @@ class SubstepWorld final : public RigidStepper {
   void chooseColours();
   void chooseBatches();
   void sortByBatch();
-  void fetch(const Contact& contact) const;
+  void fetchAhead(std::span<const std::int32_t> contacts, std::size_t turn) const;
   void addRow(Contact& contact);
-  void fillRows();
-  void storeContacts();
+  void fillRows(std::span<const std::int32_t> contacts);
+  void storeImpulses(std::span<const std::int32_t> contacts);
+  void reportContacts();
 
   // SubstepSleep.cpp
   void findGroups();
@@ -278,7 +279,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_batch_of;    // by state
   std::vector<std::int32_t> m_by_batch;    // states
   std::vector<std::size_t> m_turn_counts;  // by batch and colour
-  ContactRows m_rows;
+  ContactRows m_rows;                      // of a batch
   SubstepJoints m_joints;
   UnionFind m_sets;             // of states
   std::vector<Group> m_groups;  // by root

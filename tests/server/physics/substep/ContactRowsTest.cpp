@@ -112,11 +112,11 @@ std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_blo
     for (std::size_t k = 0; k < trials.size(); ++k) {
       states[static_cast<std::size_t>(packed[k].b)].vy += trials[k].kick;
     }
-    rows.warmStart(states, {0, rows.blocks()});
-    rows.solve(states, {0, rows.blocks()}, kSubstep, time, true);
+    rows.warmStart(states);
+    rows.solve(states, kSubstep, time, true);
     for (std::size_t s = 1; s < states.size(); ++s) moveState(states[s]);
     time += kSubstep;
-    rows.solve(states, {0, rows.blocks()}, kSubstep, time, false);
+    rows.solve(states, kSubstep, time, false);
   }
   rows.bounce(states);
   std::vector<Outcome> outcomes;
