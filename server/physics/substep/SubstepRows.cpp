@@ -112,17 +112,14 @@ void SubstepWorld::sortByBatch() {
     m_by_batch[m_turn_counts[at(m_batch_of[state])]++] = static_cast<std::int32_t>(state);
 }
 
-// Contacts of a colour lie all over the memory: what they are made of is on its way while others are filled
-// in.
-[[gnu::always_inline]] inline void SubstepWorld::fetchAhead(std::span<const std::int32_t> contacts,
-                                                            std::size_t turn) const {
-  if (turn + 2 * kFetched < contacts.size())
-    fetchLines(&m_contacts[at(contacts[turn + 2 * kFetched])], sizeof(Contact));
-  if (turn + kFetched >= contacts.size()) return;
-  const Contact& contact = m_contacts[at(contacts[turn + kFetched])];
-  fetchLines(&m_memory[at(contact.memory)].manifold, sizeof(Manifold));
-  fetchLines(&m_bodies[at(contact.a)], kFetchedOfBody);
-  fetchLines(&m_bodies[at(contact.b)], kFetchedOfBody);
+// Contacts of a colour lie all over the memory. Returns the one that is some turns ahead and has been fetched
+// by now, so that what it refers to can be fetched, too; null at the end.
+[[gnu::always_inline]] inline const SubstepWorld::Contact* SubstepWorld::contactAhead(
+    std::span<const std::int32_t> contacts, std::size_t turn) const {
+  const std::size_t ahead = turn + kFetched;
+  if (ahead + kFetched < contacts.size())
+    fetchLines(&m_contacts[at(contacts[ahead + kFetched])], sizeof(Contact));
+  return ahead < contacts.size() ? &m_contacts[at(contacts[ahead])] : nullptr;
 }
 
 void SubstepWorld::addRow(Contact& contact) {
@@ -152,7 +149,11 @@ void SubstepWorld::fillRows(std::span<const std::int32_t> contacts) {
   std::int32_t colour = -1;
   std::size_t in_block = 0;
   for (std::size_t turn = 0; turn < contacts.size(); ++turn) {
-    fetchAhead(contacts, turn);
+    if (const Contact* const p_ahead = contactAhead(contacts, turn)) {
+      fetchLines(&m_memory[at(p_ahead->memory)].manifold, sizeof(Manifold));
+      fetchLines(&m_bodies[at(p_ahead->a)], kFetchedOfBody);
+      fetchLines(&m_bodies[at(p_ahead->b)], kFetchedOfBody);
+    }
     Contact& contact = m_contacts[at(contacts[turn])];
     if (contact.colour != colour || in_block == kLanes || colour == kUncoloured) {
       m_rows.beginBlock();
@@ -167,10 +168,8 @@ void SubstepWorld::fillRows(std::span<const std::int32_t> contacts) {
 
 void SubstepWorld::storeImpulses(std::span<const std::int32_t> contacts) {
   for (std::size_t turn = 0; turn < contacts.size(); ++turn) {
-    if (turn + 2 * kFetched < contacts.size())
-      fetchLines(&m_contacts[at(contacts[turn + 2 * kFetched])], sizeof(Contact));
-    if (turn + kFetched < contacts.size())
-      fetchLines(&m_memory[at(m_contacts[at(contacts[turn + kFetched])].memory)], sizeof(Memory));
+    if (const Contact* const p_ahead = contactAhead(contacts, turn))
+      fetchLines(&m_memory[at(p_ahead->memory)], sizeof(Memory));
     Contact& contact = m_contacts[at(contacts[turn])];
     contact.impulse = m_rows.impulse(contact.place);
     Memory& known = m_memory[at(contact.memory)];

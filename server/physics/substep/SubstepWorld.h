@@ -230,7 +230,7 @@ class SubstepWorld final : public RigidStepper {
   void chooseColours();
   void chooseBatches();
   void sortByBatch();
-  void fetchAhead(std::span<const std::int32_t> contacts, std::size_t turn) const;
+  const Contact* contactAhead(std::span<const std::int32_t> contacts, std::size_t turn) const;
   void addRow(Contact& contact);
   void fillRows(std::span<const std::int32_t> contacts);
   void storeImpulses(std::span<const std::int32_t> contacts);
