@@ -58,6 +58,29 @@ TEST(SubstepWorld, APyramidStandsAndSleeps) {
   for (const int id : ids) EXPECT_TRUE(scene.world.isAsleep(id)) << id;
 }
 
+// More contacts than are solved for at a time: none of them is forgotten.
+TEST(SubstepWorld, SixHundredStacksAllStandTouchOnceAndSleep) {
+  constexpr int kStacks = 600;
+  SubstepScene scene;
+  scene.addFloor();
+  std::vector<int> tops;
+  for (int i = 0; i < kStacks; ++i) {
+    const double x = 2.0 * (i - kStacks / 2);
+    scene.addCrate({x, -0.6});
+    tops.push_back(scene.addCrate({x, -1.7}));
+  }
+  std::size_t begun = 0;
+  for (int tick = 0; tick < 100; ++tick) {
+    scene.ticks(1);
+    begun += scene.world.events().size();
+  }
+  EXPECT_EQ(begun, 2u * kStacks);
+  for (const int top : tops) {
+    EXPECT_TRUE(scene.world.isAsleep(top)) << top;
+    EXPECT_NEAR(scene.at(top).y, -1.5, 0.01) << top;
+  }
+}
+
 // A pile's slow swings are damped, and it does not creep sideways.
 TEST(SubstepWorld, ATallPyramidOfNeighboursThatTouchComesToRest) {
   constexpr int kRows = 20;
