@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kMaxHeaped = 32;   // of which a proxy keeps all pairs that it finds …
 constexpr std::size_t kKeptHeaped = 16;  // … and of more only the nearest
 constexpr std::size_t kCollected = 64;   // before the farthest are dropped
+constexpr int kCrowd = 64;               // so many in one place are looked for first
+constexpr double kBeyond = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t kLastOrder = std::numeric_limits<std::uint64_t>::max();
 // All pairs of a tree are found in about the time that it takes to ask for those of a quarter of its bodies.
 constexpr std::size_t kManyShare = 4;
 constexpr std::size_t kMany = 16;  // of fewer, each is asked for
@@ -32,10 +35,29 @@ bool areHeaped(const GridBounds& a, const GridBounds& b) {
          y < 2 * std::min(a.upper_y - a.lower_y, b.upper_y - b.lower_y);
 }
 
+Vec2 widthOf(const GridBounds& a) {
+  return {static_cast<double>(a.upper_x - a.lower_x), static_cast<double>(a.upper_y - a.lower_y)};
+}
+
+// Is it about as large as all of a crowd?
+bool areAlike(Vec2 width, Vec2 narrowest, Vec2 widest) {
+  const auto areAlong = [](double own, double least, double most) {
+    return 2 * std::min(own, least) >= std::max(own, most);
+  };
+  return areAlong(width.x, narrowest.x, widest.x) && areAlong(width.y, narrowest.y, widest.y);
+}
+
 double squareOfDistance(const GridBounds& a, const GridBounds& b) {
   const auto x = static_cast<double>(twiceMiddle(a.lower_x, a.upper_x) - twiceMiddle(b.lower_x, b.upper_x));
   const auto y = static_cast<double>(twiceMiddle(a.lower_y, a.upper_y) - twiceMiddle(b.lower_y, b.upper_y));
   return x * x + y * y;
+}
+
+// May so many below it be in one place? Cheap, and blind to some whose bounds are of many sizes.
+bool mayBeCrowd(const ImpactTree::Below& below) {
+  const double most = 4 * double{below.least};
+  return below.bodies >= kCrowd && below.box.high.x - below.box.low.x < most &&
+         below.box.high.y - below.box.low.y < most;
 }
 
 std::uint64_t keyOf(const BroadPhasePair& pair) {
@@ -96,8 +118,16 @@ SweptBox BroadPhase::relative(const GridBounds& bounds) const {
           {from(bounds.upper_x, m_origin.lower_x), from(bounds.upper_y, m_origin.lower_y)}};
 }
 
+float BroadPhase::halfOf(const Proxy& proxy) const {
+  if (!m_thins_crowds || !proxy.moves) return 0;
+  const GridBounds& bounds = proxy.bounds;
+  const std::int64_t shorter = std::min(bounds.upper_x - bounds.lower_x, bounds.upper_y - bounds.lower_y);
+  return 0.5f * static_cast<float>(shorter);
+}
+
 void BroadPhase::fileAll() {
   m_boxes.clear();
+  m_halves.clear();
   m_numbers.clear();
   m_loose.clear();
   m_widened = 0;
@@ -106,9 +136,10 @@ void BroadPhase::fileAll() {
     if (m_proxies[i].is_removed) continue;
     m_proxies[i].is_filed = true;
     m_boxes.push_back(relative(m_proxies[i].bounds));
+    m_halves.push_back(halfOf(m_proxies[i]));
     m_numbers.push_back(static_cast<int>(i));
   }
-  m_tree.update(m_boxes, m_numbers, static_cast<int>(m_proxies.size()));
+  m_tree.update(m_boxes, m_numbers, static_cast<int>(m_proxies.size()), m_halves);
 }
 
 void BroadPhase::markChanged(std::int32_t proxy) {
@@ -141,63 +172,145 @@ bool BroadPhase::isHeap(const Proxy& a, const Proxy& b) const {
   return m_thins_crowds && a.moves && b.moves && areHeaped(a.bounds, b.bounds);
 }
 
-// Of those that find too many the pairs are looked for once more, one after the other.
+void BroadPhase::summarizeCrowds() {
+  const auto ofBody = [&](int proxy) -> Crowd {
+    const Proxy& own = m_proxies[index(proxy)];
+    const SweptBox box = relative(own.bounds);
+    const Vec2 middle = 0.5 * (box.low + box.high), width = widthOf(own.bounds);
+    const Vec2 widest = own.moves ? width : Vec2{kBeyond, kBeyond};
+    return {{middle, middle}, width, widest, own.order, own.changed ? own.order : kLastOrder};
+  };
+  const auto joins = [](const Crowd& a, const Crowd& b) -> Crowd {
+    return {join(a.middles, b.middles),
+            {std::min(a.narrowest.x, b.narrowest.x), std::min(a.narrowest.y, b.narrowest.y)},
+            {std::max(a.widest.x, b.widest.x), std::max(a.widest.y, b.widest.y)},
+            std::min(a.first, b.first),
+            std::max(a.last, b.last)};
+  };
+  m_tree.summarize(m_crowds, ofBody, joins);
+}
+
+// Are so many below it that whoever is near is in a crowd, each of whom areHeaped() with all others?
+bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
+  if (below.bodies < kCrowd) return false;
+  const Crowd& crowd = m_crowds[index(below.node)];
+  const Vec2 spread = crowd.middles.high - crowd.middles.low;
+  return spread.x < crowd.narrowest.x && spread.y < crowd.narrowest.y && crowd.widest.x < kBeyond;
+}
+
+// All that touch the bounds of a crowd count as having found too many. Where a crowd was in the last update
+// it is looked for in any case.
+void BroadPhase::findCrowds() {
+  const auto comeTo = [](int /*proxy*/) {};
+  m_crowds.clear();
+  bool may_be = m_was_crowded;
+  m_tree.walk(
+      [&](const ImpactTree::Below& below) {
+        may_be = may_be || mayBeCrowd(below);
+        return below.bodies >= kCrowd && !may_be;
+      },
+      comeTo);
+  if (!may_be) return;
+  summarizeCrowds();
+  m_tree.walk(
+      [&](const ImpactTree::Below& below) {
+        if (!isCrowd(below)) return below.bodies >= kCrowd;
+        m_tree.query(below.box, [&](int proxy) { m_proxies[index(proxy)].heaped = kCrowd; });
+        return false;
+      },
+      comeTo);
+}
+
+bool BroadPhase::isLike(const Proxy& a, const Proxy& b) const {
+  const Vec2 width = widthOf(b.bounds);
+  return m_thins_crowds && a.moves && b.moves && areAlike(widthOf(a.bounds), width, width);
+}
+
+// Of those that find too many the pairs are looked for once more, one after the other. Within a crowd that is
+// done for all, so it is left out here.
 void BroadPhase::findAllPairs() {
   fileAll();
   for (Proxy& own : m_proxies) {
     own.heaped = 0;
     if (own.changed) own.is_thinned = false;
   }
-  bool is_crowded = false;
-  m_tree.queryPairs([&](int a, int b) {
+  findCrowds();
+  const auto find = [&](int a, int b) {
+    ++m_looks;
     const Proxy &one = m_proxies[index(a)], &other = m_proxies[index(b)];
     if (!(one.changed || other.changed) || !(one.moves || other.moves)) return;
-    if (isHeap(one, other) && ++finderOf(a, b).heaped > kMaxHeaped) {
-      is_crowded = true;
-      return;
-    }
+    if (isHeap(one, other) && ++finderOf(a, b).heaped > kMaxHeaped) return;
     m_found.push_back(one.id < other.id ? BroadPhasePair{one.id, other.id, a, b}
                                         : BroadPhasePair{other.id, one.id, b, a});
-  });
-  if (!is_crowded) return;
+  };
+  if (m_crowds.empty()) {
+    m_tree.queryPairs(find);
+  } else {
+    m_tree.queryPairs(find, [&](const ImpactTree::Below& below) { return isCrowd(below); });
+  }
+  const auto isCrowded = [&](std::int32_t proxy) { return m_proxies[index(proxy)].heaped > kMaxHeaped; };
+  const bool is_crowded = std::any_of(m_changed.begin(), m_changed.end(), isCrowded);
+  m_was_crowded = is_crowded;
+  if (!is_crowded) return m_crowds.clear();
   std::erase_if(m_found, [&](const BroadPhasePair& pair) {
     return finderOf(pair.proxy_a, pair.proxy_b).heaped > kMaxHeaped;
   });
-  for (const std::int32_t proxy : m_changed) {
-    if (!m_proxies[index(proxy)].is_removed && m_proxies[index(proxy)].heaped > kMaxHeaped) findPairs(proxy);
-  }
+  if (m_crowds.empty()) summarizeCrowds();
+  // By where they are: what one has looked at is still in the processor's cache for the next.
+  m_tree.walk([](const ImpactTree::Below& /*below*/) { return true; },
+              [&](int proxy) {
+                if (m_proxies[index(proxy)].changed && isCrowded(proxy)) findPairs(proxy);
+              });
+  m_crowds.clear();
 }
 
 void BroadPhase::findPairs(std::int32_t proxy) {
   Proxy& own = m_proxies[index(proxy)];
   const GridBounds bounds = own.bounds;
+  const SweptBox box = relative(bounds);
+  const Vec2 middle = 0.5 * (box.low + box.high);
   m_heaped.clear();
-  own.is_thinned = false;
-  double farthest = std::numeric_limits<double>::infinity();  // of those that may be kept
-  visitAll(bounds, [&](std::int32_t other) {
+  std::size_t heaped = 0;
+  double farthest = std::numeric_limits<double>::infinity();  // of those that may be kept, and of these …
+  std::uint64_t last = 0;                                     // … the last
+  const auto find = [&](std::int32_t other) {
+    ++m_looks;
     const Proxy& that = m_proxies[index(other)];
     if (other == proxy || (that.changed && isBefore(other, proxy)) || !(own.moves || that.moves)) return;
     const BroadPhasePair pair = own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
                                                  : BroadPhasePair{that.id, own.id, other, proxy};
-    const GridBounds& its = that.bounds;
-    if (!isHeap(own, that)) {
+    const bool is_heaped = isHeap(own, that);
+    if (!is_heaped && !isLike(own, that)) {
       m_found.push_back(pair);
       return;
     }
-    const double square = squareOfDistance(bounds, its);
+    heaped += is_heaped ? 1 : 0;
+    const double square = squareOfDistance(bounds, that.bounds);
     if (square > farthest) return;
     m_heaped.push_back({square, that.order, pair});
-    if (m_heaped.size() < kCollected) return;
-    own.is_thinned = true;
+    if (heaped <= kMaxHeaped || m_heaped.size() < kCollected) return;
     keepNearest();
     farthest = m_heaped.back().square;
-  });
-  if (m_heaped.size() > kMaxHeaped || (own.is_thinned && m_heaped.size() > kKeptHeaped)) {
-    own.is_thinned = true;
-    keepNearest();
-  }
+    last = m_heaped.back().order;
+  };
+  // Do all below it find this one themselves, or are they like it, and others nearer?
+  const auto isLeftOut = [&](const ImpactTree::Below& below) {
+    if (m_crowds.empty()) return false;
+    const Crowd& crowd = m_crowds[index(below.node)];
+    if (crowd.last < own.order) return true;
+    if (!own.moves || !areAlike(widthOf(bounds), crowd.narrowest, crowd.widest)) return false;
+    const Vec2 over = middle - crowd.middles.high, under = crowd.middles.low - middle;
+    const Vec2 apart = {std::max({over.x, under.x, 0.0}), std::max({over.y, under.y, 0.0})};
+    const double square = 4 * lengthSquared(apart);
+    return square > farthest || (square == farthest && crowd.first > last);
+  };
+  visitAll(
+      bounds, [&](const ImpactTree::Below& below) { return overlaps(below.box, box) && !isLeftOut(below); },
+      find, own.is_filed && !m_crowds.empty() ? proxy : kNone);
+  own.is_thinned = heaped > kMaxHeaped;
+  if (own.is_thinned && m_heaped.size() > kKeptHeaped) keepNearest();
   m_has_thinned = m_has_thinned || own.is_thinned;
-  for (const Heaped& heaped : m_heaped) m_found.push_back(heaped.pair);
+  for (const Heaped& kept : m_heaped) m_found.push_back(kept.pair);
 }
 
 // By digits of eight bits, those left out that all have in common.

@@ -25,8 +25,8 @@ struct BroadPhasePair {
 /// One thread at a time.
 class BroadPhase {
  public:
-  /// `thins_crowds`: of bodies that lie in one another, more than 32 in one place, each finds only the
-  /// nearest 16.
+  /// `thins_crowds`: a body that lies in more than 32 others finds only the nearest 16 of these and of those
+  /// about as large as itself. What that costs grows with their number, not with that of their pairs.
   explicit BroadPhase(bool thins_crowds = false) : m_thins_crowds(thins_crowds) {}
 
   /// `id` is the caller's, unique; `moves` false for bodies that never do: two of them make no pair. In a
@@ -50,12 +50,17 @@ class BroadPhase {
   template <class Visit>
   void query(const GridBounds& bounds, Visit&& visit) {
     if (isUntidy()) fileAll();
-    visitAll(bounds, [&](std::int32_t proxy) { visit(m_proxies[index(proxy)].id); });
+    const SweptBox box = relative(bounds);
+    visitAll(
+        bounds, [&](const ImpactTree::Below& below) { return overlaps(below.box, box); },
+        [&](std::int32_t proxy) { visit(m_proxies[index(proxy)].id); }, kNone);
   }
   /// Has it found so many in one place that some are left out of its pairs?
   bool isThinned(std::int32_t proxy) const { return m_proxies[index(proxy)].is_thinned; }
   /// The same of any proxy, since it was made.
   bool hasThinned() const { return m_has_thinned; }
+  /// How often it has looked whether two bodies make a pair, since it was made.
+  std::int64_t looks() const { return m_looks; }
 
  private:
   struct Proxy {
@@ -75,28 +80,42 @@ class BroadPhase {
     std::uint64_t order;  // of the other one
     BroadPhasePair pair;
   };
+  // All that is below a node.
+  struct Crowd {
+    SweptBox middles;           // around those of their bounds
+    Vec2 narrowest, widest;     // of these; beyond any width if one of them never moves
+    std::uint64_t first, last;  // order; of one that has not changed the last is beyond any
+  };
   void markChanged(std::int32_t proxy);
   SweptBox relative(const GridBounds& bounds) const;
+  float halfOf(const Proxy& proxy) const;
   void fileAll();
   // Are so many not in the tree, or in it with bounds too wide, that another tree costs less?
   bool isUntidy() const {
     return m_loose.size() * m_loose.size() > kScannedPerBody * m_count || kWidenedShare * m_widened > m_count;
   }
-  template <class Visit>
-  void visitAll(const GridBounds& bounds, Visit&& visit) const {
-    m_tree.query(relative(bounds), [&](int proxy) {
+  static constexpr std::int32_t kNone = -1;
+  // In the tree where it enters(), those beside a proxy first; and what is not in it.
+  template <class Enters, class Visit>
+  void visitAll(const GridBounds& bounds, Enters&& enters, Visit&& visit, std::int32_t beside) const {
+    const auto visitFiled = [&](int proxy) {
       const Proxy& own = m_proxies[index(proxy)];
       if (own.is_filed && overlap(own.bounds, bounds)) visit(proxy);
-    });
+    };
+    m_tree.walk(enters, visitFiled, beside);
     for (const std::int32_t proxy : m_loose) {
       const Proxy& own = m_proxies[index(proxy)];
       if (!own.is_removed && overlap(own.bounds, bounds)) visit(proxy);
     }
   }
   void findPairs(std::int32_t proxy);
+  bool isCrowd(const ImpactTree::Below& below) const;
+  void findCrowds();
+  void summarizeCrowds();
   void findAllPairs();
   Proxy& finderOf(std::int32_t a, std::int32_t b);
   bool isHeap(const Proxy& a, const Proxy& b) const;
+  bool isLike(const Proxy& a, const Proxy& b) const;
   bool isBefore(std::int32_t a, std::int32_t b) const;
   void keepNearest();
   void sortFound();
@@ -108,6 +127,8 @@ class BroadPhase {
 
   bool m_thins_crowds;
   bool m_has_thinned = false;
+  bool m_was_crowded = false;
+  std::int64_t m_looks = 0;
   std::vector<Proxy> m_proxies;
   std::vector<std::int32_t> m_free;
   std::vector<std::int32_t> m_changed;
@@ -117,7 +138,9 @@ class BroadPhase {
   ImpactTree m_tree;      // of the bounds as they were when all were filed: by proxy, in grid units …
   GridBounds m_origin{};  // … about these
   std::vector<SweptBox> m_boxes;
+  std::vector<float> m_halves;  // half of their shorter side; 0 of what never moves
   std::vector<int> m_numbers;
+  std::vector<Crowd> m_crowds;        // of nodes of the tree, while pairs of a crowd are found
   std::vector<std::int32_t> m_loose;  // bodies that came, or went elsewhere, since then
   std::size_t m_widened = 0;          // times that bounds in the tree were widened since then
 };

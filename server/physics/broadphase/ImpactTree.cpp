@@ -4,11 +4,16 @@
 
 namespace naiad::physics {
 
-void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count) {
+void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count,
+                        const std::vector<float>& values) {
   constexpr double kSpread = 1.3;  // of the size when it was built: a larger tree is rebuilt, not refitted
   m_boxes = &boxes;
+  const auto setValues = [&] {
+    for (std::size_t i = 0; i < values.size(); ++i) m_nodes[m_leaf_of[ids[i]]].least = values[i];
+  };
   if (!ids.empty() && ids == m_ids) {
     for (std::size_t i = 0; i < ids.size(); ++i) m_nodes[m_leaf_of[ids[i]]].box = boxes[i];
+    setValues();
     if (refit() <= kSpread * m_built_size) return;
   }
   m_ids = ids;
@@ -18,13 +23,14 @@ void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<in
   m_nodes.clear();
   m_nodes.reserve(2 * ids.size());
   if (!ids.empty()) build(0, static_cast<int>(ids.size()), -1);
+  setValues();
   m_built_size = refit();
 }
 
 // Parents come before their children, so that refit() goes backwards.
 void ImpactTree::build(int begin, int end, int parent) {
   const int node = static_cast<int>(m_nodes.size());
-  m_nodes.push_back({(*m_boxes)[m_order[begin]], parent, -1, node + 2 * (end - begin) - 1});
+  m_nodes.push_back({(*m_boxes)[m_order[begin]], parent, -1, node + 2 * (end - begin) - 1, 0});
   if (end - begin == 1) {
     const int id = m_ids[m_order[begin]];
     m_nodes[node].id = id;
@@ -54,7 +60,11 @@ double ImpactTree::refit() {
   double size = 0;
   for (int i = this->size(); i-- > 0;) {
     Node& node = m_nodes[i];
-    if (node.id < 0) node.box = join(m_nodes[i + 1].box, m_nodes[secondOf(i)].box);
+    if (node.id < 0) {
+      const Node &first = m_nodes[i + 1], &second = m_nodes[secondOf(i)];
+      node.box = join(first.box, second.box);
+      node.least = std::min(first.least, second.least);
+    }
     size += sizeOf(node.box);
   }
   return size;

@@ -36,13 +36,57 @@ constexpr SweptBox join(const SweptBox& a, const SweptBox& b) {
 class ImpactTree {
  public:
   /// Takes `boxes[i]` for the bodies `ids[i]`, ids below `id_count`. Refits the old tree if the ids are the
-  /// same and its boxes have not spread too far, and rebuilds it otherwise.
-  void update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count);
+  /// same and its boxes have not spread too far, and rebuilds it otherwise. `values[i]`: a number of the
+  /// caller's for that body, of which a node has the least of all below it; none: 0.
+  void update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count,
+              const std::vector<float>& values = {});
 
   const SweptBox& box(int id) const { return m_nodes[m_leaf_of[id]].box; }
 
   /// Enlarges the box of a body by `box`.
   void grow(int id, const SweptBox& box);
+
+  /// What is below a node: one body or more.
+  struct Below {
+    const SweptBox& box;  // around all of theirs
+    float least;          // of their values
+    int bodies;
+    int node;  // its number, until the next update()
+  };
+
+  /// Of every node, by its number: what joins(a, b) makes of ofBody(id) of all bodies below it.
+  template <typename Summary, typename OfBody, typename Joins>
+  void summarize(std::vector<Summary>& of_nodes, OfBody&& ofBody, Joins&& joins) const {
+    of_nodes.resize(m_nodes.size());
+    for (int i = size(); i-- > 0;) {
+      const int id = m_nodes[i].id;
+      of_nodes[i] = id >= 0 ? ofBody(id) : joins(of_nodes[i + 1], of_nodes[secondOf(i)]);
+    }
+  }
+
+  /// Goes down from the top, and below a node if enters(Below) says so; calls found(id) for every body that
+  /// it comes to. What is near the body `beside` comes first, if it is not below 0.
+  template <typename Enters, typename Found>
+  void walk(Enters&& enters, Found&& found, int beside = -1) const {
+    const int near = beside < 0 ? size() : nodeOfMany(m_leaf_of[beside]);
+    const auto walkThrough = [&](int begin, int end) {
+      for (int i = begin; i < end;) {
+        if (i == near && begin != near) {
+          i = m_nodes[i].end;
+          continue;
+        }
+        const Node& node = m_nodes[i];
+        if (!enters(below(i))) {
+          i = node.end;
+          continue;
+        }
+        ++i;
+        if (node.id >= 0) found(node.id);
+      }
+    };
+    if (near < size()) walkThrough(near, m_nodes[near].end);
+    if (near > 0) walkThrough(0, size());
+  }
 
   /// Calls found(id) for every body whose box overlaps `box`. If it returns false, that was the last one.
   template <typename Found>
@@ -67,8 +111,18 @@ class ImpactTree {
   /// side are asked for together.
   template <typename Found>
   void queryPairs(Found&& found) {
+    queryPairs(std::forward<Found>(found), [](const Below& /*below*/) { return false; });
+  }
+  /// The same without those below nodes of which skips(Below) is true, as of all bodies below these it must
+  /// be.
+  template <typename Found, typename Skips>
+  void queryPairs(Found&& found, Skips&& skips) {
     for (int i = 0; i < size();) {
       const Node& few = m_nodes[i];
+      if (skips(below(i))) {
+        i = few.end;
+        continue;
+      }
       if (few.end - i > kNodesOfFew) {
         ++i;
         continue;
@@ -76,7 +130,7 @@ class ImpactTree {
       m_near.clear();  // those of the few come first
       for (int k = i; k < size();) {
         const Node& node = m_nodes[k];
-        const bool overlapping = overlaps(node.box, few.box);
+        const bool overlapping = overlaps(node.box, few.box) && !skips(below(k));
         if (overlapping && node.id >= 0) m_near.push_back({node.box, node.id});
         k = overlapping ? k + 1 : node.end;
       }
@@ -139,11 +193,13 @@ class ImpactTree {
   static double sizeOf(const SweptBox& box) { return (box.high.x - box.low.x) + (box.high.y - box.low.y); }
   static constexpr int kDepth = 128;      // halved at every level: far more than any number of bodies needs
   static constexpr int kNodesOfFew = 15;  // eight bodies and what is above them
-  struct Node {                           // its first child is the next one
+  static constexpr int kNodesOfMany = 255;
+  struct Node {  // its first child is the next one
     SweptBox box;
     int parent;
     int id;   // of the leaf's body; −1 above
     int end;  // the first node that is not below it
+    float least;
   };
   struct Leaf {
     SweptBox box;
@@ -151,6 +207,14 @@ class ImpactTree {
   };
   int size() const { return static_cast<int>(m_nodes.size()); }
   int secondOf(int node) const { return m_nodes[node + 1].end; }
+  Below below(int node) const {
+    return {m_nodes[node].box, m_nodes[node].least, (m_nodes[node].end - node + 1) / 2, node};
+  }
+  // The first one above with so many below it, or the top.
+  int nodeOfMany(int node) const {
+    while (m_nodes[node].end - node < kNodesOfMany && m_nodes[node].parent >= 0) node = m_nodes[node].parent;
+    return node;
+  }
 
   // Of two nodes the larger one is divided.
   void divide(int a, int b, std::pair<int, int>* stack, int& height) const {

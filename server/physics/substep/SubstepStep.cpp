@@ -122,11 +122,12 @@ double SubstepWorld::calmMargin(const SubstepBody& a, const SubstepBody& b) {
   return length(b.drift - a.drift) + a.roll + b.roll + kSlack * (a.thickness + b.thickness);
 }
 
-// Room for the moves of the next steps.
-GridBounds SubstepWorld::wideBounds(const SubstepBody& b) {
+// Room for the moves of the next steps. In a crowd it would hold more bodies each.
+GridBounds SubstepWorld::wideBounds(const SubstepBody& b) const {
   const double most = kAhead * b.thickness;
   const double speed = std::max(std::fabs(b.body.velocity.x), std::fabs(b.body.velocity.y));
-  if (speed > kNeverKept * b.thickness) return gridBounds(b.body.place, b.box, b.margin);
+  const bool is_in_crowd = b.proxy >= 0 && m_broad.isThinned(b.proxy);
+  if (is_in_crowd || speed > kNeverKept * b.thickness) return gridBounds(b.body.place, b.box, b.margin);
   const Vec2 ahead = {std::clamp(kTicksAhead * b.body.velocity.x, -most, most),
                       std::clamp(kTicksAhead * b.body.velocity.y, -most, most)};
   const Bounds swept = {b.box.lower + Vec2{std::min(ahead.x, 0.0), std::min(ahead.y, 0.0)},
@@ -255,7 +256,16 @@ void SubstepWorld::stopFast() {
   if (m_fast.empty()) return;
   treePaths();
   m_near.clear();
-  m_path_tree.queryPairs([this](int one, int other) { approach(one, other); });
+  if (m_are_crowded) {
+    for (const Fast& fast : m_fast) {
+      const int own = m_fast_numbers[at(fast.id)];
+      visitPathsBeside(own, [&](int other) {
+        if (other > own) approach(own, other);
+      });
+    }
+  } else {
+    m_path_tree.queryPairs([this](int one, int other) { approach(one, other); });
+  }
   for (Fast& fast : m_fast) {
     if (!isMovable(m_bodies[at(fast.id)])) continue;
     if (!m_are_many) {
@@ -271,6 +281,7 @@ void SubstepWorld::stopFast() {
 // in which the paths are short. All that matters is how bodies move against each other.
 void SubstepWorld::treePaths() {
   m_paths.clear();
+  m_path_values.clear();
   m_path_ids.clear();
   m_slow.clear();
   m_fast_numbers.assign(m_bodies.size(), kSlowNumber);
@@ -278,9 +289,11 @@ void SubstepWorld::treePaths() {
   for (const Fast& fast : m_fast) {
     m_fast_numbers[at(fast.id)] = static_cast<std::int32_t>(m_paths.size());
     m_paths.push_back(seenPath(fast));
+    m_path_values.push_back(crowdValue(m_bodies[at(fast.id)]));
   }
   const Place& origin = m_bodies[at(m_fast[0].id)].body.place;
-  m_are_many = m_fast.size() * kFewFast >= m_bodies.size();
+  m_are_crowded = std::find(m_path_values.begin(), m_path_values.end(), kInCrowd) != m_path_values.end();
+  m_are_many = m_are_crowded || m_fast.size() * kFewFast >= m_bodies.size();
   for (std::int32_t id = 0; m_are_many && id < idLimit(); ++id) {
     const SubstepBody& b = m_bodies[at(id)];
     if (b.proxy < 0 || m_fast_numbers[at(id)] != kSlowNumber) continue;
@@ -290,9 +303,22 @@ void SubstepWorld::treePaths() {
     swept.low += {std::min(back.x, 0.0), std::min(back.y, 0.0)};
     swept.high += {std::max(back.x, 0.0), std::max(back.y, 0.0)};
     m_paths.push_back(swept);
+    m_path_values.push_back(crowdValue(b));
   }
   for (std::size_t i = 0; i < m_paths.size(); ++i) m_path_ids.push_back(static_cast<int>(i));
-  m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()));
+  m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()), m_path_values);
+}
+
+// What a path may meet, without those that pass each other.
+template <typename Visit>
+void SubstepWorld::visitPathsBeside(int own, Visit&& visit) const {
+  const SweptBox& box = m_path_tree.box(own);
+  const bool is_in_crowd = m_path_values[at(own)] == kInCrowd;
+  m_path_tree.walk(
+      [&](const ImpactTree::Below& below) {
+        return overlaps(below.box, box) && !(is_in_crowd && below.least == kInCrowd);
+      },
+      visit);
 }
 
 SweptBox SubstepWorld::seenPath(const Fast& fast) const {
@@ -319,10 +345,23 @@ GridBounds SubstepWorld::sweptBounds(const SubstepBody& b, Vec2 path) {
                     0);
 }
 
-// Do they lie in one another, as bodies of a crowd do? They pass until there is room.
-bool SubstepWorld::areDeep(const SubstepBody& a, const SubstepBody& b) const {
+float SubstepWorld::crowdValue(const SubstepBody& b) const {
+  return isMovable(b) && m_broad.isThinned(b.proxy) ? kInCrowd : 0;
+}
+
+// Bodies of a crowd pass each other until there is room, and what lies in one of them does, too.
+bool SubstepWorld::passes(const SubstepBody& a, const SubstepBody& b) const {
+  if (!isMovable(a) || !isMovable(b)) return false;
+  const bool is_thinned = m_broad.isThinned(a.proxy), is_other = m_broad.isThinned(b.proxy);
+  if (!is_thinned && !is_other) return false;
   const double near = a.thickness + b.thickness;
-  return isMovable(a) && isMovable(b) && lengthSquared(b.body.place - a.body.place) < near * near;
+  return (is_thinned && is_other) || lengthSquared(b.body.place - a.body.place) < near * near;
+}
+
+void SubstepWorld::addNear(Fast& fast, std::int32_t id) {
+  if (passes(m_bodies[at(fast.id)], m_bodies[at(id)])) return;
+  ++m_counters.near;
+  m_near.push_back({id, std::exchange(fast.near, static_cast<std::int32_t>(m_near.size()))});
 }
 
 // Two of the tree of paths, one < other: is one of them in the way of the other? Not of fast bodies that fly
@@ -347,7 +386,7 @@ void SubstepWorld::approach(int one, int other) {
 // It has been stopped, or goes another way.
 void SubstepWorld::approachAgain(Fast& fast) {
   const int own = m_fast_numbers[at(fast.id)];
-  m_path_tree.query(m_path_tree.box(own), [&](int other) {
+  visitPathsBeside(own, [&](int other) {
     if (other != own) approach(std::min(own, other), std::max(own, other));
   });
 }
@@ -386,7 +425,6 @@ void SubstepWorld::stop(Fast& fast) {
   double first = b.part;
   std::int32_t met = -1;
   const std::span<const ConvexShape> own_shapes = m_forms[b.form].shapes;
-  const bool is_thinned = m_broad.isThinned(b.proxy);
   for (std::int32_t i = fast.near; i >= 0; i = m_near[at(i)].next) {
     const std::int32_t near = m_near[at(i)].id;
     const SubstepBody& other = m_bodies[at(near)];
@@ -394,7 +432,6 @@ void SubstepWorld::stop(Fast& fast) {
     const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
     const double pass = kMaxPass * std::min(b.thickness, other.thickness);
     if (nearer <= marginOf(b, other) + pass) continue;
-    if ((is_thinned || m_broad.isThinned(other.proxy)) && areDeep(b, other)) continue;
     const auto pair = findPair(id, near);
     if (pair != m_pairs.end() && pair->is_jointed) continue;
     const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;

@@ -40,6 +40,7 @@ struct SubstepCounters {
   std::int64_t contacts = 0;     ///< manifolds solved for, once per step each
   std::int64_t blocks = 0;       ///< of rows that were solved side by side
   std::int64_t sweeps = 0;       ///< over pairs that fly past each other (choosePairs())
+  std::int64_t near = 0;         ///< bodies that fast ones might have met, and were swept against
   std::int64_t stopped = 0;      ///< fast bodies, where they first touched something
   std::int64_t quarantined = 0;  ///< bodies frozen
   std::int64_t broken = 0;       ///< joints
@@ -113,6 +114,7 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t id, next;
   };
   static constexpr std::int32_t kSlowNumber = -1;
+  static constexpr float kInCrowd = 1;  // value of a path
   struct Slow {
     GridBounds bounds;  // in the broad phase
     std::int32_t id;
@@ -183,10 +185,11 @@ class SubstepWorld final : public RigidStepper {
   Vec2 middlePath();
   SweptBox seenPath(const Fast& fast) const;
   static GridBounds sweptBounds(const SubstepBody& body, Vec2 path);
-  bool areDeep(const SubstepBody& a, const SubstepBody& b) const;
-  void addNear(Fast& fast, std::int32_t id) {
-    m_near.push_back({id, std::exchange(fast.near, static_cast<std::int32_t>(m_near.size()))});
-  }
+  float crowdValue(const SubstepBody& body) const;
+  template <typename Visit>
+  void visitPathsBeside(int own, Visit&& visit) const;
+  bool passes(const SubstepBody& a, const SubstepBody& b) const;
+  void addNear(Fast& fast, std::int32_t id);
   void approach(int one, int other);
   void approachAgain(Fast& fast);
   RigidMotion motionOf(const SubstepBody& body) const;
@@ -195,7 +198,7 @@ class SubstepWorld final : public RigidStepper {
   bool goOnTogether(Fast& one, Fast& other, double time);
   void forecast(SubstepBody& body) const;
   static double calmMargin(const SubstepBody& a, const SubstepBody& b);
-  static GridBounds wideBounds(const SubstepBody& body);
+  GridBounds wideBounds(const SubstepBody& body) const;
   Vec2 movedBy(const SubstepBody& body) const;
 
   // SubstepContacts.cpp
@@ -256,7 +259,9 @@ class SubstepWorld final : public RigidStepper {
   std::vector<SweptBox> m_paths;
   Vec2 m_along;  // how that one flies
   std::vector<double> m_path_order;
-  bool m_are_many = false;
+  std::vector<float> m_path_values;
+  bool m_are_many = false;     // the slow ones are among these
+  bool m_are_crowded = false;  // some of the fast ones are of a crowd
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
   std::vector<SubstepKick> m_kicks;  // by state

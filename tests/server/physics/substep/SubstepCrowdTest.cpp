@@ -1,0 +1,87 @@
+// Bodies that are made in one place at the fast level: bounded work, and they come apart.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "SubstepScene.h"
+#include "shared/values/SplitMix64.h"
+
+namespace naiad::physics {
+namespace {
+
+using namespace test;
+
+SubstepScene crowd(int count, double spread) {
+  SplitMix64 random(29);
+  SubstepScene scene(awake());
+  const ConvexShape disc = circleShape(0.5);
+  for (int i = 0; i < count; ++i) {
+    const double x = spread * random.unit(), y = spread * random.unit();
+    RigidBody body = movable({x, y}, disc);
+    body.acceleration = {};
+    scene.add(body, disc);
+  }
+  return scene;
+}
+
+// They are fast as soon as they are pushed, and pass each other.
+TEST(SubstepCrowd, ItsWorkGrowsWithItsBodiesAndNotWithTheirPairs) {
+  constexpr int kNearest = 16, kMargin = 2, kInTheWay = 32;
+  for (const double spread : {1.0, 0.0}) {
+    for (const int count : {500, 2000}) {
+      SubstepScene scene = crowd(count, spread);
+      SubstepCounters before;
+      for (int tick = 0; tick < 20; ++tick) {
+        scene.ticks(1);
+        const SubstepCounters& now = scene.world.counters();
+        EXPECT_LE(now.contacts - before.contacts, (kNearest + kMargin) * count) << spread << ' ' << tick;
+        EXPECT_LE(now.near - before.near, kInTheWay * count) << spread << ' ' << tick;
+        before = now;
+      }
+      EXPECT_TRUE(scene.world.hasThinned());
+      EXPECT_EQ(before.quarantined, 0);
+    }
+  }
+}
+
+TEST(SubstepCrowd, ComesApart) {
+  SubstepScene scene = crowd(1000, 1);
+  scene.ticks(120);
+  EXPECT_LT(scene.world.deepest(), 0.05);
+  double fastest = 0;
+  for (int id = 0; id < scene.world.idLimit(); ++id) fastest = std::max(fastest, scene.speed(id));
+  EXPECT_LT(fastest, 3);
+}
+
+// What is as fast as they are but not of them still stops at what it meets: at a crowd, too.
+TEST(SubstepCrowd, IsHitByWhatFliesIntoIt) {
+  SubstepScene scene = crowd(300, 1);
+  const ConvexShape disc = circleShape(0.5);
+  RigidBody ball = movable({-30, 0.5}, disc, 50);
+  ball.velocity = {40, 0};
+  ball.acceleration = {};
+  const int id = scene.add(ball, disc);
+  scene.ticks(1);
+  EXPECT_GT(scene.world.counters().near, 0);
+  EXPECT_TRUE(scene.world.isStopped(id));
+}
+
+// The youngest are not thinned, as they find few that are younger: one that lies in others which are.
+TEST(SubstepCrowd, WhatLiesInOneCanLeaveThroughIt) {
+  SubstepScene scene = crowd(300, 0.3);
+  const ConvexShape disc = circleShape(0.5);
+  const auto addAt = [&](Vec2 where, Vec2 velocity) {
+    RigidBody body = movable(where, disc);
+    body.velocity = velocity;
+    body.acceleration = {};
+    return scene.add(body, disc);
+  };
+  for (int i = 0; i < 40; ++i) addAt({0.007 * i, -0.5}, {});
+  const int leaving = addAt({0.6, 0.55}, {-40, 0});
+  scene.ticks(1);
+  EXPECT_FALSE(scene.world.isStopped(leaving));
+  EXPECT_GT(length(scene.at(leaving)), 5);
+}
+
+}  // namespace
+}  // namespace naiad::physics
