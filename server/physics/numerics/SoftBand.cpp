@@ -1,0 +1,86 @@
+#include "physics/numerics/SoftBand.h"
+
+#include <array>
+#include <cstring>
+
+namespace naiad::physics {
+
+namespace {
+
+// Doubles side by side, by the compiler's own operators: each rounded once, so the bits are everybody's.
+constexpr int kLanes = 4;
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+
+}  // namespace
+
+// An entry gets the same operations in the same sequence either way.
+bool SoftBand::decompose() {
+  int j = 0;
+  for (; m_band >= kWideBand && j + kPivots <= m_size; j += kPivots) {
+    for (int p = j; p < j + kPivots; ++p) {
+      if (!invertPivot(p)) return false;
+      eliminate(p, p + 1, j + kPivots - 1);
+    }
+    eliminateFour(j);
+    for (int p = j; p < j + kPivots; ++p) scale(p);
+  }
+  for (; j < m_size; ++j) {
+    if (!invertPivot(j)) return false;
+    eliminate(j, j + 1, m_size - 1);
+    scale(j);
+  }
+  return true;
+}
+
+bool SoftBand::invertPivot(int j) {
+  double& pivot = entry(j, j);
+  if (!(pivot > 0 && pivot < 1e300)) return false;
+  pivot = 1 / pivot;
+  return true;
+}
+
+// Column j from the columns `first` to `last` at its right.
+void SoftBand::eliminate(int j, int first, int last) {
+  const double* const row = &entry(j, j);
+  const int width = widthOf(j);
+  for (int i = first - j; i <= std::min(width, last - j); ++i) {
+    const double factor = row[i] * row[0];
+    if (factor == 0) continue;
+    double* const below = &entry(j + i, j + i);
+    for (int k = i; k <= width; ++k) below[k - i] -= factor * row[k];
+  }
+}
+
+// Columns j to j + 3 from all columns at the right of these. Where one of the four does not reach there are
+// zeros.
+void SoftBand::eliminateFour(int j) {
+  const int end = j + kPivots + m_band;  // of the rows that they reach
+  for (int c = j + kPivots; c < std::min(end, m_size); ++c) {
+    std::array<const double*, kPivots> from;  // the entries in row c and below
+    std::array<double, kPivots> factors;
+    for (int p = 0; p < kPivots; ++p) {
+      const double* const column = &entry(j + p, j + p);
+      from[at(p)] = column + (c - j - p);
+      factors[at(p)] = *from[at(p)] * *column;
+    }
+    double* const below = &entry(c, c);
+    for (int m = 0; m < end - c; m += kLanes) {
+      Lanes sum;
+      std::memcpy(&sum, below + m, sizeof sum);
+      for (std::size_t p = 0; p < kPivots; ++p) {
+        Lanes entries;
+        std::memcpy(&entries, from[p] + m, sizeof entries);
+        sum -= factors[p] * entries;
+      }
+      std::memcpy(below + m, &sum, sizeof sum);
+    }
+  }
+}
+
+void SoftBand::scale(int j) {
+  double* const row = &entry(j, j);
+  const int width = widthOf(j);
+  for (int i = 1; i <= width; ++i) row[i] *= row[0];
+}
+
+}  // namespace naiad::physics
