@@ -8,8 +8,8 @@ namespace naiad::physics {
 namespace {
 
 // Doubles side by side, by the compiler's own operators: each rounded once, so the bits are everybody's.
-constexpr int kLanes = 4;
-using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+constexpr int kDoubles = 4;
+using Doubles = double __attribute__((vector_size(kDoubles * sizeof(double))));
 
 }  // namespace
 
@@ -64,11 +64,11 @@ void SoftBand::eliminateFour(int j) {
       factors[at(p)] = *from[at(p)] * *column;
     }
     double* const below = &entry(c, c);
-    for (int m = 0; m < end - c; m += kLanes) {
-      Lanes sum;
+    for (int m = 0; m < end - c; m += kDoubles) {
+      Doubles sum;
       std::memcpy(&sum, below + m, sizeof sum);
       for (std::size_t p = 0; p < kPivots; ++p) {
-        Lanes entries;
+        Doubles entries;
         std::memcpy(&entries, from[p] + m, sizeof entries);
         sum -= factors[p] * entries;
       }
