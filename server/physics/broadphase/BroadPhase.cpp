@@ -190,7 +190,7 @@ void BroadPhase::summarizeCrowds() {
   m_tree.summarize(m_crowds, ofBody, joins);
 }
 
-// Are so many below it that whoever is near is in a crowd, each of whom areHeaped() with all others?
+// Are there many below it, and each areHeaped() with all others?
 bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
   if (below.bodies < kCrowd) return false;
   const Crowd& crowd = m_crowds[index(below.node)];

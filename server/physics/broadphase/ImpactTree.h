@@ -113,8 +113,7 @@ class ImpactTree {
   void queryPairs(Found&& found) {
     queryPairs(std::forward<Found>(found), [](const Below& /*below*/) { return false; });
   }
-  /// The same without those below nodes of which skips(Below) is true, as of all bodies below these it must
-  /// be.
+  /// The same without the bodies below nodes of which skips(Below) is true: these are in no pair.
   template <typename Found, typename Skips>
   void queryPairs(Found&& found, Skips&& skips) {
     for (int i = 0; i < size();) {

@@ -259,9 +259,9 @@ class SubstepWorld final : public RigidStepper {
   std::vector<SweptBox> m_paths;
   Vec2 m_along;  // how that one flies
   std::vector<double> m_path_order;
-  std::vector<float> m_path_values;
-  bool m_are_many = false;     // the slow ones are among these
-  bool m_are_crowded = false;  // some of the fast ones are of a crowd
+  std::vector<float> m_path_values;  // of each, kInCrowd or 0
+  bool m_are_many = false;           // the slow ones are among these
+  bool m_are_crowded = false;        // some of the fast ones are of a crowd
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
   std::vector<SubstepKick> m_kicks;  // by state
