@@ -102,7 +102,11 @@ void SubstepWorld::begin(int id) {
   if (b.proxy < 0) return;
   forecast(b);
   boundNow(b);
-  m_broad.move(b.proxy, gridBounds(body.place, b.box, b.margin), wideBounds(b));
+  if (m_broad.isThinned(b.proxy)) {
+    m_broad.set(b.proxy, wideBounds(b));  // which finds out whether the crowd is still there
+  } else {
+    m_broad.move(b.proxy, gridBounds(body.place, b.box, b.margin), wideBounds(b));
+  }
 }
 
 // How far it gets on its own.

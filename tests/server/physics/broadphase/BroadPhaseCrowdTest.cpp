@@ -17,7 +17,7 @@ namespace {
 
 using test::between;
 
-constexpr std::size_t kMostHeaped = 32, kNearest = 16;
+constexpr std::size_t kMaxHeaped = 32, kNearest = 16;
 
 struct Member {
   GridBounds bounds;
@@ -75,7 +75,7 @@ class Rule {
       }
     }
     std::sort(near.begin(), near.end());
-    if (heaped > kMostHeaped) near.resize(kNearest);
+    if (heaped > kMaxHeaped) near.resize(kNearest);
     for (const auto& [square, j] : near) found.insert(std::minmax(i, j));
   }
   // Twice the distance of the middles, and both widths.
