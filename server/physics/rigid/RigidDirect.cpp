@@ -35,6 +35,13 @@ struct RigidDirect::Corner {
       high[r] += parts[r] * q.high;
     }
   }
+  // Of one body: what is above the diagonal is not used.
+  void addSquare(double k, const Lever& p) {
+    low[0] += k * p.low[0] * p.low;
+    low[1] += k * p.low[1] * p.low;
+    low[2] += k * p.high * p.low;
+    high[2] += k * p.high * p.high;
+  }
 };
 
 RigidDirect::Lever RigidDirect::leverA(const DirectRow& row) {
@@ -175,6 +182,7 @@ bool RigidDirect::setForces(bool is_first) {
     Side side = wanted < low ? Side::kLow : wanted > high ? Side::kHigh : Side::kFree;
     if (is_first || (before != Side::kFree && side != Side::kFree && side != before)) side = Side::kFree;
     if (low == high) side = Side::kLow;
+    if (is_first || (side == Side::kFree) != (before == Side::kFree)) m_changed = std::min(m_changed, firstOf(row));
     m_side[i] = side;
     m_force[i] = side == Side::kFree ? wanted : side == Side::kLow ? low : high;
     is_same = is_same && side == before;
@@ -182,9 +190,22 @@ bool RigidDirect::setForces(bool is_first) {
   return is_same;
 }
 
+// The first of the row's bodies, by rank.
+std::int32_t RigidDirect::firstOf(const DirectRow& row) const {
+  std::int32_t first = static_cast<std::int32_t>(m_bodies.size());
+  for (const std::int32_t body : {row.a, row.b}) {
+    if (body >= 0) first = std::min(first, m_rank[at(body)]);
+  }
+  return first;
+}
+
+// What is of bodies before those of rows that changed is factored already, and the same.
 void RigidDirect::assemble() {
-  std::fill(m_matrix.begin(), m_matrix.end(), 0.0);
+  const auto row = 3 * static_cast<std::size_t>(m_changed);
+  if (row == m_first.size()) return;
+  std::fill(m_matrix.begin() + m_row_at[row] + m_first[row], m_matrix.end(), 0.0);
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    if (m_rank[i] < m_changed) continue;
     for (std::int32_t c = 0; c < 3; ++c) {
       const std::int64_t k = 3 * m_rank[i] + c;
       m_matrix[at(m_row_at[at(k)] + k)] = m_mass[i].x[c] > 0 ? m_mass[i].x[c] : 1;
@@ -203,6 +224,9 @@ void RigidDirect::assemble() {
 void RigidDirect::addStiffness(std::size_t begin, std::size_t end) {
   const std::int32_t a = m_rows[begin].a, b = m_rows[begin].b;
   const bool has_a = a >= 0, has_b = b >= 0;
+  if (!(has_a && m_rank[at(a)] >= m_changed) && !(has_b && m_rank[at(b)] >= m_changed)) return;
+  const auto isFree = [&](Side side) { return side == Side::kFree; };
+  if (std::none_of(&m_side[begin], &m_side[begin] + (end - begin), isFree)) return;
   const bool is_a_later = has_a && has_b && m_rank[at(a)] > m_rank[at(b)];
   const std::int32_t later = is_a_later ? a : b, earlier = is_a_later ? b : a;
   const Lever free_a = freeOf(a), free_b = freeOf(b);
@@ -212,9 +236,9 @@ void RigidDirect::addStiffness(std::size_t begin, std::size_t end) {
     const DirectRow& row = m_rows[i];
     const double k = row.softness > 0 ? 1 / row.softness : m_stiffness[i];
     const Lever p = leverA(row).times(free_a), q = leverB(row).times(free_b);
-    of_a.add(k, p, p);
-    of_b.add(k, q, q);
-    is_a_later ? between.add(k, p, q) : between.add(k, q, p);
+    of_a.addSquare(k, p);
+    of_b.addSquare(k, q);
+    between.add(k, is_a_later ? p : q, is_a_later ? q : p);
   }
   setCorner(a, a, of_a);
   setCorner(b, b, of_b);
@@ -228,10 +252,9 @@ RigidDirect::Lever RigidDirect::freeOf(std::int32_t body) const {
   return Lever{Two{isFree(0), isFree(1)}, isFree(2)};
 }
 
-// Of one body, what is above the diagonal is not used.
 RigidDirect::Corner RigidDirect::cornerOf(std::int32_t i, std::int32_t j) {
   Corner corner = {};
-  if (i < 0 || j < 0) return corner;
+  if (i < 0 || j < 0 || m_rank[at(i)] < m_changed) return corner;
   const std::int64_t row = 3 * static_cast<std::int64_t>(m_rank[at(i)]);
   const std::int64_t column = 3 * static_cast<std::int64_t>(m_rank[at(j)]);
   for (std::int64_t r = 0; r < 3; ++r) {
@@ -244,7 +267,7 @@ RigidDirect::Corner RigidDirect::cornerOf(std::int32_t i, std::int32_t j) {
 }
 
 void RigidDirect::setCorner(std::int32_t i, std::int32_t j, const Corner& corner) {
-  if (i < 0 || j < 0) return;
+  if (i < 0 || j < 0 || m_rank[at(i)] < m_changed) return;
   const std::int64_t row = 3 * static_cast<std::int64_t>(m_rank[at(i)]);
   const std::int64_t column = 3 * static_cast<std::int64_t>(m_rank[at(j)]);
   for (std::int64_t r = 0; r < 3; ++r) {
@@ -260,7 +283,7 @@ void RigidDirect::setCorner(std::int32_t i, std::int32_t j, const Corner& corner
 bool RigidDirect::factor() {
   const auto bodies = static_cast<std::int64_t>(m_first.size() / 3);
   m_block.resize(m_first.size());
-  for (std::int64_t body = 0; body < bodies; ++body) {
+  for (std::int64_t body = m_changed; body < bodies; ++body) {
     const std::int64_t first = m_first[at(3 * body)];
     const double *const one = lineOf(3 * body), *const two = lineOf(3 * body + 1),
                         *const three = lineOf(3 * body + 2);
@@ -268,6 +291,7 @@ bool RigidDirect::factor() {
     for (std::int64_t column = first; column < 3 * body; column += 3) reduceBlock(first, column);
     if (!factorBlock(first, 3 * body)) return false;
   }
+  m_changed = static_cast<std::int32_t>(bodies);
   return true;
 }
 
@@ -405,6 +429,7 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
   };
   int spare_rounds = kSpareRounds;
   bool is_found = false;
+  m_changed = 0;
   setForces(true);
   bool is_factored = false;
   for (rounds = 1; rounds <= most_rounds; ++rounds) {

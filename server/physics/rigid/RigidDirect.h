@@ -57,6 +57,7 @@ class RigidDirect {
   };
   double speedOf(const DirectRow& row) const;
   void setStiffnesses();
+  std::int32_t firstOf(const DirectRow& row) const;
   bool setForces(bool is_first);
   void setResidual();
   void assemble();
@@ -83,6 +84,7 @@ class RigidDirect {
   std::vector<std::int32_t> m_first;   // leftmost column of each row of the matrix
   std::vector<std::int64_t> m_row_at;  // so that entry (i, j) is at m_row_at[i] + j
   std::vector<double> m_matrix, m_right;
+  std::int32_t m_changed = 0;  // by rank: the matrix is factored up to this body
   std::vector<Block> m_block;  // by column, of the three rows that are being factored
   std::vector<double> m_force, m_guess;
   std::vector<Side> m_side;
