@@ -182,7 +182,8 @@ bool RigidDirect::setForces(bool is_first) {
     Side side = wanted < low ? Side::kLow : wanted > high ? Side::kHigh : Side::kFree;
     if (is_first || (before != Side::kFree && side != Side::kFree && side != before)) side = Side::kFree;
     if (low == high) side = Side::kLow;
-    if (is_first || (side == Side::kFree) != (before == Side::kFree)) m_changed = std::min(m_changed, firstOf(row));
+    if (is_first || (side == Side::kFree) != (before == Side::kFree))
+      m_changed = std::min(m_changed, firstOf(row));
     m_side[i] = side;
     m_force[i] = side == Side::kFree ? wanted : side == Side::kLow ? low : high;
     is_same = is_same && side == before;
@@ -405,7 +406,7 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
   m_guess.resize(count);
   m_force.resize(count);
   m_side.assign(count, Side::kFree);
-  for (std::size_t i = 0; i < count; ++i) m_guess[i] = m_rows[i].impulse;
+  for (std::size_t i = 0; i < count; ++i) m_guess[i] = m_rows[i].impulse + m_rows[i].expected;
   setStiffnesses();
   // The momentum by which a body's velocity and its impulses may differ. Of the stiffest rows the last digit
   // of a speed is an impulse that would throw what is light.

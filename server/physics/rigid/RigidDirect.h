@@ -27,7 +27,8 @@ struct DirectRow {
   double low = 0, high = std::numeric_limits<double>::infinity();
   std::int32_t normal = -1;  ///< of a friction row: the row that presses; the bounds are ±friction times it
   double friction = 0;
-  double impulse = 0;  ///< what the velocities have already had of it; the result
+  double impulse = 0;   ///< what the velocities have already had of it; the result
+  double expected = 0;  ///< what it may have to exert beside that: a guess
 };
 
 class RigidDirect {

@@ -15,11 +15,11 @@ constexpr int kRounds = 16;
 constexpr int kTallRounds = 32;
 constexpr int kTall = 24;         // bodies, if …
 constexpr double kSlender = 100;  // … a factorisation takes no more multiplications a body: a stack, a chain
-// What one attempt may cost beside that, in multiplications, of which 10⁶ take some .3 ms: so many for each
-// group, and so many for each contact and joint. If all rounds cost no more than kAttempt it has them; a
-// wider heap, which would hardly settle, has what kWideAttempt pays for.
+// What one attempt may cost beside that, in multiplications, of which 10⁶ take some .3 ms: so much for each
+// group, and so much for each contact and joint. Where it might cost more it is not tried: a new heap takes
+// most of its rounds, and fewer would be wasted.
 constexpr double kAttemptStart = 1e6;
-constexpr double kAttempt = 22'000, kWideAttempt = 14'000;
+constexpr double kAttempt = 22'000;
 constexpr double kSmallCost = 1e4;  // multiplications: after a failure that cost less it is tried again
 // Relative to the speed that acceleration adds in half a sub-step, the natural unit of what rest must
 // balance.
@@ -159,6 +159,11 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   const auto constraintAt = [&](int i) -> ContactConstraint& {
     return m_constraints[at(m_island_constraints[at(island.first_constraint + i)])];
   };
+  // Nothing is known of it from the sub-step before. Then the second half is taken to be as the first one.
+  bool is_new = island.links == 0;
+  for (int i = 0; i < island.constraints; ++i) {
+    for (const ContactPoint& p : constraintAt(i).points) is_new = is_new && p.normal_warm == 0;
+  }
   for (int i = 0; i < island.constraints; ++i) {
     const ContactConstraint& c = constraintAt(i);
     DirectRow direct;
@@ -170,6 +175,7 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
       normal.ja = -p.normal_a, normal.jb = p.normal_b;
       normal.target = (is_second ? p.after : p.target) - speedOfImmovable(normal, c.a, c.b);
       normal.impulse = p.normal_impulse;
+      normal.expected = is_new ? p.normal_impulse : 0;
       rows.push_back(normal);
       if (c.friction == 0) continue;
       DirectRow friction = direct;
@@ -177,6 +183,7 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
       friction.ja = -p.tangent_a, friction.jb = p.tangent_b;
       friction.target = -speedOfImmovable(friction, c.a, c.b);
       friction.impulse = p.friction_impulse;
+      friction.expected = is_new ? p.friction_impulse : 0;
       friction.normal = static_cast<std::int32_t>(rows.size()) - 1;
       friction.friction = c.friction;
       rows.push_back(friction);
@@ -187,15 +194,12 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   const double price = m_direct.order();
   const double cost = price + 100.0 * static_cast<double>(rows.size());
   const double parts = island.constraints + island.links;
-  if (cost > kDirectBudget * parts * m_options.substeps) giveUp(island);
+  const bool is_tall = island.bodies >= kTall && price <= kSlender * island.bodies;
+  const int most_rounds = is_tall ? kTallRounds : kRounds;
+  if (most_rounds * cost > kAttemptStart + kAttempt * parts) giveUp(island);
   if (cost > island.budget) return false;
   ++m_counters.direct_solves;
   int rounds = 0;
-  const bool is_tall = island.bodies >= kTall && price <= kSlender * island.bodies;
-  int most_rounds = is_tall ? kTallRounds : kRounds;
-  if (most_rounds * cost > kAttemptStart + kAttempt * parts) {
-    most_rounds = std::min(most_rounds, static_cast<int>((kAttemptStart + kWideAttempt * parts) / cost));
-  }
   const bool is_found = m_direct.solve(m_states, tolerance, most_rounds, rounds);
   m_counters.direct_rounds += rounds;
   island.budget -= rounds * cost;
