@@ -25,7 +25,8 @@ constexpr double kSmallCost = 1e4;  // multiplications: after a failure that cos
 // balance.
 constexpr double kSpeedError = 1e-6;  // of a single contact: change of a sweep at which sweeps end
 constexpr double kDirectTolerance =
-    1e-6;  // of a direct solution: error that is left; sets the sag of a stack
+    1e-6;                    // of a direct solution: error that is left; sets the sag of a stack
+constexpr double kRest = 4;  // what meets at a higher speed is a blow, and over at once
 // Sweeps of Gauss and Seidel where a group is not solved directly.
 constexpr int kSingleSweeps = 16;  // at most, of one contact alone
 constexpr int kJointSweeps = 8;    // of a group with joints
@@ -159,11 +160,12 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   const auto constraintAt = [&](int i) -> ContactConstraint& {
     return m_constraints[at(m_island_constraints[at(island.first_constraint + i)])];
   };
-  // Nothing is known of it from the sub-step before. Then the second half is taken to be as the first one.
   bool is_new = island.links == 0;
   for (int i = 0; i < island.constraints; ++i) {
     for (const ContactPoint& p : constraintAt(i).points) is_new = is_new && p.normal_warm == 0;
   }
+  // What rests needs in the second half what it needed in the first one.
+  const bool is_guessed = is_second && is_new && island.rests_anew;
   for (int i = 0; i < island.constraints; ++i) {
     const ContactConstraint& c = constraintAt(i);
     DirectRow direct;
@@ -175,7 +177,7 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
       normal.ja = -p.normal_a, normal.jb = p.normal_b;
       normal.target = (is_second ? p.after : p.target) - speedOfImmovable(normal, c.a, c.b);
       normal.impulse = p.normal_impulse;
-      normal.expected = is_new ? p.normal_impulse : 0;
+      normal.expected = is_guessed ? p.normal_impulse : 0;
       rows.push_back(normal);
       if (c.friction == 0) continue;
       DirectRow friction = direct;
@@ -183,14 +185,16 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
       friction.ja = -p.tangent_a, friction.jb = p.tangent_b;
       friction.target = -speedOfImmovable(friction, c.a, c.b);
       friction.impulse = p.friction_impulse;
-      friction.expected = is_new ? p.friction_impulse : 0;
+      friction.expected = is_guessed ? p.friction_impulse : 0;
       friction.normal = static_cast<std::int32_t>(rows.size()) - 1;
       friction.friction = c.friction;
       rows.push_back(friction);
     }
   }
   const double tolerance = kDirectTolerance * island.kick;
-  if (m_direct.worstError() <= tolerance) return true;
+  const double worst = m_direct.worstError();
+  if (!is_second) island.rests_anew = is_new && worst <= kRest * island.kick;
+  if (worst <= tolerance) return true;
   const double price = m_direct.order();
   const double cost = price + 100.0 * static_cast<double>(rows.size());
   const double parts = island.constraints + island.links;

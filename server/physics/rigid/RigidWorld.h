@@ -151,6 +151,7 @@ class RigidWorld final : public RigidStepper {
     double kick = 0;     // the greatest of its bodies
     double budget = 0;   // for solving at once, in this step
     bool has_fast = false;
+    bool rests_anew = false;  // in this sub-step: its impulses were not known, and what falls on it is slow
   };
   struct Gain {  // the greatest speed in a group, when it began to be still and now
     double before = 0, now = 0;

@@ -9,6 +9,12 @@ namespace naiad::physics {
 
 namespace {
 
+// An iteration that moves the body by less than so much of a radius is close to the solution: the next one
+// does with the decomposition that there is. If that moves it by more than a tenth of that, those that follow
+// have each its own.
+constexpr double kClose = 1e-3;
+constexpr double kContraction = 0.1;
+
 // Along a line nodes are neighbours as they are. Around a ring, the two directions alternate.
 std::vector<int> folded(int count) {
   std::vector<int> order(static_cast<std::size_t>(count));
@@ -49,8 +55,8 @@ void SoftElastic::prepare(SoftBody& body) {
   if (spread(body, plain) <= spread(body, m_order)) m_order = plain;
   const int band = 2 * spread(body, m_order) + 1;
   const bool has_gas = body.is_closed && (body.pressure != 0 || body.bulk != 0);
-  m_is_wide = !has_gas && body.bends.empty() && static_cast<double>(count) * band * band > kMaxDirectPrice &&
-              isMesh(body);
+  m_price = static_cast<double>(count) * band * band;
+  m_is_wide = !has_gas && body.bends.empty() && m_price > kMaxDirectPrice && isMesh(body);
   if (m_is_wide) m_order = plain;
   m_band.resize(m_is_wide ? 0 : 2 * count, m_is_wide ? 0 : band);
   m_pinned.assign(at(count), 0);
@@ -72,6 +78,8 @@ void SoftElastic::begin(SoftBody& body, double h, Vec2 gravity, bool is_smooth) 
   m_beta = has_history ? 2 * h / 3 : h;
   m_h = h;
   m_gravity = gravity;
+  m_is_kept = false;
+  m_may_keep = !m_is_wide && m_price > kKeptPrice;
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {
     SoftNode& node = body.nodes[i];
     const Vec2 x = node.offset, v = node.velocity;
@@ -105,7 +113,8 @@ void SoftElastic::shift(Vec2 by) {
   for (Vec2& before : m_before) before += by;
 }
 
-bool SoftElastic::assemble(const SoftBody& body) {
+bool SoftElastic::assemble(const SoftBody& body, bool is_alone) {
+  m_is_kept = m_is_kept && is_alone;
   if (m_is_wide) {
     m_gradients.clear(m_scale);
     std::fill(m_change.begin(), m_change.end(), 0);
@@ -115,14 +124,16 @@ bool SoftElastic::assemble(const SoftBody& body) {
   }
   // What rounding may have made singular gets a little more inertia.
   for (const double extra : {0.0, 1e-12, 1e-9, 1e-6}) {
-    m_band.clear();
+    if (!m_is_kept) m_band.clear();
     std::fill(m_change.begin(), m_change.end(), 0);
     addMass(body);
     addStretches(body);
     addBends(body);
     addPressure(body);
-    for (int i = 0; i < m_band.size(); ++i) m_band.entry(i, i) *= 1 + extra;
-    if (!m_band.decompose()) continue;
+    if (!m_is_kept) {
+      for (int i = 0; i < m_band.size(); ++i) m_band.entry(i, i) *= 1 + extra;
+      if (!m_band.decompose()) continue;
+    }
     if (m_gas_stiffness > 0) {
       m_gas_response = m_gas;
       m_band.solve(m_gas_response.data());
@@ -161,11 +172,14 @@ double SoftElastic::apply(SoftBody& body, std::span<const double> change) {
     const Vec2 apart = {change[b] - change[a], change[b + 1] - change[a + 1]};
     m_tensions[i] = m_elastic[i] + m_hardness[i] * dot(m_directions[i], apart);
   }
+  if (m_is_kept && most > kContraction * m_moved) m_may_keep = false;
+  m_is_kept = m_may_keep && most <= kClose * body.radius;
+  m_moved = most;
   return most;
 }
 
 void SoftElastic::addEntry(int i, int j, double xx, double xy, double yx, double yy) {
-  if (m_pinned[at(i)] || m_pinned[at(j)]) return;
+  if (m_is_kept || m_pinned[at(i)] || m_pinned[at(j)]) return;
   if (m_is_wide) {
     if (i == j) m_gradients.addDiagonal(i, {xx, xy, yy});
     return;  // pairs are set as a whole
@@ -185,7 +199,7 @@ void SoftElastic::addMass(const SoftBody& body) {
     if (m_pinned[at(i)]) {
       if (m_is_wide) {
         m_gradients.addDiagonal(i, {m_scale, 0, m_scale});
-      } else {
+      } else if (!m_is_kept) {
         m_band.entry(row, row) = m_band.entry(row + 1, row + 1) = 1;
       }
       continue;
@@ -204,7 +218,7 @@ void SoftElastic::addSpring(const int* nodes, const Vec2* slopes, int count, dou
     if (m_pinned[at(nodes[i])]) continue;
     const std::size_t row = at(rowOf(nodes[i]));
     m_change[row] -= force * slopes[i].x, m_change[row + 1] -= force * slopes[i].y;
-    for (int j = 0; j < count; ++j) {
+    for (int j = 0; j < count && !m_is_kept; ++j) {
       const Vec2 by = stiffness * slopes[i], with = slopes[j];
       addEntry(nodes[i], nodes[j], by.x * with.x, by.x * with.y, by.y * with.x, by.y * with.y);
     }
@@ -231,7 +245,7 @@ void SoftElastic::addStretches(const SoftBody& body) {
     const int nodes[] = {s.a, s.b};
     const Vec2 slopes[] = {-along, along};
     addSpring(nodes, slopes, 2, m_elastic[i], m_hardness[i]);
-    if (!(taut > 0)) continue;
+    if (m_is_kept || !(taut > 0)) continue;
     const Vec2 side = perpendicular(along);
     const Vec2 turns[] = {-side, side};
     addSpring(nodes, turns, 2, 0, taut);

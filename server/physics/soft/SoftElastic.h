@@ -9,6 +9,8 @@
 // The decomposition costs nodes · band². A mesh of stretches alone for which that is more than
 // kMaxDirectPrice is *wide*: its systems are solved by conjugate gradients, a bounded number of iterations,
 // so that a tick costs nodes + springs.
+// Where it costs more than kKeptPrice, the last iterations have the decomposition of an earlier one, as long
+// as they converge.
 #pragma once
 
 #include <span>
@@ -27,6 +29,7 @@ class SoftElastic {
  public:
   /// Of nodes · band²: just above that of 25 × 25 nodes.
   static constexpr double kMaxDirectPrice = 2e6;
+  static constexpr double kKeptPrice = 1e5;
   /// Of a wide body's matrix (ConjugateGradients.h). A cloth has four: along, across, and two askew.
   static constexpr int kMaxDiagonals = 8;
 
@@ -42,8 +45,11 @@ class SoftElastic {
   /// Starts a sub-step of `h` ticks from where the body is. `is_smooth`: use the history, if it is of the
   /// same h.
   void begin(SoftBody& body, double h, Vec2 gravity, bool is_smooth);
-  /// One iteration's system, at the body's present offsets. False if it cannot be solved.
-  bool assemble(const SoftBody& body);
+  /// One iteration's system, at the body's present offsets. False if it cannot be solved. Close to the
+  /// solution of a body that is alone, without rows, it has the decomposition of an earlier iteration.
+  bool assemble(const SoftBody& body, bool is_alone);
+  /// Did the last assembly have an earlier decomposition?
+  bool isKept() const { return m_is_kept; }
   /// Of the last assembly: offsets' changes without contact, one per row (rowOf).
   const std::vector<double>& change() const { return m_change; }
   /// Replaces forces by the changes of the offsets that they make, both by row.
@@ -90,6 +96,7 @@ class SoftElastic {
   std::vector<char> m_pinned;
   SoftBand m_band;
   bool m_is_wide = false;
+  double m_price = 0;              // of a decomposition
   ConjugateGradients m_gradients;  // of a wide body, instead of the band
   double m_scale = 1;              // of its entries
   std::vector<double> m_change;
@@ -109,6 +116,9 @@ class SoftElastic {
   double m_beta = 1;
   double m_h = 0;
   int m_history = 0;
+  bool m_is_kept = false;  // the band's decomposition
+  bool m_may_keep = true;  // in this sub-step
+  double m_moved = 0;      // by the last iteration
 };
 
 }  // namespace naiad::physics

@@ -110,13 +110,15 @@ bool SoftWorld::solveGroup(double h) {
 }
 
 bool SoftWorld::iterate(double h, bool& is_settled) {
+  const bool has_rows = !m_group_rows.empty();
   for (const int id : m_group) {
     ++m_counters.iterations;
-    if (m_elastics[at(id)].assemble(m_bodies[at(id)])) continue;
+    const bool is_done = m_elastics[at(id)].assemble(m_bodies[at(id)], !has_rows);
+    if (!m_elastics[at(id)].isKept()) ++m_counters.decompositions;
+    if (is_done) continue;
     freeze(id);
     return false;
   }
-  const bool has_rows = !m_group_rows.empty();
   is_settled =
       !has_rows || m_solver.solve({m_bodies, m_elastics, m_obstacle_motions, h}, m_group, m_group_rows);
   for (const int id : m_group) {

@@ -174,7 +174,7 @@ bool SoftWorld::iterateWide(int id, double h) {
   SoftBody& body = m_bodies[at(id)];
   SoftElastic& elastic = m_elastics[at(id)];
   ++m_counters.iterations;
-  elastic.assemble(body);
+  elastic.assemble(body, true);
   for (SoftPush& push : m_pushes) {
     const double factor = push.p_row->is_attachment ? kAttachmentStiffness : kContactStiffness;
     push.stiffness = 1 / (1 / (factor * elastic.stiffnessOf(push.p_own->nodes[0])) + yieldOf(push, h));

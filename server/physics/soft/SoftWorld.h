@@ -38,8 +38,9 @@ struct SoftAttachment {
 /// What has happened since the world was made.
 struct SoftCounters {
   std::int64_t steps = 0;
-  std::int64_t iterations = 0;   ///< systems solved
-  std::int64_t unconverged = 0;  ///< groups' sub-steps that ended without the accuracy they should have
+  std::int64_t iterations = 0;      ///< systems solved
+  std::int64_t decompositions = 0;  ///< made for them, of bodies that are not wide
+  std::int64_t unconverged = 0;     ///< groups' sub-steps that ended without the accuracy they should have
   std::int64_t limited = 0;  ///< bodies' sub-steps that were slowed, because they would have gained energy
   std::int64_t stopped = 0;  ///< nodes that were held at a surface at last, as no force had done it
   std::int64_t crowded =

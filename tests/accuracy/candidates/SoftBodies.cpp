@@ -124,7 +124,7 @@ class Euler : public Simulation {
     for (int i = 0; i < substeps; ++i) {
       m_elastic.begin(m_body, h, m_gravity, false);
       for (int k = 0; k < 12; ++k) {
-        if (!m_elastic.assemble(m_body)) break;
+        if (!m_elastic.assemble(m_body, true)) break;
         if (m_elastic.apply(m_body, m_elastic.change()) < 1e-9 * m_body.radius) break;
       }
       m_elastic.finish(m_body);
