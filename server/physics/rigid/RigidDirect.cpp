@@ -200,7 +200,7 @@ std::int32_t RigidDirect::firstOf(const DirectRow& row) const {
   return first;
 }
 
-// What is of bodies before those of rows that changed is factored already, and the same.
+// Rows of bodies before m_changed are factored already, and stay so.
 void RigidDirect::assemble() {
   const auto row = 3 * static_cast<std::size_t>(m_changed);
   if (row == m_first.size()) return;

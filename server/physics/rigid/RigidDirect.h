@@ -85,7 +85,7 @@ class RigidDirect {
   std::vector<std::int32_t> m_first;   // leftmost column of each row of the matrix
   std::vector<std::int64_t> m_row_at;  // so that entry (i, j) is at m_row_at[i] + j
   std::vector<double> m_matrix, m_right;
-  std::int32_t m_changed = 0;  // by rank: the matrix is factored up to this body
+  std::int32_t m_changed = 0;  // by rank: the first body whose rows are not factored
   std::vector<Block> m_block;  // by column, of the three rows that are being factored
   std::vector<double> m_force, m_guess;
   std::vector<Side> m_side;

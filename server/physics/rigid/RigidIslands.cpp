@@ -24,9 +24,9 @@ constexpr double kSmallCost = 1e4;  // multiplications: after a failure that cos
 // Relative to the speed that acceleration adds in half a sub-step, the natural unit of what rest must
 // balance.
 constexpr double kSpeedError = 1e-6;  // of a single contact: change of a sweep at which sweeps end
+constexpr double kRest = 4;           // what meets at a higher speed is a blow, and over at once
 constexpr double kDirectTolerance =
-    1e-6;                    // of a direct solution: error that is left; sets the sag of a stack
-constexpr double kRest = 4;  // what meets at a higher speed is a blow, and over at once
+    1e-6;  // of a direct solution: error that is left; sets the sag of a stack
 // Sweeps of Gauss and Seidel where a group is not solved directly.
 constexpr int kSingleSweeps = 16;  // at most, of one contact alone
 constexpr int kJointSweeps = 8;    // of a group with joints
@@ -160,12 +160,15 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   const auto constraintAt = [&](int i) -> ContactConstraint& {
     return m_constraints[at(m_island_constraints[at(island.first_constraint + i)])];
   };
-  bool is_new = island.links == 0;
-  for (int i = 0; i < island.constraints; ++i) {
-    for (const ContactPoint& p : constraintAt(i).points) is_new = is_new && p.normal_warm == 0;
-  }
+  const auto isNew = [&] {  // no impulse is known of it
+    for (int i = 0; i < island.constraints; ++i) {
+      const ContactConstraint& c = constraintAt(i);
+      if (c.points[0].normal_warm != 0 || c.points[1].normal_warm != 0) return false;
+    }
+    return island.links == 0;
+  };
   // What rests needs in the second half what it needed in the first one.
-  const bool is_guessed = is_second && is_new && island.rests_anew;
+  const bool is_guessed = is_second && island.rests_anew;
   for (int i = 0; i < island.constraints; ++i) {
     const ContactConstraint& c = constraintAt(i);
     DirectRow direct;
@@ -193,14 +196,17 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   }
   const double tolerance = kDirectTolerance * island.kick;
   const double worst = m_direct.worstError();
-  if (!is_second) island.rests_anew = is_new && worst <= kRest * island.kick;
+  if (!is_second) island.rests_anew = worst <= kRest * island.kick && isNew();
   if (worst <= tolerance) return true;
   const double price = m_direct.order();
   const double cost = price + 100.0 * static_cast<double>(rows.size());
   const double parts = island.constraints + island.links;
   const bool is_tall = island.bodies >= kTall && price <= kSlender * island.bodies;
   const int most_rounds = is_tall ? kTallRounds : kRounds;
-  if (most_rounds * cost > kAttemptStart + kAttempt * parts) giveUp(island);
+  if (most_rounds * cost > kAttemptStart + kAttempt * parts) {
+    ++m_counters.direct_refusals;
+    giveUp(island);
+  }
   if (cost > island.budget) return false;
   ++m_counters.direct_solves;
   int rounds = 0;

@@ -35,6 +35,7 @@ struct RigidCounters {
   std::int64_t direct_solves = 0;    ///< groups that were solved for at once
   std::int64_t direct_rounds = 0;    ///< factorisations, about, that it took
   std::int64_t direct_failures = 0;  ///< of these solves, those that were given up
+  std::int64_t direct_refusals = 0;  ///< groups whose solve might have cost too much: not tried
   std::int64_t quarantined = 0;      ///< bodies frozen
   std::int64_t broken = 0;           ///< joints
 };
@@ -151,7 +152,7 @@ class RigidWorld final : public RigidStepper {
     double kick = 0;     // the greatest of its bodies
     double budget = 0;   // for solving at once, in this step
     bool has_fast = false;
-    bool rests_anew = false;  // in this sub-step: its impulses were not known, and what falls on it is slow
+    bool rests_anew = false;  // in this sub-step: no impulse of it was known, and nothing in it met fast
   };
   struct Gain {  // the greatest speed in a group, when it began to be still and now
     double before = 0, now = 0;

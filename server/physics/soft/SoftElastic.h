@@ -9,8 +9,9 @@
 // The decomposition costs nodes · band². A mesh of stretches alone for which that is more than
 // kMaxDirectPrice is *wide*: its systems are solved by conjugate gradients, a bounded number of iterations,
 // so that a tick costs nodes + springs.
-// Where it costs more than kKeptPrice, the last iterations have the decomposition of an earlier one, as long
-// as they converge.
+//
+// A decomposition that costs more than kKeptPrice serves several iterations close to the solution, as long as
+// they converge.
 #pragma once
 
 #include <span>
@@ -29,7 +30,7 @@ class SoftElastic {
  public:
   /// Of nodes · band²: just above that of 25 × 25 nodes.
   static constexpr double kMaxDirectPrice = 2e6;
-  static constexpr double kKeptPrice = 1e5;
+  static constexpr double kKeptPrice = 1e5;  ///< as that: just below that of 12 × 12 nodes
   /// Of a wide body's matrix (ConjugateGradients.h). A cloth has four: along, across, and two askew.
   static constexpr int kMaxDiagonals = 8;
 

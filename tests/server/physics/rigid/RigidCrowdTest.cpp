@@ -118,6 +118,7 @@ TEST(RigidCrowd, ADirectSolutionIsNotTriedAtAHigherPrice) {
   RigidWorld wide = pyramid(30);
   wide.step();
   EXPECT_EQ(wide.counters().direct_solves, 0);
+  EXPECT_EQ(wide.counters().direct_refusals, 1);
   for (int id = 1; id < wide.idLimit(); ++id) EXPECT_TRUE(wide.isGivenUp(id)) << id;
 
   for (RigidWorld fits : {pyramid(12), pyramid(30, 1.1)}) {
