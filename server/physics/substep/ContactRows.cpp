@@ -24,6 +24,7 @@ constexpr float kLastingDamping = 4;
 constexpr float kTrendKept = 0.7f;
 constexpr float kGiven = 0.35f;
 constexpr float kLent = 0.5f;
+constexpr float kExists = 1;  // of a point, as its mass until the block is finished
 
 struct Body {
   Lanes vx, vy, spin, unused;
@@ -79,7 +80,7 @@ void ContactRows::beginBlock() {
   m_blocks.emplace_back();
 }
 
-std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory) {
+std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, const KnownImpulses& known) {
   Block& block = m_blocks.back();
   const int lane = block.count++;
   block.a[at(lane)] = row.a, block.b[at(lane)] = row.b;
@@ -87,9 +88,9 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.inverse_inertia_a[lane] = row.inverse_inertia_a,
   block.inverse_inertia_b[lane] = row.inverse_inertia_b;
   const Vec2 n = manifold.normal;
-  const auto nx = static_cast<float>(n.x), ny = static_cast<float>(n.y);
-  block.nx[lane] = nx, block.ny[lane] = ny;
+  block.nx[lane] = static_cast<float>(n.x), block.ny[lane] = static_cast<float>(n.y);
   block.vx[lane] = static_cast<float>(row.velocity.x), block.vy[lane] = static_cast<float>(row.velocity.y);
+  block.spin_a[lane] = row.spin_a, block.spin_b[lane] = row.spin_b;
   block.friction[lane] = row.friction, block.restitution[lane] = row.restitution;
   block.max_push[lane] = row.max_push;
   block.rest[lane] = row.rest;
@@ -104,30 +105,49 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   for (std::int32_t i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& from = manifold.points[at(i)];
     Point& to = block.point[at(i)];
-    const auto ax = static_cast<float>(from.anchor_a.x), ay = static_cast<float>(from.anchor_a.y);
-    const auto bx = static_cast<float>(from.anchor_b.x), by = static_cast<float>(from.anchor_b.y);
-    to.ax[lane] = ax, to.ay[lane] = ay, to.bx[lane] = bx, to.by[lane] = by;
-    to.gap[lane] = to.gap_now[lane] = static_cast<float>(from.separation);
-    to.approach[lane] = nx * (static_cast<float>(row.velocity.x) - row.spin_b * by + row.spin_a * ay) +
-                        ny * (static_cast<float>(row.velocity.y) + row.spin_b * bx - row.spin_a * ax);
-    const float normal_a = ax * ny - ay * nx, normal_b = bx * ny - by * nx;
-    const float tangent_a = ax * nx + ay * ny, tangent_b = bx * nx + by * ny;
-    const float masses = row.inverse_mass_a + row.inverse_mass_b;
-    const float normal =
-        masses + row.inverse_inertia_a * normal_a * normal_a + row.inverse_inertia_b * normal_b * normal_b;
-    const float tangent = masses + row.inverse_inertia_a * tangent_a * tangent_a +
-                          row.inverse_inertia_b * tangent_b * tangent_b;
-    to.normal_mass[lane] = normal > 0 ? 1 / normal : 0;
-    to.tangent_mass[lane] = tangent > 0 ? 1 / tangent : 0;
-    to.normal.begin(lane, memory.normal[at(i)]);
-    to.friction.begin(lane, memory.friction[at(i)]);
+    to.ax[lane] = static_cast<float>(from.anchor_a.x), to.ay[lane] = static_cast<float>(from.anchor_a.y);
+    to.bx[lane] = static_cast<float>(from.anchor_b.x), to.by[lane] = static_cast<float>(from.anchor_b.y);
+    to.gap[lane] = static_cast<float>(from.separation);
+    to.normal_mass[lane] = kExists;
+    to.normal.set(lane, known.normal[at(i)]);
+    to.friction.set(lane, known.friction[at(i)]);
   }
   return static_cast<std::int32_t>((m_blocks.size() - 1) * kLanes) + lane;
 }
 
-void ContactRows::Impulse::begin(int lane, KnownImpulse known) {
-  trend[lane] = known.trend / kTrendKept;
-  now[lane] = start[lane] = known.kept + kLent * trend[lane];
+void ContactRows::finishBlock() {
+  const Lanes zero = {}, one = lanesOf(1);
+  Block& k = m_blocks.back();
+  const Lanes masses = k.inverse_mass_a + k.inverse_mass_b;
+  for (std::int32_t i = 0; i < k.points; ++i) {
+    Point& p = k.point[at(i)];
+    p.gap_now = p.gap;
+    if (k.bounces) {
+      p.approach = k.nx * (k.vx - k.spin_b * p.by + k.spin_a * p.ay) +
+                   k.ny * (k.vy + k.spin_b * p.bx - k.spin_a * p.ax);
+    }
+    const Lanes normal_a = p.ax * k.ny - p.ay * k.nx, normal_b = p.bx * k.ny - p.by * k.nx;
+    const Lanes tangent_a = p.ax * k.nx + p.ay * k.ny, tangent_b = p.bx * k.nx + p.by * k.ny;
+    const Lanes normal =
+        masses + k.inverse_inertia_a * normal_a * normal_a + k.inverse_inertia_b * normal_b * normal_b;
+    const Lanes tangent =
+        masses + k.inverse_inertia_a * tangent_a * tangent_a + k.inverse_inertia_b * tangent_b * tangent_b;
+    const LaneMask exists = p.normal_mass > zero;
+    p.normal_mass = select(exists & (normal > zero), one / normal, zero);
+    p.tangent_mass = select(exists & (tangent > zero), one / tangent, zero);
+    p.normal.begin();
+    p.friction.begin();
+  }
+}
+
+void ContactRows::Impulse::set(int lane, KnownImpulse known) {
+  now[lane] = known.kept;
+  trend[lane] = known.trend;
+}
+
+void ContactRows::Impulse::begin() {
+  trend = trend / kTrendKept;
+  now = start = now + kLent * trend;
 }
 
 KnownImpulse ContactRows::Impulse::known(int lane) const {
@@ -263,18 +283,18 @@ void ContactRows::bounce(std::span<SubstepState> states) {
   }
 }
 
-ContactImpulse ContactRows::impulse(std::int32_t row) const {
+ContactPush ContactRows::read(std::int32_t row, KnownImpulses& known) const {
   const Block& k = m_blocks[at(row) / kLanes];
   const int lane = static_cast<int>(at(row) % kLanes);
-  ContactImpulse result;
-  result.first = k.first[lane];
+  ContactPush pushed;
+  pushed.first = k.first[lane];
   for (std::size_t i = 0; i < 2; ++i) {
-    result.normal[i] = k.point[i].normal.known(lane);
-    result.normal[i].kept = std::max(result.normal[i].kept, 0.0f);
-    result.friction[i] = k.point[i].friction.known(lane);
-    result.total += k.point[i].total[lane];
+    known.normal[i] = k.point[i].normal.known(lane);
+    known.normal[i].kept = std::max(known.normal[i].kept, 0.0f);
+    known.friction[i] = k.point[i].friction.known(lane);
+    pushed.total += k.point[i].total[lane];
   }
-  return result;
+  return pushed;
 }
 
 }  // namespace naiad::physics

@@ -39,10 +39,14 @@ struct KnownImpulse {
   float trend = 0;  ///< by how much it has changed of late
 };
 
-/// Impulses of a contact: of a sub-step, and all of a step.
-struct ContactImpulse {
+/// Of the points of a contact.
+struct KnownImpulses {
   std::array<KnownImpulse, 2> normal = {}, friction = {};
-  float total = 0;
+};
+
+/// What a contact did in a step.
+struct ContactPush {
+  float total = 0;  ///< impulse, of both points
   float first = -1;  ///< time within the step of the first one; below 0: there was none
 };
 
@@ -52,8 +56,10 @@ class ContactRows {
   void clear(std::size_t blocks, float h);
   /// Rows of one block have no movable body in common: at most kLanes of them, then a new block must begin.
   void beginBlock();
+  /// No more rows come into it.
+  void finishBlock();
   /// Returns where its impulses are read from.
-  std::int32_t add(const ContactRow& row, const Manifold& manifold, const ContactImpulse& memory);
+  std::int32_t add(const ContactRow& row, const Manifold& manifold, const KnownImpulses& known);
 
   void warmStart(std::span<SubstepState> states);
   /// `time`: since the step began. Softly before bodies move, then, where they are, without softness.
@@ -62,7 +68,8 @@ class ContactRows {
   }
   /// What came fast enough leaves as its restitution says. After the last sub-step.
   void bounce(std::span<SubstepState> states);
-  ContactImpulse impulse(std::int32_t row) const;
+  /// After the last sub-step.
+  ContactPush read(std::int32_t row, KnownImpulses& known) const;
   std::size_t blocks() const { return m_blocks.size(); }
 
  private:
@@ -73,7 +80,8 @@ class ContactRows {
     Lanes now = {};
     Lanes start = {};  // of the sub-step
     Lanes trend = {};  // what has been added of late, older parts less and less
-    void begin(int lane, KnownImpulse known);
+    void set(int lane, KnownImpulse known);
+    void begin();  // all lanes are set
     KnownImpulse known(int lane) const;
     void beginSubstep(Lanes least, Lanes most, Lanes most_trend);
   };
@@ -84,7 +92,7 @@ class ContactRows {
     Lanes normal_mass = {}, tangent_mass = {};
     Impulse normal, friction;
     Lanes total = {};
-    Lanes approach = {};  // normal speed at the start of the step
+    Lanes approach = {};  // normal speed at the start of the step, if the block bounces
   };
   struct Block {
     std::array<std::int32_t, kLanes> a = {}, b = {};
@@ -92,6 +100,7 @@ class ContactRows {
     std::int32_t points = 0;  // 2 if any row has two
     Lanes inverse_mass_a = {}, inverse_mass_b = {}, inverse_inertia_a = {}, inverse_inertia_b = {};
     Lanes nx = {}, ny = {}, vx = {}, vy = {};
+    Lanes spin_a = {}, spin_b = {};  // at the start of the step
     Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // softness
     Lanes friction = {}, restitution = {}, max_push = {}, rest = {}, fast = {};
     Lanes follows = {};              // 1 if its impulses have a trend, or 0

@@ -149,6 +149,19 @@ bool SubstepWorld::keepsManifold(Memory& memory, const SubstepBody& a, const Sub
   return true;
 }
 
+// An impulse goes with the corners that touch.
+KnownImpulses SubstepWorld::carriedOver(const Memory& memory, const Manifold& now) {
+  KnownImpulses known;
+  for (std::int32_t k = 0; k < now.count; ++k) {
+    for (std::int32_t l = 0; l < memory.manifold.count; ++l) {
+      if (memory.manifold.points[at(l)].id != now.points[at(k)].id) continue;
+      known.normal[at(k)] = memory.known.normal[at(l)];
+      known.friction[at(k)] = memory.known.friction[at(l)];
+    }
+  }
+  return known;
+}
+
 // Do the two shapes touch, or nearly? Their contact is made if there is none yet, or freed.
 bool SubstepWorld::findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
                                 std::int32_t shape_b, Vec2 offset) {
@@ -165,6 +178,7 @@ bool SubstepWorld::findManifold(std::int32_t& memory, SubstepBody& a, SubstepBod
   if (memory < 0) memory = makeMemory();
   Memory& found = m_memory[at(memory)];
   found.shape_a = shape_a, found.shape_b = shape_b;
+  found.known = carriedOver(found, manifold);
   found.manifold = manifold;
   found.offset = offset;
   found.rotation_a = a.body.rotation, found.rotation_b = b.body.rotation;
@@ -346,11 +360,6 @@ void SubstepWorld::updatePair(std::int32_t index) {
         const ManifoldPoint& point = known.manifold.points[at(k)];
         is_near = is_near || point.separation <= linger;
         deepest = std::max(deepest, -point.separation);
-        for (std::int32_t l = 0; l < known.count; ++l) {
-          if (known.id[at(l)] != point.id) continue;
-          contact.impulse.normal[at(k)] = known.normal[at(l)];
-          contact.impulse.friction[at(k)] = known.friction[at(l)];
-        }
       }
     }
   }

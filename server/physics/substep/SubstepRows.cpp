@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "physics/substep/SubstepWorld.h"
@@ -27,8 +28,8 @@ constexpr float kRest = 2;
 // Did it push in the last step, and does it only carry what lies still? What a blow drives deep into
 // something is to come out fast. All springs of a body are of one kind: what lies on it would press it into
 // the floor if the floor's were the weaker one.
-bool isLasting(const std::array<KnownImpulse, 2>& normal, const SubstepBody& a, const SubstepBody& b) {
-  return normal[0].kept + normal[1].kept > 0 && !a.is_shaken && !b.is_shaken;
+bool isLasting(const KnownImpulses& known, const SubstepBody& a, const SubstepBody& b) {
+  return known.normal[0].kept + known.normal[1].kept > 0 && !a.is_shaken && !b.is_shaken;
 }
 
 // GCC takes a function that does nothing but fetch for one that does nothing, and leaves its calls out. So it
@@ -36,6 +37,7 @@ bool isLasting(const std::array<KnownImpulse, 2>& normal, const SubstepBody& a, 
 [[gnu::always_inline]] inline void fetchLines(const void* p_first, std::size_t bytes) {
   for (std::size_t i = 0; i < bytes; i += kCacheLine)
     __builtin_prefetch(static_cast<const char*>(p_first) + i);
+  __builtin_prefetch(static_cast<const char*>(p_first) + bytes - 1);
 }
 
 }  // namespace
@@ -136,13 +138,14 @@ void SubstepWorld::addRow(Contact& contact) {
   row.restitution = static_cast<float>(std::max(a.body.restitution, b.body.restitution));
   row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
   row.is_held = !isMovable(a) || !isMovable(b);
-  row.is_lasting = isLasting(contact.impulse.normal, a, b);
+  const Memory& memory = m_memory[at(contact.memory)];
+  row.is_lasting = isLasting(memory.known, a, b);
   row.fast = static_cast<float>((row.is_lasting ? kCalm : kFast) * std::min(a.thickness, b.thickness));
   const auto gain = [&](const SubstepBody& of) {
     return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
   };
   row.rest = kRest / m_h * std::max(gain(a), gain(b));
-  contact.place = m_rows.add(row, m_memory[at(contact.memory)].manifold, contact.impulse);
+  contact.place = m_rows.add(row, memory.manifold, memory.known);
 }
 
 void SubstepWorld::fillRows(std::span<const std::int32_t> contacts) {
@@ -150,12 +153,13 @@ void SubstepWorld::fillRows(std::span<const std::int32_t> contacts) {
   std::size_t in_block = 0;
   for (std::size_t turn = 0; turn < contacts.size(); ++turn) {
     if (const Contact* const p_ahead = contactAhead(contacts, turn)) {
-      fetchLines(&m_memory[at(p_ahead->memory)].manifold, sizeof(Manifold));
+      fetchLines(&m_memory[at(p_ahead->memory)], offsetof(Memory, known) + sizeof(KnownImpulses));
       fetchLines(&m_bodies[at(p_ahead->a)], kFetchedOfBody);
       fetchLines(&m_bodies[at(p_ahead->b)], kFetchedOfBody);
     }
     Contact& contact = m_contacts[at(contacts[turn])];
     if (contact.colour != colour || in_block == kLanes || colour == kUncoloured) {
+      if (turn > 0) m_rows.finishBlock();
       m_rows.beginBlock();
       in_block = 0;
       colour = contact.colour;
@@ -163,27 +167,23 @@ void SubstepWorld::fillRows(std::span<const std::int32_t> contacts) {
     ++in_block;
     addRow(contact);
   }
+  if (!contacts.empty()) m_rows.finishBlock();
   m_counters.blocks += static_cast<std::int64_t>(m_rows.blocks());
 }
 
 void SubstepWorld::storeImpulses(std::span<const std::int32_t> contacts) {
   for (std::size_t turn = 0; turn < contacts.size(); ++turn) {
     if (const Contact* const p_ahead = contactAhead(contacts, turn))
-      fetchLines(&m_memory[at(p_ahead->memory)], sizeof(Memory));
+      fetchLines(&m_memory[at(p_ahead->memory)].known, sizeof(KnownImpulses));
     Contact& contact = m_contacts[at(contacts[turn])];
-    contact.impulse = m_rows.impulse(contact.place);
-    Memory& known = m_memory[at(contact.memory)];
-    known.count = known.manifold.count;
-    for (std::int32_t k = 0; k < known.count; ++k) known.id[at(k)] = known.manifold.points[at(k)].id;
-    known.normal = contact.impulse.normal;
-    known.friction = contact.impulse.friction;
+    contact.pushed = m_rows.read(contact.place, m_memory[at(contact.memory)].known);
   }
 }
 
 void SubstepWorld::reportContacts() {
   for (const Contact& contact : m_contacts) {
-    if (contact.impulse.first < 0) continue;
-    const double impulse = contact.impulse.total;
+    if (contact.pushed.first < 0) continue;
+    const double impulse = contact.pushed.total;
     Pair& pair = m_pairs[at(contact.pair)];
     pair.is_pushing = true;
     m_bodies[at(pair.a)].pushed_at = m_bodies[at(pair.b)].pushed_at = m_steps;
@@ -194,7 +194,7 @@ void SubstepWorld::reportContacts() {
     const Vec2 from_a = m_memory[at(contact.memory)].manifold.normal;
     const Vec2 normal = pair.a == pair.low ? from_a : -from_a;
     m_events.push_back(
-        {m_time + std::max(double{contact.impulse.first}, 0.0), pair.low, pair.high, true, impulse, normal});
+        {m_time + std::max(double{contact.pushed.first}, 0.0), pair.low, pair.high, true, impulse, normal});
   }
 }
 

@@ -73,20 +73,20 @@ class SubstepWorld final : public RigidStepper {
   double deepest() const { return m_deepest; }
 
  private:
-  struct Memory {  // of a contact, from step to step
-    std::int32_t next = -1;
-    std::int32_t shape_a = 0, shape_b = 0;
+  // Of a contact, from step to step. What its rows are made of comes first, in as few cache lines as can be.
+  struct alignas(64) Memory {
     Manifold manifold;
+    KnownImpulses known;  // of its points
     // When the manifold was found. It is kept while its bodies hardly move against each other.
     Vec2 offset;
     Rotation rotation_a, rotation_b;
     std::array<double, 2> gap = {};
     double margin = -1;  // below 0: none has been found
     std::uint32_t version_a = 0, version_b = 0;
-    std::int32_t count = 0;
-    std::array<std::uint32_t, 2> id = {};
-    std::array<KnownImpulse, 2> normal = {}, friction = {};
+    std::int32_t next = -1;
+    std::int32_t shape_a = 0, shape_b = 0;
   };
+  static_assert(sizeof(Memory) == 256);
   struct Pair {
     std::int32_t low, high;  // ids: what the broad phase orders by
     std::int32_t a, b;       // the same, by the order of the bodies
@@ -124,12 +124,12 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t contact;
   };
   struct Contact {  // within a step
-    ContactImpulse impulse;
     std::int32_t pair, memory;
     std::int32_t a, b;
     std::int32_t state;  // of one of them that has one
     std::int32_t colour;
     std::int32_t place;  // in the rows
+    ContactPush pushed;
   };
   // Groups, together small enough that their rows stay in a cache for all sub-steps.
   struct Batch {
@@ -219,6 +219,7 @@ class SubstepWorld final : public RigidStepper {
   double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);
   static void shake(SubstepBody& a, SubstepBody& b, double depth);
+  static KnownImpulses carriedOver(const Memory& memory, const Manifold& now);
   static bool keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset,
                             double margin);
   bool findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,

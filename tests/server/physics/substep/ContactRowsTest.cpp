@@ -31,7 +31,7 @@ class Numbers {
 struct Trial {
   ContactRow row;
   Manifold manifold;
-  ContactImpulse memory;
+  KnownImpulses known;
   SubstepState a, b;
   float kick = 0;  // what a sub-step adds to b's speed along y
 };
@@ -63,8 +63,8 @@ Trial trialOf(std::uint64_t seed) {
     point.anchor_b = {numbers.between(-0.5, 0.5), numbers.between(-0.5, 0.5)};
     point.separation = numbers.between(-0.05, 0.05);
     if (static_cast<int>(i) >= trial.manifold.count || numbers.chance(0.3)) continue;
-    trial.memory.normal[i].kept = static_cast<float>(numbers.between(0, 0.05));
-    trial.memory.friction[i].kept = static_cast<float>(numbers.between(-0.01, 0.01));
+    trial.known.normal[i].kept = static_cast<float>(numbers.between(0, 0.05));
+    trial.known.friction[i].kept = static_cast<float>(numbers.between(-0.01, 0.01));
   }
   trial.a.spin = row.spin_a;
   trial.b.spin = row.spin_b;
@@ -72,15 +72,16 @@ Trial trialOf(std::uint64_t seed) {
   if (!row.is_lasting) return trial;
   row.fast = 0.1f;
   for (std::size_t i = 0; i < 2; ++i) {
-    trial.memory.normal[i].trend = static_cast<float>(numbers.between(-0.02, 0.02));
-    trial.memory.friction[i].trend = static_cast<float>(numbers.between(-0.01, 0.01));
+    trial.known.normal[i].trend = static_cast<float>(numbers.between(-0.02, 0.02));
+    trial.known.friction[i].trend = static_cast<float>(numbers.between(-0.01, 0.01));
   }
   return trial;
 }
 
 struct Outcome {
   std::vector<std::uint32_t> bits;  // of both bodies and the impulses
-  ContactImpulse impulse;
+  KnownImpulses known;
+  ContactPush pushed;
 };
 
 void moveState(SubstepState& s) {
@@ -104,8 +105,9 @@ std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_blo
     row.b = static_cast<std::int32_t>(states.size());
     states.push_back(trials[i].b);
     if (i % in_block == 0) rows.beginBlock();
-    places.push_back(rows.add(row, trials[i].manifold, trials[i].memory));
+    places.push_back(rows.add(row, trials[i].manifold, trials[i].known));
     packed.push_back(row);
+    if ((i + 1) % in_block == 0 || i + 1 == trials.size()) rows.finishBlock();
   }
   float time = 0;
   for (int i = 0; i < 4; ++i) {
@@ -122,18 +124,18 @@ std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_blo
   std::vector<Outcome> outcomes;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     Outcome outcome;
-    outcome.impulse = rows.impulse(places[i]);
+    outcome.pushed = rows.read(places[i], outcome.known);
     const auto note = [&](float x) { outcome.bits.push_back(std::bit_cast<std::uint32_t>(x + 0.0f)); };
     for (const std::int32_t s : {packed[i].a, packed[i].b}) {
       const SubstepState& state = states[static_cast<std::size_t>(s)];
       for (const float x : {state.vx, state.vy, state.spin, state.x, state.y}) note(x);
     }
-    const ContactImpulse& j = outcome.impulse;
+    const KnownImpulses& j = outcome.known;
     for (const auto& known : {j.normal[0], j.normal[1], j.friction[0], j.friction[1]}) {
       note(known.kept);
       note(known.trend);
     }
-    for (const float x : {j.total, j.first}) note(x);
+    for (const float x : {outcome.pushed.total, outcome.pushed.first}) note(x);
     outcomes.push_back(outcome);
   }
   return outcomes;
@@ -175,11 +177,11 @@ TEST(ContactRows, PushesOnlyAndRubsWithinItsCone) {
   int pushing = 0, sliding = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const Trial trial = trialOf(seed);
-    const ContactImpulse impulse = stepOf({trial}, 1)[0].impulse;
-    EXPECT_GE(impulse.total, 0) << seed;
+    const Outcome outcome = stepOf({trial}, 1)[0];
+    EXPECT_GE(outcome.pushed.total, 0) << seed;
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_GE(impulse.normal[i].kept, 0) << seed;
-      pushing += impulse.normal[i].kept > 0 ? 1 : 0;
+      EXPECT_GE(outcome.known.normal[i].kept, 0) << seed;
+      pushing += outcome.known.normal[i].kept > 0 ? 1 : 0;
     }
   }
   EXPECT_GT(pushing, 50);
@@ -193,16 +195,16 @@ TEST(ContactRows, PushesOnlyAndRubsWithinItsCone) {
     row.max_push = 0.1f;
     row.velocity = {slip, 0};
     trial.kick = 0.05f;
-    trial.memory.normal[0].kept = 0.05f;
+    trial.known.normal[0].kept = 0.05f;
     trial.manifold.normal = {0, -1};  // b lies above
     trial.manifold.count = 1;
     trial.manifold.points[0].anchor_b = {0, 0.5};
     const Outcome outcome = stepOf({trial}, 1)[0];
-    const float most = 0.5f * outcome.impulse.normal[0].kept;
-    EXPECT_NEAR(outcome.impulse.normal[0].kept, 0.05f, 1e-4f) << slip;
-    EXPECT_NEAR(outcome.impulse.total, 0.2f, 1e-3f) << slip;
-    EXPECT_LE(std::fabs(outcome.impulse.friction[0].kept), most * 1.001f) << slip;
-    sliding += slip > 0.5f && std::fabs(outcome.impulse.friction[0].kept) > 0.99f * most ? 1 : 0;
+    const float most = 0.5f * outcome.known.normal[0].kept;
+    EXPECT_NEAR(outcome.known.normal[0].kept, 0.05f, 1e-4f) << slip;
+    EXPECT_NEAR(outcome.pushed.total, 0.2f, 1e-3f) << slip;
+    EXPECT_LE(std::fabs(outcome.known.friction[0].kept), most * 1.001f) << slip;
+    sliding += slip > 0.5f && std::fabs(outcome.known.friction[0].kept) > 0.99f * most ? 1 : 0;
   }
   EXPECT_EQ(sliding, 1);
 }
@@ -216,28 +218,28 @@ Trial lyingOne(float kick) {
   trial.kick = -kick;
   trial.manifold.normal = {0, 1};  // b lies above
   trial.manifold.count = 1;
-  trial.memory.normal[0].kept = 0.9f * kick;
-  trial.memory.normal[0].trend = 0.1f * kick;
+  trial.known.normal[0].kept = 0.9f * kick;
+  trial.known.normal[0].trend = 0.1f * kick;
   return trial;
 }
 
 TEST(ContactRows, ATrendFadesWhenThePushIsEven) {
   Trial trial = lyingOne(0.05f);
   trial.row.is_lasting = true;
-  float most = trial.memory.normal[0].trend;
+  float most = trial.known.normal[0].trend;
   for (int step = 0; step < 20; ++step) {
-    trial.memory = stepOf({trial}, 1)[0].impulse;
+    trial.known = stepOf({trial}, 1)[0].known;
     most *= 0.5f;
-    EXPECT_LE(std::fabs(trial.memory.normal[0].trend), most + 1e-7f) << step;
+    EXPECT_LE(std::fabs(trial.known.normal[0].trend), most + 1e-7f) << step;
   }
-  EXPECT_NEAR(trial.memory.normal[0].kept, 0.05f, 1e-6f);
+  EXPECT_NEAR(trial.known.normal[0].kept, 0.05f, 1e-6f);
 }
 
 TEST(ContactRows, OnlyWhatLastsFollowsItsTrend) {
   for (const bool is_lasting : {false, true}) {
     Trial trial = lyingOne(0.05f), flat = trial;
     trial.row.is_lasting = flat.row.is_lasting = is_lasting;
-    flat.memory.normal[0].trend = 0;
+    flat.known.normal[0].trend = 0;
     EXPECT_EQ(stepOf({trial}, 1)[0].bits == stepOf({flat}, 1)[0].bits, !is_lasting);
   }
 }
@@ -247,9 +249,9 @@ TEST(ContactRows, ABlowHasNoTrend) {
   Trial trial = lyingOne(0), flat;
   trial.row.is_lasting = true;
   trial.row.velocity = {0, -0.3};
-  trial.memory.normal[0] = {};
+  trial.known.normal[0] = {};
   flat = trial;
-  trial.memory.normal[0].trend = 0.01f;
+  trial.known.normal[0].trend = 0.01f;
   EXPECT_EQ(stepOf({trial}, 1)[0].bits[6], stepOf({flat}, 1)[0].bits[6]);
 }
 
@@ -259,7 +261,7 @@ TEST(ContactRows, ABlowMeetsNoSoftSpring) {
     trial.row.is_lasting = true;
     trial.row.fast = fast;
     trial.row.velocity = {0, -0.3};
-    trial.memory.normal[0] = {};
+    trial.known.normal[0] = {};
     const float y = std::bit_cast<float>(stepOf({trial}, 1)[0].bits[9]) - 0.3f;
     if (fast < 0.3f)
       EXPECT_NEAR(y, 0, 1e-6f);
