@@ -67,9 +67,8 @@ void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& st
   }
 }
 
-void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
-                              const std::vector<BodyState>& states,
-                              const std::vector<double>& unit_inertias) {
+void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, std::vector<BodyState>& states,
+                              const std::vector<double>& unit_inertias, const BodyContacts& contacts) {
   for (Proxy& proxy : m_proxies) proxy.is_used = false;
   for (const BodyState& state : states) {
     if (!isStepped(state)) continue;
@@ -89,10 +88,18 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table,
     proxy.id = -1;
   }
   m_count = 0;
+  m_has_pulls = false;
+  m_fastest = {};
   m_world.expect(states.size());
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const BodyState& state = states[i];
+    BodyState& state = states[i];
     if (!isStepped(state)) continue;
+    if (state.solver == m_solver) {
+      state.is_touched = contacts.isTouching(state.key);
+      m_has_pulls = m_has_pulls || state.isPulled();
+      m_fastest = {std::max(m_fastest.x, std::fabs(state.start_velocity.x)),
+                   std::max(m_fastest.y, std::fabs(state.start_velocity.y))};
+    }
     const BodyRow& row = table.row(state.index);
     const BodyForm& form = table.form(state.index);
     RigidBody body;
@@ -125,15 +132,9 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
                                  const std::vector<BodyState>& states, BodyContacts& contacts) {
   m_obstacles.beginTick();
   m_surroundings.clear();
-  Vec2 fastest;
-  for (const BodyState& state : states) {
-    if (state.solver != m_solver) continue;
-    fastest = {std::max(fastest.x, std::fabs(state.start_velocity.x)),
-               std::max(fastest.y, std::fabs(state.start_velocity.y))};
-  }
   for (const BodyState& state : states) {
     if (state.solver != m_solver || !state.is_hard) continue;
-    m_surroundings.addRegion(regionOf(table.metric, state.start, state.reach + fastest));
+    m_surroundings.addRegion(regionOf(table.metric, state.start, state.reach + m_fastest));
   }
   m_surroundings.query(store, [&](std::size_t /*number*/, ObjectKey key) {
     if (BodyObstacles::isObstacle(store, key)) m_obstacles.markNear(key);
@@ -188,6 +189,7 @@ void BodyRigids::removeJoints(const BodyTable& table, const std::vector<BodyStat
     if (proxy.anchor >= 0) m_world.remove(proxy.anchor);
     proxy = {};
   }
+  if (m_pull_proxies.empty()) return;
   for (PullProxy& proxy : m_pull_proxies) proxy.is_used = false;
   for (const BodyState& state : states) {
     if (!isPulledHere(state) || state.index >= m_pull_proxies.size()) continue;
@@ -258,15 +260,12 @@ void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<Bod
                       const std::vector<double>& unit_inertias, BodyContacts& contacts) {
   if (std::exchange(m_may_sleep, table.settings.may_sleep) != table.settings.may_sleep)
     m_world.setSleeping(table.settings.may_sleep);
-  updateBodies(store, table, states, unit_inertias);
+  updateBodies(store, table, states, unit_inertias, contacts);
   updateObstacles(store, table, states, contacts);
   removeJoints(table, states);
   updateJoints(table);
-  updatePulls(table, states);
+  if (m_has_pulls) updatePulls(table, states);
   if (m_count == 0) return;
-  for (BodyState& state : states) {
-    if (state.solver == m_solver) state.is_touched = contacts.isTouching(state.key);
-  }
   m_world.step();
   collect(states, contacts);
   finish(table, states, contacts);

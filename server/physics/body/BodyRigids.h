@@ -56,8 +56,8 @@ class BodyRigids {
   };
 
   bool isStepped(const BodyState& state) const;
-  void updateBodies(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
-                    const std::vector<double>& unit_inertias);
+  void updateBodies(const WorldStore& store, const BodyTable& table, std::vector<BodyState>& states,
+                    const std::vector<double>& unit_inertias, const BodyContacts& contacts);
   void shape(Proxy& proxy, const BodyTable& table, const BodyState& state, const FixedBox& box,
              const RigidBody& body);
   void updateObstacles(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
@@ -82,6 +82,8 @@ class BodyRigids {
   std::vector<FixedBox> m_obstacle_boxes;  // by id
   BodySurroundings m_surroundings;
   int m_count = 0;
+  bool m_has_pulls = false;  // does one pull on any of its bodies in this tick?
+  Vec2 m_fastest;            // of its bodies, along each axis, at the start of the tick
   bool m_may_sleep = true;
 };
 

@@ -7,6 +7,7 @@
 
 #include "physics/geometry/Reserve.h"
 #include "physics/geometry/ShapeDistance.h"
+#include "physics/substep/Fetch.h"
 #include "physics/substep/SubstepWorld.h"
 
 namespace naiad::physics {
@@ -213,7 +214,7 @@ double SubstepWorld::marginOf(const SubstepBody& a, const SubstepBody& b) const 
 }
 
 void SubstepWorld::stir(const SubstepBody& b, double by) {
-  if (b.state == 0 || !isMovable(b)) return;
+  if (!(by > 0) || b.state == 0 || !isMovable(b)) return;
   double& own = m_stirs[at(m_sets.rootOf(b.state))];
   m_has_stirred = m_has_stirred || own < by;
   own = std::max(own, by);
@@ -426,7 +427,11 @@ void SubstepWorld::updateContacts() {
   m_pair_ends.clear();
   const std::size_t awake = m_active.size();
   choosePairs();
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(m_pairs.size()); ++i) updatePair(i);
+  for (std::size_t i = 0; i < m_pairs.size(); ++i) {
+    if (i + kFetched < m_pairs.size() && m_pairs[i + kFetched].first >= 0)
+      fetchLines(&m_memory[at(m_pairs[i + kFetched].first)], sizeof(Memory));
+    updatePair(static_cast<std::int32_t>(i));
+  }
   for (std::size_t first = 0;;) {
     const std::size_t active = m_active.size(), states = m_states.size();
     if (!wakeTouched(first)) break;

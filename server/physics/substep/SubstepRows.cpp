@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "physics/substep/Fetch.h"
 #include "physics/substep/SubstepWorld.h"
 
 namespace naiad::physics {
@@ -17,10 +18,8 @@ constexpr std::int32_t kColours = 64;
 constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
 constexpr std::size_t kBatch = 1024;                // rows: 220 kB
 // In thicknesses of the thinner body.
-constexpr double kMaxPush = 0.2;        // per tick: the greatest speed at which overlap is undone
-constexpr double kFast = 4;             // per tick: what comes so fast is stopped at once
-constexpr std::size_t kFetched = 8;     // contacts ahead
-constexpr std::size_t kCacheLine = 64;  // bytes
+constexpr double kMaxPush = 0.2;  // per tick: the greatest speed at which overlap is undone
+constexpr double kFast = 4;       // per tick: what comes so fast is stopped at once
 constexpr std::size_t kFetchedOfBody = 5 * kCacheLine;
 // In what acceleration adds to a speed in a tick: slower impacts do not bounce.
 constexpr float kRest = 2;
@@ -30,14 +29,6 @@ constexpr float kRest = 2;
 // the floor if the floor's were the weaker one.
 bool isLasting(const KnownImpulses& known, const SubstepBody& a, const SubstepBody& b) {
   return known.normal[0].kept + known.normal[1].kept > 0 && !a.is_shaken && !b.is_shaken;
-}
-
-// GCC takes a function that does nothing but fetch for one that does nothing, and leaves its calls out. So it
-// must be inlined, and so must what calls it and does nothing else.
-[[gnu::always_inline]] inline void fetchLines(const void* p_first, std::size_t bytes) {
-  for (std::size_t i = 0; i < bytes; i += kCacheLine)
-    __builtin_prefetch(static_cast<const char*>(p_first) + i);
-  __builtin_prefetch(static_cast<const char*>(p_first) + bytes - 1);
 }
 
 }  // namespace
