@@ -176,12 +176,15 @@ bool RigidDirect::setForces(bool is_first) {
       high = row.friction * std::max(m_guess[at(row.normal)], 0.0);
       low = -high;
     }
-    const double wanted = row.softness > 0 ? row.before - speedOf(row) / row.softness
-                                           : m_guess[i] - m_stiffness[i] * speedOf(row);
     const Side before = m_side[i];
-    Side side = wanted < low ? Side::kLow : wanted > high ? Side::kHigh : Side::kFree;
-    if (is_first || (before != Side::kFree && side != Side::kFree && side != before)) side = Side::kFree;
-    if (low == high) side = Side::kLow;
+    Side side = Side::kLow;
+    double wanted = low;
+    if (low != high) {
+      wanted = row.softness > 0 ? row.before - speedOf(row) / row.softness
+                                : m_guess[i] - m_stiffness[i] * speedOf(row);
+      side = wanted < low ? Side::kLow : wanted > high ? Side::kHigh : Side::kFree;
+      if (is_first || (before != Side::kFree && side != Side::kFree && side != before)) side = Side::kFree;
+    }
     if (is_first || (side == Side::kFree) != (before == Side::kFree))
       m_changed = std::min(m_changed, firstOf(row));
     m_side[i] = side;
@@ -341,18 +344,27 @@ bool RigidDirect::factorBlock(std::int64_t first, std::int64_t row) {
   return true;
 }
 
+// The three rows of a body at once, as in factor().
 void RigidDirect::solveFactored() {
   const auto count = static_cast<std::int64_t>(m_first.size());
-  for (std::int64_t k = 0; k < count; ++k) {
-    const double* const line = m_matrix.data() + m_row_at[at(k)];
-    double value = m_right[at(k)];
-    for (std::int64_t j = m_first[at(k)]; j < k; ++j) value -= line[j] * m_right[at(j)];
-    m_right[at(k)] = value;
+  double* const right = m_right.data();
+  for (std::int64_t k = 0; k < count; k += 3) {
+    const double *const one = lineOf(k), *const two = lineOf(k + 1), *const three = lineOf(k + 2);
+    double x = right[k], y = right[k + 1], z = right[k + 2];
+    for (std::int64_t j = m_first[at(k)]; j < k; ++j)
+      x -= one[j] * right[j], y -= two[j] * right[j], z -= three[j] * right[j];
+    y -= two[k] * x;
+    z = (z - three[k] * x) - three[k + 1] * y;
+    right[k] = x, right[k + 1] = y, right[k + 2] = z;
   }
-  for (std::int64_t k = 0; k < count; ++k) m_right[at(k)] *= m_matrix[at(m_row_at[at(k)] + k)];
-  for (std::int64_t k = count - 1; k >= 0; --k) {
-    const double* const line = m_matrix.data() + m_row_at[at(k)];
-    for (std::int64_t j = m_first[at(k)]; j < k; ++j) m_right[at(j)] -= line[j] * m_right[at(k)];
+  for (std::int64_t k = 0; k < count; ++k) right[k] *= lineOf(k)[k];
+  for (std::int64_t k = count - 3; k >= 0; k -= 3) {
+    const double *const one = lineOf(k), *const two = lineOf(k + 1), *const three = lineOf(k + 2);
+    const double z = right[k + 2], y = right[k + 1] - three[k + 1] * z;
+    const double x = (right[k] - three[k] * z) - two[k] * y;
+    for (std::int64_t j = m_first[at(k)]; j < k; ++j)
+      right[j] = ((right[j] - three[j] * z) - two[j] * y) - one[j] * x;
+    right[k] = x, right[k + 1] = y;
   }
 }
 
@@ -365,6 +377,7 @@ void RigidDirect::setResidual() {
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     const DirectRow& row = m_rows[i];
     const double more = m_force[i] - row.impulse;
+    if (more == 0) continue;
     const auto give = [&](std::int32_t body, const Lever& lever) {
       if (body < 0) return;
       const double* const mass = m_mass[at(body)].x;
