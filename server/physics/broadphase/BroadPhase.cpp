@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace naiad::physics {
@@ -53,9 +54,10 @@ double squareOfDistance(const GridBounds& a, const GridBounds& b) {
   return x * x + y * y;
 }
 
-// May so many below it be in one place? Cheap, and blind to some whose bounds are of many sizes.
-bool mayBeCrowd(const ImpactTree::Below& below) {
-  const double most = 4 * double{below.least};
+// May so many below it be in one place? Cheap, and blind to some whose bounds are of many sizes. `usual`:
+// half of the usual shorter side.
+bool mayBeCrowd(const ImpactTree::Below& below, float usual) {
+  const double most = 4 * std::max(double{below.least}, 2 * double{usual});
   return below.bodies >= kCrowd && below.box.high.x - below.box.low.x < most &&
          below.box.high.y - below.box.low.y < most;
 }
@@ -139,6 +141,10 @@ void BroadPhase::fileAll() {
     m_halves.push_back(halfOf(m_proxies[i]));
     m_numbers.push_back(static_cast<int>(i));
   }
+  const auto moving =
+      m_halves.size() - static_cast<std::size_t>(std::count(m_halves.begin(), m_halves.end(), 0.0f));
+  const double sum = std::accumulate(m_halves.begin(), m_halves.end(), 0.0);
+  m_usual_half = moving > 0 ? static_cast<float>(sum / static_cast<double>(moving)) : 0;
   m_tree.update(m_boxes, m_numbers, static_cast<int>(m_proxies.size()), m_halves);
 }
 
@@ -153,23 +159,63 @@ bool BroadPhase::isBefore(std::int32_t a, std::int32_t b) const {
   return one.order != other.order ? one.order < other.order : a < b;
 }
 
-void BroadPhase::keepNearest() {
-  std::nth_element(m_heaped.begin(), m_heaped.begin() + kKeptHeaped - 1, m_heaped.end(),
+bool BroadPhase::isSmaller(std::int32_t a, std::int32_t b) const {
+  const auto areaOf = [&](std::int32_t proxy) {
+    const Vec2 width = widthOf(m_proxies[index(proxy)].bounds);
+    return width.x * width.y;
+  };
+  const double one = areaOf(a), other = areaOf(b);
+  return one != other ? one < other : isBefore(a, b);
+}
+
+void BroadPhase::Nearest::clear() {
+  found.clear();
+  farthest = kBeyond;
+  last = 0;
+}
+
+void BroadPhase::Nearest::keep() {
+  if (found.size() <= kKeptHeaped) return;
+  std::nth_element(found.begin(), found.begin() + kKeptHeaped - 1, found.end(),
                    [](const Heaped& x, const Heaped& y) {
                      if (x.square != y.square) return x.square < y.square;
                      return x.order != y.order ? x.order < y.order : keyOf(x.pair) < keyOf(y.pair);
                    });
-  m_heaped.resize(kKeptHeaped);
+  found.resize(kKeptHeaped);
+  farthest = found.back().square;
+  last = found.back().order;
 }
 
-// Of two changed proxies, the one that comes first finds the pair.
-BroadPhase::Proxy& BroadPhase::finderOf(std::int32_t a, std::int32_t b) {
-  Proxy &one = m_proxies[index(a)], &other = m_proxies[index(b)];
-  return one.changed && !(other.changed && isBefore(b, a)) ? one : other;
+BroadPhase::Kind BroadPhase::kindOf(const Proxy& a, const Proxy& b) const {
+  if (!m_thins_crowds || !a.moves || !b.moves) return Kind::kOther;
+  if (areHeaped(a.bounds, b.bounds)) return Kind::kHeaped;
+  const Vec2 width = widthOf(b.bounds);
+  return areAlike(widthOf(a.bounds), width, width) ? Kind::kAlike : Kind::kSized;
 }
 
-bool BroadPhase::isHeap(const Proxy& a, const Proxy& b) const {
-  return m_thins_crowds && a.moves && b.moves && areHeaped(a.bounds, b.bounds);
+// Of two that changed the smaller one finds the pair, and of those of one size the one that comes first.
+std::int32_t BroadPhase::finderOf(std::int32_t a, std::int32_t b, Kind kind) const {
+  const bool is_one = m_proxies[index(a)].changed, is_other = m_proxies[index(b)].changed;
+  if (is_one != is_other) return is_one ? a : b;
+  if (kind == Kind::kSized) return isSmaller(a, b) ? a : b;
+  return isBefore(b, a) ? b : a;
+}
+
+// Does it lie in so many others, whoever finds them?
+bool BroadPhase::isInCrowd(std::int32_t proxy) {
+  const Proxy& own = m_proxies[index(proxy)];
+  const SweptBox box = relative(own.bounds);
+  std::size_t heaped = 0;
+  visitAll(
+      own.bounds,
+      [&](const ImpactTree::Below& below) { return heaped <= kMaxHeaped && overlaps(below.box, box); },
+      [&](std::int32_t other) {
+        ++m_looks;
+        const bool is_heaped = other != proxy && kindOf(own, m_proxies[index(other)]) == Kind::kHeaped;
+        heaped += is_heaped ? 1 : 0;
+      },
+      own.is_filed ? proxy : kNone);
+  return heaped > kMaxHeaped;
 }
 
 void BroadPhase::summarizeCrowds() {
@@ -178,24 +224,25 @@ void BroadPhase::summarizeCrowds() {
     const SweptBox box = relative(own.bounds);
     const Vec2 middle = 0.5 * (box.low + box.high), width = widthOf(own.bounds);
     const Vec2 widest = own.moves ? width : Vec2{kBeyond, kBeyond};
-    return {{middle, middle}, width, widest, own.order, own.changed ? own.order : kLastOrder};
+    return {{middle, middle}, width, widest, width, own.order, own.changed ? own.order : kLastOrder};
   };
   const auto joins = [](const Crowd& a, const Crowd& b) -> Crowd {
     return {join(a.middles, b.middles),
             {std::min(a.narrowest.x, b.narrowest.x), std::min(a.narrowest.y, b.narrowest.y)},
             {std::max(a.widest.x, b.widest.x), std::max(a.widest.y, b.widest.y)},
+            a.widths + b.widths,
             std::min(a.first, b.first),
             std::max(a.last, b.last)};
   };
   m_tree.summarize(m_crowds, ofBody, joins);
 }
 
-// Are there many below it, and each areHeaped() with all others?
+// Are there many below it, so near that most of them lie in one another?
 bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
   if (below.bodies < kCrowd) return false;
   const Crowd& crowd = m_crowds[index(below.node)];
-  const Vec2 spread = crowd.middles.high - crowd.middles.low;
-  return spread.x < crowd.narrowest.x && spread.y < crowd.narrowest.y && crowd.widest.x < kBeyond;
+  const Vec2 spread = below.bodies * (crowd.middles.high - crowd.middles.low);
+  return spread.x < crowd.widths.x && spread.y < crowd.widths.y && crowd.widest.x < kBeyond;
 }
 
 // All that touch the bounds of a crowd count as having found too many. Where a crowd was in the last update
@@ -206,7 +253,7 @@ void BroadPhase::findCrowds() {
   bool may_be = m_was_crowded;
   m_tree.walk(
       [&](const ImpactTree::Below& below) {
-        may_be = may_be || mayBeCrowd(below);
+        may_be = may_be || mayBeCrowd(below, m_usual_half);
         return below.bodies >= kCrowd && !may_be;
       },
       comeTo);
@@ -221,13 +268,8 @@ void BroadPhase::findCrowds() {
       comeTo);
 }
 
-bool BroadPhase::isLike(const Proxy& a, const Proxy& b) const {
-  const Vec2 width = widthOf(b.bounds);
-  return m_thins_crowds && a.moves && b.moves && areAlike(widthOf(a.bounds), width, width);
-}
-
-// Of those that find too many the pairs are looked for once more, one after the other. Within a crowd that is
-// done for all, so it is left out here.
+// Of those that lie in too many the pairs are looked for once more, one after the other. Within a crowd that
+// is done for all, so it is left out here.
 void BroadPhase::findAllPairs() {
   fileAll();
   for (Proxy& own : m_proxies) {
@@ -235,11 +277,15 @@ void BroadPhase::findAllPairs() {
     if (own.changed) own.is_thinned = false;
   }
   findCrowds();
+  const auto isCrowded = [&](std::int32_t proxy) { return m_proxies[index(proxy)].heaped > kMaxHeaped; };
   const auto find = [&](int a, int b) {
     ++m_looks;
-    const Proxy &one = m_proxies[index(a)], &other = m_proxies[index(b)];
+    Proxy &one = m_proxies[index(a)], &other = m_proxies[index(b)];
     if (!(one.changed || other.changed) || !(one.moves || other.moves)) return;
-    if (isHeap(one, other) && ++finderOf(a, b).heaped > kMaxHeaped) return;
+    if (one.moves && other.moves && m_thins_crowds && areHeaped(one.bounds, other.bounds))
+      ++one.heaped, ++other.heaped;
+    const bool may_be_crowded = one.heaped > kMaxHeaped || other.heaped > kMaxHeaped;
+    if (may_be_crowded && isCrowded(finderOf(a, b, kindOf(one, other)))) return;
     m_found.push_back(one.id < other.id ? BroadPhasePair{one.id, other.id, a, b}
                                         : BroadPhasePair{other.id, one.id, b, a});
   };
@@ -248,12 +294,12 @@ void BroadPhase::findAllPairs() {
   } else {
     m_tree.queryPairs(find, [&](const ImpactTree::Below& below) { return isCrowd(below); });
   }
-  const auto isCrowded = [&](std::int32_t proxy) { return m_proxies[index(proxy)].heaped > kMaxHeaped; };
   const bool is_crowded = std::any_of(m_changed.begin(), m_changed.end(), isCrowded);
   m_was_crowded = is_crowded;
   if (!is_crowded) return m_crowds.clear();
   std::erase_if(m_found, [&](const BroadPhasePair& pair) {
-    return finderOf(pair.proxy_a, pair.proxy_b).heaped > kMaxHeaped;
+    const Proxy &one = m_proxies[index(pair.proxy_a)], &other = m_proxies[index(pair.proxy_b)];
+    return isCrowded(finderOf(pair.proxy_a, pair.proxy_b, kindOf(one, other)));
   });
   if (m_crowds.empty()) summarizeCrowds();
   // By where they are: what one has looked at is still in the processor's cache for the next.
@@ -270,47 +316,67 @@ void BroadPhase::findPairs(std::int32_t proxy) {
   const SweptBox box = relative(bounds);
   const Vec2 middle = 0.5 * (box.low + box.high);
   m_heaped.clear();
+  m_larger.clear();
   std::size_t heaped = 0;
-  double farthest = std::numeric_limits<double>::infinity();  // of those that may be kept, and of these …
-  std::uint64_t last = 0;                                     // … the last
+  bool is_asked = false, is_in_crowd = false;
+  const auto isThick = [&] {  // asked for only if that may make a difference
+    if (!std::exchange(is_asked, true)) is_in_crowd = isInCrowd(proxy);
+    return is_in_crowd;
+  };
   const auto find = [&](std::int32_t other) {
     ++m_looks;
+    if (other == proxy) return;
     const Proxy& that = m_proxies[index(other)];
-    if (other == proxy || (that.changed && isBefore(other, proxy)) || !(own.moves || that.moves)) return;
+    if (!own.moves && !that.moves) return;
+    const Kind kind = kindOf(own, that);
+    if (finderOf(proxy, other, kind) != proxy) return;
     const BroadPhasePair pair = own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
                                                  : BroadPhasePair{that.id, own.id, other, proxy};
-    const bool is_heaped = isHeap(own, that);
-    if (!is_heaped && !isLike(own, that)) {
+    if (kind == Kind::kOther || (kind == Kind::kSized && isSmaller(other, proxy))) {
       m_found.push_back(pair);
       return;
     }
-    heaped += is_heaped ? 1 : 0;
+    heaped += kind == Kind::kHeaped ? 1 : 0;
+    Nearest& nearest = kind == Kind::kSized ? m_larger : m_heaped;
     const double square = squareOfDistance(bounds, that.bounds);
-    if (square > farthest) return;
-    m_heaped.push_back({square, that.order, pair});
-    if (heaped <= kMaxHeaped || m_heaped.size() < kCollected) return;
-    keepNearest();
-    farthest = m_heaped.back().square;
-    last = m_heaped.back().order;
+    if (square > nearest.farthest) return;
+    nearest.found.push_back({square, that.order, pair});
+    if (nearest.found.size() < kCollected) return;
+    if (kind == Kind::kSized ? isThick() : heaped > kMaxHeaped) nearest.keep();
   };
-  // Do all below it find this one themselves, or are they like it, and others nearer?
+  // Do all below it find this one themselves, or are others nearer?
+  const Vec2 width = widthOf(bounds);
   const auto isLeftOut = [&](const ImpactTree::Below& below) {
     if (m_crowds.empty()) return false;
     const Crowd& crowd = m_crowds[index(below.node)];
-    if (crowd.last < own.order) return true;
-    if (!own.moves || !areAlike(widthOf(bounds), crowd.narrowest, crowd.widest)) return false;
     const Vec2 over = middle - crowd.middles.high, under = crowd.middles.low - middle;
+    const Vec2 span = {std::max(-over.x, -under.x), std::max(-over.y, -under.y)};  // to the farthest middle
+    const bool are_heaped =
+        span.x < std::min(crowd.narrowest.x, width.x) && span.y < std::min(crowd.narrowest.y, width.y);
+    // Or would any be in m_larger?
+    const bool are_near = are_heaped || (crowd.widest.x <= 2 * width.x && crowd.widest.y <= 2 * width.y);
+    if (crowd.last < own.order && (!own.moves || are_near)) return true;
+    const bool has_smaller = 2 * crowd.narrowest.x < width.x || 2 * crowd.narrowest.y < width.y;
+    if (!own.moves || crowd.widest.x == kBeyond) return false;
+    if (has_smaller && !are_heaped && crowd.last == kLastOrder) return false;
     const Vec2 apart = {std::max({over.x, under.x, 0.0}), std::max({over.y, under.y, 0.0})};
     const double square = 4 * lengthSquared(apart);
-    return square > farthest || (square == farthest && crowd.first > last);
+    if (!are_near) return square > std::max(m_heaped.farthest, m_larger.farthest);
+    return square > m_heaped.farthest || (square == m_heaped.farthest && crowd.first > m_heaped.last);
   };
   visitAll(
       bounds, [&](const ImpactTree::Below& below) { return overlaps(below.box, box) && !isLeftOut(below); },
       find, own.is_filed && !m_crowds.empty() ? proxy : kNone);
   own.is_thinned = heaped > kMaxHeaped;
-  if (own.is_thinned && m_heaped.size() > kKeptHeaped) keepNearest();
+  if (own.is_thinned) m_heaped.keep();
+  if (m_larger.found.size() > kKeptHeaped && isThick()) {
+    m_larger.keep();
+    own.is_thinned = true;
+  }
   m_has_thinned = m_has_thinned || own.is_thinned;
-  for (const Heaped& kept : m_heaped) m_found.push_back(kept.pair);
+  for (const Nearest* p_nearest : {&m_heaped, &m_larger}) {
+    for (const Heaped& kept : p_nearest->found) m_found.push_back(kept.pair);
+  }
 }
 
 // By digits of eight bits, those left out that all have in common.

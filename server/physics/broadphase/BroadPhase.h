@@ -26,7 +26,8 @@ struct BroadPhasePair {
 class BroadPhase {
  public:
   /// `thins_crowds`: a body that lies in more than 32 others finds only the nearest 16 of these and of those
-  /// about as large as itself. What that costs grows with their number, not with that of their pairs.
+  /// about as large as itself, and the nearest 16 of those that are larger. What that costs grows with their
+  /// number, not with that of their pairs.
   explicit BroadPhase(bool thins_crowds = false) : m_thins_crowds(thins_crowds) {}
 
   /// `id` is the caller's, unique; `moves` false for bodies that never do: two of them make no pair. In a
@@ -70,7 +71,7 @@ class BroadPhase {
     bool is_removed;
     bool is_filed;  // its bounds are within those in the tree; else it is in m_loose, or removed
     bool is_thinned;
-    std::uint32_t heaped;  // pairs of a crowd that it has found, where all are looked for at once
+    std::uint32_t heaped;  // pairs of a crowd that it is in, while all are looked for at once
     std::uint64_t order;
     GridBounds bounds;
   };
@@ -84,6 +85,7 @@ class BroadPhase {
   struct Crowd {
     SweptBox middles;           // around those of their bounds
     Vec2 narrowest, widest;     // of these; beyond any width if one of them never moves
+    Vec2 widths;                // all of them together
     std::uint64_t first, last;  // order; of one that has not changed the last is beyond any
   };
   void markChanged(std::int32_t proxy);
@@ -113,11 +115,21 @@ class BroadPhase {
   void findCrowds();
   void summarizeCrowds();
   void findAllPairs();
-  Proxy& finderOf(std::int32_t a, std::int32_t b);
-  bool isHeap(const Proxy& a, const Proxy& b) const;
-  bool isLike(const Proxy& a, const Proxy& b) const;
+  // How two of a crowd are to each other: of either size in one another, or alike; or the one is smaller.
+  enum class Kind : std::uint8_t { kOther, kHeaped, kAlike, kSized };
+  Kind kindOf(const Proxy& a, const Proxy& b) const;
+  std::int32_t finderOf(std::int32_t a, std::int32_t b, Kind kind) const;
   bool isBefore(std::int32_t a, std::int32_t b) const;
-  void keepNearest();
+  bool isSmaller(std::int32_t a, std::int32_t b) const;
+  bool isInCrowd(std::int32_t proxy);
+  // Those that may be kept of what one finds.
+  struct Nearest {
+    std::vector<Heaped> found;
+    double farthest = 0;     // of those that may still come …
+    std::uint64_t last = 0;  // … and of these the last
+    void clear();
+    void keep();
+  };
   void sortFound();
 
   // Refitting the tree takes about as long as comparing so many bounds, a body.
@@ -134,11 +146,12 @@ class BroadPhase {
   std::vector<std::int32_t> m_changed;
   std::size_t m_count = 0;  // of bodies that are in it
   std::vector<BroadPhasePair> m_pairs, m_found, m_spare;
-  std::vector<Heaped> m_heaped;
+  Nearest m_heaped, m_larger;
   ImpactTree m_tree;      // of the bounds as they were when all were filed: by proxy, in grid units …
   GridBounds m_origin{};  // … about these
   std::vector<SweptBox> m_boxes;
   std::vector<float> m_halves;  // half of their shorter side; 0 of what never moves
+  float m_usual_half = 0;       // their mean
   std::vector<int> m_numbers;
   std::vector<Crowd> m_crowds;        // of nodes of the tree, while pairs of a crowd are found
   std::vector<std::int32_t> m_loose;  // bodies that came, or went elsewhere, since then

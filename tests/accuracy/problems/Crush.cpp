@@ -39,6 +39,18 @@ Case circles(int count) {
   return crush("circles" + std::to_string(count), std::to_string(count) + " circles", std::move(scene));
 }
 
+// The small ones lie within the large ones.
+Case sizes(int count) {
+  naiad::SplitMix64 random(32);
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    const double radius = 0.05 + 0.45 * random.unit();
+    scene.bodies.push_back(ball(somewhere(random), {}, radius, 4 * radius * radius));
+  }
+  return crush("sizes" + std::to_string(count), std::to_string(count) + " circles of 0.1 to 1 m",
+               std::move(scene));
+}
+
 Case boxes(int count) {
   naiad::SplitMix64 random(30);
   Scene scene;
@@ -81,16 +93,17 @@ Problem makeCrush() {
   Problem problem;
   problem.title = "Thousands in one cell";
   problem.text =
-      "1,000 and 5,000 circles and 1,000 boxes of 1 m whose centres lie in one cell, and 1,000 and 10,000 "
-      "plain "
-      "Objects, HARD and SOFT, that move a little in it; 60 ticks. No gravity.";
+      "1,000 and 5,000 circles and 1,000 boxes of 1 m, and 5,000 circles of 0.1 to 1 m, whose centres lie in "
+      "one "
+      "cell, and 1,000 and 10,000 plain Objects, HARD and SOFT, that move a little in it; 60 ticks. No "
+      "gravity.";
   problem.reference = "every one goes on; what is asked is the time, of the first tick, too";
   problem.why =
       "A bug of a game that makes its objects all in the same place must show as a crowd, not as a server "
       "that "
       "hangs.";
   problem.cases = {objects(1000, true), objects(1000, false), objects(10'000, true), objects(10'000, false),
-                   boxes(1000),         circles(1000),        circles(5000)};
+                   boxes(1000),         circles(1000),        circles(5000),         sizes(5000)};
   return problem;
 }
 

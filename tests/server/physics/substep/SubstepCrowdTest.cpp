@@ -45,6 +45,32 @@ TEST(SubstepCrowd, ItsWorkGrowsWithItsBodiesAndNotWithTheirPairs) {
   }
 }
 
+// Small discs in large ones: of those that are larger each keeps the nearest, too.
+TEST(SubstepCrowd, OfAllSizesEachKeepsFewContacts) {
+  constexpr int kKept = 2 * 16 + 2, kInTheWay = 128;  // of a body
+  for (const int count : {500, 2000}) {
+    SplitMix64 random(31);
+    SubstepScene scene(awake());
+    for (int i = 0; i < count; ++i) {
+      const ConvexShape disc = circleShape(0.05 + 0.45 * random.unit());
+      const double x = random.unit(), y = random.unit();
+      RigidBody body = movable({x, y}, disc);
+      body.acceleration = {};
+      scene.add(body, disc);
+    }
+    SubstepCounters before;
+    for (int tick = 0; tick < 10; ++tick) {
+      scene.ticks(1);
+      const SubstepCounters& now = scene.world.counters();
+      EXPECT_LE(now.contacts - before.contacts, kKept * count) << tick;
+      EXPECT_LE(now.near - before.near, kInTheWay * count) << tick;
+      before = now;
+    }
+    EXPECT_TRUE(scene.world.hasThinned());
+    EXPECT_EQ(before.quarantined, 0);
+  }
+}
+
 TEST(SubstepCrowd, ComesApart) {
   SubstepScene scene = crowd(1000, 1);
   scene.ticks(120);
