@@ -71,34 +71,35 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// A busy machine can only make a tick dearer, so of two runs of a tick the cheaper counts.
-void judgeTicks(const TickTimes& one, const TickTimes& other, CpuTime& cpu) {
-  std::vector<double> us;
-  for (std::size_t i = 0; i < one.us.size(); ++i) us.push_back(std::min(one.us[i], other.us[i]));
+// A busy machine can only make a tick dearer, and its work is the same in every run: the cheapest counts.
+void judgeTicks(const std::vector<TickTimes>& runs, CpuTime& cpu) {
+  const std::vector<double>& allowed = runs[0].allowed;
+  std::vector<double> us = runs[0].us;
+  for (const TickTimes& run : runs) {
+    for (std::size_t i = 0; i < us.size(); ++i) us[i] = std::min(us[i], run.us[i]);
+  }
   cpu.worst = *std::max_element(us.begin(), us.end());
   if (us.size() > 1) cpu.first_part = us[0] / median({us.begin() + 1, us.end()});
-  if (one.allowed.empty()) return;
+  if (allowed.empty()) return;
   cpu.worst_part = 0;
-  for (std::size_t i = 0; i < us.size(); ++i)
-    cpu.worst_part = std::max(cpu.worst_part, us[i] / one.allowed[i]);
+  for (std::size_t i = 0; i < us.size(); ++i) cpu.worst_part = std::max(cpu.worst_part, us[i] / allowed[i]);
 }
 
 CpuTime timeRuns(const Case& its_case, const Method& method, int substeps, int runs) {
-  const TickTimes one = timeTicks(its_case, method, substeps), other = timeTicks(its_case, method, substeps);
+  std::vector<TickTimes> by_tick;
+  for (int i = 0; i < runs; ++i) by_tick.push_back(timeTicks(its_case, method, substeps));
   std::vector<double> totals;
-  int copies = 1;
-  if (one.total() * 1e3 >= kLongRunNs) {
-    totals = {one.total(), other.total()};
+  if (by_tick[0].total() * 1e3 >= kLongRunNs) {
+    for (const TickTimes& run : by_tick) totals.push_back(run.total());
   } else {  // they have warmed up
     const double first = runNs(its_case, method, substeps, 1);
-    copies = std::clamp(static_cast<int>(kShortestRunNs / std::max(first, 1.0)), 1, kMaxCopies);
+    const int copies = std::clamp(static_cast<int>(kShortestRunNs / std::max(first, 1.0)), 1, kMaxCopies);
+    for (int i = 0; i < runs; ++i) totals.push_back(runNs(its_case, method, substeps, copies) * 1e-3);
   }
-  while (static_cast<int>(totals.size()) < runs)
-    totals.push_back(runNs(its_case, method, substeps, copies) * 1e-3);
   std::sort(totals.begin(), totals.end());
   const double ticks = its_case.scene.ticks;
   CpuTime cpu{totals[totals.size() / 2] / ticks, totals.front() / ticks, totals.back() / ticks};
-  judgeTicks(one, other, cpu);
+  judgeTicks(by_tick, cpu);
   return cpu;
 }
 

@@ -15,7 +15,7 @@ struct CpuTime {
   double median = 0;
   double least = 0;
   double most = 0;
-  double worst = 0;  ///< the dearest tick, the first one too: of two runs of each tick the cheaper
+  double worst = 0;  ///< the dearest tick, the first one too: of all runs of each tick the cheapest
   double worst_part = std::numeric_limits<double>::quiet_NaN();  ///< the largest part of what a tick may cost
   double first_part = std::numeric_limits<double>::quiet_NaN();  ///< the first tick, in median ticks
 };
