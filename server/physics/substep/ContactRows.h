@@ -46,7 +46,7 @@ struct KnownImpulses {
 
 /// What a contact did in a step.
 struct ContactPush {
-  float total = 0;  ///< impulse, of both points
+  float total = 0;   ///< impulse, of both points
   float first = -1;  ///< time within the step of the first one; below 0: there was none
 };
 
@@ -100,7 +100,7 @@ class ContactRows {
     std::int32_t points = 0;  // 2 if any row has two
     Lanes inverse_mass_a = {}, inverse_mass_b = {}, inverse_inertia_a = {}, inverse_inertia_b = {};
     Lanes nx = {}, ny = {}, vx = {}, vy = {};
-    Lanes spin_a = {}, spin_b = {};  // at the start of the step
+    Lanes spin_a = {}, spin_b = {};                        // at the start of the step
     Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // softness
     Lanes friction = {}, restitution = {}, max_push = {}, rest = {}, fast = {};
     Lanes follows = {};              // 1 if its impulses have a trend, or 0
