@@ -55,9 +55,9 @@ double squareOfDistance(const GridBounds& a, const GridBounds& b) {
 }
 
 // May so many below it be in one place? Cheap, and blind to some whose bounds are of many sizes. `usual`:
-// half of the usual shorter side.
-bool mayBeCrowd(const ImpactTree::Below& below, float usual) {
-  const double most = 4 * std::max(double{below.least}, 2 * double{usual});
+// half of the shorter side of those that move, in the mean.
+bool mayBeCrowd(const ImpactTree::Below& below, double usual) {
+  const double most = 4 * std::max(double{below.least}, 2 * usual);
   return below.bodies >= kCrowd && below.box.high.x - below.box.low.x < most &&
          below.box.high.y - below.box.low.y < most;
 }
@@ -141,10 +141,6 @@ void BroadPhase::fileAll() {
     m_halves.push_back(halfOf(m_proxies[i]));
     m_numbers.push_back(static_cast<int>(i));
   }
-  const auto moving =
-      m_halves.size() - static_cast<std::size_t>(std::count(m_halves.begin(), m_halves.end(), 0.0f));
-  const double sum = std::accumulate(m_halves.begin(), m_halves.end(), 0.0);
-  m_usual_half = moving > 0 ? static_cast<float>(sum / static_cast<double>(moving)) : 0;
   m_tree.update(m_boxes, m_numbers, static_cast<int>(m_proxies.size()), m_halves);
 }
 
@@ -190,14 +186,14 @@ BroadPhase::Kind BroadPhase::kindOf(const Proxy& a, const Proxy& b) const {
   if (!m_thins_crowds || !a.moves || !b.moves) return Kind::kOther;
   if (areHeaped(a.bounds, b.bounds)) return Kind::kHeaped;
   const Vec2 width = widthOf(b.bounds);
-  return areAlike(widthOf(a.bounds), width, width) ? Kind::kAlike : Kind::kSized;
+  return areAlike(widthOf(a.bounds), width, width) ? Kind::kAlike : Kind::kUnlike;
 }
 
 // Of two that changed the smaller one finds the pair, and of those of one size the one that comes first.
 std::int32_t BroadPhase::finderOf(std::int32_t a, std::int32_t b, Kind kind) const {
   const bool is_one = m_proxies[index(a)].changed, is_other = m_proxies[index(b)].changed;
   if (is_one != is_other) return is_one ? a : b;
-  if (kind == Kind::kSized) return isSmaller(a, b) ? a : b;
+  if (kind == Kind::kUnlike) return isSmaller(a, b) ? a : b;
   return isBefore(b, a) ? b : a;
 }
 
@@ -245,15 +241,18 @@ bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
   return spread.x < crowd.widths.x && spread.y < crowd.widths.y && crowd.widest.x < kBeyond;
 }
 
-// All that touch the bounds of a crowd count as having found too many. Where a crowd was in the last update
+// All that touch the bounds of a crowd count as lying in too many. Where a crowd was in the last update
 // it is looked for in any case.
 void BroadPhase::findCrowds() {
   const auto comeTo = [](int /*proxy*/) {};
   m_crowds.clear();
   bool may_be = m_was_crowded;
+  const auto still = std::count(m_halves.begin(), m_halves.end(), 0.0f);
+  const double moving = std::max(static_cast<double>(m_halves.size()) - static_cast<double>(still), 1.0);
+  const double usual = std::accumulate(m_halves.begin(), m_halves.end(), 0.0) / moving;
   m_tree.walk(
       [&](const ImpactTree::Below& below) {
-        may_be = may_be || mayBeCrowd(below, m_usual_half);
+        may_be = may_be || mayBeCrowd(below, usual);
         return below.bodies >= kCrowd && !may_be;
       },
       comeTo);
@@ -319,7 +318,7 @@ void BroadPhase::findPairs(std::int32_t proxy) {
   m_larger.clear();
   std::size_t heaped = 0;
   bool is_asked = false, is_in_crowd = false;
-  const auto isThick = [&] {  // asked for only if that may make a difference
+  const auto isLimited = [&] {  // asked for only if that may make a difference
     if (!std::exchange(is_asked, true)) is_in_crowd = isInCrowd(proxy);
     return is_in_crowd;
   };
@@ -332,17 +331,17 @@ void BroadPhase::findPairs(std::int32_t proxy) {
     if (finderOf(proxy, other, kind) != proxy) return;
     const BroadPhasePair pair = own.id < that.id ? BroadPhasePair{own.id, that.id, proxy, other}
                                                  : BroadPhasePair{that.id, own.id, other, proxy};
-    if (kind == Kind::kOther || (kind == Kind::kSized && isSmaller(other, proxy))) {
+    if (kind == Kind::kOther || (kind == Kind::kUnlike && isSmaller(other, proxy))) {
       m_found.push_back(pair);
       return;
     }
     heaped += kind == Kind::kHeaped ? 1 : 0;
-    Nearest& nearest = kind == Kind::kSized ? m_larger : m_heaped;
+    Nearest& nearest = kind == Kind::kUnlike ? m_larger : m_heaped;
     const double square = squareOfDistance(bounds, that.bounds);
     if (square > nearest.farthest) return;
     nearest.found.push_back({square, that.order, pair});
     if (nearest.found.size() < kCollected) return;
-    if (kind == Kind::kSized ? isThick() : heaped > kMaxHeaped) nearest.keep();
+    if (kind == Kind::kUnlike ? isLimited() : heaped > kMaxHeaped) nearest.keep();
   };
   // Do all below it find this one themselves, or are others nearer?
   const Vec2 width = widthOf(bounds);
@@ -369,7 +368,7 @@ void BroadPhase::findPairs(std::int32_t proxy) {
       find, own.is_filed && !m_crowds.empty() ? proxy : kNone);
   own.is_thinned = heaped > kMaxHeaped;
   if (own.is_thinned) m_heaped.keep();
-  if (m_larger.found.size() > kKeptHeaped && isThick()) {
+  if (m_larger.found.size() > kKeptHeaped && isLimited()) {
     m_larger.keep();
     own.is_thinned = true;
   }

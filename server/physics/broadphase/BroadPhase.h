@@ -115,14 +115,15 @@ class BroadPhase {
   void findCrowds();
   void summarizeCrowds();
   void findAllPairs();
-  // How two of a crowd are to each other: of either size in one another, or alike; or the one is smaller.
-  enum class Kind : std::uint8_t { kOther, kHeaped, kAlike, kSized };
+  // Of two that move: is the middle of each within the width of the smaller one, are they else about as
+  // large, or neither? kOther: one never moves, or crowds are not thinned.
+  enum class Kind : std::uint8_t { kOther, kHeaped, kAlike, kUnlike };
   Kind kindOf(const Proxy& a, const Proxy& b) const;
   std::int32_t finderOf(std::int32_t a, std::int32_t b, Kind kind) const;
   bool isBefore(std::int32_t a, std::int32_t b) const;
   bool isSmaller(std::int32_t a, std::int32_t b) const;
   bool isInCrowd(std::int32_t proxy);
-  // Those that may be kept of what one finds.
+  // Of what one finds, those that may be kept.
   struct Nearest {
     std::vector<Heaped> found;
     double farthest = 0;     // of those that may still come …
@@ -151,7 +152,6 @@ class BroadPhase {
   GridBounds m_origin{};  // … about these
   std::vector<SweptBox> m_boxes;
   std::vector<float> m_halves;  // half of their shorter side; 0 of what never moves
-  float m_usual_half = 0;       // their mean
   std::vector<int> m_numbers;
   std::vector<Crowd> m_crowds;        // of nodes of the tree, while pairs of a crowd are found
   std::vector<std::int32_t> m_loose;  // bodies that came, or went elsewhere, since then

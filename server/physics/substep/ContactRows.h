@@ -39,7 +39,7 @@ struct KnownImpulse {
   float trend = 0;  ///< by how much it has changed of late
 };
 
-/// Of the points of a contact.
+/// Of both points of a contact; 0 of one that it has not.
 struct KnownImpulses {
   std::array<KnownImpulse, 2> normal = {}, friction = {};
 };
@@ -68,7 +68,7 @@ class ContactRows {
   }
   /// What came fast enough leaves as its restitution says. After the last sub-step.
   void bounce(std::span<SubstepState> states);
-  /// After the last sub-step.
+  /// After the last sub-step; `known` becomes what the next step starts from.
   ContactPush read(std::int32_t row, KnownImpulses& known) const;
   std::size_t blocks() const { return m_blocks.size(); }
 

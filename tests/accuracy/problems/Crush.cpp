@@ -94,9 +94,8 @@ Problem makeCrush() {
   problem.title = "Thousands in one cell";
   problem.text =
       "1,000 and 5,000 circles and 1,000 boxes of 1 m, and 5,000 circles of 0.1 to 1 m, whose centres lie in "
-      "one "
-      "cell, and 1,000 and 10,000 plain Objects, HARD and SOFT, that move a little in it; 60 ticks. No "
-      "gravity.";
+      "one cell, and 1,000 and 10,000 plain Objects, HARD and SOFT, that move a little in it; 60 ticks. "
+      "No gravity.";
   problem.reference = "every one goes on; what is asked is the time, of the first tick, too";
   problem.why =
       "A bug of a game that makes its objects all in the same place must show as a crowd, not as a server "

@@ -53,7 +53,7 @@ class Rule {
   std::size_t sparedLarger() const { return m_spared_larger; }
 
  private:
-  enum class Kind : std::uint8_t { kOther, kHeaped, kAlike, kSized };
+  enum class Kind : std::uint8_t { kOther, kHeaped, kAlike, kUnlike };
   static Kind kindOf(const Member& own, const Member& that) {
     if (!own.moves || !that.moves) return Kind::kOther;
     const auto [x, width_x, other_x] =
@@ -61,7 +61,7 @@ class Rule {
     const auto [y, width_y, other_y] =
         along(own.bounds.lower_y, own.bounds.upper_y, that.bounds.lower_y, that.bounds.upper_y);
     if (x < 2 * std::min(width_x, other_x) && y < 2 * std::min(width_y, other_y)) return Kind::kHeaped;
-    return areAlike(width_x, other_x) && areAlike(width_y, other_y) ? Kind::kAlike : Kind::kSized;
+    return areAlike(width_x, other_x) && areAlike(width_y, other_y) ? Kind::kAlike : Kind::kUnlike;
   }
   static std::int64_t areaOf(const Member& member) {
     const GridBounds& b = member.bounds;
@@ -74,7 +74,7 @@ class Rule {
   // Of two that have changed the smaller one finds the pair, and of those of one size the older one.
   static bool finds(std::size_t i, std::size_t j, const std::vector<Member>& members, Kind kind) {
     if (!members[j].is_changed) return true;
-    return kind == Kind::kSized ? isSmaller(i, j, members) : i < j;
+    return kind == Kind::kUnlike ? isSmaller(i, j, members) : i < j;
   }
 
   void addOf(std::size_t i, const std::vector<Member>& members, OrderPairs& found) {
@@ -92,10 +92,10 @@ class Rule {
           along(own.bounds.lower_x, own.bounds.upper_x, that.bounds.lower_x, that.bounds.upper_x));
       const auto y = std::get<0>(
           along(own.bounds.lower_y, own.bounds.upper_y, that.bounds.lower_y, that.bounds.upper_y));
-      if (kind == Kind::kOther || (kind == Kind::kSized && isSmaller(j, i, members))) {
+      if (kind == Kind::kOther || (kind == Kind::kUnlike && isSmaller(j, i, members))) {
         found.insert(std::minmax(i, j));
       } else {
-        (kind == Kind::kSized ? larger : near).emplace_back(x * x + y * y, j);
+        (kind == Kind::kUnlike ? larger : near).emplace_back(x * x + y * y, j);
       }
     }
     const auto keep = [&](Near& of, bool is_thick) {
