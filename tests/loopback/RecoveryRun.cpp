@@ -151,12 +151,16 @@ RecoveryRun::RecoveryRun(const std::string& game, int players, std::uint64_t see
                          std::chrono::microseconds frame)
     : m_game(game), m_random(seed), m_frame(frame), m_rounds(m_home.identity("rounds")) {
   startServer();
-  for (int i = 0; i < players; ++i) {
-    m_clients.push_back(std::make_unique<RecoveryClient>(
-        m_context, m_port, m_home.player("player" + std::to_string(i + 1)), m_random()));
-  }
+  addPlayers(players);
   if (!serveUntilJoined()) throw std::runtime_error("the players cannot join: " + m_server->log());
   waitForFirstTick();
+}
+
+void RecoveryRun::addPlayers(int count) {
+  for (int i = 0; i < count; ++i) {
+    m_clients.push_back(std::make_unique<RecoveryClient>(
+        m_context, m_port, m_home.player("player" + std::to_string(++m_names)), m_random()));
+  }
 }
 
 // It is in the file once the disk has taken it.
@@ -259,6 +263,21 @@ KillResult RecoveryRun::killBoth() {
   const pid_t world = worldOf(m_server->process());
   if (world > 0) ::kill(world, SIGKILL);
   return kill();
+}
+
+int RecoveryRun::replacePlayers(std::chrono::seconds away, int newcomers) {
+  killServer();
+  m_clients.clear();
+  const std::filesystem::path file = round();
+  std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) - away);
+  startServer();
+  addPlayers(newcomers);
+  serveUntilJoined();
+  const auto has_picture = [](const auto& client) { return client->hasPicture(); };
+  const auto end = Clock::now() + std::chrono::seconds(10);
+  while (!std::all_of(m_clients.begin(), m_clients.end(), has_picture) && Clock::now() < end)
+    play(std::chrono::milliseconds(5));
+  return static_cast<int>(std::count_if(m_clients.begin(), m_clients.end(), has_picture));
 }
 
 void RecoveryRun::killServer() {

@@ -68,6 +68,9 @@ class RecoveryRun {
   KillResult killBoth();
   /// Let them play until the world has had so many turns since its first. False: it takes too long.
   bool playUntilTurn(std::uint32_t turn, std::chrono::seconds patience);
+  /// Kill the server and start it again when none of its players is waited for any more: `away` later, as its
+  /// round's file tells the time. `newcomers` join in their place. How many of them see the game.
+  int replacePlayers(std::chrono::seconds away, int newcomers);
   /// The two halves of kill().
   void killServer();
   KillResult comeBack();
@@ -95,6 +98,7 @@ class RecoveryRun {
  private:
   void startServer();
   bool serveUntilJoined();
+  void addPlayers(int count);
   /// From what `harm` does to the world to the last player's next picture.
   std::optional<std::chrono::milliseconds> timeToNextPicture(const std::function<void()>& harm);
   /// By which dfreplay finds the game.
@@ -115,6 +119,7 @@ class RecoveryRun {
   std::uint16_t m_port = 0;
   std::uint32_t m_first_tick = 0;  ///< what the server calls the world's first one
   std::vector<std::unique_ptr<RecoveryClient>> m_clients;
+  int m_names = 0;                       ///< given to players so far
   std::vector<WelcomeMessage> m_before;  ///< of the clients, before the kill
   std::uint32_t m_seen = 0;              ///< the newest tick that one of them had
   std::string m_log;

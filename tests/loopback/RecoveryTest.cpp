@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "RecoveryRun.h"
@@ -61,6 +62,21 @@ TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNoPlayerAndNothing) {
     EXPECT_EQ(result.wrong_cells, 0u) << i << " of " << result.cells << ": " << result.problem;
     RecordProperty("took_ms_" + std::to_string(i), static_cast<int>(result.took.count()));
     RecordProperty("pause_ms_" + std::to_string(i), static_cast<int>(result.pause.count()));
+    if (HasFailure()) return;
+  }
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
+}
+
+// A machine that was off for longer than the grace time: the world has used the ids of players who are gone.
+TEST(Recovery, NewcomersSeeARoundThatGoesOnWithoutItsPlayers) {
+  constexpr std::chrono::hours kDay{24};
+  RecoveryRun run("saucershoot", 2, 13);
+  run.play(std::chrono::milliseconds(300));
+  for (const auto& [away, newcomers] :
+       {std::pair<std::chrono::seconds, int>{kDay, 1}, {std::chrono::minutes(5), 3}, {kDay, 2}}) {
+    ASSERT_TRUE(run.playUntilPictured());
+    EXPECT_EQ(run.replacePlayers(away, newcomers), newcomers) << away.count() << " s later: " << run.log();
     if (HasFailure()) return;
   }
   std::string said;

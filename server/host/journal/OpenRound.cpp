@@ -67,6 +67,7 @@ void OpenRound::readAll(std::string_view bytes) {
   m_records.clear();
   m_sessions.clear();
   m_players.clear();
+  m_highest_player = 0;
   m_down.clear();
   readAll(bytes.substr(0, m_whole_bytes));
 }
@@ -82,6 +83,7 @@ void OpenRound::noteInput(const Input& input) {
   switch (input.kind) {
     case df::InputQueue::kJoin:
       m_players.push_back(input.player);
+      m_highest_player = std::max(m_highest_player, input.player);
       break;
     case df::InputQueue::kLeave:
       std::erase(m_players, input.player);
@@ -106,6 +108,7 @@ void OpenRound::noteSession(const KeptSession& session) {
     m_sessions.erase(session.player);
   } else {
     m_sessions[session.player] = session;
+    m_highest_player = std::max(m_highest_player, session.player);
   }
 }
 

@@ -51,6 +51,8 @@ class OpenRound {
   const std::map<std::uint32_t, KeptSession>& sessions() const { return m_sessions; }
   /// Of the players whom the world has, in the order in which they joined.
   const std::vector<std::uint32_t>& players() const { return m_players; }
+  /// The highest id that any of its players ever had; 0 without players. The world does not use an id twice.
+  std::uint32_t highestPlayer() const { return m_highest_player; }
   /// When the file was written last.
   std::filesystem::file_time_type writtenAt() const { return m_written_at; }
   /// Its players are not waited for any more.
@@ -80,6 +82,7 @@ class OpenRound {
   WorldTurn m_last_turn;
   std::map<std::uint32_t, KeptSession> m_sessions;
   std::vector<std::uint32_t> m_players;
+  std::uint32_t m_highest_player = 0;
   std::set<std::pair<std::uint32_t, int>> m_down;  ///< keys, by player
   std::optional<JournalPlace> m_place;
 };

@@ -181,7 +181,8 @@ Host::~Host() {
   for (const auto& [game, p_scores] : m_room_scores) p_scores->finish();
 }
 
-void Host::setWorlds(NewWorld new_world) {
+void Host::setWorlds(NewWorld new_world, std::uint32_t highest_player) {
+  m_admission.reservePlayers(highest_player);
   m_rooms.setWorlds([this, new_world = std::move(new_world)] { return new_world(m_io); });
 }
 

@@ -94,8 +94,9 @@ class Host : public df::Runner {
   /// Makes a world that was not there before; throws std::system_error where that cannot be.
   using NewWorld = std::function<std::unique_ptr<WorldPort>(asio::io_context& home)>;
   /// run() hosts such worlds instead of the one that it is given: one after the other, or one for each player
-  /// (HostOptions::players). From the one it is given it takes only what welcomes say. Before run().
-  void setWorlds(NewWorld new_world);
+  /// (HostOptions::players). From the one it is given it takes only what welcomes say. New players get ids
+  /// above `highest_player`, which the first world may have seen. Before run().
+  void setWorlds(NewWorld new_world, std::uint32_t highest_player = 0);
   /// A room by name, with what makes its worlds (the plan's own new_world and p_scores are set here).
   struct NamedRoom {
     RoomPlan plan;

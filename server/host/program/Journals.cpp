@@ -228,7 +228,7 @@ Journals::Journals(const HostOptions& options, std::string game, const std::stri
 }
 
 std::uint32_t Journals::highestPlayer() const {
-  return m_open != nullptr && !m_open->sessions().empty() ? m_open->sessions().rbegin()->first : 0;
+  return m_open != nullptr ? m_open->highestPlayer() : 0;
 }
 
 WorldOrder Journals::makeOrder() const {

@@ -50,7 +50,8 @@ class Journals {
   /// For the world that goes on with the round of a server that was killed; nothing: there is no such round,
   /// or it has been begun.
   std::optional<WorldOrder> orderOfOpenRound() const;
-  /// The highest id of the players who may come back to that round; 0: there are none.
+  /// The highest id that a player of that round ever had (OpenRound::highestPlayer()); 0: there is no such
+  /// round.
   std::uint32_t highestPlayer() const;
   /// That world, which first gets the turns of its round. `on_recovered`: it has had them.
   std::unique_ptr<WorldPort> goOn(std::unique_ptr<WorldProcess> world, std::function<void()> on_recovered,

@@ -310,8 +310,9 @@ void ProgramHost::serve(df::World& world) {
   if (launcher != nullptr) {
     HostOptions journaled = m_options;
     journaled.port = host->port();  // a round goes on where its players look for it
-    host->setWorlds(startWorlds(launcher, host->watchedGame(printLine),
-                                Journals::open(journaled, programName(), "", log)));
+    const auto journals = Journals::open(journaled, programName(), "", log);
+    host->setWorlds(startWorlds(launcher, host->watchedGame(printLine), journals),
+                    journals ? journals->highestPlayer() : 0);
   }
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });

@@ -26,7 +26,7 @@ struct RoomPlan {
   ScoreKeeper* p_scores = nullptr;  ///< of the game; null: nothing is kept
   /// Its first world goes on with the round of a server that was killed: it does not wait for players.
   bool goes_on = false;
-  std::uint32_t highest_player = 0;  ///< id of the players who may come back to that round
+  std::uint32_t highest_player = 0;  ///< id that a player of that round ever had
 };
 
 /// When a room sleeps: it has no world then.

@@ -201,7 +201,8 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
   journaled.port = host.port();  // a round goes on where its players look for it
   const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
-  host.setWorlds(naiad::startWorlds(launcher, host.watchedGame(print), journals));
+  host.setWorlds(naiad::startWorlds(launcher, host.watchedGame(print), journals),
+                 journals ? journals->highestPlayer() : 0);
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
