@@ -2,13 +2,16 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <string_view>
 
@@ -25,14 +28,18 @@ constexpr std::string_view kModesOff = "\033[?1006l\033[?1003l\033[?2004l";
 constexpr std::string_view kScreenOff = "\033[m\033[?25h\033[?1049l";
 
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+constexpr int kTerminating[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kReported[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
+constexpr int kWriteTimeoutMillis = 1000;  // for a terminal that takes no bytes
+constexpr int kMaxStops = 16;              // in the background, until the process ends instead
 
 // What the signal handlers read: lock-free and initialised before they are installed.
 termios g_original;
-volatile sig_atomic_t g_taken = 0;
+volatile sig_atomic_t g_taken = 0;  ///< from before raw mode is set to after the original mode is set
 volatile sig_atomic_t g_modes_on = 0;
 volatile sig_atomic_t g_kitty = 0;
 volatile sig_atomic_t g_end_asked = 0;
+pthread_t g_thread;  ///< that draws
 int g_pipe[2] = {-1, -1};
 alignas(16) char g_signal_stack[64 * 1024];
 
@@ -40,15 +47,24 @@ void put(std::string_view bytes) {
   TerminalGuard::write(bytes.data(), bytes.size());
 }
 
-/// Async-signal-safe: write(), poll() and tcsetattr() only.
+/// Async-signal-safe: write(), poll() and tcsetattr() only. The terminal counts as taken until all
+/// is done: a handler that interrupts this, at exit(), restores everything itself before it ends the process.
 void restoreNow() {
   if (!g_taken) return;
-  g_taken = 0;
-  if (g_kitty) put(kKittyPop);
-  g_kitty = 0;
-  put(kModesOff);
-  put(kScreenOff);
+  pollfd waiting{STDOUT_FILENO, POLLOUT, 0};
+  if (poll(&waiting, 1, kWriteTimeoutMillis) > 0) {
+    if (g_kitty) put(kKittyPop);
+    put(kModesOff);
+    put(kScreenOff);
+  }
   tcsetattr(STDIN_FILENO, TCSANOW, &g_original);
+  g_kitty = 0;
+  g_taken = 0;
+}
+
+bool isInBackground() {
+  const pid_t foreground = tcgetpgrp(STDIN_FILENO);
+  return foreground > 0 && foreground != getpgrp();
 }
 
 void dieOf(int signal) {
@@ -61,9 +77,26 @@ void dieOf(int signal) {
   raise(signal);
 }
 
+bool isTerminating(int signal) {
+  return std::find(std::begin(kTerminating), std::end(kTerminating), signal) != std::end(kTerminating);
+}
+
+/// Another thread would draw on while this one restores the terminal, so the thread that draws does both.
+bool forward(int signal) {
+  if (pthread_equal(pthread_self(), g_thread) != 0) return false;
+  pthread_kill(g_thread, signal);
+  return true;
+}
+
+void onCrash(int signal) {
+  while (forward(signal)) pause();
+  dieOf(signal);
+}
+
 void onReported(int signal) {
+  if (forward(signal)) return;
   const int saved = errno;
-  const bool asks_to_end = signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+  const bool asks_to_end = isTerminating(signal);
   if (asks_to_end && g_end_asked) dieOf(signal);
   if (asks_to_end) g_end_asked = 1;
   const char byte = static_cast<char>(signal);
@@ -71,11 +104,12 @@ void onReported(int signal) {
   errno = saved;
 }
 
+/// Handlers run with all signals blocked, so that no signal ends the process while one restores the terminal.
 void install(int signal, void (*handler)(int), int flags) {
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags = flags;
-  sigemptyset(&action.sa_mask);
+  sigfillset(&action.sa_mask);
   sigaction(signal, &action, nullptr);
 }
 
@@ -89,7 +123,7 @@ TerminalGuard::TerminalGuard(Options options) : m_options(options) {
   if (tcgetattr(STDIN_FILENO, &g_original) != 0) throw std::runtime_error("standard input is no terminal");
   if (pipe2(g_pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw std::runtime_error("no pipe for signals");
   g_end_asked = 0;
-  g_taken = 1;
+  g_thread = pthread_self();
   static const bool at_exit = std::atexit(restoreNow) == 0;
   (void)at_exit;
   installHandlers();
@@ -100,6 +134,11 @@ TerminalGuard::~TerminalGuard() {
   restore();
   for (const int signal : kCrashes) install(signal, SIG_DFL, 0);
   for (const int signal : kReported) install(signal, SIG_DFL, 0);
+  // A signal that came too late for the event loop must still end the process.
+  int unread = 0;
+  for (char signal = 0; ::read(g_pipe[0], &signal, 1) == 1;)
+    if (isTerminating(signal)) unread = signal;
+  if (unread != 0) raise(unread);
   close(g_pipe[0]);
   close(g_pipe[1]);
   g_pipe[0] = g_pipe[1] = -1;
@@ -111,7 +150,7 @@ void TerminalGuard::installHandlers() {
   stack.ss_sp = g_signal_stack;
   stack.ss_size = sizeof g_signal_stack;
   sigaltstack(&stack, nullptr);
-  for (const int signal : kCrashes) install(signal, dieOf, SA_ONSTACK | static_cast<int>(SA_RESETHAND));
+  for (const int signal : kCrashes) install(signal, onCrash, SA_ONSTACK);
   for (const int signal : kReported) install(signal, onReported, SA_RESTART);
   install(SIGPIPE, SIG_IGN, 0);
 }
@@ -123,12 +162,14 @@ void TerminalGuard::setRaw() {
   raw.c_cflag |= CS8;
   raw.c_cc[VMIN] = 1;
   raw.c_cc[VTIME] = 0;
+  g_taken = 1;
   tcsetattr(STDIN_FILENO, TCSANOW, &raw);
 }
 
 // TCSAFLUSH: mouse reports that are still arriving must not end up in the shell's command line.
 void TerminalGuard::setOriginal() {
   tcsetattr(STDIN_FILENO, TCSAFLUSH, &g_original);
+  g_taken = 0;
 }
 
 void TerminalGuard::enterModes() {
@@ -165,12 +206,18 @@ bool TerminalGuard::kittyPushed() const {
   return g_kitty != 0;
 }
 
-void TerminalGuard::stopProcess() {
+bool TerminalGuard::stopProcess() {
   install(SIGTSTP, SIG_DFL, 0);
   // The whole group, as the terminal does it: a parent that waits for this process (a script, sudo) must stop
   // as well.
   kill(0, SIGTSTP);
+  // Continued in the background, it waits for the foreground as any program that uses the terminal does.
+  for (int stops = 0; isInBackground() && !g_end_asked; ++stops) {
+    if (stops == kMaxStops) return false;  // nobody can continue it in the foreground
+    kill(0, SIGTTOU);
+  }
   installHandlers();
+  return !g_end_asked;
 }
 
 int TerminalGuard::signalFd() const {
@@ -183,7 +230,6 @@ void TerminalGuard::restore() {
   if (m_end_screen) m_end_screen();
   m_end_screen = nullptr;
   setOriginal();
-  g_taken = 0;
 }
 
 void TerminalGuard::write(const char* bytes, unsigned long size) {
@@ -194,7 +240,7 @@ void TerminalGuard::write(const char* bytes, unsigned long size) {
       size -= static_cast<unsigned long>(written);
     } else if (written < 0 && errno == EAGAIN) {
       pollfd waiting{STDOUT_FILENO, POLLOUT, 0};
-      if (poll(&waiting, 1, 1000) <= 0) return;
+      if (poll(&waiting, 1, kWriteTimeoutMillis) <= 0) return;
     } else if (written < 0 && errno != EINTR) {
       return;
     }

@@ -7,9 +7,11 @@
 // Restoring: restore() in order, also called by the destructor and at exit(). SIGSEGV, SIGBUS, SIGABRT,
 // SIGFPE and SIGILL write a prebuilt byte string and call tcsetattr, both async-signal-safe, then die of
 // the signal. All other signals come out of signalFd() as bytes for the event loop; a second SIGTERM,
-// SIGHUP or SIGINT, before the loop acted on the first, restores and kills immediately.
+// SIGHUP or SIGINT, before the loop acted on the first, restores and kills immediately. One that the loop has
+// not read when the guard is destroyed ends the process then.
 //
-// One guard at a time: signal handlers need a static place for what they restore.
+// One guard at a time: signal handlers need a static place for what they restore. Signals may come to any
+// thread; the one that made the guard, and draws, handles them.
 #pragma once
 
 #include <functional>
@@ -49,9 +51,9 @@ class TerminalGuard {
   void queryKitty();
   bool kittyPushed() const;
 
-  /// Stop this process as Ctrl-Z does to others; returns when it is continued. The terminal must have been
-  /// restored before.
-  void stopProcess();
+  /// Stops this process as Ctrl-Z does to others; returns when it is continued. The terminal must have been
+  /// restored before. False: a signal asks the process to end, and the terminal may be another program's.
+  [[nodiscard]] bool stopProcess();
   /// Readable when a signal came: one byte per signal, its number.
   int signalFd() const;
   /// What a normal restore() does between leaving the modes and restoring termios: end the screen.

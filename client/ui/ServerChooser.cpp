@@ -124,7 +124,7 @@ void ServerChooser::takeSignals() {
   const ssize_t count = ::read(m_guard->signalFd(), signals.data(), signals.size());
   for (ssize_t i = 0; i < count; ++i) {
     const int signal = signals[static_cast<std::size_t>(i)];
-    if (signal == SIGTSTP) suspend();
+    if (signal == SIGTSTP && !m_done) suspend();
     if (signal == SIGWINCH || signal == SIGCONT) {
       m_screen->readSize();
       m_screen->redrawAll();
@@ -162,7 +162,10 @@ void ServerChooser::suspend() {
   m_guard->leaveModes();
   m_screen->end();
   m_guard->setOriginal();
-  m_guard->stopProcess();
+  if (!m_guard->stopProcess()) {
+    m_done = true;
+    return takeSignals();
+  }
   m_guard->setRaw();
   m_screen->readSize();
   m_screen->redrawAll();

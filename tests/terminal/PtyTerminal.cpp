@@ -11,6 +11,8 @@
 
 #include <array>
 #include <cctype>
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -21,8 +23,7 @@ namespace {
 constexpr std::chrono::seconds kPatience{60};
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void runChild(int slave, const PtyTerminal::Options& options) {
-  login_tty(slave);
+[[noreturn]] void runProgram(const PtyTerminal::Options& options) {
   setenv("TERM", "xterm-256color", 1);
   setenv("LC_ALL", "C.UTF-8", 1);
   unsetenv("NO_COLOR");
@@ -42,6 +43,34 @@ using Clock = std::chrono::steady_clock;
   _exit(127);
 }
 
+/// Gives `process` the terminal.
+void bringToFront(pid_t process) {
+  setpgid(process, process);
+  std::signal(SIGTTOU, SIG_IGN);
+  tcsetpgrp(STDIN_FILENO, process);
+  std::signal(SIGTTOU, SIG_DFL);
+}
+
+/// As a shell does: runs the program in the foreground, and stays when it has ended. When the leader of a
+/// session ends, the kernel drops what has not been read from its terminal. Reports the program's process and
+/// then its status.
+[[noreturn]] void leadSession(int slave, int report, const PtyTerminal::Options& options) {
+  login_tty(slave);
+  const pid_t program = fork();
+  if (program == 0) {
+    close(report);
+    bringToFront(getpid());
+    runProgram(options);
+  }
+  bringToFront(program);
+  int values[2] = {program, 0};
+  [[maybe_unused]] ssize_t written = ::write(report, &values[0], sizeof values[0]);
+  while (waitpid(program, &values[1], 0) < 0 && errno == EINTR) {
+  }
+  written = ::write(report, &values[1], sizeof values[1]);
+  for (;;) pause();
+}
+
 }  // namespace
 
 PtyTerminal::PtyTerminal(const Options& options) : m_answer_kitty(options.answer_kitty) {
@@ -51,18 +80,29 @@ PtyTerminal::PtyTerminal(const Options& options) : m_answer_kitty(options.answer
   if (openpty(&m_master, &m_slave, nullptr, nullptr, &size) != 0) throw std::runtime_error("openpty failed");
   fcntl(m_master, F_SETFD, FD_CLOEXEC);
   tcgetattr(m_slave, &m_original);
-  m_pid = fork();
-  if (m_pid < 0) throw std::runtime_error("fork failed");
-  if (m_pid == 0) runChild(m_slave, options);
+  int report[2];
+  if (pipe2(report, O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
+  m_leader = fork();
+  if (m_leader < 0) throw std::runtime_error("fork failed");
+  if (m_leader == 0) leadSession(m_slave, report[1], options);
+  close(report[1]);
+  m_report = report[0];
+  if (::read(m_report, &m_pid, sizeof m_pid) != sizeof m_pid) throw std::runtime_error("no program");
+  fcntl(m_report, F_SETFL, O_NONBLOCK);
 }
 
 PtyTerminal::~PtyTerminal() {
-  if (!m_reaped) {
-    kill(m_pid, SIGKILL);
-    waitpid(m_pid, nullptr, 0);
-  }
+  if (!hasExited()) kill(m_pid, SIGKILL);
+  kill(m_leader, SIGKILL);
+  waitpid(m_leader, nullptr, 0);
+  close(m_report);
   close(m_slave);
   close(m_master);
+}
+
+bool PtyTerminal::hasExited() {
+  if (!m_exited) m_exited = ::read(m_report, &m_status, sizeof m_status) == sizeof m_status;
+  return m_exited;
 }
 
 void PtyTerminal::type(const std::string& bytes) {
@@ -101,8 +141,7 @@ bool PtyTerminal::waitFor(const std::string& text) {
   while (!hasWritten(text)) {
     if (Clock::now() > end) return false;
     const bool more = readOnce(std::chrono::milliseconds(50));
-    if (!more && !m_reaped && waitpid(m_pid, &m_status, WNOHANG) == m_pid) m_reaped = true;
-    if (!more && m_reaped) return hasWritten(text);
+    if (!more && hasExited()) return hasWritten(text);
   }
   return true;
 }
@@ -127,10 +166,9 @@ void PtyTerminal::read(std::chrono::milliseconds time) {
 
 int PtyTerminal::waitForExit() {
   const auto end = Clock::now() + kPatience;
-  while (!m_reaped) {
+  while (!hasExited()) {
     if (Clock::now() > end) return -1;
     readOnce(std::chrono::milliseconds(20));
-    if (waitpid(m_pid, &m_status, WNOHANG) == m_pid) m_reaped = true;
   }
   while (readOnce(std::chrono::milliseconds(0))) {
   }

@@ -63,12 +63,15 @@ class PtyTerminal {
  private:
   bool hasWritten(const std::string& text) const { return m_output.find(text, m_mark) != std::string::npos; }
   bool readOnce(std::chrono::milliseconds timeout);
+  bool hasExited();
 
   int m_master = -1;
-  int m_slave = -1;  ///< kept open, so that modes and late output survive the program
+  int m_slave = -1;     ///< kept open, so that modes and late output survive the program
+  pid_t m_leader = -1;  ///< of the program's session
   pid_t m_pid = -1;
+  int m_report = -1;  ///< of the leader: the program's wait status
   bool m_answer_kitty;
-  bool m_reaped = false;
+  bool m_exited = false;
   int m_status = 0;
   termios m_original{};
   std::string m_output;

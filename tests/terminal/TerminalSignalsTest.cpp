@@ -1,0 +1,156 @@
+// The real dfclient, ended by signals that come close together: whenever they come, it undoes what it did to
+// the terminal.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <regex>
+#include <string>
+
+#include "FakeServer.h"
+#include "PtyTerminal.h"
+#include "tests/support/Sanitizers.h"
+
+namespace naiad::test {
+namespace {
+
+using std::chrono::microseconds;
+
+/// What the client has switched on and not off again, as escape sequences; empty: nothing.
+std::string modesLeftOn(const std::string& output) {
+  std::string left;
+  for (const std::string mode : {"?1049", "?1003", "?1006", "?2004"}) {
+    const std::size_t on = output.rfind("\033[" + mode + "h");
+    const std::size_t off = output.rfind("\033[" + mode + "l");
+    if (on != std::string::npos && (off == std::string::npos || off < on)) left += mode + " ";
+  }
+  const std::size_t hidden = output.rfind("\033[?25l");
+  if (hidden != std::string::npos && output.find("\033[?25h", hidden) == std::string::npos) left += "cursor ";
+  const std::size_t pushed = output.rfind("\033[>31u");
+  if (pushed != std::string::npos && output.find("\033[<u", pushed) == std::string::npos) left += "kitty ";
+  return left;
+}
+
+/// Signals that end a program, at random, until it has ended. Its wait status.
+int endBySignals(PtyTerminal& terminal, std::mt19937& random) {
+  constexpr std::array kSignals{SIGTERM, SIGHUP, SIGINT};
+  std::uniform_int_distribution<int> gap(0, 80);
+  for (int i = 0; i < 40; ++i) {
+    terminal.signal(kSignals[random() % kSignals.size()]);
+    const auto until = std::chrono::steady_clock::now() + microseconds(gap(random));
+    while (std::chrono::steady_clock::now() < until) {
+    }
+  }
+  return terminal.waitForExit();
+}
+
+int tries() {
+  return std::getenv("NAIAD_LONG_TESTS") != nullptr ? 300 : 20 / kShare;
+}
+
+class TerminalSignalsTest : public testing::Test {
+ protected:
+  PtyTerminal::Options options() const {
+    PtyTerminal::Options options;
+    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
+    options.answer_kitty = true;
+    return options;
+  }
+  static void expectRestored(PtyTerminal& terminal, int attempt) {
+    EXPECT_EQ(modesLeftOn(terminal.output()), "")
+        << attempt << ": "
+        << terminal.output().substr(terminal.output().size() -
+                                    std::min<std::size_t>(terminal.output().size(), 200));
+    EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes())) << attempt;
+  }
+
+  FakeServer server;
+  std::mt19937 random{4711};
+};
+
+TEST_F(TerminalSignalsTest, InTheGame) {
+  for (int i = 0; i < tries() && !HasFailure(); ++i) {
+    PtyTerminal terminal(options());
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    ASSERT_TRUE(terminal.waitFor("\033[>31u"));
+    EXPECT_NE(endBySignals(terminal, random), -1);
+    expectRestored(terminal, i);
+  }
+}
+
+// From the moment that it is told to leave: restore() runs meanwhile.
+TEST_F(TerminalSignalsTest, WhileItLeaves) {
+  for (int i = 0; i < tries() && !HasFailure(); ++i) {
+    PtyTerminal terminal(options());
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    // Not by Ctrl-C: where the modes are restored before the kernel looks at it, it drops what was written.
+    terminal.type("\x1dq");
+    terminal.read(std::chrono::milliseconds(i % 3));
+    EXPECT_NE(endBySignals(terminal, random), -1);
+    expectRestored(terminal, i);
+  }
+}
+
+TEST_F(TerminalSignalsTest, WhileItStarts) {
+  for (int i = 0; i < tries() && !HasFailure(); ++i) {
+    PtyTerminal terminal(options());
+    ASSERT_TRUE(terminal.waitFor("\033[?1049h")) << terminal.output();
+    EXPECT_NE(endBySignals(terminal, random), -1);
+    expectRestored(terminal, i);
+  }
+}
+
+TEST_F(TerminalSignalsTest, InTheServerChooser) {
+  PtyTerminal::Options chooser = options();
+  chooser.command = {programPath("dfclient")};
+  for (int i = 0; i < tries() && !HasFailure(); ++i) {
+    PtyTerminal terminal(chooser);
+    ASSERT_TRUE(terminal.waitFor("\033[?u")) << terminal.output();
+    if (i % 2 == 0) terminal.type("q");  // the chooser's terminal is restored meanwhile
+    EXPECT_NE(endBySignals(terminal, random), -1);
+    expectRestored(terminal, i);
+  }
+}
+
+// What players do most: Ctrl-Z, then kill. The shell's terminal stays the shell's, and the client ends.
+TEST_F(TerminalSignalsTest, AfterControlZ) {
+  for (const std::string kill :
+       {"kill %1", "kill -HUP %1; kill %1; kill -INT %1", "bg >/dev/null; kill %1; kill %1"}) {
+    PtyTerminal::Options shell = options();
+    shell.command = {"/bin/bash", "--norc", "--noprofile", "--noediting", "-i"};
+    shell.environment["PS1"] = "ready$ ";
+    PtyTerminal terminal(shell);
+    ASSERT_TRUE(terminal.waitFor("ready$ "));
+    terminal.type("echo before-$(stty -g); ");
+    for (const std::string& word : options().command) terminal.type(word + " ");
+    terminal.type("\n");
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    ASSERT_TRUE(terminal.waitFor("\033[>31u"));
+    terminal.forget();
+    terminal.type("\033[122;5u");  // Ctrl-Z, as the keyboard protocol says it
+    ASSERT_TRUE(terminal.waitFor("ready$ ")) << terminal.output();
+    // `wait` does not wait for a job that is stopped.
+    terminal.type(kill + R"sh(; while [ -n "$(jobs -p)" ]; do sleep .02; jobs; done; echo jobs-$((0)))sh"
+                         "\n");
+    ASSERT_TRUE(terminal.waitFor("jobs-0")) << kill << terminal.output();
+    terminal.type("echo after-$(stty -g)-e''nd\n");
+    ASSERT_TRUE(terminal.waitFor("-end\r\n")) << terminal.output();
+    EXPECT_EQ(modesLeftOn(terminal.output()), "") << kill;
+    const std::string all = terminal.output();
+    std::smatch before;
+    std::smatch after;
+    ASSERT_TRUE(std::regex_search(all, before, std::regex("before-([0-9a-f:]+)\r")));
+    ASSERT_TRUE(std::regex_search(all, after, std::regex("after-([0-9a-f:]+)-end\r")));
+    EXPECT_EQ(before[1], after[1]) << kill;
+    terminal.type("exit\n");
+    EXPECT_NE(terminal.waitForExit(), -1);
+  }
+}
+
+}  // namespace
+}  // namespace naiad::test
