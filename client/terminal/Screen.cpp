@@ -3,6 +3,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <climits>
 #include <clocale>
 #include <cstdlib>
 #include <cstring>
@@ -41,12 +43,29 @@ short brightColor(df::Color color) {
   return static_cast<short>(cursesColor(color) + 8);
 }
 
+int numberOf(const char* variable, int otherwise) {
+  const char* p_text = std::getenv(variable);
+  const long number = p_text != nullptr ? std::strtol(p_text, nullptr, 10) : 0;
+  return number > 0 ? static_cast<int>(std::min<long>(number, INT_MAX)) : otherwise;
+}
+
 }  // namespace
+
+Screen::Size Screen::terminalSize() {
+  winsize size{};
+  const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0;
+  return {std::min(is_known ? size.ws_col : numberOf("COLUMNS", 80), kMaxSize.columns),
+          std::min(is_known ? size.ws_row : numberOf("LINES", 24), kMaxSize.rows)};
+}
 
 Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(options.colors) {
   std::setlocale(LC_CTYPE, "");
   if (std::strcmp(nl_langinfo(CODESET), "UTF-8") != 0) m_ascii = true;
 
+  // It allocates what these say, and only otherwise asks the terminal.
+  const Size size = terminalSize();
+  setenv("COLUMNS", std::to_string(size.columns).c_str(), 1);
+  setenv("LINES", std::to_string(size.rows).c_str(), 1);
   if (newterm(const_cast<char*>(options.type.c_str()), stdout, stdin) == nullptr) {
     throw std::runtime_error("TERM=" + options.type + " is no terminal that dfclient can draw on.");
   }
@@ -91,10 +110,8 @@ void Screen::setBackground(df::Color background) {
 }
 
 bool Screen::readSize() {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
-    if (size.ws_row != LINES || size.ws_col != COLS) resizeterm(size.ws_row, size.ws_col);
-  }
+  const Size size = terminalSize();
+  if (size.rows != LINES || size.columns != COLS) resizeterm(size.rows, size.columns);
   if (m_columns == COLS && m_rows == LINES) return false;
   m_columns = COLS;
   m_rows = LINES;

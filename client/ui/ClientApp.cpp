@@ -1,7 +1,6 @@
 #include "client/ui/ClientApp.h"
 
 #include <signal.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,11 +23,9 @@ constexpr std::chrono::milliseconds kFarewell{500};
 constexpr std::chrono::seconds kPictureNotice{2};  // of waiting for the first picture
 
 SessionOptions withTerminalSize(SessionOptions options) {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
-    options.columns = size.ws_col;
-    options.rows = size.ws_row;
-  }
+  const Screen::Size size = Screen::terminalSize();
+  options.columns = size.columns;
+  options.rows = size.rows;
   return options;
 }
 
@@ -65,7 +62,7 @@ ClientApp::Outcome ClientApp::run() {
     m_was_idle = isIdle(now);
     m_leaving = m_leaving || m_was_idle;
     m_dirty = m_dirty || m_composer.isStale(now);
-    if (m_dirty && now >= m_next_frame) drawFrame(now);
+    if (m_dirty && now >= m_next_frame && !m_leaving) drawFrame(now);
   }
   return leaveTerminal();
 }
@@ -190,10 +187,10 @@ void ClientApp::takeSignals() {
         m_signal = SIGHUP;
         break;
       case SIGTSTP:
-        suspend();
+        if (!m_leaving) suspend();
         break;
       case SIGCONT:
-        resume();
+        if (!m_leaving) resume();
         break;
       case SIGWINCH:
         if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
@@ -282,8 +279,12 @@ void ClientApp::suspend() {
   m_guard->leaveModes();
   m_screen->end();
   m_guard->setOriginal();
-  m_guard->stopProcess();
-  resume();
+  if (m_guard->stopProcess()) {
+    resume();
+  } else {
+    m_leaving = true;
+    takeSignals();
+  }
 }
 
 void ClientApp::resume() {

@@ -1,0 +1,91 @@
+// The real dfclient on terminals of every size that a visitor can ask for.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <utility>
+
+#include "FakeServer.h"
+#include "PtyTerminal.h"
+#include "tests/support/Sanitizers.h"
+
+namespace naiad::test {
+namespace {
+
+/// Resident memory, in MB.
+int residentMegabytes(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("VmRSS:")) return std::stoi(line.substr(6)) / 1024;
+  return -1;
+}
+
+class TerminalSizeTest : public testing::Test {
+ protected:
+  PtyTerminal::Options options(int columns, int rows) const {
+    PtyTerminal::Options options;
+    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
+    options.columns = columns;
+    options.rows = rows;
+    return options;
+  }
+  static void leave(PtyTerminal& terminal) {
+    terminal.type("\x03");
+    EXPECT_NE(terminal.waitForExit(), -1);
+  }
+
+  FakeServer server;
+};
+
+TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  PtyTerminal usual(options(100, 30));
+  ASSERT_TRUE(usual.waitFor("NAIAD-HERE"));
+  const int little = residentMegabytes(usual.pid());
+  for (const auto& [columns, rows] : {std::pair(65535, 65535), {3000, 3000}, {65535, 1}, {1, 65535}}) {
+    // From the beginning, and by a change of the window during the game.
+    PtyTerminal large(options(columns, rows));
+    ASSERT_TRUE(large.waitFor("\033[?u")) << columns << " x " << rows;
+    EXPECT_LT(residentMegabytes(large.pid()), little + 40) << columns << " x " << rows;
+    leave(large);
+    usual.forget();
+    usual.resize(columns, rows);
+    ASSERT_TRUE(usual.waitFor("\033["));
+    EXPECT_LT(residentMegabytes(usual.pid()), little + 40) << columns << " x " << rows;
+    usual.resize(100, 30);
+  }
+  leave(usual);
+}
+
+// Not every description of a terminal has a size.
+TEST_F(TerminalSizeTest, IsTheTerminalsOwnWhateverItsType) {
+  for (const char* type : {"linux", "vt100", "xterm-256color", "tmux-256color"}) {
+    PtyTerminal::Options typed = options(100, 30);
+    typed.environment["TERM"] = type;
+    typed.environment["COLUMNS"] = "40";  // of another terminal, which somebody has exported
+    typed.environment["LINES"] = "10";
+    PtyTerminal terminal(typed);
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << type << terminal.output();
+    EXPECT_TRUE(server.hasReceived([](const wire::ClientMessage& m) {
+      return m.has_hello() && m.hello().columns() == 100 && m.hello().rows() == 30;
+    })) << type;
+    leave(terminal);
+  }
+}
+
+// Where the terminal itself has no size.
+TEST_F(TerminalSizeTest, ColumnsAndLinesAreBoundedLikewise) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  for (const char* number : {"30000", "99999999999999999999", "-5", "x"}) {
+    PtyTerminal::Options without = options(0, 0);
+    without.environment["COLUMNS"] = number;
+    without.environment["LINES"] = number;
+    PtyTerminal terminal(without);
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << number;
+    EXPECT_LT(residentMegabytes(terminal.pid()), 60) << number;
+    leave(terminal);
+  }
+}
+
+}  // namespace
+}  // namespace naiad::test
