@@ -38,9 +38,11 @@ class Lines {
   }
 
   bool isDone() const { return m_next == m_lines.size(); }
-  void skipBlank() {
-    while (!isDone() && trimmed(m_lines[m_next]).empty()) ++m_next;
+  /// But not a line of exactly `row` blanks, which is a row of a frame.
+  void skipBlank(std::size_t row = std::string::npos) {
+    while (isBlank() && m_lines[m_next].size() != row) ++m_next;
   }
+  bool isBlank() const { return !isDone() && trimmed(m_lines[m_next]).empty(); }
   /// The line as it is.
   const std::string& takeLine(const std::string& expected) {
     if (isDone()) throw Trouble{m_lines.size(), "the file ends where " + expected + " should be"};
@@ -203,7 +205,12 @@ std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
     return std::any_of(kFields.begin(), kFields.end(),
                        [&](const char* field) { return line.rfind(std::string(field) + " ", 0) == 0; });
   };
-  while (isField(lines.peekWord())) takeField(lines, header, lines.takeWord("a field"));
+  const auto isBlankRow = [&] {
+    if (!header.frames || !header.width || !header.height) return false;
+    lines.skipBlank(static_cast<std::size_t>(*header.width));
+    return lines.isBlank();
+  };
+  while (!isBlankRow() && isField(lines.peekWord())) takeField(lines, header, lines.takeWord("a field"));
   expectSizes(lines, header);
   auto sprite = newSprite(header);
   for (int i = 0; i < *header.frames; ++i) {
@@ -231,11 +238,13 @@ std::unique_ptr<Sprite> readSimple(Lines& lines, Header header) {
 
 std::unique_ptr<Sprite> readAny(Lines& lines, const Header& header) {
   const std::string first = lines.peekWord();
+  bool has_end_mark = true;
   std::unique_ptr<Sprite> sprite;
   if (first == "<HEADER>") {
     sprite = readWithHeader(lines, header);
   } else if (!first.empty() && std::isdigit(static_cast<unsigned char>(first[0])) != 0) {
     sprite = readSimple(lines, header);
+    has_end_mark = false;
   } else if (first.rfind("frames", 0) == 0 || first.rfind("width", 0) == 0 || first.rfind("height", 0) == 0 ||
              first.rfind("color", 0) == 0) {
     sprite = readOld(lines, header);
@@ -245,7 +254,9 @@ std::unique_ptr<Sprite> readAny(Lines& lines, const Header& header) {
   }
   if (const std::string rest = lines.peekWord(); !rest.empty()) {
     lines.takeWord("");
-    lines.fail("the sprite has ended, but there is \"" + rest + "\"");
+    const std::string trouble = "the sprite has ended, but there is \"" + rest + "\"";
+    if (header.p_oddities == nullptr || !has_end_mark) lines.fail(trouble);
+    header.p_oddities->push_back(lines.describe(trouble + ", ignored with all that follows"));
   }
   return sprite;
 }

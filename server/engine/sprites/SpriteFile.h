@@ -26,8 +26,9 @@ inline constexpr int kMaxSpriteSide = 1024;
 /// The sprite in `text`, with this label. If it is none: null, and in `error` the number of the line where
 /// the trouble is and what it is, as "12: the row has 5 characters instead of 6".
 /// With `p_oddities` the published engine's rules hold: `slowdown -1`, a line `slowdown` with nothing behind
-/// it and `transparency " "` (its first character counts) are taken, and named there in the same form; a
-/// missing slowdown is 0, and the sprite never stands still (Sprite::setNeverStill).
+/// it, `transparency " "` (its first character counts) and text after `</FOOTER>` or `eof` (ignored) are
+/// taken, and named there in the same form; a missing slowdown is 0, and the sprite never stands still
+/// (Sprite::setNeverStill).
 std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
                                     std::vector<std::string>* p_oddities = nullptr);
 

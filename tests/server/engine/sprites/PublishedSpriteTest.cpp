@@ -51,6 +51,23 @@ TEST_F(PublishedSprite, TheBookRefusesThem) {
   EXPECT_EQ(RM.getSprite("s")->getLabel(), "missing");
 }
 
+TEST_F(PublishedSprite, TextAfterTheEndIsIgnoredWithAWarning) {
+  const std::string old = "frames 1\nwidth 1\nheight 1\ncolor red\na\nend\neof\n";
+  for (const std::string rest : {"\n\nmade by Ann\n", "<HEADER>\n", "x"}) {
+    EXPECT_EQ(load(withHeader("") + rest), -1) << "by the book";
+    EXPECT_EQ(load(old + rest), -1) << "by the book";
+  }
+  world.setCompat();
+  for (const std::string rest : {"\n\nmade by Ann\n", "<HEADER>\n", "x"}) {
+    for (const std::string& text : {withHeader(""), old}) {
+      EXPECT_EQ(load(text + rest), 0) << text << rest;
+      EXPECT_EQ(RM.getSprite("s")->getFrameCount(), text == old ? 1 : 2);
+      RM.unloadSprite("s");
+    }
+  }
+  EXPECT_EQ(logged(":17: the sprite has ended, but there is \"made by Ann\", ignored"), 1);
+}
+
 TEST_F(PublishedSprite, SlowdownMinusOneIsLoadedWithAWarning) {
   world.setCompat();
   ASSERT_EQ(load(withHeader("slowdown -1\n")), 0);

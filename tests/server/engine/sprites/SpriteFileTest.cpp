@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -105,6 +106,29 @@ TEST_F(SpriteFile, ARowMayLookLikeTheEndOfItsFrame) {
   const auto sprite = parseSprite("frames 1\nwidth 3\nheight 2\nend\nend\nend\neof\n", "s", error);
   ASSERT_NE(sprite, nullptr) << error;
   EXPECT_EQ(sprite->getFrame(0).getString(), "endend");
+}
+
+// In each format, any rows of blanks: the first, the last, all; and CR LF.
+TEST_F(SpriteFile, RowsMayBeBlank) {
+  for (const std::string rows : {"   \na b\n", "a b\n   \n", "   \n   \n"}) {
+    const std::string sizes = "frames 2\nwidth 3\nheight 2\n";
+    const std::string frames = rows + "end\n" + rows + "end\n";
+    std::string expected = rows;
+    std::erase(expected, '\n');
+    for (std::string text :
+         {"<HEADER>\n" + sizes + "</HEADER>\n<BODY>\n" + frames + "</BODY>\n",
+          sizes + "color blue\n" + frames + "eof\n", sizes + frames + "eof\n",
+          sizes + "\ncolor blue\nslowdown 2\n\n" + frames + "eof\n", "2\n3\n2\n1\nblue\n" + rows + rows}) {
+      for (const bool has_cr : {false, true}) {
+        if (has_cr) text = std::regex_replace(text, std::regex("\n"), "\r\n");
+        std::string error;
+        const auto sprite = parseSprite(text, "s", error);
+        ASSERT_NE(sprite, nullptr) << text << error;
+        EXPECT_EQ(sprite->getFrame(0).getString(), expected) << text;
+        EXPECT_EQ(sprite->getFrame(1).getString(), expected) << text;
+      }
+    }
+  }
 }
 
 TEST_F(SpriteFile, BlanksAtTheEndOfARowCount) {
