@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
-#include <string_view>
+#include <sstream>
 #include <system_error>
 
 #include "shared/net/stream/TcpListener.h"
@@ -18,6 +18,7 @@ namespace naiad {
 
 namespace {
 
+constexpr const char* kExported = "NAIAD_SOCKETS";  ///< process, streams, datagrams, is_service
 constexpr int kWanted = 2;
 constexpr int kSpare = 16;  ///< the lowest of duplicates
 
@@ -52,8 +53,10 @@ asio::ip::tcp::endpoint endpointOf(int socket) {
   return endpoint;
 }
 
-/// Put a socket where its type belongs.
+/// Put a socket where its type belongs, and keep it from programs that this process starts.
 void sort(int socket, InheritedSockets& sockets) {
+  if (fcntl(socket, F_SETFD, FD_CLOEXEC) != 0)
+    refuse("descriptor " + std::to_string(socket) + " is not open");
   const int type = intOption(socket, SO_TYPE);
   if (type != SOCK_STREAM && type != SOCK_DGRAM)
     refuse("descriptor " + std::to_string(socket) + " is no socket for TCP or UDP");
@@ -62,6 +65,32 @@ void sort(int socket, InheritedSockets& sockets) {
   if (place >= 0) refuse(is_stream ? "two are for TCP" : "two are for UDP");
   if (is_stream && intOption(socket, SO_ACCEPTCONN) != 1) refuse("the one for TCP does not listen");
   place = socket;
+}
+
+void noteAddress(InheritedSockets& sockets) {
+  const auto streams = endpointOf(sockets.streams);
+  const auto datagrams = endpointOf(sockets.datagrams);
+  if (streams != datagrams) refuse("they have different addresses or ports");
+  sockets.address = streams.address().to_string();
+  sockets.port = streams.port();
+}
+
+/// Nothing: the variable is not there, or is for another process.
+std::optional<InheritedSockets> readExported() {
+  const char* p_text = std::getenv(kExported);
+  if (p_text == nullptr) return std::nullopt;
+  std::istringstream numbers(p_text);
+  unsetenv(kExported);
+  pid_t process = 0;
+  int first = -1;
+  int second = -1;
+  InheritedSockets sockets;
+  if (!(numbers >> process >> first >> second >> sockets.is_service) || process != getpid())
+    return std::nullopt;
+  sort(first, sockets);
+  sort(second, sockets);
+  noteAddress(sockets);
+  return sockets;
 }
 
 }  // namespace
@@ -75,16 +104,9 @@ std::optional<InheritedSockets> InheritedSockets::take(pid_t process, const Vari
   if (*count != kWanted)
     refuse("one for TCP and one for UDP are wanted, and there are " + std::to_string(*count));
   InheritedSockets sockets;
-  for (int socket = first; socket < first + kWanted; ++socket) {
-    if (fcntl(socket, F_SETFD, FD_CLOEXEC) != 0)
-      refuse("descriptor " + std::to_string(socket) + " is not open");
-    sort(socket, sockets);
-  }
-  const auto streams = endpointOf(sockets.streams);
-  const auto datagrams = endpointOf(sockets.datagrams);
-  if (streams != datagrams) refuse("they have different addresses or ports");
-  sockets.address = streams.address().to_string();
-  sockets.port = streams.port();
+  for (int socket = first; socket < first + kWanted; ++socket) sort(socket, sockets);
+  noteAddress(sockets);
+  sockets.is_service = true;
   return sockets;
 }
 
@@ -98,12 +120,18 @@ InheritedSockets InheritedSockets::duplicate() const {
   return others;
 }
 
-void InheritedSockets::putBack(int first) const {
-  if (dup2(streams, first) < 0 || dup2(datagrams, first + 1) < 0)
-    throw std::system_error(errno, std::generic_category(), "sockets to go on with");
+void InheritedSockets::exportToExec() const {
+  for (const int socket : {streams, datagrams}) {
+    if (fcntl(socket, F_SETFD, 0) != 0)
+      throw std::system_error(errno, std::generic_category(), "sockets for the next program");
+  }
+  std::ostringstream numbers;
+  numbers << getpid() << ' ' << streams << ' ' << datagrams << ' ' << is_service;
+  setenv(kExported, numbers.str().c_str(), 1);
 }
 
 std::optional<InheritedSockets> InheritedSockets::take() {
+  if (const auto exported = readExported()) return exported;
   return take(getpid(), [](const char* p_name) { return std::getenv(p_name); });
 }
 

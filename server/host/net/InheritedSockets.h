@@ -1,5 +1,6 @@
-// Sockets that the service manager has opened for this process (systemd's socket activation,
-// sd_listen_fds(3)): connections that come while the server is not there wait for it.
+// Sockets that are open when this program starts: opened by the service manager (systemd's socket activation,
+// sd_listen_fds(3)), or by the server that this process ran before. Connections that come while the server is
+// not there wait for it.
 #pragma once
 
 #include <sys/types.h>
@@ -18,13 +19,16 @@ struct InheritedSockets {
   int datagrams = -1;
   std::string address;     ///< numeric, as of `--address`
   std::uint16_t port = 0;  ///< of both
+  /// The service manager's, which opens them once: every program that this process runs later gets them.
+  bool is_service = false;
 
   /// Others for the same two, which stay open when these are closed: for a process that runs a program again.
   /// Throws std::system_error.
   InheritedSockets duplicate() const;
-  /// Put these where take() finds them in the program that this process runs next. Once. Throws
-  /// std::system_error.
-  void putBack(int first = 3) const;
+  /// Leaves these open for the program that this process runs next, and their numbers in its environment.
+  /// They keep their numbers: other threads may open and close descriptors until the last moment. Call just
+  /// before exec, with sockets that nothing else closes (duplicate()). Throws std::system_error.
+  void exportToExec() const;
 
   /// The value of a variable of the environment, or null.
   using Variable = std::function<const char*(const char* name)>;
@@ -34,7 +38,8 @@ struct InheritedSockets {
   /// (TcpListener.h) if they are not one listening TCP socket and one UDP socket, in any order, on the same
   /// address and port. `first`: the lowest of the descriptors.
   static std::optional<InheritedSockets> take(pid_t process, const Variable& variable, int first = 3);
-  /// The same for this process and its environment.
+  /// Those of exportToExec() or, where there are none, the same for this process and its environment. Does
+  /// not leave the numbers of exportToExec() in the environment.
   static std::optional<InheritedSockets> take();
 };
 

@@ -1,14 +1,11 @@
 #include "host/net/ListeningSockets.h"
 
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <asio/ip/tcp.hpp>
 #include <charconv>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -18,9 +15,6 @@ namespace naiad {
 namespace {
 
 using StreamEndpoint = asio::ip::tcp::endpoint;
-
-/// Of sockets that a server leaves for itself.
-constexpr std::string_view kNames = "naiad-streams:naiad-datagrams";
 
 int socketOption(int socket, int option) {
   int value = -1;
@@ -74,22 +68,6 @@ std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
   sockets.address = endpoint->address().to_string();
   sockets.port = port;
   return sockets.duplicate();
-}
-
-// In the way of a service manager (sd_listen_fds(3)), under names of our own.
-void handOver(const InheritedSockets& sockets) {
-  sockets.putBack();
-  setenv("LISTEN_PID", std::to_string(getpid()).c_str(), 1);
-  setenv("LISTEN_FDS", "2", 1);
-  setenv("LISTEN_FDNAMES", kNames.data(), 1);
-}
-
-std::optional<InheritedSockets> takeHandedOver() {
-  const char* p_names = std::getenv("LISTEN_FDNAMES");
-  if (p_names == nullptr || std::string_view(p_names) != kNames) return std::nullopt;
-  auto sockets = InheritedSockets::take();
-  for (const char* p_name : {"LISTEN_PID", "LISTEN_FDS", "LISTEN_FDNAMES"}) unsetenv(p_name);
-  return sockets;
 }
 
 }  // namespace naiad

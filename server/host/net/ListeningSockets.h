@@ -13,13 +13,4 @@ namespace naiad {
 /// without encryption. Reads /proc.
 std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port);
 
-/// Put them where the program that this process runs next looks for them, and say so in the environment.
-/// Once. Throws std::system_error.
-void handOver(const InheritedSockets& sockets);
-
-/// Those that handOver() has left for this program; nothing if there are none, as when the sockets come from
-/// a service manager (InheritedSockets::take). The environment does not say so any more. Once in a process.
-/// Throws as InheritedSockets::take().
-std::optional<InheritedSockets> takeHandedOver();
-
 }  // namespace naiad

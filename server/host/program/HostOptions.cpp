@@ -284,9 +284,9 @@ constexpr std::string_view kLive[] = {
 
 /// Variables that other programs of the project read, or this one beside its table.
 const char* const kOtherVariables[] = {
-    "NAIAD_ASCII",         "NAIAD_CLIENT", "NAIAD_FINGERPRINT", "NAIAD_GAMES",       "NAIAD_IDLE_LIMIT",
-    "NAIAD_KNOWN_SERVERS", "NAIAD_NAME",   "NAIAD_NO_MOUSE",    "NAIAD_NO_REDIRECT", "NAIAD_NO_RESUME",
-    "NAIAD_SERVER",        "NAIAD_SOUND",  "NAIAD_WORLD_SEED",  "NAIAD_WORLD_SOCKET"};
+    "NAIAD_ASCII",         "NAIAD_CLIENT",  "NAIAD_FINGERPRINT", "NAIAD_GAMES",       "NAIAD_IDLE_LIMIT",
+    "NAIAD_KNOWN_SERVERS", "NAIAD_NAME",    "NAIAD_NO_MOUSE",    "NAIAD_NO_REDIRECT", "NAIAD_NO_RESUME",
+    "NAIAD_SERVER",        "NAIAD_SOCKETS", "NAIAD_SOUND",       "NAIAD_WORLD_SEED",  "NAIAD_WORLD_SOCKET"};
 
 /// Files, for completions: these options name them.
 const char* typeOf(const std::string& name) {

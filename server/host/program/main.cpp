@@ -14,7 +14,7 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/auth/Seed.h"
-#include "host/net/ListeningSockets.h"
+#include "host/net/InheritedSockets.h"
 #include "host/program/Announcement.h"
 #include "host/program/CrashReport.h"
 #include "host/program/DefaultFolders.h"
@@ -142,16 +142,14 @@ struct Start {
 };
 
 void takeSockets(Start& start) {
-  if (const auto handed_over = naiad::takeHandedOver()) return naiad::useSockets(*handed_over, start.options);
   const auto sockets = naiad::InheritedSockets::take();
   if (!sockets) return;
   naiad::useSockets(*sockets, start.options);
-  start.kept = sockets->duplicate();
+  if (sockets->is_service) start.kept = sockets->duplicate();
 }
 
 [[noreturn]] void runAgain(const Start& start) {
-  if (start.kept) start.kept->putBack();
-  if (!start.kept && start.handed_over) naiad::handOver(*start.handed_over);
+  if (const auto& sockets = start.kept ? start.kept : start.handed_over) sockets->exportToExec();
   start.command.run(*start.again);
 }
 

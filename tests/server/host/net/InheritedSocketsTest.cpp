@@ -2,13 +2,16 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/ip/udp.hpp>
+#include <cstdlib>
 #include <map>
 #include <string>
+#include <thread>
 
 #include "WithIdentity.h"
 #include "host/net/InheritedSockets.h"
@@ -167,6 +170,50 @@ TEST_F(InheritedSocketsTest, WithoutEncryptionTheyAreRefused) {
   const auto sockets = take();
   ASSERT_TRUE(sockets);
   EXPECT_THROW(adoptServerPort(context, *sockets, [](auto) {}, {}, {}), ListenError);
+}
+
+constexpr const char* kExpected = "NAIAD_TEST_EXPECTED";  ///< port and is_service, for the next program
+
+/// In a forked process: runs this test again, as the program that comes next.
+[[noreturn]] void runNextProgram(const InheritedSockets& sockets) {
+  ::close_range(3, 15, 0);  // low numbers are free in a server, too
+  const std::string expected = std::to_string(sockets.port) + ' ' + std::to_string(sockets.is_service);
+  setenv(kExpected, expected.c_str(), 1);
+  for (int i = 0; i < 4; ++i) {
+    std::thread([] {
+      for (;;) ::close(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+    }).detach();
+  }
+  sockets.exportToExec();
+  execl("/proc/self/exe", "host_test",
+        "--gtest_filter=InheritedSocketsTest.SurviveExecWhileThreadsOpenAndCloseFiles", nullptr);
+  _exit(127);
+}
+
+void checkNextProgram(const std::string& expected) {
+  const auto sockets = InheritedSockets::take();
+  ASSERT_TRUE(sockets);
+  EXPECT_EQ(std::to_string(sockets->port) + ' ' + std::to_string(sockets->is_service), expected);
+  EXPECT_GE(::fcntl(sockets->streams, F_GETFD), FD_CLOEXEC);
+  EXPECT_GE(::fcntl(sockets->datagrams, F_GETFD), FD_CLOEXEC);
+  EXPECT_FALSE(InheritedSockets::take()) << "only once";
+}
+
+// The log's and the journal's threads do so until the last moment.
+TEST_F(InheritedSocketsTest, SurviveExecWhileThreadsOpenAndCloseFiles) {
+  if (const char* p_expected = std::getenv(kExpected)) return checkNextProgram(p_expected);
+  openBoth();
+  auto sockets = take();
+  ASSERT_TRUE(sockets);
+  EXPECT_TRUE(sockets->is_service);
+  for (int i = 0; i < 20; ++i) {
+    sockets->is_service = i % 2 == 0;
+    const pid_t child = fork();
+    if (child == 0) runNextProgram(*sockets);
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_EQ(status, 0) << "attempt " << i;
+  }
 }
 
 }  // namespace
