@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "shared/net/base/JsonText.h"
+#include "shared/json/Json.h"
 #include "shared/net/base/SafeText.h"
 
 namespace naiad {
@@ -18,20 +18,16 @@ Row rowOf(const FoundServer& server) {
           link.empty() ? server.where.text() : link};
 }
 
-std::string member(const char* name, const std::string& value) {
-  return std::string("\"") + name + "\": " + value;
-}
-
-std::string asJson(const FoundServer& server) {
-  const std::string link = server.link();
-  return "{" + member("name", jsonQuoted(server.name)) + ", " + member("game", jsonQuoted(server.game)) +
-         ", " + member("players", std::to_string(server.players)) + ", " +
-         member("max_players", std::to_string(server.max_players)) + ", " +
-         member("password", server.asks_password ? "true" : "false") + ", " +
-         member("protocol", std::to_string(server.protocol)) + ", " +
-         member("address", jsonQuoted(server.where.text())) + ", " +
-         member("key", jsonQuoted(server.key.text())) + ", " +
-         member("link", link.empty() ? "null" : jsonQuoted(link)) + "}";
+Json jsonOf(const FoundServer& server) {
+  return {{"name", server.name},
+          {"game", server.game},
+          {"players", server.players},
+          {"max_players", server.max_players},
+          {"password", server.asks_password},
+          {"protocol", server.protocol},
+          {"address", server.where.text()},
+          {"key", server.key.text()},
+          {"link", server.link().empty() ? Json() : server.link()}};
 }
 
 }  // namespace
@@ -69,7 +65,8 @@ std::string serversAsText(const std::vector<FoundServer>& servers) {
 
 std::string serversAsJson(const std::vector<FoundServer>& servers) {
   std::string text = "[";
-  for (const FoundServer& server : servers) text += (text.size() > 1 ? ",\n " : "") + asJson(server);
+  for (const FoundServer& server : servers)
+    text += (text.size() > 1 ? ",\n " : "") + jsonOf(server).toString(Json::Style::kAscii);
   return text + "]\n";
 }
 

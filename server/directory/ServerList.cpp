@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shared/net/base/JsonText.h"
+#include "shared/json/Json.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/JoinLink.h"
@@ -17,25 +17,19 @@ std::uint32_t freePlaces(const Presence& server) {
   return server.max_players - std::min(server.players, server.max_players);
 }
 
-std::string roomsOf(const Presence& server) {
-  std::string text;
-  for (const PresenceRoom& room : server.rooms) {
-    text += std::string(text.empty() ? "" : ", ") + "{\"name\": " + jsonQuoted(room.name) +
-            ", \"game\": " + jsonQuoted(room.game) + ", \"players\": " + std::to_string(room.players) +
-            ", \"max_players\": " + std::to_string(room.max_players) + "}";
-  }
-  return text;
-}
-
 std::string rowOf(const Presence& server, bool with_rooms) {
-  const std::string& name = server.name.empty() ? server.id : server.name;
-  return "{\"name\": " + jsonQuoted(safeText(name, Presence::kMaxName)) +
-         ", \"game\": " + jsonQuoted(safeText(server.game, Presence::kMaxName)) +
-         ", \"players\": " + std::to_string(server.players) +
-         ", \"max_players\": " + std::to_string(server.max_players) +
-         ", \"password\": " + (server.asks_password ? "true" : "false") +
-         ", \"protocol\": " + std::to_string(server.protocol) + ", \"link\": " + jsonQuoted(linkOf(server)) +
-         (with_rooms && !server.rooms.empty() ? ", \"rooms\": [" + roomsOf(server) + "]" : "") + "}";
+  Json row{{"name", safeText(server.name.empty() ? server.id : server.name, Presence::kMaxName)},
+           {"game", safeText(server.game, Presence::kMaxName)},
+           {"players", server.players},
+           {"max_players", server.max_players},
+           {"password", server.asks_password},
+           {"protocol", server.protocol},
+           {"link", linkOf(server)}};
+  Json::Array rooms;
+  for (const auto& [name, game, players, max_players] : server.rooms)
+    rooms.push_back({{"name", name}, {"game", game}, {"players", players}, {"max_players", max_players}});
+  if (with_rooms && !rooms.empty()) row.set("rooms", std::move(rooms));
+  return row.toString(Json::Style::kAscii);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "shared/json/Json.h"
 #include "shared/net/base/SafeText.h"
 
 namespace naiad {
@@ -16,8 +17,8 @@ constexpr PrefixAllowance::Rates kArrivals{{16, 1024}, {64, 4096}, std::nullopt}
 
 std::string serverJson(const GatewaySettings& settings) {
   const std::string name = settings.name.empty() ? settings.link->where.host : settings.name;
-  return "{\"name\": " + jsonString(safeText(name, kMaxShownName)) +
-         ", \"key\": " + jsonString(settings.link->key.text()) + "}\n";
+  return "{\"name\": " + Json(safeText(name, kMaxShownName)).toString() +
+         ", \"key\": " + Json(settings.link->key.text()).toString() + "}\n";
 }
 
 }  // namespace

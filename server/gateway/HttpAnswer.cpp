@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
-#include <cstdio>
 #include <ctime>
 #include <utility>
 
@@ -169,21 +168,6 @@ const HttpAnswers::Refusal* HttpAnswers::judgeUpgrade(const WebRequest& request)
     return &kOrigin;
   if (!offersSubprotocol(request)) return &kProtocol;
   return nullptr;
-}
-
-std::string jsonString(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result.push_back('\\');
-    if (static_cast<unsigned char>(c) < 0x20) {
-      char escape[8];
-      std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(c));
-      result += escape;
-    } else {
-      result.push_back(c);
-    }
-  }
-  return result + "\"";
 }
 
 }  // namespace naiad

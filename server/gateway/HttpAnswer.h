@@ -64,7 +64,4 @@ class HttpAnswers {
   std::string m_common_text;
 };
 
-/// A text as a JSON string (RFC 8259 7), in its quotes.
-std::string jsonString(std::string_view text);
-
 }  // namespace naiad

@@ -1,54 +1,29 @@
 #include "shared/admin/AdminJson.h"
 
 #include <map>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
 #include <utility>
 #include <variant>
+
+#include "shared/json/Json.h"
 
 namespace naiad {
 
 namespace {
 
-using Json = nlohmann::ordered_json;  // the order of columns is the answer's
-
-constexpr int kMaxDepth = 2;  ///< of what a server reads: an object in an object
+constexpr std::size_t kMaxDepth = 2;         ///< of what a server reads: an object in an object
+constexpr std::size_t kMaxAnswerDepth = 32;  ///< of what dfctl reads
 /// Of an answer's lines: leaves room for what stands around the rows.
 constexpr std::size_t kMaxRowBytes = kMaxControlLine - 512;
 constexpr std::size_t kMaxTextBytes = 2048;  ///< of one text in a line
 constexpr std::size_t kMaxCellBytes = 384;   ///< of one as JSON in a row: several fit a line
 
-/// Text of a log or a player need be no UTF-8; what is written always is.
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string lineOf(const Json& json) {
-  return dumped(json) + "\n";
-}
-
-/// Nothing if it is no JSON, has a key twice in one object, or is deeper than `most`.
-std::optional<Json> parseStrictly(std::string_view line, int most) {
-  if (line.find('\0') != std::string_view::npos) return std::nullopt;  // would end the text for the parser
-  bool strict = true;
-  std::vector<std::set<std::string>> keys;
-  const auto judge = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    using Event = Json::parse_event_t;
-    if ((event == Event::object_start || event == Event::array_start) && depth >= most) strict = false;
-    if (event == Event::object_start) keys.emplace_back();
-    if (event == Event::key && !keys.back().insert(parsed.get<std::string>()).second) strict = false;
-    if (event == Event::object_end) keys.pop_back();
-    return true;
-  };
-  Json json = Json::parse(line.begin(), line.end(), judge, false);
-  if (json.is_discarded() || !strict) return std::nullopt;
-  return json;
+  return json.toString() + "\n";
 }
 
 std::string argumentText(const std::string& name, const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_integer()) return dumped(value);
+  if (const auto* p_text = value.text()) return *p_text;
+  if (value.isInteger()) return value.toString();
   throw AdminUsageError("The argument \"" + name + "\" is no text.");
 }
 
@@ -62,7 +37,8 @@ std::string cut(std::string_view text, std::size_t most) {
 /// The same, until it has so many bytes as JSON: an escape can be six times as long as what it stands for.
 std::string cutToFit(std::string_view text, std::size_t json_bytes = kMaxRowBytes) {
   std::string kept = cut(text, kMaxTextBytes);
-  for (std::size_t most = kMaxTextBytes; dumped(kept).size() > json_bytes;) kept = cut(text, most /= 2);
+  for (std::size_t most = kMaxTextBytes; Json(kept).toString().size() > json_bytes;)
+    kept = cut(text, most /= 2);
   return kept;
 }
 
@@ -72,50 +48,47 @@ Json jsonOf(const AdminValue& value) {
 }
 
 Json jsonOf(const AdminRow& row) {
-  Json object = Json::object();
-  for (const auto& [name, value] : row) object[name] = jsonOf(value);
+  Json object = Json::Object();
+  for (const auto& [name, value] : row) object.set(name, jsonOf(value));
   return object;
 }
 
 AdminValue valueOf(const Json& json) {
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number_integer()) return json.get<std::int64_t>();
-  if (json.is_number()) return json.get<double>();
-  return json.is_string() ? json.get<std::string>() : dumped(json);
+  if (const auto* p_flag = json.boolean()) return *p_flag;
+  if (const auto integer = json.integer()) return *integer;
+  if (const auto number = json.number()) return *number;
+  return json.text() != nullptr ? *json.text() : json.toString();
 }
 
 AdminRow rowOf(const Json& json) {
   AdminRow row;
-  if (!json.is_object()) return row;
-  for (const auto& [name, value] : json.items()) row.emplace_back(name, valueOf(value));
+  if (json.object() == nullptr) return row;
+  for (const auto& [name, value] : *json.object()) row.emplace_back(name, valueOf(value));
   return row;
-}
-
-std::string textIn(const Json& json, const char* p_key) {
-  const auto found = json.find(p_key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 }  // namespace
 
 AdminRequest readRequestLine(std::string_view line) {
-  const auto json = parseStrictly(line, kMaxDepth);
-  if (!json || !json->is_object())
+  const auto json = Json::parse(line, kMaxDepth);
+  if (!json || json->object() == nullptr)
     throw AdminUsageError("One JSON object is wanted, like {\"command\":\"who\"}.");
   std::map<std::string, std::string> arguments;
-  for (const auto& [key, value] : json->items()) {
-    if (key == "command" && value.is_string()) continue;
-    if (key != "arguments" || !value.is_object())
+  for (const auto& [key, value] : *json->object()) {
+    if (key == "command" && value.text() != nullptr) continue;
+    if (key != "arguments" || value.object() == nullptr)
       throw AdminUsageError("\"command\" with a text and \"arguments\" with an object are wanted.");
-    for (const auto& [name, argument] : value.items()) arguments[name] = argumentText(name, argument);
+    for (const auto& [name, argument] : *value.object()) arguments[name] = argumentText(name, argument);
   }
-  if (!json->contains("command")) throw AdminUsageError("\"command\" is missing.");
-  return readAdminRequest((*json)["command"].get<std::string>(), std::move(arguments));
+  const auto* p_command = (*json)["command"].text();
+  if (p_command == nullptr) throw AdminUsageError("\"command\" is missing.");
+  return readAdminRequest(*p_command, std::move(arguments));
 }
 
 std::string requestLine(const AdminRequest& request) {
   Json json{{"command", request.command->name}};
-  if (!request.arguments.empty()) json["arguments"] = request.arguments;
+  if (!request.arguments.empty())
+    json.set("arguments", Json::Object(request.arguments.begin(), request.arguments.end()));
   return lineOf(json);
 }
 
@@ -123,70 +96,66 @@ std::string answerLines(const AdminAnswer& answer) {
   std::string lines;
   if (!answer.ok) {
     Json json{{"ok", false}, {"error", cutToFit(answer.text)}};
-    Json names = Json::array();
+    Json::Array names;
     for (const std::string& name : answer.candidates) {
-      names.push_back(name);
-      if (dumped(names).size() > kMaxRowBytes / 4) break;
+      names.emplace_back(name);
+      if (Json(names).toString().size() > kMaxRowBytes / 4) break;
     }
-    if (!names.empty()) json["candidates"] = names;
+    if (!names.empty()) json.set("candidates", names);
     return lineOf(json);
   }
-  Json rows = Json::array();
+  Json::Array rows;
   std::size_t bytes = 0;
+  const auto flush = [&] {
+    lines += lineOf({{"rows", std::exchange(rows, {})}, {"more", true}});
+    bytes = 0;
+  };
   for (const AdminRow& row : answer.rows) {
     Json object = jsonOf(row);
-    const std::size_t size = dumped(object).size() + 1;
-    if (bytes + size > kMaxRowBytes && !rows.empty()) {
-      lines += lineOf(Json{{"rows", std::move(rows)}, {"more", true}});
-      rows = Json::array();
-      bytes = 0;
-    }
+    const std::size_t size = object.toString().size() + 1;
+    if (bytes + size > kMaxRowBytes && !rows.empty()) flush();
     rows.push_back(std::move(object));
     bytes += size;
   }
-  if (!rows.empty() && (!answer.text.empty() || !answer.facts.empty())) {
-    lines += lineOf(Json{{"rows", std::move(rows)}, {"more", true}});
-    rows = Json::array();
-  }
+  if (!rows.empty() && (!answer.text.empty() || !answer.facts.empty())) flush();
   Json last{{"ok", true}};
-  if (!answer.text.empty()) last["text"] = cutToFit(answer.text);
-  if (!answer.facts.empty()) last["facts"] = jsonOf(answer.facts);
-  if (answer.is_list) last["rows"] = std::move(rows);
+  if (!answer.text.empty()) last.set("text", cutToFit(answer.text));
+  if (!answer.facts.empty()) last.set("facts", jsonOf(answer.facts));
+  if (answer.is_list) last.set("rows", std::move(rows));
   return lines + lineOf(last);
 }
 
 std::string eventLine(std::string_view kind, std::string_view text) {
-  return lineOf(Json{{"event", std::string(kind)}, {"text", cutToFit(text)}});
+  return lineOf({{"event", std::string(kind)}, {"text", cutToFit(text)}});
 }
 
 std::string droppedLine(std::uint64_t count) {
-  return lineOf(Json{{"dropped", count}});
+  return lineOf({{"dropped", count}});
 }
 
 AnswerReader::Got AnswerReader::readLine(std::string_view line) {
-  const Json json = Json::parse(line.begin(), line.end(), nullptr, false);
-  if (!json.is_object()) return Got::kNonsense;
-  if (const auto rows = json.find("rows"); rows != json.end() && rows->is_array()) {
+  const Json json = Json::parse(line, kMaxAnswerDepth, Json::Duplicates::kKeepLast).value_or(Json());
+  if (const auto* p_rows = json["rows"].array()) {
     m_answer.is_list = true;
-    for (const Json& row : *rows) m_answer.rows.push_back(rowOf(row));
+    for (const Json& row : *p_rows) m_answer.rows.push_back(rowOf(row));
   }
-  if (json.contains("event")) {
-    m_event = textIn(json, "text");
+  if (json.find("event") != nullptr) {
+    m_event = json["text"].textOrEmpty();
     return Got::kEvent;
   }
-  if (const auto dropped = json.find("dropped"); dropped != json.end() && dropped->is_number_unsigned()) {
-    m_dropped = dropped->get<std::uint64_t>();
+  if (const auto dropped = json["dropped"].integer(); dropped && *dropped >= 0) {
+    m_dropped = static_cast<std::uint64_t>(*dropped);
     return Got::kDropped;
   }
-  if (json.contains("more")) return Got::kMore;
-  const auto ok = json.find("ok");
-  if (ok == json.end() || !ok->is_boolean()) return Got::kNonsense;
-  m_answer.ok = ok->get<bool>();
-  m_answer.text = textIn(json, m_answer.ok ? "text" : "error");
-  if (const auto facts = json.find("facts"); facts != json.end()) m_answer.facts = rowOf(*facts);
-  if (const auto names = json.find("candidates"); names != json.end() && names->is_array()) {
-    for (const Json& name : *names) {
-      if (name.is_string()) m_answer.candidates.push_back(name.get<std::string>());
+  if (json.find("more") != nullptr) return Got::kMore;
+  const auto* p_ok = json["ok"].boolean();
+  if (p_ok == nullptr) return Got::kNonsense;
+  m_answer.ok = *p_ok;
+  m_answer.text = json[m_answer.ok ? "text" : "error"].textOrEmpty();
+  if (const auto* p_facts = json.find("facts")) m_answer.facts = rowOf(*p_facts);
+  if (const auto* p_names = json["candidates"].array()) {
+    for (const Json& name : *p_names) {
+      if (const auto* p_text = name.text()) m_answer.candidates.push_back(*p_text);
     }
   }
   return Got::kAnswer;
@@ -195,15 +164,16 @@ AnswerReader::Got AnswerReader::readLine(std::string_view line) {
 std::string answerJson(const AdminAnswer& answer) {
   if (!answer.ok) {
     Json json{{"error", answer.text}};
-    if (!answer.candidates.empty()) json["candidates"] = answer.candidates;
-    return dumped(json);
+    if (!answer.candidates.empty())
+      json.set("candidates", Json::Array(answer.candidates.begin(), answer.candidates.end()));
+    return json.toString();
   }
   if (answer.is_list) {
-    Json rows = Json::array();
+    Json::Array rows;
     for (const AdminRow& row : answer.rows) rows.push_back(jsonOf(row));
-    return dumped(rows);
+    return Json(std::move(rows)).toString();
   }
-  return dumped(answer.facts.empty() ? Json{{"text", answer.text}} : jsonOf(answer.facts));
+  return (answer.facts.empty() ? Json{{"text", answer.text}} : jsonOf(answer.facts)).toString();
 }
 
 }  // namespace naiad

@@ -5,10 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
-#include <variant>
+
+#include "shared/json/Json.h"
 
 namespace naiad {
 
@@ -20,27 +20,21 @@ class BusFields {
 
   /// All that was asked for was there and good.
   bool ok() const { return m_ok; }
-  void fail() { m_ok = false; }
 
-  bool has(const std::string& name) const { return m_values.contains(name); }
+  /// True if the payload has the member, as a text, a number or a flag.
+  bool has(std::string_view name) const;
 
   // Of a member; fails, and is empty, for one that is not so.
 
-  std::int64_t number(const std::string& name, std::int64_t least, std::int64_t most);
-  bool flag(const std::string& name);
+  std::int64_t number(std::string_view name, std::int64_t least, std::int64_t most);
+  bool flag(std::string_view name);
   /// Drawable characters only, `most` of them; an empty one is good.
-  std::string line(const std::string& name, std::size_t most);
+  std::string line(std::string_view name, std::size_t most);
   /// As it stands, `most` bytes of printable ASCII.
-  std::string word(const std::string& name, std::size_t most);
+  std::string word(std::string_view name, std::size_t most);
 
  private:
-  using Value = std::variant<std::string, std::int64_t, bool>;
-  friend class BusFieldsReader;
-
-  template <class T>
-  T take(const std::string& name);
-
-  std::map<std::string, Value> m_values;
+  Json m_object;
   bool m_ok = true;
 };
 

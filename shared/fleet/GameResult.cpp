@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "shared/fleet/BusFields.h"
 #include "shared/fleet/ServerId.h"
+#include "shared/json/Json.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {
@@ -35,11 +35,11 @@ bool isRound(const std::string& round) {
 }  // namespace
 
 std::string GameResult::payload() const {
-  const nlohmann::ordered_json all{{"v", kResultFormat}, {"server", server},      {"game", game},
-                                   {"table", table},     {"name", name},          {"points", points},
-                                   {"at", at},           {"round", round},        {"tick", tick},
-                                   {"number", number},   {"recording", recording}};
-  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return Json{{"v", kResultFormat}, {"server", server},      {"game", game},
+              {"table", table},     {"name", name},          {"points", points},
+              {"at", at},           {"round", round},        {"tick", tick},
+              {"number", number},   {"recording", recording}}
+      .toString();
 }
 
 std::string GameResult::messageId() const {

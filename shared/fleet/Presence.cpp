@@ -1,9 +1,8 @@
 #include "shared/fleet/Presence.h"
 
-#include <nlohmann/json.hpp>
-
 #include "shared/fleet/BusFields.h"
 #include "shared/fleet/ServerId.h"
+#include "shared/json/Json.h"
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/JoinLink.h"
 
@@ -24,20 +23,20 @@ bool isHost(const std::string& host) {
 }  // namespace
 
 std::string Presence::payload() const {
-  nlohmann::ordered_json all{{"v", kPresenceFormat},
-                             {"id", id},
-                             {"name", name},
-                             {"game", game},
-                             {"host", host},
-                             {"port", port},
-                             {"key", key},
-                             {"protocol", protocol},
-                             {"players", players},
-                             {"max_players", max_players},
-                             {"password", asks_password},
-                             {"open", is_open}};
-  if (const std::string text = roomsText(rooms); !text.empty()) all["rooms"] = text;
-  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  Json all{{"v", kPresenceFormat},
+           {"id", id},
+           {"name", name},
+           {"game", game},
+           {"host", host},
+           {"port", port},
+           {"key", key},
+           {"protocol", protocol},
+           {"players", players},
+           {"max_players", max_players},
+           {"password", asks_password},
+           {"open", is_open}};
+  if (const std::string text = roomsText(rooms); !text.empty()) all.set("rooms", text);
+  return all.toString();
 }
 
 std::optional<Presence> Presence::parse(std::string_view payload) {

@@ -1,10 +1,10 @@
 #include "shared/fleet/SendOn.h"
 
-#include <nlohmann/json.hpp>
 #include <variant>
 
 #include "shared/fleet/BusFields.h"
 #include "shared/fleet/ServerId.h"
+#include "shared/json/Json.h"
 
 namespace naiad {
 
@@ -16,8 +16,7 @@ constexpr std::size_t kMaxLink = 512;
 }  // namespace
 
 std::string SendOn::payload() const {
-  const nlohmann::ordered_json all{{"v", kSendOnFormat}, {"to", to}, {"link", link.text()}};
-  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return Json{{"v", kSendOnFormat}, {"to", to}, {"link", link.text()}}.toString();
 }
 
 // A link in another spelling is none that a directory writes.

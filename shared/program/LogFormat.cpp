@@ -1,9 +1,9 @@
 #include "shared/program/LogFormat.h"
 
 #include <ctime>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "shared/json/Json.h"
 #include "shared/program/LogText.h"
 
 namespace naiad {
@@ -47,11 +47,9 @@ const char* nameOf(LogEvent::Level level) {
 }
 
 std::string asJson(const LogEvent& event, std::string_view text, const std::string& time) {
-  nlohmann::ordered_json line{
-      {"time", time}, {"level", nameOf(event.level)}, {"event", event.name}, {"text", oneLine(text)}};
-  for (const auto& [name, value] : event.fields) line[name] = oneLine(value).substr(0, kMaxField);
-  // Bytes that are no UTF-8 become U+FFFD: a cut may have made some.
-  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  Json line{{"time", time}, {"level", nameOf(event.level)}, {"event", event.name}, {"text", oneLine(text)}};
+  for (const auto& [name, value] : event.fields) line.set(name, oneLine(value).substr(0, kMaxField));
+  return line.toString() + '\n';  // with U+FFFD for half a character that a cut has left
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "shared/net/base/JsonText.h"
+#include "shared/json/Json.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/base/SafeText.h"
@@ -14,23 +14,16 @@
 
 namespace naiad {
 
-namespace {
-
-std::string safeQuoted(const std::string& text) {
-  return jsonQuoted(safeText(text, kMaxProgramLength));
-}
-
-}  // namespace
-
 std::string statusText(const StatusFacts& facts, std::size_t players) {
-  std::string text = "{\"name\": " + safeQuoted(facts.name) + ", \"game\": " + safeQuoted(facts.game) +
-                     ", \"players\": " + std::to_string(players) +
-                     ", \"max_players\": " + std::to_string(facts.max_players) +
-                     ", \"password\": " + (facts.asks_password ? "true" : "false") +
-                     ", \"protocol\": " + std::to_string(kProtocolVersion) +
-                     ", \"version\": " + safeQuoted(kVersion);
-  if (!facts.link.empty()) text += ", \"link\": " + jsonQuoted(facts.link);
-  return text + "}\n";
+  Json status{{"name", safeText(facts.name, kMaxProgramLength)},
+              {"game", safeText(facts.game, kMaxProgramLength)},
+              {"players", players},
+              {"max_players", facts.max_players},
+              {"password", facts.asks_password},
+              {"protocol", kProtocolVersion},
+              {"version", kVersion}};
+  if (!facts.link.empty()) status.set("link", facts.link);
+  return status.toString(Json::Style::kAscii) + "\n";
 }
 
 StatusFile::StatusFile(std::string path, StatusFacts facts)

@@ -4,7 +4,7 @@
 #include "client/lan/ListUrl.h"
 #include "client/lan/ServerListJson.h"
 #include "client/lan/ServerListText.h"
-#include "shared/net/base/JsonText.h"
+#include "shared/json/Json.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/values/SplitMix64.h"
@@ -82,7 +82,7 @@ TEST(ServerListJson, EscapesAreReadAndTextsMadeSafe) {
   EXPECT_EQ(nameOf(R"("\u001b[2J\n")"), "?[2J ");
   EXPECT_EQ(nameOf(R"("\ud83d\ude00x")"), "?x");
   for (const test::HostileText& text : test::hostileTexts()) {
-    const std::string name = nameOf(jsonQuoted(text.bytes));
+    const std::string name = nameOf(Json(text.bytes).toString(Json::Style::kAscii));
     EXPECT_EQ(safeText(name, kMaxLanText), name) << text.what;
   }
 }

@@ -1,12 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "../../support/HostileTexts.h"
 #include "client/lan/ServerListText.h"
-#include "shared/net/base/JsonText.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 namespace {
@@ -70,26 +65,6 @@ TEST(ServerListText, AProgramReadsJson) {
           "\"protocol\": " +
           std::to_string(kProtocolVersion) + ", \"address\": \"[fe80::5%eth0]:9876\", \"key\": \"" + key +
           "\", \"link\": null}]\n");
-}
-
-TEST(ServerListText, NoTextLeavesItsQuotes) {
-  EXPECT_EQ(jsonQuoted("na\u00efve \u2588 \U0001F600"), "\"na\\u00efve \\u2588 \\ud83d\\ude00\"");
-  for (const test::HostileText& text : test::hostileTexts()) {
-    for (const std::string& piece : {text.bytes, safeText(text.bytes, kMaxLanText)}) {
-      const std::string quoted = jsonQuoted(piece);
-      EXPECT_TRUE(std::all_of(quoted.begin(), quoted.end(), [](char c) { return c >= ' ' && c < 0x7f; }))
-          << text.what;
-      std::size_t open = 0;
-      for (std::size_t i = 0; i < quoted.size(); ++i) {
-        if (quoted[i] == '\\') {
-          ++i;
-        } else if (quoted[i] == '"') {
-          ++open;
-        }
-      }
-      EXPECT_EQ(open, 2u) << text.what;
-    }
-  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "Require.h"
 #include "Script.h"
 #include "server/gateway/HttpAnswer.h"
+#include "shared/json/Json.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -128,13 +129,10 @@ void readOrigin(const std::string& text) {
 }
 
 void quote(const std::string& text) {
-  const std::string quoted = jsonString(text);
-  REQUIRE(quoted.size() >= 2 && quoted.front() == '"' && quoted.back() == '"');
-  for (std::size_t i = 1; i + 1 < quoted.size(); ++i) {
-    REQUIRE(static_cast<unsigned char>(quoted[i]) >= 0x20 && quoted[i] != '"');
-    if (quoted[i] != '\\') continue;
-    ++i;
-    REQUIRE(i + 1 < quoted.size() && std::string_view("\"\\u").find(quoted[i]) != std::string_view::npos);
+  for (const Json::Style style : {Json::Style::kCompact, Json::Style::kAscii}) {
+    const std::string quoted = Json(text).toString(style);
+    const auto read = Json::parse(quoted, 0);
+    REQUIRE(read && read->text() != nullptr && read->toString(style) == quoted);
   }
 }
 
