@@ -1,4 +1,4 @@
-// Downloads a list of servers from the web, over HTTPS (RFC 9110, HTTP/1.1) by Boost.Beast.
+// Downloads a list of servers from the web, over HTTPS (shared/net/http/HttpExchange.h).
 #pragma once
 
 #include <chrono>

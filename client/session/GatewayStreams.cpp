@@ -1,76 +1,46 @@
 #include "client/session/GatewayStreams.h"
 
 #include <asio/io_context.hpp>
-#include <asio/post.hpp>
 #include <utility>
 
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/WebDoor.h"
+#include "shared/net/http/HttpExchange.h"
+#include "shared/net/http/WebSocketFraming.h"
+#include "shared/net/http/WebSocketUpgrade.h"
+#include "shared/net/stream/TcpChannel.h"
+
 namespace naiad {
+namespace {
 
-/// What is heard from a socket, on the bots' thread.
-class GatewayStreams::Line : public std::enable_shared_from_this<Line> {
- public:
-  void open(asio::io_context& context, WebSocketThread& thread, const GatewayAddress& address, Done done) {
-    m_done = std::move(done);
-    const auto post = [&context, line = shared_from_this()](auto call) {
-      asio::post(context, [line, call = std::move(call)] { call(*line); });
-    };
-    socket = WebSocket::open(thread, address,
-                             {[post](std::string error) { post([error](Line& line) { line.take(error); }); },
-                              [post](std::string frame) {
-                                post([frame = std::move(frame)](Line& line) {
-                                  if (const auto call = line.callbacks.on_frame) call(frame);
-                                });
-                              },
-                              [post](bool in_order) {
-                                post([in_order](Line& line) {
-                                  const auto call = std::exchange(line.callbacks, {}).on_closed;
-                                  if (call) call(in_order ? CloseReason::kPeer : CloseReason::kError);
-                                });
-                              }});
-  }
-  /// Close it; no callback is called any more.
-  void drop() {
-    m_done = nullptr;
-    callbacks = {};
-    socket->close();
-  }
+using End = HttpExchange::End;
 
-  std::shared_ptr<WebSocket> socket;
-  ReliableChannel::Callbacks callbacks;
-
- private:
-  void take(const std::string& error);
-
-  Done m_done;
-};
-
-class GatewayStreams::Channel : public ReliableChannel {
- public:
-  explicit Channel(std::shared_ptr<Line> line) : m_line(std::move(line)) {}
-  ~Channel() override { close(); }
-
-  void start(Callbacks callbacks) override { m_line->callbacks = std::move(callbacks); }
-  void send(std::string_view frame) override {
-    if (!m_closed) m_line->socket->send(std::string(frame));
-  }
-  std::size_t unsentBytes() const override { return m_line->socket->unsentBytes(); }
-  void close() override {
-    if (!std::exchange(m_closed, true)) m_line->drop();
-  }
-  std::string peerAddress() const override { return "gateway"; }
-  void setReceiveLimit(std::size_t) override {}  // the WebSocket's is that of the protocol
-
- private:
-  std::shared_ptr<Line> m_line;
-  bool m_closed = false;
-};
-
-void GatewayStreams::Line::take(const std::string& error) {
-  const Done done = std::exchange(m_done, nullptr);
-  if (!done) return;
-  if (!error.empty()) return done(nullptr, error);
-  done(std::make_unique<Channel>(shared_from_this()), "");
+/// One for all connections of a thread: with it the system's trust store is read.
+const std::shared_ptr<const TlsContext>& webContext() {
+  thread_local const std::shared_ptr<const TlsContext> made = TlsContext::forWebClient();
+  return made;
 }
+
+/// Says why no WebSocket was opened, for people.
+std::string sentence(const HttpExchange::Result& result) {
+  const std::string reason = result.detail.empty() ? "." : " (" + result.detail + ").";
+  switch (result.end) {
+    case End::kNotFound:
+      return "The host of the gateway was not found" + reason;
+    case End::kOtherMachine:
+      return "Without encryption (https) only gateways on this machine are connected to.";
+    case End::kUnreachable:
+      return "The gateway cannot be reached" + reason;
+    case End::kUntrusted:
+      return "The gateway is not trusted" + reason;
+    case End::kTimedOut:
+      return "The gateway does not answer.";
+    default:
+      return "The gateway refused" + reason;
+  }
+}
+
+}  // namespace
 
 GatewayStreams::GatewayStreams(asio::io_context& context, GatewayAddress address)
     : m_context(context), m_address(std::move(address)) {}
@@ -79,20 +49,30 @@ GatewayStreams::~GatewayStreams() {
   cancel();
 }
 
-void GatewayStreams::begin(std::shared_ptr<Line>& attempt, Done done) {
-  if (attempt) attempt->drop();
-  attempt = std::make_shared<Line>();
-  attempt->open(
-      m_context, *m_thread, m_address,
-      [&attempt, done = std::move(done)](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
-        attempt.reset();
-        done(std::move(channel), error);
-      });
+void GatewayStreams::begin(std::shared_ptr<HttpExchange>& attempt, Done done) {
+  if (attempt) attempt->cancel();
+  const WebSocketUpgrade upgrade(kSubprotocol, randomWebSocketKey());
+  HttpRequest request{.target = std::string(kPlayPath), .host = m_address.hostText()};
+  request.fields = {{"Origin", m_address.origin()}};
+  upgrade.addTo(request);
+  attempt = std::make_shared<HttpExchange>(m_context);
+  attempt->run({m_address.host, m_address.port, m_address.encrypted ? webContext() : nullptr}, request,
+               kOpenTimeout, [&attempt, upgrade, done = std::move(done)](HttpExchange::Result result) {
+                 const auto exchange = std::exchange(attempt, nullptr);
+                 const HttpResponseReader& answer = exchange->answer();
+                 if (result.end == End::kAnswered)
+                   result.detail = upgrade.problem(answer.status(), answer.head());
+                 if (result.end != End::kAnswered || !result.detail.empty())
+                   return done(nullptr, sentence(result));
+                 auto framing = std::make_unique<WebSocketFraming>(kMaxServerFrame, randomWebSocketMask);
+                 framing->feed(exchange->bytesBehind());
+                 done(makeFramedChannel(exchange->releaseStream(), std::move(framing)), "");
+               });
 }
 
 void GatewayStreams::cancel() {
-  for (std::shared_ptr<Line>* attempt : {&m_first, &m_second}) {
-    if (*attempt) std::exchange(*attempt, nullptr)->drop();
+  for (std::shared_ptr<HttpExchange>* attempt : {&m_first, &m_second}) {
+    if (*attempt) std::exchange(*attempt, nullptr)->cancel();
   }
 }
 

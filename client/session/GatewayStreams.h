@@ -1,20 +1,31 @@
-// Opens streams through a gateway for browsers (server/gateway) as its page does, so that bots can take the
-// page's place: each stream is a WebSocket on a connection of its own.
+// Opens streams through a gateway for browsers (server/gateway) as its page does, so that bots and dfclient
+// can take the page's place: each stream is a WebSocket (RFC 6455) on a connection of its own, to the path
+// /play with the subprotocol naiad.1.
 #pragma once
 
 #include <asio/ts/netfwd.hpp>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "client/session/StreamOpener.h"
-#include "client/session/WebSocket.h"
+#include "client/trust/GatewayAddress.h"
 
 namespace naiad {
 
+class HttpExchange;
+
+/// The certificate of a gateway with https must be good in the eyes of the system's trust store; without
+/// https only addresses of this machine are connected to. A channel ends with CloseReason::kPeer if the
+/// gateway closed it with the code 1000, as it does when the server ended the stream in order.
+///
 /// Thread: the one that runs `context`, which must outlive it, and the channels that it made.
 class GatewayStreams : public StreamOpener {
  public:
+  /// Time limit for name look-up, connection, TLS and the WebSocket's handshake together.
+  static constexpr std::chrono::seconds kOpenTimeout{10};
+
   GatewayStreams(asio::io_context& context, GatewayAddress address);
   ~GatewayStreams() override;
 
@@ -28,15 +39,12 @@ class GatewayStreams : public StreamOpener {
   bool wasHungUpOn() const override { return false; }
 
  private:
-  class Line;
-  class Channel;
-  void begin(std::shared_ptr<Line>& attempt, Done done);
+  void begin(std::shared_ptr<HttpExchange>& attempt, Done done);
 
   asio::io_context& m_context;
-  std::shared_ptr<WebSocketThread> m_thread = WebSocketThread::common();
   GatewayAddress m_address;
-  std::shared_ptr<Line> m_first;
-  std::shared_ptr<Line> m_second;
+  std::shared_ptr<HttpExchange> m_first;
+  std::shared_ptr<HttpExchange> m_second;
 };
 
 }  // namespace naiad

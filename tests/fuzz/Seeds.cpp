@@ -126,6 +126,45 @@ void webRequests(Folder folder) {
   add("GET / HTTP/1.1\r\nHost: other.example\r\n\r\n");
 }
 
+void httpResponses(Folder folder) {
+  const std::string ok = "HTTP/1.1 200 OK\r\n";
+  for (const std::string& stream :
+       {ok + "Content-Length: 5\r\n\r\nhello",
+        ok + "Transfer-Encoding: chunked\r\n\r\n5;a=b\r\nhello\r\nA \r\n, chunked!\r\n0\r\nDigest: x\r\n\r\n",
+        "HTTP/1.1 100 Continue\r\n\r\n" + ok + "content-length: 0\r\nX:\r\nX: a, b\r\n\r\n",
+        std::string("HTTP/1.0 404 \r\n\r\nuntil the end"),
+        std::string("HTTP/1.1 101\r\nUpgrade: websocket\r\n\r\n\x82\x01x"),
+        ok + "Content-Length: 1\r\nContent-Length: 1\r\n\r\nx", ok + "A: b\r\n c\r\n\r\n",
+        ok + "A : b\r\n\r\n", std::string("HTTP/1.1 304 \r\nContent-Length: 7\r\n\r\n"),
+        std::string("HTTP/2 200\r\n\r\n"), ok + "Transfer-Encoding: chunked\r\n\r\n1\r\nxx\r\n",
+        ok + "Transfer-Encoding: gzip\r\n\r\n",
+        ok + "Transfer-Encoding: chunked\r\n\r\n5\r\nhello\r\n5\r\nworld\r\n0\r\n\r\n"}) {
+    for (const char how : {'\0', '\1', '\5'})
+      folder.add(u16(512) + u16(64) + std::string{how, '\1'} + stream);
+    folder.add(u16(512) + u16(8) + std::string(2, '\0') + stream);
+    folder.add(u16(30) + u16(64) + std::string(2, '\0') + stream);
+  }
+}
+
+void webSocketFrames(Folder folder) {
+  for (const std::string& stream :
+       {std::string("\x82\x05hello\x82\x00\x89\x02hi\x8a\x00\x82\x01x", 17),
+        std::string("\x02\x01"
+                    "a\x89\x01p\x00\x00\x80\x01"
+                    "b",
+                    11),
+        std::string("\x82\x7e\x00\x80", 4) + std::string(128, 'm'),
+        std::string("\x82\x7f\x00\x00\x00\x00\x00\x01\x00\x00", 10), std::string("\x88\x06\x0f\xa0gone"),
+        std::string("\x88\x00", 2), std::string("\x88\x02\x03\xe8"), std::string("\x88\x02\x03\xed"),
+        std::string("\x88\x01x"), std::string("\x81\x01t"), std::string("\xc2\x01x"),
+        std::string("\x82\x81\1\2\3\4x"), std::string("\x80\x01x"), std::string("\x02\x01x\x82\x01y"),
+        std::string("\x09\x01x"), std::string("\x83\x01x"), std::string("\x8b\x01x"),
+        std::string("\x82\x7e\x00\x05hello", 9)}) {
+    for (const char how : {'\0', '\1', '\5'}) folder.add(u16(200) + how + stream);
+    folder.add(u16(1) + std::string(1, '\0') + stream);
+  }
+}
+
 void keys(Folder folder) {
   for (const std::string& text :
        {"aZ1 \r\t\x7F\x03", "\x1B[A\x1B[1;5B\x1BOP\x1B[3~\x1B[15;2~", "\x1B[97;5u\x1B[57399;1:3u\x1B[?3u",
@@ -462,6 +501,8 @@ int main(int argc, char** argv) {
   gamesLists(Folder(base / "games_list"));
   webRequests(Folder(base / "web_request"));
   busPayloads(Folder(base / "bus_payload"));
+  httpResponses(Folder(base / "http_response"));
+  webSocketFrames(Folder(base / "websocket_frames"));
   keys(Folder(base / "input_decoder"));
   updates(Folder(base / "update"));
   hostile(Folder(base / "update", "hostile-"), Folder(base / "snapshot_fields"));

@@ -17,9 +17,9 @@ class RunningProgram {
  public:
   static constexpr std::chrono::seconds kPatience{60};
 
-  /// `words`: its name, and its arguments.
+  /// `words`: its name, or the whole path of another program, and its arguments.
   explicit RunningProgram(std::vector<std::string> words) {
-    words.front() = NAIAD_BINARY_DIR "/" + words.front();
+    if (!words.front().starts_with('/')) words.front() = NAIAD_BINARY_DIR "/" + words.front();
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");
     std::vector<char*> pointers;

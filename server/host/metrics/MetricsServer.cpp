@@ -6,34 +6,31 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ip/v6_only.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/http/empty_body.hpp>
-#include <boost/beast/http/error.hpp>
-#include <boost/beast/http/parser.hpp>
-#include <boost/beast/http/read.hpp>
-#include <limits>
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/ip/v6_only.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/write.hpp>
 #include <list>
-#include <optional>
 #include <thread>
 #include <utility>
+
+#include "shared/net/http/HttpHead.h"
 
 namespace naiad {
 
 namespace {
 
-namespace http = boost::beast::http;
-using boost::asio::ip::tcp;
-using boost::system::error_code;
+using asio::ip::tcp;
+using std::error_code;
 
 constexpr std::chrono::milliseconds kRetryDelay{100};
 /// Of what comes after a request, so that no reset overtakes the answer.
 constexpr std::size_t kMaxDrained = std::size_t{1} << 20;
+
+MetricsServer::Answer badRequest() {
+  return {400, "This is no request that is answered here.\n"};
+}
 
 /// Signals are for the threads that were there before.
 std::thread startWithoutSignals(const std::function<void()>& job) {
@@ -46,10 +43,29 @@ std::thread startWithoutSignals(const std::function<void()>& job) {
   return thread;
 }
 
+/// RFC 9110 15. Clients do not use it.
+std::string_view reasonOf(int status) {
+  switch (status) {
+    case 200:
+      return "OK";
+    case 400:
+      return "Bad Request";
+    case 403:
+      return "Forbidden";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 503:
+      return "Service Unavailable";
+    default:
+      return "Other";
+  }
+}
+
 std::string headOf(const MetricsServer::Answer& answer) {
-  const auto reason = http::obsolete_reason(static_cast<http::status>(answer.status));
   std::string head = "HTTP/1.1 " + std::to_string(answer.status) + " ";
-  head.append(reason.data(), reason.size());
+  head.append(reasonOf(answer.status));
   head.append("\r\nContent-Type: ").append(answer.type);
   head += "\r\nContent-Length: " + std::to_string(answer.body.size());
   if (answer.status == 405) head += "\r\nAllow: GET";
@@ -64,11 +80,11 @@ struct MetricsServer::Loop {
   void listen(const MetricsAddress& address);
   void accept();
   bool makeRoom();
-  Answer answer(const http::request<http::empty_body>& request) const;
+  Answer answer(const HttpHead& head) const;
 
-  boost::asio::io_context context{1};  // one thread
+  asio::io_context context{1};  // one thread
   tcp::acceptor acceptor{context};
-  boost::asio::steady_timer retry{context};
+  asio::steady_timer retry{context};
   MetricsHosts hosts;
   Respond respond;
   std::list<std::weak_ptr<Connection>> connections;  ///< oldest first; those that have ended among them
@@ -80,50 +96,62 @@ struct MetricsServer::Loop {
 /// One request and its answer. Lives as long as something of it is under way.
 class MetricsServer::Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Loop& loop, tcp::socket socket) : m_loop(loop), m_stream(std::move(socket)) {}
+  Connection(Loop& loop, tcp::socket socket)
+      : m_loop(loop), m_socket(std::move(socket)), m_deadline(loop.context) {}
 
   void start() {
-    m_parser.header_limit(static_cast<std::uint32_t>(kMaxHead));
-    m_parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // it is not read
-    m_stream.expires_after(kPatience);
-    http::async_read_header(
-        m_stream, m_buffer, m_parser,
-        [self = shared_from_this()](error_code error, std::size_t) { self->onRequest(error); });
+    limit();
+    read();
   }
   /// No answer is under way: its request has not come yet, or it has been answered and does not go.
   bool isIdle() const { return m_idle; }
   void hangUp() {
     error_code ignored;
-    m_stream.socket().close(ignored);
+    m_socket.close(ignored);
+    m_deadline.cancel();
   }
 
  private:
-  void onRequest(error_code error) {
+  void limit() {
+    m_deadline.expires_after(kPatience);
+    m_deadline.async_wait([connection = weak_from_this()](error_code error) {
+      const auto self = connection.lock();
+      if (self && !error) self->hangUp();
+    });
+  }
+
+  void read() {
+    m_socket.async_read_some(asio::buffer(m_piece),
+                             [self = shared_from_this()](error_code error, std::size_t bytes) {
+                               if (!error) self->onBytes({self->m_piece.data(), bytes});
+                             });
+  }
+
+  void onBytes(std::string_view bytes) {
+    m_request.feed(bytes);
+    const bool is_broken = m_request.error() != HttpError::kNone;
+    if (!is_broken && !m_request.isDone()) return read();
     m_idle = false;
-    if (!error) return send(m_loop.answer(m_parser.get()));
-    const bool ended = error == http::error::end_of_stream || error == http::error::partial_message;
-    const bool is_of_http = error.category() == http::make_error_code(http::error::bad_method).category();
-    if (is_of_http && !ended) send({400, "This is no request that is answered here.\n"});
+    send(is_broken ? badRequest() : m_loop.answer(m_request.head()));
   }
 
   void send(Answer answer) {
     m_answer = std::move(answer);
     m_head = headOf(m_answer);
-    m_stream.expires_after(kPatience);
-    const std::array<boost::asio::const_buffer, 2> parts{boost::asio::buffer(m_head),
-                                                         boost::asio::buffer(m_answer.body)};
-    boost::asio::async_write(m_stream, parts, [self = shared_from_this()](error_code failed, std::size_t) {
+    limit();
+    const std::array<asio::const_buffer, 2> parts{asio::buffer(m_head), asio::buffer(m_answer.body)};
+    asio::async_write(m_socket, parts, [self = shared_from_this()](error_code failed, std::size_t) {
       if (failed) return;
       error_code ignored;
-      self->m_stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
-      self->m_stream.expires_after(kPatience);
+      self->m_socket.shutdown(tcp::socket::shutdown_send, ignored);
+      self->limit();
       self->m_idle = true;
       self->drain();
     });
   }
 
   void drain() {
-    m_stream.async_read_some(boost::asio::buffer(m_rest),
+    m_socket.async_read_some(asio::buffer(m_piece),
                              [self = shared_from_this()](error_code error, std::size_t bytes) {
                                self->m_drained += bytes;
                                if (!error && self->m_drained < kMaxDrained) self->drain();
@@ -131,12 +159,12 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
   }
 
   Loop& m_loop;
-  boost::beast::tcp_stream m_stream;
-  boost::beast::flat_buffer m_buffer{kMaxHead + 1};
-  http::request_parser<http::empty_body> m_parser;
+  tcp::socket m_socket;
+  asio::steady_timer m_deadline;
+  HttpHeadReader m_request{kMaxHead};
   Answer m_answer;
   std::string m_head;
-  std::array<char, 1024> m_rest;
+  std::array<char, 1024> m_piece;
   std::size_t m_drained = 0;
   bool m_idle = true;
 };
@@ -151,11 +179,11 @@ MetricsServer::Loop::Loop(const MetricsAddress& address, MetricsHosts allowed, R
 
 void MetricsServer::Loop::listen(const MetricsAddress& address) {
   error_code error;
-  const tcp::endpoint endpoint(boost::asio::ip::make_address(address.address, error), address.port);
+  const tcp::endpoint endpoint(asio::ip::make_address(address.address, error), address.port);
   if (!error) acceptor.open(endpoint.protocol(), error);
   if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
   if (!error && endpoint.address().is_v6())
-    acceptor.set_option(boost::asio::ip::v6_only(!endpoint.address().is_unspecified()), error);
+    acceptor.set_option(asio::ip::v6_only(!endpoint.address().is_unspecified()), error);
   if (!error) acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
   if (error)
@@ -166,7 +194,7 @@ void MetricsServer::Loop::listen(const MetricsAddress& address) {
 
 void MetricsServer::Loop::accept() {
   acceptor.async_accept([this](error_code error, tcp::socket socket) {
-    if (error == boost::asio::error::operation_aborted) return;
+    if (error == asio::error::operation_aborted) return;
     if (!error) {
       if (makeRoom()) {
         const auto connection = std::make_shared<Connection>(*this, std::move(socket));
@@ -197,14 +225,13 @@ bool MetricsServer::Loop::makeRoom() {
   return true;
 }
 
-MetricsServer::Answer MetricsServer::Loop::answer(const http::request<http::empty_body>& request) const {
-  const auto host = request[http::field::host];
-  if (request.count(http::field::host) != 1 || !hosts.allows({host.data(), host.size()}))
+MetricsServer::Answer MetricsServer::Loop::answer(const HttpHead& head) const {
+  const auto request = HttpRequestLine::parse(head.start_line);
+  if (!request) return badRequest();
+  if (head.count("host") != 1 || !hosts.allows(head.value("host")))
     return {403, "This server does not go by that name (--metrics-hosts).\n"};
-  if (request.method() != http::verb::get) return {405, "GET only.\n"};
-  const auto target = request.target();
-  const std::string_view path(target.data(), target.size());
-  return respond(path.substr(0, path.find('?')));
+  if (request->method != "GET") return {405, "GET only.\n"};
+  return respond(request->target.substr(0, request->target.find('?')));
 }
 
 MetricsServer::MetricsServer(const MetricsAddress& address, MetricsHosts hosts, Respond respond)

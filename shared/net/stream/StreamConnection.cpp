@@ -22,17 +22,23 @@ tcp::socket::wait_type waitFor(ByteStream::Outcome wish) {
 
 }  // namespace
 
-StreamConnection::StreamConnection(std::unique_ptr<ByteStream> stream, const TcpOptions& options)
+StreamConnection::StreamConnection(std::unique_ptr<ByteStream> stream, std::unique_ptr<StreamFraming> framing,
+                                   const TcpOptions& options)
     : stream_(std::move(stream)),
       deadline_(stream_->socket().get_executor()),
       options_(options),
       peer_(stream_->peer()),
-      reader_(options.receive_limit) {}
+      framing_(std::move(framing)) {}
 
 void StreamConnection::start(ReliableChannel::Callbacks callbacks) {
   if (callbacks_) throw std::logic_error("a channel can be started once");
   callbacks_ = std::make_shared<ReliableChannel::Callbacks>(std::move(callbacks));
   if (phase_ == Phase::kClosed) return report();
+  if (framing_->midFrame()) {
+    asio::post(stream_->socket().get_executor(), [self = shared_from_this()] {
+      if (self->phase_ == Phase::kOpen) self->dispatch({});
+    });
+  }
   awaitInput();
 }
 
@@ -68,20 +74,33 @@ void StreamConnection::onInput() {
 
 void StreamConnection::dispatch(std::string_view bytes) {
   const auto callbacks = callbacks_;  // a frame's handler may destroy the channel
-  reader_.feed(bytes);
+  framing_->feed(bytes);
   while (phase_ == Phase::kOpen) {
-    const auto frame = reader_.next();
+    const auto frame = framing_->next();
     if (!frame) break;
     if (callbacks->on_frame) callbacks->on_frame(*frame);
   }
-  if (phase_ == Phase::kOpen && reader_.error() != FrameError::kNone) finish(CloseReason::kProtocol, false);
+  if (phase_ != Phase::kOpen) return;
+  if (framing_->isBroken()) return finish(CloseReason::kProtocol, false);
+  if (const auto reason = framing_->peerClosed()) {
+    sendEnd();
+    return finish(*reason, false);
+  }
+  sendReplies();
+}
+
+void StreamConnection::sendReplies() {
+  const std::size_t before = queue_.size();
+  framing_->appendReplies(queue_);
+  if (queue_.size() == before) return;
+  queuedBytes() > options_.send_cap ? finish(CloseReason::kOverflow, true) : postPump();
 }
 
 void StreamConnection::onInputEnded(Outcome outcome) {
   const bool ended = outcome == Outcome::kEnd || outcome == Outcome::kTruncated;
   if (phase_ == Phase::kClosing) {
     finish(CloseReason::kLocal, false);
-  } else if (outcome == Outcome::kGarbage || (ended && reader_.midFrame() && !write_failed_)) {
+  } else if (outcome == Outcome::kGarbage || (ended && framing_->midFrame() && !write_failed_)) {
     finish(CloseReason::kProtocol, false);
   } else {
     finish(outcome == Outcome::kEnd && !write_failed_ ? CloseReason::kPeer : CloseReason::kError, false);
@@ -97,7 +116,11 @@ void StreamConnection::send(std::string_view frame) {
     finish(CloseReason::kOverflow, true);
     return;
   }
-  appendFrame(queue_, frame);
+  framing_->append(queue_, frame);
+  postPump();
+}
+
+void StreamConnection::postPump() {
   if (pump_posted_) return;
   pump_posted_ = true;
   asio::post(stream_->socket().get_executor(), [self = shared_from_this()] {
@@ -175,6 +198,7 @@ void StreamConnection::close() {
     if (!error && self->phase_ == Phase::kClosing) self->finish(CloseReason::kLocal, self->queuedBytes() > 0);
   });
   if (write_failed_) return finish(CloseReason::kLocal, false);
+  framing_->appendEnd(queue_);
   awaitInput();
   pump();
 }
@@ -203,6 +227,7 @@ void StreamConnection::finish(CloseReason reason, bool cut) {
   if (cut) {
     stream_->socket().set_option(tcp::socket::linger(true, 0), ignored);
   } else if (reason != CloseReason::kError && !write_failed_) {
+    sendEnd();
     stream_->end();  // as far as that goes without waiting
   }
   stream_->socket().close(ignored);
@@ -210,6 +235,18 @@ void StreamConnection::finish(CloseReason reason, bool cut) {
   std::string().swap(queue_);
   written_ = 0;
   report();
+}
+
+/// Sends the framing's last word, as far as that goes without waiting.
+void StreamConnection::sendEnd() {
+  const std::size_t before = queue_.size();
+  framing_->appendEnd(queue_);
+  if (queue_.size() == before) return;
+  while (queuedBytes() > 0) {
+    const auto [outcome, size] = stream_->write(std::string_view(queue_).substr(written_));
+    if (outcome != Outcome::kDone) return;
+    written_ += size;
+  }
 }
 
 void StreamConnection::report() {

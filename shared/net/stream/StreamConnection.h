@@ -1,5 +1,5 @@
-// Frames (Framing.h) over a stream of bytes: the one state machine behind every channel on a TCP socket,
-// encrypted or not. TcpChannel.h says what it promises.
+// Frames (StreamFraming.h) over a stream of bytes: the one state machine behind every channel on a TCP
+// socket, encrypted or not. TcpChannel.h says what it promises.
 #pragma once
 
 #include <asio/steady_timer.hpp>
@@ -10,7 +10,7 @@
 
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/ByteStream.h"
-#include "shared/net/stream/Framing.h"
+#include "shared/net/stream/StreamFraming.h"
 #include "shared/net/stream/TcpOptions.h"
 
 namespace naiad {
@@ -18,8 +18,9 @@ namespace naiad {
 /// Handlers under way share it, so the channel that started them may go first.
 class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
  public:
-  /// `stream`: ready for bytes both ways (a handshake is over).
-  StreamConnection(std::unique_ptr<ByteStream> stream, const TcpOptions& options);
+  /// `stream`: ready for bytes both ways (a handshake is over). `framing`: may have been fed bytes already.
+  StreamConnection(std::unique_ptr<ByteStream> stream, std::unique_ptr<StreamFraming> framing,
+                   const TcpOptions& options);
 
   void start(ReliableChannel::Callbacks callbacks);
   void send(std::string_view frame);
@@ -29,7 +30,7 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
   void abandon();
 
   const std::string& peer() const { return peer_; }
-  void setReceiveLimit(std::size_t bytes) { reader_.setLimit(bytes); }
+  void setReceiveLimit(std::size_t bytes) { framing_->setLimit(bytes); }
   std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
 
  private:
@@ -40,12 +41,15 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
   void awaitInput(Outcome wish = Outcome::kWantsRead);
   void onInput();
   void dispatch(std::string_view bytes);
+  void sendReplies();
   void onInputEnded(Outcome outcome);
   void pump();
+  void postPump();
   void awaitRoom(Outcome wish);
   void dropWritten();
   void onWriteFailed();
   void endStream();
+  void sendEnd();
   void finish(CloseReason reason, bool cut);
   void report();
   std::size_t queuedBytes() const { return queue_.size() - written_; }
@@ -55,7 +59,7 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
   asio::steady_timer deadline_;
   TcpOptions options_;
   std::string peer_;
-  FrameReader reader_;
+  std::unique_ptr<StreamFraming> framing_;
   std::shared_ptr<ReliableChannel::Callbacks> callbacks_;  // shared with the call that is running
   std::string queue_;
   std::size_t written_ = 0;  // bytes at the front of the queue that the kernel took

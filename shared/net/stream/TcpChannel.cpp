@@ -9,11 +9,12 @@
 namespace naiad {
 namespace {
 
-class TcpChannel : public ReliableChannel {
+class FramedChannel : public ReliableChannel {
  public:
-  TcpChannel(std::unique_ptr<ByteStream> stream, const TcpOptions& options)
-      : connection_(std::make_shared<StreamConnection>(std::move(stream), options)) {}
-  ~TcpChannel() override { connection_->abandon(); }
+  FramedChannel(std::unique_ptr<ByteStream> stream, std::unique_ptr<StreamFraming> framing,
+                const TcpOptions& options)
+      : connection_(std::make_shared<StreamConnection>(std::move(stream), std::move(framing), options)) {}
+  ~FramedChannel() override { connection_->abandon(); }
 
   void start(Callbacks callbacks) override { connection_->start(std::move(callbacks)); }
   void send(std::string_view frame) override { connection_->send(frame); }
@@ -21,13 +22,19 @@ class TcpChannel : public ReliableChannel {
   void close() override { connection_->close(); }
   std::string peerAddress() const override { return connection_->peer(); }
   void setReceiveLimit(std::size_t bytes) override { connection_->setReceiveLimit(bytes); }
+
+ protected:
+  std::shared_ptr<StreamConnection> connection_;
+};
+
+class TcpChannel : public FramedChannel {
+ public:
+  using FramedChannel::FramedChannel;
+
   std::string exportSecret(std::string_view label, std::string_view context,
                            std::size_t bytes) const override {
     return connection_->exportSecret(label, context, bytes);
   }
-
- private:
-  std::shared_ptr<StreamConnection> connection_;
 };
 
 }  // namespace
@@ -37,7 +44,14 @@ std::unique_ptr<ReliableChannel> makeTcpChannel(asio::ip::tcp::socket socket, Tc
 }
 
 std::unique_ptr<ReliableChannel> makeTcpChannel(std::unique_ptr<ByteStream> stream, TcpOptions options) {
-  return std::make_unique<TcpChannel>(std::move(stream), options);
+  return std::make_unique<TcpChannel>(std::move(stream),
+                                      std::make_unique<LengthFraming>(options.receive_limit), options);
+}
+
+std::unique_ptr<ReliableChannel> makeFramedChannel(std::unique_ptr<ByteStream> stream,
+                                                   std::unique_ptr<StreamFraming> framing,
+                                                   TcpOptions options) {
+  return std::make_unique<FramedChannel>(std::move(stream), std::move(framing), options);
 }
 
 bool isLoopback(const asio::ip::address& address) {

@@ -14,6 +14,7 @@
 
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/ByteStream.h"
+#include "shared/net/stream/StreamFraming.h"
 #include "shared/net/stream/TcpOptions.h"
 
 namespace naiad {
@@ -46,6 +47,14 @@ namespace naiad {
 std::unique_ptr<ReliableChannel> makeTcpChannel(asio::ip::tcp::socket socket, TcpOptions options = {});
 /// The same on a stream that is ready for bytes both ways: a TlsStream after its handshake.
 std::unique_ptr<ReliableChannel> makeTcpChannel(std::unique_ptr<ByteStream> stream, TcpOptions options = {});
+
+/// A channel whose frames are written and read by `framing`, which may have been fed the first bytes already.
+/// `options.receive_limit` is not used: the framing has its limit. exportSecret() returns an empty string,
+/// because the other end may be a gateway that passes frames on. kPeer and kError as the framing's
+/// peerClosed() says, too.
+std::unique_ptr<ReliableChannel> makeFramedChannel(std::unique_ptr<ByteStream> stream,
+                                                   std::unique_ptr<StreamFraming> framing,
+                                                   TcpOptions options = {});
 
 /// True for 127.0.0.0/8, ::1, and 127.0.0.0/8 mapped into IPv6. Without TLS, connector and listener refuse
 /// every other address.

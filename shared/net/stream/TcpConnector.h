@@ -19,6 +19,8 @@
 
 namespace naiad {
 
+class StreamAttempt;
+
 /// One attempt at a time; may be used again after it ended, for a client that reconnects.
 ///
 ///   TcpConnector connector(context, {.receive_limit = kMaxServerFrame});
@@ -75,16 +77,16 @@ class TcpConnector {
   void cancel();
 
  private:
-  struct Attempt;
   asio::io_context& context_;
   TcpOptions options_;
   std::shared_ptr<const TlsContext> tls_;
-  std::shared_ptr<Attempt> attempt_;
+  std::shared_ptr<StreamAttempt> attempt_;
   std::optional<PeerFacts> peer_facts_;
   bool was_hung_up_on_ = false;
   std::function<bool(const asio::ip::address& address)> is_allowed_;
 
-  std::shared_ptr<Attempt> begin(const std::string& host, Done done);
+  StreamAttempt& begin(const std::string& host, std::uint16_t port, std::chrono::milliseconds timeout,
+                       Done done);
 };
 
 }  // namespace naiad

@@ -18,11 +18,6 @@ using Bio = std::unique_ptr<BIO, decltype([](BIO* bio) { BIO_free(bio); })>;
 using Certificate = std::unique_ptr<X509, decltype([](X509* x509) { X509_free(x509); })>;
 using Key = std::unique_ptr<EVP_PKEY, decltype([](EVP_PKEY* key) { EVP_PKEY_free(key); })>;
 
-/// Length-prefixed, as on the wire.
-std::string alpnList() {
-  return static_cast<char>(kAlpn.size()) + std::string(kAlpn);
-}
-
 /// Called before a hello is answered. The first time of a stream it stops there (TlsStream::handshake).
 /// Without the extension OpenSSL would not ask chooseAlpn() at all.
 int judgeHello(SSL* ssl, int* alert, void*) {
@@ -106,6 +101,7 @@ std::shared_ptr<const TlsContext> TlsContext::forWebServer(const std::string& ce
   std::shared_ptr<TlsContext> made(new TlsContext(true));
   made->useCertificate(certificate_pem);
   made->useKey(key_pem);
+  made->required_alpn_ = {};
   made->choose(kHttpAlpn);
   return made;
 }
@@ -115,13 +111,32 @@ void TlsContext::choose(const std::string_view& protocol) {
   SSL_CTX_set_alpn_select_cb(get(), chooseAlpn, const_cast<std::string_view*>(&protocol));
 }
 
-std::shared_ptr<const TlsContext> TlsContext::forClient(const std::string& trust_file) {
-  std::shared_ptr<TlsContext> made(new TlsContext(false));
-  const std::string alpn = alpnList();
-  if (SSL_CTX_set_alpn_protos(made->get(), reinterpret_cast<const unsigned char*>(alpn.data()),
+/// A list of one name, each with its length in front, as on the wire.
+void TlsContext::offer(std::string_view protocol) {
+  const std::string alpn = static_cast<char>(protocol.size()) + std::string(protocol);
+  if (SSL_CTX_set_alpn_protos(get(), reinterpret_cast<const unsigned char*>(alpn.data()),
                               static_cast<unsigned int>(alpn.size())) != 0) {
     throw TlsError("OpenSSL refused the name of the protocol.");
   }
+}
+
+std::shared_ptr<const TlsContext> TlsContext::forWebClient() {
+  std::shared_ptr<TlsContext> made(new TlsContext(false));
+  made->required_alpn_ = {};
+  made->offer(kHttpAlpn);
+  SSL_CTX* const c = made->get();
+  if (SSL_CTX_set_min_proto_version(c, TLS1_2_VERSION) != 1 ||
+      SSL_CTX_set1_groups_list(c, "X25519:P-256:P-384:P-521") != 1)
+    throw TlsError("This machine's OpenSSL does not offer TLS 1.2.");
+  SSL_CTX_set_verify(c, SSL_VERIFY_PEER, nullptr);
+  SSL_CTX_set_default_verify_paths(c);  // none here: no chain verifies
+  ERR_clear_error();
+  return made;
+}
+
+std::shared_ptr<const TlsContext> TlsContext::forClient(const std::string& trust_file) {
+  std::shared_ptr<TlsContext> made(new TlsContext(false));
+  made->offer(kAlpn);
   if (trust_file.empty()) {
     SSL_CTX_set_default_verify_paths(made->get());  // none here: no chain verifies, keys are pinned
   } else if (SSL_CTX_load_verify_file(made->get(), trust_file.c_str()) != 1) {

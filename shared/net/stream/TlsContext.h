@@ -1,8 +1,9 @@
 // What all TLS connections of one end share: protocol settings, a server's key, a client's trust store.
 //
-// TLS 1.3 (RFC 8446) and nothing older, ALPN "naiad/1" (RFC 7301) required at both ends, but by a web server.
-// No session tickets, no resumption, no early data, no client certificates. Made for many quiet connections:
-// no read-ahead, and buffers are given back while they are empty.
+// TLS 1.3 (RFC 8446) and nothing older, ALPN "naiad/1" (RFC 7301) required at both ends. Web servers and
+// clients of web servers are exceptions. No session tickets, no resumption, no early data, no client
+// certificates. Made for many quiet connections: no read-ahead, and buffers are given back while they are
+// empty.
 #pragma once
 
 #include <memory>
@@ -39,8 +40,14 @@ class TlsContext {
   /// Takes any server, and finds out about it (PeerFacts.h). Chains are checked against the system's trust
   /// store, or the PEM file `trust_file`. Throws TlsError if that file cannot be used.
   static std::shared_ptr<const TlsContext> forClient(const std::string& trust_file = {});
+  /// Makes the context of a client of web servers: TLS 1.2 or 1.3, ALPN "http/1.1", which a server need not
+  /// know. The handshake fails if the chain is not good in the eyes of the system's trust store
+  /// (SSL_CERT_FILE and SSL_CERT_DIR replace it) or is for another host. Reading the store takes some 20 ms.
+  static std::shared_ptr<const TlsContext> forWebClient();
 
   bool isServer() const { return is_server_; }
+  /// The protocol that must have been agreed on by a handshake; empty: none need be.
+  std::string_view requiredAlpn() const { return required_alpn_; }
   ssl_ctx_st* get() const { return context_.get(); }
 
  private:
@@ -51,9 +58,11 @@ class TlsContext {
   void useCertificate(const std::string& pem);
   void useKey(const std::string& pem);
   void choose(const std::string_view& protocol);
+  void offer(std::string_view protocol);
 
   std::unique_ptr<ssl_ctx_st, Free> context_;
   bool is_server_;
+  std::string_view required_alpn_ = kAlpn;
 };
 
 }  // namespace naiad

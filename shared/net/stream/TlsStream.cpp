@@ -11,14 +11,15 @@ namespace {
 
 using asio::ip::tcp;
 
-bool negotiated(const SSL* ssl) {
+/// `required`: empty if anything will do.
+bool negotiated(const SSL* ssl, std::string_view required) {
   const unsigned char* data = nullptr;
   unsigned int size = 0;
   SSL_get0_alpn_selected(ssl, &data, &size);
-  return std::string_view(reinterpret_cast<const char*>(data), size) == kAlpn;
+  return required.empty() || std::string_view(reinterpret_cast<const char*>(data), size) == required;
 }
 
-std::string inWords(unsigned long error) {
+std::string inWords(unsigned long error, const SSL* ssl) {
   switch (ERR_GET_REASON(error)) {
     case SSL_R_WRONG_VERSION_NUMBER:
     case SSL_R_HTTP_REQUEST:
@@ -28,7 +29,10 @@ std::string inWords(unsigned long error) {
       return "it does not speak TLS";
     case SSL_R_UNSUPPORTED_PROTOCOL:
     case SSL_R_TLSV1_ALERT_PROTOCOL_VERSION:
-      return "it does not speak TLS 1.3";
+      return SSL_get_min_proto_version(const_cast<SSL*>(ssl)) == TLS1_3_VERSION ? "it does not speak TLS 1.3"
+                                                                                : "it does not speak TLS 1.2";
+    case SSL_R_CERTIFICATE_VERIFY_FAILED:
+      return X509_verify_cert_error_string(SSL_get_verify_result(ssl));
     case SSL_R_TLSV1_ALERT_NO_APPLICATION_PROTOCOL:
     case SSL_R_NO_APPLICATION_PROTOCOL:
     case SSL_R_CALLBACK_FAILED:  // judgeHello()
@@ -83,7 +87,7 @@ ByteStream::Outcome TlsStream::handshake() {
   const int result = SSL_do_handshake(ssl_.get());
   if (result != 1) return outcomeOf(result);
   bio_.guard.reset();
-  if (negotiated(ssl_.get())) return Outcome::kDone;
+  if (negotiated(ssl_.get(), context_->requiredAlpn())) return Outcome::kDone;
   problem_ = "it does not speak " + std::string(kAlpn);
   return Outcome::kGarbage;
 }
@@ -166,7 +170,7 @@ void TlsStream::explain() {
   } else if (bio_.ended) {
     problem_ = "it hung up";
   } else {
-    problem_ = inWords(ERR_peek_error());
+    problem_ = inWords(ERR_peek_error(), ssl_.get());
   }
 }
 

@@ -1,4 +1,4 @@
-// Bytes in TLS 1.3 on a TCP socket.
+// Bytes in TLS on a TCP socket.
 //
 // OpenSSL reads from and writes to the socket itself: there is no buffer between the two, and an idle
 // connection holds none of OpenSSL's either.

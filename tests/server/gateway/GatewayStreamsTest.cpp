@@ -1,85 +1,156 @@
 // The other end of a gateway's WebSockets where no browser is: dfclient's and dfbot's.
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <asio/io_context.hpp>
+#include <asio/write.hpp>
 #include <future>
 #include <memory>
+#include <optional>
 
-#include "client/session/WebSocket.h"
+#include "client/session/GatewayStreams.h"
+#include "shared/net/base/Limits.h"
 #include "tests/server/gateway/FakeGame.h"
 #include "tests/server/gateway/GatewayRun.h"
+#include "tests/shared/net/Loopback.h"
+#include "tests/shared/net/Recorder.h"
 
 namespace naiad::test {
 namespace {
 
-/// What a WebSocket reported. Outlives the sockets' thread.
-struct Reports {
-  std::atomic<int> opened{0};
-  std::atomic<int> refused{0};
-  std::atomic<int> closed{0};
-  std::atomic<int> frames{0};
-
-  WebSocket::Events events() {
-    return {[this](const std::string& error) { ++(error.empty() ? opened : refused); },
-            [this](const std::string&) { ++frames; }, [this](bool) { ++closed; }};
-  }
-};
-
-class GatewayStreams : public testing::Test {
+class GatewayStreamsTest : public testing::Test {
  protected:
   void start(FakeGame::OnFrame on_frame = {}) {
     game = std::make_unique<FakeGame>(home.path("identity"), home.path("visitors"), std::move(on_frame));
     gateway = std::make_unique<GatewayRun>(home.settings(game->key()));
-    address = *GatewayAddress::parse("http://127.0.0.1:" + std::to_string(gateway->port()));
+  }
+  GatewayAddress address() const {
+    return *GatewayAddress::parse("http://127.0.0.1:" + std::to_string(gateway->port()));
+  }
+  /// Waits for the channel, or the sentence that says why there is none.
+  void open(StreamOpener& streams) {
+    error.reset();
+    streams.open([this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
+      channel = std::move(made);
+      error = sentence;
+    });
+    ASSERT_TRUE(runUntil(context, [&] { return error.has_value(); }));
+    if (channel) channel->start(recorder.callbacks());
+  }
+  bool runUntilClosed() {
+    return runUntil(context, [&] { return recorder.closed.has_value(); });
   }
 
   GatewayHome home;
   std::unique_ptr<FakeGame> game;
   std::unique_ptr<GatewayRun> gateway;
-  GatewayAddress address;
-  Reports reports;
-  WebSocketThread thread;
+  asio::io_context context;
+  Recorder recorder;
+  std::optional<std::string> error;
+  std::unique_ptr<ReliableChannel> channel;
 };
 
-TEST_F(GatewayStreams, FramesGoBothWays) {
+TEST_F(GatewayStreamsTest, FramesGoBothWays) {
   start();
-  const auto socket = WebSocket::open(thread, address, reports.events());
-  ASSERT_TRUE(comesTrue([&] { return reports.opened == 1; }));
-  for (int i = 0; i < 100; ++i) socket->send("frame " + std::to_string(i));
-  EXPECT_TRUE(comesTrue([&] { return reports.frames == 100; }));
-  EXPECT_EQ(socket->unsentBytes(), 0U);
+  GatewayStreams streams(context, address());
+  open(streams);
+  ASSERT_TRUE(channel) << *error;
+  std::vector<std::string> frames;
+  for (int i = 0; i < 100; ++i) frames.push_back("frame " + std::to_string(i));
+  for (const std::string& frame : frames) channel->send(frame);
+  EXPECT_TRUE(runUntil(context, [&] { return recorder.frames.size() == frames.size(); }));
+  EXPECT_EQ(recorder.frames, frames);
+  EXPECT_EQ(channel->unsentBytes(), 0U);
+  channel->close();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kLocal);
 }
 
-TEST_F(GatewayStreams, AGatewayThatIsKilledWhileMuchIsUnsentIsReportedOnce) {
+TEST_F(GatewayStreamsTest, FramesOfTheLargestSizeArrive) {
+  const std::string largest(kMaxServerFrame, 'x');
+  start([&](ReliableChannel& to, const std::string&) { to.send(largest); });
+  GatewayStreams streams(context, address());
+  open(streams);
+  ASSERT_TRUE(channel) << *error;
+  channel->send("hello");
+  EXPECT_TRUE(runUntil(context, [&] { return !recorder.frames.empty(); }));
+  EXPECT_EQ(recorder.frames, std::vector<std::string>{largest});
+}
+
+TEST_F(GatewayStreamsTest, GameThatEndsTheStreamInOrderIsThePeersEnd) {
+  start([](ReliableChannel& to, const std::string&) { to.close(); });
+  GatewayStreams streams(context, address());
+  open(streams);
+  ASSERT_TRUE(channel) << *error;
+  channel->send("hello");
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+}
+
+TEST_F(GatewayStreamsTest, GatewayWithoutAServerIsAnError) {
+  start();
+  game.reset();
+  GatewayStreams streams(context, address());
+  open(streams);
+  ASSERT_TRUE(channel) << *error;
+  channel->send("hello");
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kError);
+}
+
+TEST_F(GatewayStreamsTest, AGatewayThatIsKilledWhileMuchIsUnsentIsReportedOnce) {
   std::promise<void> end;
   start([wait = end.get_future().share()](ReliableChannel&, const std::string&) { wait.wait(); });
-  const auto socket = WebSocket::open(thread, address, reports.events());
-  ASSERT_TRUE(comesTrue([&] { return reports.opened == 1; }));
-  for (int i = 0; i < 5000; ++i) socket->send(std::string(i == 0 ? 100 : 4000, 'x'));
+  GatewayStreams streams(context, address());
+  open(streams);
+  ASSERT_TRUE(channel) << *error;
+  channel->send(std::string(100, 'x'));
   // The game reads nothing, so in the end neither does the gateway, and a write stays under way.
-  ASSERT_TRUE(comesTrue([&] { return game->frameCount() > 0; }));
-  std::size_t before = 0;
-  ASSERT_TRUE(comesTrue([&] {
-    const std::size_t now = socket->unsentBytes();
-    const bool stands = now == before;
-    before = now;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // to see that it does not change
-    return stands;
+  ASSERT_TRUE(runUntil(context, [&] { return game->frameCount() > 0; }));
+  ASSERT_TRUE(runUntil(context, [&] {
+    channel->send(std::string(4000, 'x'));
+    return channel->unsentBytes() > 400'000;
   }));
-  ASSERT_GT(socket->unsentBytes(), 0U);
   gateway.reset();
-  EXPECT_TRUE(comesTrue([&] { return reports.closed > 0; }));
+  EXPECT_TRUE(runUntilClosed());
   end.set_value();
-  // What is written next to a socket that has ended comes back on the sockets' thread before this one opens.
-  Reports later;
-  const auto next = WebSocket::open(thread, address, later.events());
-  EXPECT_TRUE(comesTrue([&] { return later.refused == 1; }));
-  EXPECT_EQ(reports.closed, 1);
+  runReady(context);
+  EXPECT_EQ(recorder.closings, 1);
+  EXPECT_EQ(recorder.closed, CloseReason::kError);
 }
 
-TEST_F(GatewayStreams, WithoutEncryptionNoOtherMachineIsConnectedTo) {
-  const auto socket = WebSocket::open(thread, *GatewayAddress::parse("http://192.0.2.1"), reports.events());
-  EXPECT_TRUE(comesTrue([&] { return reports.refused == 1; }));
+TEST_F(GatewayStreamsTest, AnswerThatIsNoWebSocketIsRefused) {
+  start();
+  const GatewayAddress here = address();
+  gateway.reset();
+  GatewayStreams gone(context, here);
+  open(gone);
+  EXPECT_EQ(error, "The gateway cannot be reached (connection refused).");
+
+  tcp::acceptor acceptor(context, {asio::ip::address_v4::loopback(), 0});
+  GatewayStreams other(context, *GatewayAddress::parse("http://127.0.0.1:" +
+                                                       std::to_string(acceptor.local_endpoint().port())));
+  std::optional<tcp::socket> peer;
+  acceptor.async_accept([&](const std::error_code&, tcp::socket socket) {
+    asio::write(socket, asio::buffer(std::string("HTTP/1.1 403 No\r\nContent-Length: 0\r\n\r\n")));
+    peer.emplace(std::move(socket));
+  });
+  open(other);
+  EXPECT_EQ(error, "The gateway refused (status 403).");
+}
+
+TEST_F(GatewayStreamsTest, WithoutEncryptionNoOtherMachineIsConnectedTo) {
+  GatewayStreams streams(context, *GatewayAddress::parse("http://192.0.2.1"));
+  open(streams);
+  EXPECT_EQ(error, "Without encryption (https) only gateways on this machine are connected to.");
+}
+
+TEST_F(GatewayStreamsTest, NothingIsCalledAfterCancel) {
+  start();
+  GatewayStreams streams(context, address());
+  streams.open([this](std::unique_ptr<ReliableChannel>, const std::string& sentence) { error = sentence; });
+  streams.cancel();
+  context.run();
+  EXPECT_FALSE(error);
 }
 
 }  // namespace

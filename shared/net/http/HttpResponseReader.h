@@ -1,0 +1,87 @@
+// Reads the answer to a request of HTTP/1.1 (RFC 9112) from pieces, with limits. It has no socket and no
+// clock.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "shared/net/http/HttpHead.h"
+
+namespace naiad {
+
+struct HttpLimits {
+  /// Bytes of the head and of interim answers before it; also of the lines between two chunks of a body, and
+  /// of those after the last one.
+  std::size_t head = std::size_t{16} * 1024;
+  /// Bytes of the body in all.
+  std::uint64_t body = std::uint64_t{1} << 20;
+  /// Value of `body` for an answer without end, whose pieces the caller takes out.
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// One answer to a GET, POST or PATCH; not to HEAD, whose answers announce a body that does not follow.
+///
+///   reader.feed(bytes);       // until isDone() or error()
+///   reader.feedEnd(true);     // the connection ended
+///
+/// Interim answers (1xx) are skipped, except 101, after which the connection speaks another protocol. A body
+/// is framed by Content-Length, by chunks, or by the end of the connection (RFC 9112 6.3). Refused as
+/// malformed: more than one Content-Length, Content-Length beside Transfer-Encoding, other codings than
+/// chunked, and chunks in HTTP/1.0.
+///
+/// The result does not depend on the pieces in which the bytes come. Memory: the head, and the body as far as
+/// it came and was not taken out.
+class HttpResponseReader {
+ public:
+  explicit HttpResponseReader(const HttpLimits& limits = {});
+
+  /// Removes the answer's bytes from the front of `bytes`; what is left follows the answer.
+  void feed(std::string_view& bytes);
+  /// `in_order`: the peer said that this was all (with TLS: close_notify). Otherwise a body that ends with
+  /// the connection counts as truncated.
+  void feedEnd(bool in_order);
+
+  bool isDone() const { return m_state == State::kDone; }
+  HttpError error() const { return m_error; }
+
+  /// True when the final head is complete; status() and head() are valid then.
+  bool hasHead() const { return m_state > State::kHead; }
+  unsigned status() const { return m_status; }
+  const HttpHead& head() const { return m_head.head(); }
+
+  /// The body as far as it came and was not taken out.
+  const std::string& body() const { return m_body; }
+  /// Takes it out, for callers that use it piece by piece.
+  std::string popBody() { return std::exchange(m_body, {}); }
+
+ private:
+  // The states follow each other in this order.
+  enum class State { kHead, kLength, kToEnd, kChunkSize, kChunk, kChunkEnd, kTrailer, kDone };
+
+  void step(std::string_view& bytes);
+  void readHead(std::string_view& bytes);
+  void chooseFraming(bool is_1_0);
+  void takeBody(std::string_view& bytes);
+  void takeChunkSize(std::string_view line);
+  void takeLine(std::string_view line);
+  void begin(std::uint64_t bytes);
+  void fail(HttpError error) { m_error = error; }
+
+  HttpLimits m_limits;
+  HttpHeadReader m_head;
+
+  HttpLines m_lines;          // of a chunked body
+  std::size_t m_interim = 0;  // bytes of interim heads
+  std::uint64_t m_left = 0;   // bytes of this body or chunk that have not come
+  std::uint64_t m_total = 0;  // bytes of the body so far and of what was announced
+  unsigned m_status = 0;
+  State m_state = State::kHead;
+  HttpError m_error = HttpError::kNone;
+  std::string m_body;
+};
+
+}  // namespace naiad

@@ -1,0 +1,113 @@
+// Opens one stream to a host and port, without blocking: resolves the name, connects, and does the TLS
+// handshake.
+#pragma once
+
+#include <asio/ip/tcp.hpp>
+#include <asio/local/stream_protocol.hpp>
+#include <asio/ts/netfwd.hpp>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shared/net/stream/ByteStream.h"
+#include "shared/net/stream/PatientTimer.h"
+#include "shared/net/stream/PeerFacts.h"
+#include "shared/net/stream/TlsContext.h"
+#include "shared/net/stream/TlsHandshake.h"
+
+namespace naiad {
+
+/// A stream, or the reason why there is none.
+struct StreamResult {
+  enum class End {
+    kOpen,
+    kNotFound,      ///< The resolver has no address for the host.
+    kNotAllowed,    ///< StreamTarget::is_allowed refused the addresses.
+    kOtherMachine,  ///< The host is not this machine, and there is no TLS. `detail`: its address.
+    kRefused,       ///< Nothing listens at the last address.
+    kUnreachable,   ///< The last address cannot be reached.
+    kHandshake,     ///< The TLS handshake failed.
+    kTimedOut,
+    kUnusable,  ///< The host's name or the path of the socket cannot be used. `detail`: one sentence.
+  };
+  End end = End::kOpen;
+  std::string detail = {};                   ///< reason, as the end of a sentence if nothing else is said
+  bool hung_up = false;                      ///< the server closed the connection during the handshake
+  std::unique_ptr<ByteStream> stream = {};   ///< with kOpen
+  std::optional<PeerFacts> peer_facts = {};  ///< with kOpen and TLS
+};
+
+struct StreamTarget {
+  std::string host;  ///< a name, or an IPv4 or IPv6 address without brackets
+  std::uint16_t port = 0;
+  std::shared_ptr<const TlsContext> tls = {};  ///< null: plain TCP, to loopback addresses only
+  /// Addresses that may be connected to; empty: all.
+  std::function<bool(const asio::ip::address& address)> is_allowed = {};
+
+  /// "127.0.0.1:9876", "[::1]:9876".
+  std::string text() const;
+};
+
+/// One attempt, one use. Make it with std::make_shared; it keeps itself alive while it runs.
+///
+/// Addresses are tried in turn, each for its share of the timeout, which covers everything. The next address
+/// is tried when one is silent or cannot be reached, not when the handshake with a server fails.
+///
+/// Thread: the one that runs `context`, which must outlive the attempt. A name is resolved on a thread of
+/// Asio's own; destroying the io_context waits for it.
+class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
+ public:
+  using Done = std::function<void(StreamResult result)>;
+
+  /// `done` is called once, from the event loop, unless the attempt is cancelled.
+  StreamAttempt(asio::io_context& context, StreamTarget target, std::chrono::milliseconds timeout, Done done);
+
+  /// Exactly one of these is called, once.
+
+  void resolve();
+  /// Skips the resolver: `endpoints` are the addresses of the host.
+  void connect(const std::vector<asio::ip::tcp::endpoint>& endpoints);
+  /// Goes through a visitors' socket of this machine (VisitorsListener.h) for a player at `visitor`. With TLS
+  /// only.
+  void enter(const std::string& path, const asio::ip::tcp::endpoint& visitor);
+
+  /// Gives up; `done` will not be called.
+  void cancel();
+
+ private:
+  using End = StreamResult::End;
+
+  void limit();
+  void onResolved(const std::error_code& error, const asio::ip::tcp::resolver::results_type& results);
+  void choose(const std::vector<asio::ip::tcp::endpoint>& addresses);
+  void tryNext();
+  void onConnected(const std::error_code& error);
+  void onEntered(const std::error_code& error, const std::string& path,
+                 const asio::ip::tcp::endpoint& visitor);
+  void shakeHands(ByteStream::Socket connected);
+  void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream, const std::string& problem);
+  void finish(StreamResult result);
+  void fail(End end, const std::string& detail, bool hung_up = false);
+  void disconnect();
+
+  asio::io_context& context_;
+  StreamTarget target_;
+  std::chrono::milliseconds timeout_;
+  Done done_;  // empty: this attempt is over
+  asio::ip::tcp::resolver resolver_;
+  asio::ip::tcp::socket socket_;
+  asio::local::stream_protocol::socket door_;  // in place of `socket_`: enter()
+  PatientTimer timer_;
+  PatientTimer share_;  // of the address that is being tried
+  std::shared_ptr<TlsHandshake> handshake_;
+  std::vector<asio::ip::tcp::endpoint> endpoints_;
+  std::size_t turn_ = 0;  // endpoints_[turn_ - 1] is being tried
+  End last_end_ = End::kUnreachable;
+  std::string last_detail_;
+};
+
+}  // namespace naiad

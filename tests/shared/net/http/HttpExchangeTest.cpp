@@ -1,0 +1,304 @@
+// Requests to a web server that the test plays by hand: plain on loopback, and in TLS.
+#include <gtest/gtest.h>
+#include <openssl/ssl.h>
+#include <stdlib.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "shared/net/http/HttpExchange.h"
+#include "tests/shared/net/Loopback.h"
+
+namespace naiad::test {
+namespace {
+
+using End = HttpExchange::End;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+const HttpRequest kRequest{.target = "/list", .host = "naiad.test"};
+
+struct HttpExchangeTest : testing::Test {
+  void run(StreamTarget target, std::chrono::milliseconds timeout = seconds(20),
+           HttpExchange::BodyHandler on_body = nullptr) {
+    exchange->run(
+        target, kRequest, timeout, [this](const HttpExchange::Result& result) { ended.emplace(result); },
+        std::move(on_body));
+  }
+  StreamTarget plain() const { return {"127.0.0.1", acceptor.local_endpoint().port()}; }
+
+  void accept() {
+    std::optional<tcp::socket> socket;
+    acceptor.async_accept([&](const std::error_code& error, tcp::socket made) {
+      if (!error) socket.emplace(std::move(made));
+    });
+    ASSERT_TRUE(runUntil(context, [&] { return socket.has_value(); }));
+    if (!server_context) {
+      peer = std::make_unique<PlainStream>(*std::move(socket));
+      return;
+    }
+    bool over = false;
+    const auto handshake =
+        std::make_shared<TlsHandshake>(std::make_unique<TlsStream>(*std::move(socket), server_context));
+    handshake->run(seconds(20),
+                   [&](TlsHandshake::End, std::unique_ptr<TlsStream> stream, const std::string& problem) {
+                     peer = std::move(stream);
+                     server_problem = problem;
+                     over = true;
+                   });
+    ASSERT_TRUE(runUntil(context, [&] { return over; }));
+  }
+  void readRequest() {
+    ASSERT_TRUE(peer) << server_problem;
+    ASSERT_TRUE(runUntil(context, [&] {
+      std::array<char, 1000> buffer;
+      const auto [outcome, size] = peer->read(buffer);
+      if (outcome == ByteStream::Outcome::kDone) request.append(buffer.data(), size);
+      return request.ends_with("\r\n\r\n");
+    }));
+  }
+  void answer(std::string_view bytes) {
+    ASSERT_TRUE(peer);
+    ASSERT_EQ(peer->write(bytes).outcome, ByteStream::Outcome::kDone);
+    runReady(context);
+  }
+  End end() {
+    EXPECT_TRUE(runUntil(context, [&] { return ended.has_value(); }));
+    return ended ? ended->end : End::kTimedOut;
+  }
+
+  asio::io_context context;
+  tcp::acceptor acceptor{context, tcp::endpoint(asio::ip::address_v4::loopback(), 0)};
+  std::shared_ptr<HttpExchange> exchange =
+      std::make_shared<HttpExchange>(context, HttpLimits{.head = 1000, .body = 100});
+  std::shared_ptr<const TlsContext> server_context;
+  std::unique_ptr<ByteStream> peer;
+  std::string server_problem;
+  std::string request;
+  std::optional<HttpExchange::Result> ended;
+};
+
+TEST_F(HttpExchangeTest, SendsTheRequestAndReadsTheAnswerInPieces) {
+  run(plain());
+  accept();
+  readRequest();
+  EXPECT_EQ(request, "GET /list HTTP/1.1\r\nHost: naiad.test\r\n\r\n");
+  for (const char c : std::string("HTTP/1.1 404 No\r\nContent-Length: 3\r\n\r\nabc")) answer({&c, 1});
+  EXPECT_EQ(end(), End::kAnswered);
+  EXPECT_EQ(exchange->answer().status(), 404U);
+  EXPECT_EQ(exchange->answer().body(), "abc");
+}
+
+TEST_F(HttpExchangeTest, RequestsWithABodySayHowLongItIs) {
+  const HttpRequest post{"POST", "/ready", "localhost", {{"Content-Type", "application/json"}}, "{}"};
+  EXPECT_EQ(post.text(),
+            "POST /ready HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+            "2\r\n\r\n{}");
+}
+
+TEST_F(HttpExchangeTest, EndOfTheConnectionEndsABodyWithoutLength) {
+  run(plain());
+  accept();
+  readRequest();
+  answer("HTTP/1.1 200 OK\r\n\r\nall");
+  peer.reset();
+  EXPECT_EQ(end(), End::kAnswered);
+  EXPECT_EQ(exchange->answer().body(), "all");
+}
+
+TEST_F(HttpExchangeTest, TruncatedAnswerIsABadOne) {
+  run(plain());
+  accept();
+  readRequest();
+  answer("HTTP/1.1 200 OK\r\nContent-Length: 4\r\n\r\nall");
+  peer.reset();
+  EXPECT_EQ(end(), End::kBadAnswer);
+}
+
+TEST_F(HttpExchangeTest, AnswersOfOtherProtocolsAndLongOnesAreRefused) {
+  run(plain());
+  accept();
+  answer("220 mail.example ESMTP\r\n\r\n");
+  EXPECT_EQ(end(), End::kBadAnswer);
+  ended.reset();
+  exchange = std::make_shared<HttpExchange>(context, HttpLimits{.head = 1000, .body = 100});
+  run(plain());
+  accept();
+  readRequest();
+  answer("HTTP/1.1 200 OK\r\n\r\n" + std::string(101, 'x'));
+  EXPECT_EQ(end(), End::kTooLong);
+}
+
+TEST_F(HttpExchangeTest, SilentServerTimesOut) {
+  run(plain(), milliseconds(100));
+  accept();
+  EXPECT_EQ(end(), End::kTimedOut);
+  EXPECT_TRUE(runUntil(context, [&] {
+    std::array<char, 1000> buffer;
+    return peer->read(buffer).outcome == ByteStream::Outcome::kEnd;
+  })) << "it is hung up on";
+}
+
+TEST_F(HttpExchangeTest, NothingThatListensIsUnreachable) {
+  const StreamTarget target = plain();
+  acceptor.close();
+  run(target);
+  EXPECT_EQ(end(), End::kUnreachable);
+}
+
+TEST_F(HttpExchangeTest, WithoutEncryptionNoOtherMachineIsConnectedTo) {
+  run({"192.0.2.1", 80});
+  EXPECT_EQ(end(), End::kOtherMachine);
+}
+
+TEST_F(HttpExchangeTest, HostWithoutAnAddressIsNotFound) {
+  run({"nothing.invalid", 80});
+  EXPECT_EQ(end(), End::kNotFound);
+}
+
+TEST_F(HttpExchangeTest, SwitchedProtocolGetsTheStreamAndWhatCameBehindTheAnswer) {
+  run(plain());
+  accept();
+  readRequest();
+  answer("HTTP/1.1 101 Switching\r\nUpgrade: x\r\n\r\nfirst");
+  ASSERT_EQ(end(), End::kAnswered);
+  EXPECT_EQ(exchange->bytesBehind(), "first");
+  const auto stream = exchange->releaseStream();
+  ASSERT_TRUE(stream);
+  EXPECT_EQ(stream->write("x").outcome, ByteStream::Outcome::kDone);
+}
+
+TEST_F(HttpExchangeTest, AnswerWithoutEndIsHandedOverPieceByPieceAndHasTime) {
+  std::string pieces;
+  run(plain(), milliseconds(80), [&](std::string_view piece) {
+    pieces += piece;
+    return pieces != "ab";
+  });
+  accept();
+  readRequest();
+  asio::steady_timer later(context, milliseconds(200));  // longer than the timeout
+  bool is_later = false;
+  later.async_wait([&](const std::error_code&) { is_later = true; });
+  ASSERT_TRUE(runUntil(context, [&] { return is_later; }));
+  ASSERT_FALSE(ended);
+  answer("HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n1\r\na");
+  ASSERT_TRUE(runUntil(context, [&] { return pieces == "a"; }));
+  answer("\r\n1\r\nb\r\n");
+  EXPECT_EQ(end(), End::kStopped);
+}
+
+TEST_F(HttpExchangeTest, AnswerWithoutEndNeedsStatus200) {
+  int pieces = 0;
+  run(plain(), seconds(20), [&](std::string_view) { return ++pieces > 0; });
+  accept();
+  readRequest();
+  answer("HTTP/1.1 500 No\r\n\r\nx");
+  EXPECT_EQ(end(), End::kBadAnswer);
+  EXPECT_EQ(ended->detail, "status 500");
+  EXPECT_EQ(pieces, 0);
+}
+
+TEST_F(HttpExchangeTest, HandlerOfTheBodyMayCancel) {
+  bool called = false;
+  run(plain(), seconds(20), [&](std::string_view) {
+    called = true;
+    exchange->cancel();
+    return true;
+  });
+  accept();
+  readRequest();
+  answer("HTTP/1.1 200 OK\r\n\r\na");
+  ASSERT_TRUE(runUntil(context, [&] { return called; }));
+  peer.reset();
+  context.restart();
+  context.run();  // nothing is left to do
+  EXPECT_FALSE(ended);
+}
+
+TEST_F(HttpExchangeTest, EventLoopMayEndWhileItRuns) {
+  bool called = false;
+  for (const bool connects : {false, true}) {
+    asio::io_context other;
+    const auto mine = std::make_shared<HttpExchange>(other);
+    mine->run(plain(), kRequest, seconds(20), [&](const HttpExchange::Result&) { called = true; });
+    if (connects) runReady(other);
+  }
+  EXPECT_FALSE(called);
+}
+
+/// Adds an authority that the system is told to trust.
+struct HttpsExchange : HttpExchangeTest {
+  HttpsExchange() {
+    std::string path = std::filesystem::temp_directory_path() / "naiad-trust-XXXXXX";
+    EXPECT_NE(mkdtemp(path.data()), nullptr);
+    folder = path;
+    std::ofstream(folder / "trusted.pem") << authority.certificate;
+    setenv("SSL_CERT_FILE", (folder / "trusted.pem").c_str(), 1);
+    client_context = TlsContext::forWebClient();
+    serve(TestIdentity::make("localhost", &authority));
+  }
+  ~HttpsExchange() override {
+    unsetenv("SSL_CERT_FILE");
+    std::filesystem::remove_all(folder);
+  }
+  void serve(const TestIdentity& identity) {
+    server_context = TlsContext::forWebServer(identity.certificate, identity.key);
+  }
+  StreamTarget https(const std::string& host = "localhost") const {
+    return {host, acceptor.local_endpoint().port(), client_context};
+  }
+
+  std::filesystem::path folder;
+  TestIdentity authority = TestIdentity::make("authority.test");
+  std::shared_ptr<const TlsContext> client_context;
+};
+
+TEST_F(HttpsExchange, ServerWithAGoodCertificateIsAsked) {
+  run(https());
+  accept();
+  readRequest();
+  answer("HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\nok");
+  EXPECT_EQ(end(), End::kAnswered);
+  EXPECT_EQ(exchange->answer().body(), "ok");
+}
+
+TEST_F(HttpsExchange, OlderTlsIsRefused) {
+  SSL_CTX_set_min_proto_version(server_context->get(), TLS1_1_VERSION);
+  SSL_CTX_set_max_proto_version(server_context->get(), TLS1_1_VERSION);
+  SSL_CTX_set_security_level(server_context->get(), 0);
+  run(https());
+  accept();
+  EXPECT_EQ(end(), End::kUntrusted);
+}
+
+TEST_F(HttpsExchange, CertificateThatIsNotGoodGetsNoRequest) {
+  const TestIdentity stranger = TestIdentity::make("localhost");
+  const TestIdentity other = TestIdentity::make("other.test", &authority);
+  for (const TestIdentity* const identity : {&stranger, &other}) {
+    serve(*identity);
+    ended.reset();
+    exchange = std::make_shared<HttpExchange>(context);
+    run(https());
+    accept();
+    EXPECT_EQ(end(), End::kUntrusted);
+    EXPECT_NE(ended->detail, "");
+    if (!peer) continue;
+    std::array<char, 1000> buffer;
+    EXPECT_NE(peer->read(buffer).outcome, ByteStream::Outcome::kDone);
+  }
+}
+
+TEST_F(HttpsExchange, BodyThatEndsWithoutCloseNotifyIsTruncated) {
+  run(https());
+  accept();
+  readRequest();
+  answer("HTTP/1.1 200 OK\r\n\r\nhalf");
+  peer->socket().close();
+  EXPECT_EQ(end(), End::kBadAnswer);
+}
+
+}  // namespace
+}  // namespace naiad::test

@@ -1,0 +1,115 @@
+// A ReliableChannel of WebSocket frames, whose peer is a bare stream that the test plays by hand.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "shared/net/http/WebSocketFraming.h"
+#include "shared/net/stream/TcpChannel.h"
+#include "tests/shared/net/Loopback.h"
+#include "tests/shared/net/Recorder.h"
+
+namespace naiad::test {
+namespace {
+
+const std::string kZeroMask(4, '\0');
+
+struct WebSocketChannel : testing::TestWithParam<Kind> {
+  void open(std::string_view behind = {}) {
+    StreamPair streams = connectedStreams(context, GetParam());
+    peer = std::move(streams.far);
+    auto framing = std::make_unique<WebSocketFraming>(100, [] { return WebSocketFraming::Mask{}; });
+    framing->feed(behind);
+    channel = makeFramedChannel(std::move(streams.near), std::move(framing));
+    channel->start(recorder.callbacks());
+  }
+  void peerSends(std::string_view bytes) {
+    ASSERT_EQ(peer->write(bytes).outcome, ByteStream::Outcome::kDone);
+  }
+  /// Waits until this many bytes have come from the channel.
+  std::string peerReads(std::size_t count) {
+    std::string all;
+    EXPECT_TRUE(runUntil(context, [&] {
+      std::array<char, 1000> buffer;
+      const auto [outcome, size] = peer->read(buffer);
+      if (outcome == ByteStream::Outcome::kDone) all.append(buffer.data(), size);
+      return all.size() >= count;
+    }));
+    return all;
+  }
+  CloseReason closed() {
+    EXPECT_TRUE(runUntil(context, [&] { return recorder.closed.has_value(); }));
+    return recorder.closed.value_or(CloseReason::kLocal);
+  }
+
+  asio::io_context context;
+  Recorder recorder;
+  std::unique_ptr<ByteStream> peer;
+  std::unique_ptr<ReliableChannel> channel;
+};
+
+TEST_P(WebSocketChannel, MessagesGoBothWays) {
+  open(std::string_view("\x82\x01", 2));
+  peerSends("a\x82\x02yz");
+  channel->send("hello");
+  EXPECT_EQ(peerReads(11), "\x82\x85" + kZeroMask + "hello");
+  EXPECT_TRUE(runUntil(context, [&] { return recorder.frames.size() == 2; }));
+  EXPECT_EQ(recorder.frames, (std::vector<std::string>{"a", "yz"}));
+}
+
+TEST_P(WebSocketChannel, BytesThatCameWithTheAnswerAreReadAtOnce) {
+  open(
+      "\x82\x05"
+      "first");
+  EXPECT_TRUE(runUntil(context, [&] { return recorder.frames.size() == 1; }));
+}
+
+TEST_P(WebSocketChannel, PingsAreAnswered) {
+  open();
+  peerSends("\x89\x02hi");
+  EXPECT_EQ(peerReads(8), "\x8a\x82" + kZeroMask + "hi");
+}
+
+TEST_P(WebSocketChannel, NormalCloseIsAnOrderlyEndAndEchoed) {
+  open();
+  peerSends("\x82\x01z\x88\x02\x03\xe8");
+  EXPECT_EQ(closed(), CloseReason::kPeer);
+  EXPECT_EQ(recorder.frames, std::vector<std::string>{"z"});
+  EXPECT_EQ(peerReads(8), "\x88\x82" + kZeroMask + "\x03\xe8");
+}
+
+TEST_P(WebSocketChannel, OtherCodesAreErrorsAndEchoed) {
+  open();
+  peerSends("\x88\x02\x0f\xa0");
+  EXPECT_EQ(closed(), CloseReason::kError);
+  EXPECT_EQ(peerReads(8), "\x88\x82" + kZeroMask + "\x0f\xa0");
+}
+
+TEST_P(WebSocketChannel, PeerThatBreaksTheRulesIsToldSo) {
+  open();
+  peerSends("\x83\x01x");
+  EXPECT_EQ(closed(), CloseReason::kProtocol);
+  EXPECT_EQ(peerReads(8), "\x88\x82" + kZeroMask + "\x03\xea");
+}
+
+TEST_P(WebSocketChannel, CloseSendsWhatIsQueuedThenACloseFrame) {
+  open();
+  channel->send("x");
+  channel->close();
+  EXPECT_EQ(peerReads(15), "\x82\x81" + kZeroMask + "x\x88\x82" + kZeroMask + "\x03\xe8");
+  peerSends("\x88\x02\x03\xe8");
+  peer->end();
+  peer->socket().close();
+  EXPECT_EQ(closed(), CloseReason::kLocal);
+}
+
+TEST_P(WebSocketChannel, HasNoSecretOfBothEnds) {
+  open();
+  EXPECT_EQ(channel->exportSecret("label", "", 32), "") << "a gateway has the other end";
+}
+
+INSTANTIATE_TEST_SUITE_P(Channel, WebSocketChannel, testing::Values(Kind::kPlain, Kind::kTls), nameOf);
+
+}  // namespace
+}  // namespace naiad::test
