@@ -1,0 +1,6 @@
+# dragonfly::dragonfly: the engine, and the physics if the game uses it.
+if(NOT TARGET dragonfly::dragonfly)
+  add_library(dragonfly::dragonfly INTERFACE IMPORTED)
+  set_target_properties(dragonfly::dragonfly PROPERTIES INTERFACE_LINK_LIBRARIES
+    "dragonfly::engine;-Wl,--push-state,--as-needed;dragonfly::physics;-Wl,--pop-state")
+endif()
