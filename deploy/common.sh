@@ -26,10 +26,10 @@ package_packages="dpkg-dev file"
 package_check_packages="lintian mmdebstrap systemd man-db groff zsh fish"
 
 # What it takes to build and run, and what the tests need on top of it (Debian 12 names).
-build_packages="g++ cmake ninja-build libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev libboost-dev zlib1g-dev libsqlite3-dev libnats-dev nlohmann-json3-dev"
+build_packages="g++ cmake ninja-build ccache libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev libboost-dev zlib1g-dev libsqlite3-dev libnats-dev nlohmann-json3-dev"
 # What the page for browsers is made with, and what it is tested in.
 page_packages="emscripten python3-fonttools python3-brotli python3-protobuf fonts-dejavu-core"
-check_packages="$build_packages $page_packages nats-server doxygen pkg-config chromium chromium-driver ccache libgtest-dev tmux python3 clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban python3-yaml dpkg-dev systemd man-db groff zsh fish"
+check_packages="$build_packages $page_packages nats-server doxygen pkg-config chromium chromium-driver libgtest-dev tmux python3 python3-websockets clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban python3-yaml dpkg-dev systemd man-db groff zsh fish"
 
 # What makes the pages of the headers.
 docs_packages="doxygen"
@@ -46,12 +46,19 @@ lab_packages="$build_packages libbox2d-dev libchipmunk-dev libsundials-dev libgt
 # What reports how much of a decoder was reached by fuzzing.
 fuzz_packages="llvm-14"
 
+# missing_packages "a b c": prints those that are not installed, with a blank before each.
+missing_packages() {
+  local package
+  for package in $1; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || printf ' %s' "$package"
+  done
+}
+has_packages() { [ -z "$(missing_packages "$1")" ]; }
+
 # need_packages "a b c": install those that are missing, and only then call apt.
 need_packages() {
-  local package missing=""
-  for package in $1; do
-    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing="$missing $package"
-  done
+  local missing
+  missing=$(missing_packages "$1")
   [ -z "$missing" ] && return 0
   local apt="apt-get install -y --no-install-recommends$missing" sudo=""
   if [ "$(id -u)" -ne 0 ]; then
@@ -78,17 +85,23 @@ need_packages() {
 
 # build PRESET TARGET...: configure and build, quietly unless something goes wrong. No target: all.
 build() {
-  local preset=$1 log launcher=()
+  local preset=$1 log options=()
   shift
   # GCC writes addresses of its own memory into precompiled headers. Where these are always the same, so are the headers,
   # and what was compiled with one is found again after it was compiled anew.
-  command -v ccache >/dev/null && launcher=("-DCMAKE_CXX_COMPILER_LAUNCHER=$(setarch -R true 2>/dev/null && echo 'setarch;-R;')ccache")
+  command -v ccache >/dev/null && options=("-DCMAKE_CXX_COMPILER_LAUNCHER=$(setarch -R true 2>/dev/null && echo 'setarch;-R;')ccache")
+  # All share the objects of `release`. Only deploy/check builds its tests; others leave them as they are.
+  if [ "$preset" = release ] && [ "$(basename "$0")" = check ]; then
+    options+=(-DNAIAD_TESTS=ON)
+  elif [ "$preset" = release ] && [ ! -e "$root/build/release/CMakeCache.txt" ]; then
+    options+=(-DNAIAD_TESTS=OFF)
+  fi
   export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1  # another checkout has use for the same objects
   # Without these ccache stores nothing that is compiled with a precompiled header.
   export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
   log=$(mktemp)
   say "building ($preset)"
-  if ! { (cd "$root" && cmake --preset "$preset" "${launcher[@]}" ${CMAKE_EXTRA:-}) >"$log" 2>&1 &&
+  if ! { (cd "$root" && cmake --preset "$preset" "${options[@]}" ${CMAKE_EXTRA:-}) >"$log" 2>&1 &&
          build_targets "$preset" "$@" >>"$log" 2>&1; }; then
     grep -vE '^\[[0-9]+/[0-9]+\] (Building|Linking|Generating|Running)' "$log" | tail -n 60 >&2
     rm -f "$log"
