@@ -6,15 +6,14 @@
 #include <system_error>
 
 #include "host/program/Host.h"
+#include "host/program/HostOptions.h"
 #include "host/program/QrCode.h"
+#include "host/program/SshDoor.h"
 #include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 
 namespace {
-
-constexpr std::uint16_t kSshPort = 22;
-constexpr std::size_t kMaxWebAddress = 300;  // a QR code of more does not fit a terminal
 
 void writeLine(const std::string& path, const char* what, const std::string& line) {
   if (path.empty()) return;
@@ -32,12 +31,6 @@ void addOtherDoors(const HostOptions& options, std::vector<std::string>& lines) 
   if (!options.web_address.empty()) lines.push_back("In a browser: " + options.web_address);
 }
 
-bool isWebAddress(const std::string& text) {
-  const bool begins = text.starts_with("https://") || text.starts_with("http://");
-  return begins && text.size() <= kMaxWebAddress &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
-}
-
 bool isHomeAlone(const std::string& address) {
   std::error_code error;
   const auto parsed = asio::ip::make_address(address, error);
@@ -45,35 +38,6 @@ bool isHomeAlone(const std::string& address) {
 }
 
 }  // namespace
-
-std::string announcementComplaint(const HostOptions& options) {
-  if (!options.link_host.empty() && !LinkHost::parse(options.link_host))
-    return "--link-host: HOST or HOST:PORT is wanted, IPv6 in brackets";
-  if (!options.ssh_door.empty() && !SshDoor::parse(options.ssh_door))
-    return "--ssh-door: USER@HOST or USER@HOST:PORT is wanted";
-  if (!options.web_address.empty() && !isWebAddress(options.web_address))
-    return "--web-address: an address that begins with https:// or http:// is wanted, of 300 characters at "
-           "most";
-  if (options.qr && options.web_address.empty()) return "--qr shows --web-address, which is not given";
-  return {};
-}
-
-std::optional<SshDoor> SshDoor::parse(std::string_view text) {
-  const std::size_t at = text.find('@');
-  if (at == std::string_view::npos || at == 0 || text.front() == '-') return std::nullopt;
-  const std::string_view user = text.substr(0, at);
-  const bool is_plain = std::all_of(user.begin(), user.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-  });
-  const auto where = LinkHost::parse(text.substr(at + 1), kSshPort);
-  if (!is_plain || !where) return std::nullopt;
-  return SshDoor{std::string(user), *where};
-}
-
-std::string SshDoor::command() const {
-  const std::string port = where.port == kSshPort ? "" : "-p " + std::to_string(where.port) + " ";
-  return "ssh " + port + user + "@" + where.host;
-}
 
 std::vector<std::string> howToJoin(const Host& host, const HostOptions& options, const Openness& openness) {
   const auto local = host.joinLink(false);

@@ -1,12 +1,8 @@
 // Tells people and scripts, at a server's start, its address and how to join.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
-
-#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 
@@ -18,19 +14,6 @@ struct Openness {
   std::string how_to_open;
   std::string how_to_restrict;
 };
-
-/// USER@HOST[:PORT], where an ssh door is; port 22 if none is named.
-struct SshDoor {
-  std::string user;  ///< of letters, digits, '-' and '_': it is copied into shells
-  LinkHost where;
-
-  static std::optional<SshDoor> parse(std::string_view text);
-  /// "ssh play@games.example", "ssh -p 2222 play@::1".
-  std::string command() const;
-};
-
-/// What is wrong with the options that are printed for players; empty if nothing is.
-std::string announcementComplaint(const HostOptions& options);
 
 /// "Join from this machine with: dfclient naiad://…", how from elsewhere, by ssh and on a page as far as the
 /// options name these, and what is listened on.

@@ -5,6 +5,7 @@
 
 #include "host/admin/PlayerChoice.h"
 #include "host/program/HostAdmin.h"
+#include "host/program/ServerLine.h"
 #include "shared/admin/AdminText.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/program/LogText.h"

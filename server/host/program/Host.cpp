@@ -17,6 +17,7 @@
 #include "host/program/NetworkReport.h"
 #include "host/program/Places.h"
 #include "host/program/RoundHandover.h"
+#include "host/program/ServerLine.h"
 #include "host/program/StopSignals.h"
 #include "host/session/LookAlikes.h"
 #include "naiad.pb.h"

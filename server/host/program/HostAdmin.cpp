@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "host/program/RoomList.h"
+#include "host/program/ServerLine.h"
 #include "naiad.pb.h"
 #include "shared/admin/TimeSpan.h"
 #include "shared/net/base/Limits.h"
@@ -86,12 +87,6 @@ double millis(std::chrono::microseconds time) {
 }
 
 }  // namespace
-
-void sendServerLine(Session& session, const std::string& text) {
-  wire::ServerMessage message;
-  message.mutable_chat()->set_text(safeText(text, kMaxChatLength));  // without a player: the server's
-  session.sendKept(message);
-}
 
 HostAdmin::HostAdmin(Setup setup) : m_setup(std::move(setup)), m_began(Session::Clock::now()) {}
 

@@ -80,7 +80,4 @@ class HostAdmin : public AdminTarget {
   Session::Clock::time_point m_began;
 };
 
-/// A line of the server's own in the chat of one player, cut to the length of one.
-void sendServerLine(Session& session, const std::string& text);
-
 }  // namespace naiad

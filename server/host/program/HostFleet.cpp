@@ -61,17 +61,6 @@ std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms) {
   return all;
 }
 
-std::string fleetComplaint(const HostOptions& options) {
-  if (options.bus.empty()) {
-    if (!options.bus_credentials.empty() || !options.bus_ca.empty() || !options.bus_id.empty())
-      return "--bus-credentials, --bus-ca and --bus-id are for --bus, which is not given";
-    return {};
-  }
-  if (!options.bus_id.empty() && !isServerId(options.bus_id))
-    return "--bus-id: 1 to " + std::to_string(kMaxServerId) + " of a-z, 0-9 and '-' are wanted";
-  return busComplaint(busSettings(options));
-}
-
 HostFleet::HostFleet(Setup setup) : m_setup(std::move(setup)), m_platform(makePlatform(m_setup.options)) {
   if (m_setup.options.bus.empty()) return;
   m_id = busId(m_setup.options, m_setup.network.port());

@@ -86,7 +86,4 @@ class HostFleet {
 /// The rooms of a server, where they have names.
 std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms);
 
-/// What is wrong with the options of platform and bus; empty if nothing is.
-std::string fleetComplaint(const HostOptions& options);
-
 }  // namespace naiad

@@ -8,12 +8,9 @@
 #include <iostream>
 #include <vector>
 
-#include "host/metrics/MetricsAddress.h"
-#include "host/program/Announcement.h"
 #include "host/program/DefaultFolders.h"
-#include "host/program/HostFleet.h"
+#include "host/program/HostOptionsCheck.h"
 #include "host/program/RoomList.h"
-#include "host/program/Worlds.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
 #include "shared/options/UnknownVariables.h"
@@ -305,7 +302,6 @@ void warnOfUnknownVariables(const std::vector<Row>& rows, HostOptions& options) 
 }
 
 constexpr const char* kLoopback = "127.0.0.1";
-constexpr int kMinFrameMicros = 1000;  // clients believe no shorter one
 
 const char* const kExitCodes =
     "Exit codes:\n"
@@ -323,35 +319,6 @@ std::string keyOf(const Row& row) {
   std::string key = row.option.name.substr(2);
   std::replace(key.begin(), key.end(), '-', '_');
   return key;
-}
-
-/// What is wrong with where metrics are given out; empty if nothing is.
-std::string metricsComplaint(const HostOptions& options) {
-  if (!MetricsHosts::parse(options.metrics_hosts))
-    return "--metrics-hosts: names with commas between are wanted";
-  if (options.metrics.empty()) return {};
-  const auto address = MetricsAddress::parse(options.metrics);
-  if (!address) return "--metrics: a numeric ADDR:PORT is wanted, IPv6 in brackets";
-  if (!address->is_private && !options.metrics_public)
-    return "--metrics: everybody could read them on " + address->address +
-           ", which is no address of loopback or of a private network; --metrics-public lets them";
-  return {};
-}
-
-/// What is wrong with options together; empty if nothing is.
-std::string complaint(const HostOptions& options) {
-  if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
-    return "--frame-time: " + std::to_string(options.frame_micros) + " is neither 0 nor " +
-           std::to_string(kMinFrameMicros) + " or more";
-  }
-  if (std::string wrong = inProcessComplaint(options); !wrong.empty()) return wrong;
-  if (options.certificate.empty() != options.key.empty()) return "--certificate and --key come together";
-  if (options.insecure && options.lan == "on") return "--lan on needs encryption, so not --insecure";
-  if (options.insecure && !options.visitors.empty()) return "--visitors needs encryption, so not --insecure";
-  if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
-  if (std::string wrong = fleetComplaint(options); !wrong.empty()) return wrong;
-  if (std::string wrong = roomsComplaint(options); !wrong.empty()) return wrong;
-  return announcementComplaint(options);
 }
 
 bool isHash(const std::string& password) {
@@ -456,7 +423,7 @@ HostOptions readHostOptions(int argc, const char* const* argv) {
     if (row.used_by != UsedBy::kProgram) all.push_back(std::move(row.option));
   }
   readOptions(dfserver(), all, argc, argv);
-  if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
+  if (const std::string wrong = optionsComplaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
   useRooms(options);
   useDefaultFolders(options);
@@ -475,7 +442,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
     case Parsed::kUsageError:
       return CommandLine::kUsageError;
   }
-  if (const std::string wrong = complaint(options); !wrong.empty()) {
+  if (const std::string wrong = optionsComplaint(options); !wrong.empty()) {
     std::cerr << "dfserver: " << wrong << "\nRun dfserver --help for more information.\n";
     return CommandLine::kUsageError;
   }
@@ -538,7 +505,7 @@ std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOption
     storeValue(row.option, value, place);
   }
   if (given.count("address") == 0 && !options.is_public) options.address = kLoopback;
-  if (const std::string wrong = complaint(options); !wrong.empty()) throw OptionError(wrong);
+  if (const std::string wrong = optionsComplaint(options); !wrong.empty()) throw OptionError(wrong);
   keepHome(options);
   if (options.control == kOffWord) options.control.clear();
   if (options.journal == kOffWord) options.journal.clear();

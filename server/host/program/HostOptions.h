@@ -96,6 +96,12 @@ inline bool wantsJournal(const HostOptions& options) {
   return !options.journal.empty() && options.journal != "off" && !options.no_journal;
 }
 
+/// Has a game that is a program itself worlds in processes of their own? Another round, or another world
+/// beside the first, is another process, and so is a world that is written down.
+inline bool wantsWorlds(const HostOptions& options) {
+  return options.on_game_over == "restart" || options.players == "private" || wantsJournal(options);
+}
+
 /// What the command line asked for.
 enum class CommandLine { kRun, kListGames, kDone, kUsageError };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/program/HostAdmin.h"
+#include "host/program/ServerLine.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/RoomName.h"

@@ -103,20 +103,6 @@ std::unique_ptr<WorldPort> goOnWithRound(const std::shared_ptr<const WorldLaunch
 
 }  // namespace
 
-bool wantsWorlds(const HostOptions& options) {
-  return options.on_game_over == "restart" || options.players == "private" || wantsJournal(options);
-}
-
-std::string inProcessComplaint(const HostOptions& options) {
-  if (!options.in_process) return {};
-  if (wantsJournal(options))
-    return "--in-process goes without --journal: rounds are written down of games in processes of their own";
-  if (options.rooms.empty() && !wantsWorlds(options)) return {};
-  return "--in-process is not for --room, --on-game-over restart or --players private: each of their worlds "
-         "has "
-         "a process of its own";
-}
-
 bool leavesAlone(const HostOptions& options) {
   return options.on_game_over != "exit";
 }
@@ -147,8 +133,8 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
   return launch(options, place, ownArguments(), log);
 }
 
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print,
-                           std::shared_ptr<Journals> journals) {
+std::function<std::unique_ptr<WorldPort>(asio::io_context& home)> startWorlds(
+    std::shared_ptr<const WorldLauncher> launcher, LogLine print, std::shared_ptr<Journals> journals) {
   using NewPort = std::unique_ptr<WorldPort>;
   return [launcher = std::move(launcher), print = std::move(print),
           journals = std::move(journals)](asio::io_context& home) -> NewPort {

@@ -1,11 +1,11 @@
-// When a game gets worlds in processes of their own, and what starts them.
+// Starts worlds in processes of their own.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "host/program/Host.h"
 #include "host/program/HostOptions.h"
 #include "host/program/Journals.h"
 #include "host/world/WorldLauncher.h"
@@ -14,11 +14,6 @@
 
 namespace naiad {
 
-/// Has a game that is a program itself worlds in processes of their own? Another round, or another world
-/// beside the first, is another process, and so is a world that is written down.
-bool wantsWorlds(const HostOptions& options);
-/// What is wrong with --in-process and what else was asked for; empty if nothing is.
-std::string inProcessComplaint(const HostOptions& options);
 /// Does a key that ends the game end it for its player alone?
 bool leavesAlone(const HostOptions& options);
 
@@ -36,8 +31,9 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
 /// For Host::setWorlds(). `print`: gets the lines that worlds print. They may have any bytes, and read as a
 /// line of the server's own.
 /// `journals`: write their rounds down; null: do not.
-Host::NewWorld startWorlds(std::shared_ptr<const WorldLauncher> launcher, LogLine print,
-                           std::shared_ptr<Journals> journals = nullptr);
+std::function<std::unique_ptr<WorldPort>(asio::io_context& home)> startWorlds(
+    std::shared_ptr<const WorldLauncher> launcher, LogLine print,
+    std::shared_ptr<Journals> journals = nullptr);
 
 /// The options with the length of a tick that the game asks for, unless they have one.
 HostOptions withFrameTime(HostOptions options, const WorldReady& ready);

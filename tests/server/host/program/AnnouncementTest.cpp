@@ -7,13 +7,6 @@
 namespace naiad {
 namespace {
 
-TEST(Announcement, AnSshDoorIsTheCommandToType) {
-  EXPECT_EQ(SshDoor::parse("play@game.example")->command(), "ssh play@game.example");
-  EXPECT_EQ(SshDoor::parse("play@game.example:22")->command(), "ssh play@game.example");
-  EXPECT_EQ(SshDoor::parse("play@game.example:2222")->command(), "ssh -p 2222 play@game.example");
-  EXPECT_EQ(SshDoor::parse("p_l-1@[::1]:9876")->command(), "ssh -p 9876 p_l-1@::1");
-}
-
 class QrCodeTest : public testing::Test {
  protected:
   QrCodeTest() : m_lines(qrCode("https://game.example/play")) {
