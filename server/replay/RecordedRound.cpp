@@ -6,11 +6,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "host/program/GameModule.h"
-#include "host/program/HostOptions.h"
-#include "host/program/Journals.h"
-#include "host/program/WorldSandbox.h"
-#include "host/program/Worlds.h"
+#include "host/rounds/Journals.h"
+#include "host/rounds/WorldSandbox.h"
+#include "host/rounds/Worlds.h"
+#include "host/settings/GameModule.h"
+#include "host/settings/HostOptions.h"
 #include "shared/net/base/SafeText.h"
 
 namespace naiad {

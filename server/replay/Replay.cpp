@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "host/program/Journals.h"
+#include "host/rounds/Journals.h"
 #include "host/world/WorldProcess.h"
 #include "shared/net/base/SafeText.h"
 

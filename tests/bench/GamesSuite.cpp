@@ -13,7 +13,7 @@
 #include "engine/world/Player.h"
 #include "engine/world/Runner.h"
 #include "engine/world/World.h"
-#include "host/program/GameModule.h"
+#include "host/settings/GameModule.h"
 #include "net/LinkedClient.h"
 #include "tests/server/games/RandomPlayers.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "TestClient.h"
-#include "host/program/HostOptions.h"
+#include "host/settings/HostOptions.h"
 
 namespace naiad::test {
 

@@ -17,7 +17,7 @@
 #include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
 #include "host/journal/OpenRound.h"
-#include "host/program/Journals.h"
+#include "host/rounds/Journals.h"
 #include "host/scores/ScoreStore.h"
 #include "server/replay/PictureReel.h"
 #include "server/replay/RecordedRound.h"

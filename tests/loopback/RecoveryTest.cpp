@@ -14,7 +14,7 @@
 
 #include "RecoveryRun.h"
 #include "host/journal/DfrWriter.h"
-#include "host/program/Journals.h"
+#include "host/rounds/Journals.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad::test {

@@ -16,7 +16,7 @@
 #include "ProcessesBelow.h"
 #include "host/journal/DfrWriter.h"
 #include "host/journal/OpenRound.h"
-#include "host/program/Journals.h"
+#include "host/rounds/Journals.h"
 
 namespace naiad::test {
 namespace {

@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "engine/world/World.h"
-#include "host/program/Host.h"
-#include "host/program/HostOptions.h"
+#include "host/loop/Host.h"
+#include "host/settings/HostOptions.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad::test {

@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "host/program/Host.h"
-#include "host/program/HostOptions.h"
+#include "host/loop/Host.h"
 #include "host/program/QrCode.h"
-#include "host/program/SshDoor.h"
+#include "host/settings/HostOptions.h"
+#include "host/settings/SshDoor.h"
 #include "shared/net/base/SafeFile.h"
 
 namespace naiad {

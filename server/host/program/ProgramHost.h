@@ -14,7 +14,7 @@
 #include <string>
 
 #include "engine/world/Runner.h"
-#include "host/program/HostOptions.h"
+#include "host/settings/HostOptions.h"
 
 namespace naiad {
 

@@ -11,9 +11,9 @@
 #include <sstream>
 #include <string>
 
-#include "host/program/GameModule.h"
-#include "host/program/Journals.h"
-#include "host/program/Worlds.h"
+#include "host/rounds/Journals.h"
+#include "host/rounds/Worlds.h"
+#include "host/settings/GameModule.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Verify.h"
 #include "tests/server/replay/Recorder.h"

@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/program/RoundHandover.h"
+#include "host/rounds/RoundHandover.h"
 #include "host/world/WorldCopies.h"
 #include "shared/net/base/Limits.h"
 #include "tests/server/host/admin/Talk.h"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "host/journal/DfrReader.h"
-#include "host/program/GameModule.h"
-#include "host/program/Journals.h"
-#include "host/program/Worlds.h"
+#include "host/rounds/Journals.h"
+#include "host/rounds/Worlds.h"
+#include "host/settings/GameModule.h"
 #include "host/world/WorldProcess.h"
 #include "shared/values/SplitMix64.h"
 

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string>
 
-#include "host/program/GameModule.h"
-#include "host/program/Journals.h"
+#include "host/rounds/Journals.h"
+#include "host/settings/GameModule.h"
 #include "host/world/FixedStart.h"
 #include "server/replay/PictureReel.h"
 #include "server/replay/Replay.h"

@@ -23,7 +23,7 @@
 #include "engine/world/Object.h"
 #include "engine/world/Player.h"
 #include "engine/world/World.h"
-#include "host/program/Host.h"
+#include "host/loop/Host.h"
 #include "shared/program/OpenFiles.h"
 
 namespace {

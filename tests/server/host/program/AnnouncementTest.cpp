@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "host/program/Announcement.h"
-#include "host/program/HostOptions.h"
 #include "host/program/QrCode.h"
+#include "host/settings/HostOptions.h"
 
 namespace naiad {
 namespace {

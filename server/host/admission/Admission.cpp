@@ -1,0 +1,549 @@
+#include "host/admission/Admission.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "host/process/TickClock.h"
+#include "host/session/Names.h"
+#include "naiad.pb.h"
+#include "shared/net/base/AddressRange.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/program/LogText.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+namespace {
+
+/// How to seal datagrams for `channel`, if there is one.
+void describe(const SealedChannel* channel, wire::Welcome& welcome) {
+  if (channel == nullptr) return;
+  welcome.set_connection_id(channel->id());
+  welcome.set_aead(static_cast<std::uint32_t>(channel->aead()));
+  welcome.set_epoch(channel->epoch());
+}
+
+/// The colours that players get, in turn. Blue is the darkest on a black background, so it is the last; black
+/// would not be seen.
+constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW,
+                                       df::RED,  df::WHITE, df::BLUE};
+
+df::Color colorOf(std::uint64_t nth) {
+  return kPlayerColors[nth % std::size(kPlayerColors)];
+}
+
+AddressPrefix prefixOf(const Session& session) {
+  return AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
+}
+
+std::string versionSentence(std::uint32_t version) {
+  return "This server speaks version " + std::to_string(kProtocolVersion) +
+         " of the protocol, your client version " + std::to_string(version) + ". Please update the " +
+         (version < kProtocolVersion ? "client." : "server.");
+}
+
+KeptSession keptOf(const wire::Welcome& welcome, const ResumeTokens::Hashed& tokens, bool muted) {
+  return {.player = welcome.player(),
+          .muted = muted,
+          .name = welcome.name(),
+          .color = static_cast<df::Color>(welcome.color()),
+          .newest = tokens.newest,
+          .redeemed = tokens.redeemed};
+}
+
+/// `"NAME" HAPPENED`, a line of the log with the name among its facts.
+LogEvent newsOf(const char* what, const std::string& name, const std::string& happened,
+                LogEvent::Fields facts = {}) {
+  facts.insert(facts.begin(), {"player", name});
+  return {what, inQuotes(name) + " " + happened, std::move(facts)};
+}
+
+}  // namespace
+
+Admission::Admission(Setup setup, const asio::any_io_executor& executor)
+    : m_setup(std::move(setup)),
+      m_counters(m_setup.counters),
+      m_joins(PrefixRates::joins(m_setup.options.max_per_address)),
+      m_new_worlds(PrefixRates::worlds(m_setup.options.max_per_address, m_setup.options.max_players)),
+      m_door(m_setup.rooms, m_setup.options.max_per_address),
+      m_executor(executor) {
+  const std::string& password = m_setup.options.password;
+  if (!password.empty()) changePassword(PasswordHash::fromText(password));
+}
+
+// Guesses that wait are compared with the new one, or admitted where none is needed any more.
+void Admission::changePassword(std::optional<PasswordHash> hash) {
+  m_needs_password = hash.has_value();
+  if (!hash) return;
+  if (m_password) return m_password->setHash(std::move(*hash));
+  m_password = std::make_unique<PasswordCheck>(m_executor, std::move(*hash));
+}
+
+void Admission::judgeHello(Session& session, const wire::Hello& hello) {
+  if (!checkHello(session, hello) || isBanned(session, cleanName(hello.player_name()))) return;
+  if (waitsForRound(hello)) {
+    m_waiting.push_back({session.id(), std::make_shared<wire::Hello>(hello), session.now()});
+    return;
+  }
+  if (hello.second_stream()) return addSecondStream(session, hello);
+  if (!hello.resume_token().empty() && resumeSession(session, hello)) return;
+  if (m_needs_password) return checkPassword(session, hello);
+  admitPlayer(session, hello);
+}
+
+// In rooms that have names, only a client that looks for its session does: it may be in one that is not there
+// yet. A room that is not there yet lets others in later (RoomDoor.h).
+bool Admission::waitsForRound(const wire::Hello& hello) const {
+  if (!m_setup.rooms.recovering()) return false;
+  return !m_setup.rooms.isNamed() ||
+         (!hello.resume_token().empty() && !m_tokens.find(hello.resume_token()).has_value());
+}
+
+// The address was asked for before TLS; a ban may have come meanwhile.
+bool Admission::isBanned(Session& session, const std::string& name) {
+  const auto address = endpointAddress(session.address());
+  const std::string sentence = m_setup.bans.refusal(address.value_or(asio::ip::address()), name);
+  if (sentence.empty()) return false;
+  ++m_counters.refused_banned;
+  session.refuse(wire::Refused::BAD_REQUEST, safeText(sentence, kMaxSentenceLength));
+  return true;
+}
+
+bool Admission::checkHello(Session& session, const wire::Hello& hello) {
+  if (hello.protocol() != kProtocolVersion) {
+    ++m_counters.refused_version;
+    session.refuse(wire::Refused::VERSION, versionSentence(hello.protocol()));
+    return false;
+  }
+  if (!hello.game().empty() && hello.game() != m_setup.game && !m_setup.rooms.isNamed()) {
+    ++m_counters.refused_game;
+    session.refuse(wire::Refused::GAME,
+                   "This server plays \"" + m_setup.game + "\", not \"" + cleanName(hello.game()) + "\".");
+    return false;
+  }
+  if (!hello.room().empty() && !m_setup.rooms.isNamed()) {
+    ++m_counters.refused_room;
+    session.refuse(wire::Refused::GAME, "This server has no rooms: join it without a name of one.");
+    return false;
+  }
+  return true;
+}
+
+// ---- password ---------------------------------------------------------------------------------------------
+
+void Admission::checkPassword(Session& session, const wire::Hello& hello) {
+  const auto on_answer = [this, id = session.id(), hello](PasswordCheck::Answer answer) {
+    Session* p_waiting = m_setup.sessions.find(id);
+    if (p_waiting == nullptr || p_waiting->state() != Session::State::kGreeting) return;
+    applyPasswordAnswer(*p_waiting, hello, answer);
+  };
+  const AddressPrefix prefix = prefixOf(session);
+  m_password->check(prefix, m_setup.prefixes.count(prefix) > 0, hello.password(), Session::Clock::now(),
+                    on_answer);
+}
+
+void Admission::applyPasswordAnswer(Session& session, const wire::Hello& hello,
+                                    PasswordCheck::Answer answer) {
+  switch (answer) {
+    case PasswordCheck::Answer::kRight:
+      return admitPlayer(session, hello);
+    case PasswordCheck::Answer::kWrong:
+      ++m_counters.refused_password;
+      return session.refuse(wire::Refused::PASSWORD, hello.password().empty()
+                                                         ? "This server wants a password."
+                                                         : "That is not this server's password.");
+    case PasswordCheck::Answer::kTooMany:
+      ++m_counters.refused_password;
+      return session.refuse(wire::Refused::PASSWORD, "Too many wrong passwords. Try again in a minute.");
+    case PasswordCheck::Answer::kBusy:
+      return refuseBusy(session, "The server is busy. Try again in a moment.");
+  }
+}
+
+PasswordCheck::Counters Admission::passwordCounters() const {
+  return m_password ? m_password->counters() : PasswordCheck::Counters();
+}
+
+void Admission::forgetSession(const Session& session) {
+  if (Room* p_room = m_setup.rooms.roomOf(session); p_room != nullptr && session.player() != 0)
+    p_room->port().noteSession({.player = session.player(), .over = true});
+  m_tokens.forget(session.id());
+  m_setup.prefixes.forget(session.id());
+}
+
+// ---- sessions that go on ----------------------------------------------------------------------------------
+
+// False: the token is of no session that could go on.
+bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
+  if (m_tokens.isElsewhere(hello.resume_token())) {
+    ++m_counters.refused_elsewhere;
+    session.refuse(wire::Refused::ELSEWHERE, "You went on playing in another terminal.");
+    return true;
+  }
+  const auto id = m_tokens.find(hello.resume_token());
+  Session* p_before = id ? m_setup.sessions.find(*id) : nullptr;
+  if (p_before == nullptr || p_before->state() != Session::State::kPlaying) {
+    ++m_counters.unknown_tokens;
+    return false;
+  }
+  if (isBanned(session, p_before->name())) return true;
+  if (!p_before->admitResume()) {  // the token stays good for the next attempt
+    session.refuse(wire::Refused::BUSY,
+                   "Your connection breaks too often. The server lets you back in a moment.");
+    return true;
+  }
+  m_tokens.redeem(hello.resume_token());
+  if (p_before->isRestored()) {
+    takeOverSession(*p_before, session, hello);
+    return true;
+  }
+  wire::Welcome welcome = p_before->welcomed();
+  welcome.set_resumed(true);
+  if (const Room* p_room = m_setup.rooms.roomOf(*p_before)) welcome.set_tick(p_room->tick());
+  welcome.set_resume_token(m_tokens.issue(p_before->id()));
+  welcome.set_aead(0);
+  noteSession(*p_before);
+  m_setup.prefixes.note(p_before->id(), prefixOf(session));
+  hello.fresh() ? restartSession(*p_before, session, hello, welcome)
+                : continueSession(*p_before, session, hello, welcome);
+  return true;
+}
+
+void Admission::restartSession(Session& before, Session& session, const wire::Hello& hello,
+                               wire::Welcome& welcome) {
+  m_tokens.noteRestart(before.id());
+  auto datagrams = openDatagrams(session, hello);
+  describe(datagrams.get(), welcome);
+  before.restart(session, welcome, std::move(datagrams));
+  m_setup.on_new_client();
+  if (Room* p_room = m_setup.rooms.roomOf(before)) p_room->repeatSounds(before.player());
+  m_setup.log_client(before.address(), newsOf("restarted", before.name(), "is back, with another client"));
+}
+
+void Admission::continueSession(Session& before, Session& session, const wire::Hello& hello,
+                                wire::Welcome& welcome) {
+  if (SealedChannel* p_datagrams = before.datagrams()) {
+    const Epoch epoch = p_datagrams->epoch() + 1;
+    welcome.set_connection_id(p_datagrams->id());
+    if (p_datagrams->renew(*session.stream(), epoch)) describe(p_datagrams, welcome);
+  }
+  before.adopt(session, welcome, hello.received());
+  m_setup.log_client(before.address(), newsOf("resumed", before.name(), "is back"));
+}
+
+// The token is that of a session that has its stream. Without one the client is refused: it asked for a
+// second stream, so it is not a new player.
+void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
+  const auto id = m_tokens.holderOf(hello.resume_token());
+  Session* p_first = id ? m_setup.sessions.find(*id) : nullptr;
+  if (p_first == nullptr || p_first->state() != Session::State::kPlaying || p_first->isDetached()) {
+    ++m_counters.unknown_tokens;
+    return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
+  }
+  if (isBanned(session, p_first->name())) return;
+  if (!p_first->admitSecond()) {  // the token and the streams that there are stay good
+    return session.refuse(wire::Refused::BUSY,
+                          "Your second stream comes again too often. Try again in a moment.");
+  }
+  m_setup.log_client(session.address(), newsOf("second_stream", p_first->name(), "has a second stream"));
+  p_first->accompany(session);
+}
+
+// ---- sessions of a server that was killed
+// ------------------------------------------------------------------
+
+// Clients that look for a lost server ask again in a moment, and show the sentence.
+void Admission::judgeWaiting() {
+  const int percent = m_setup.rooms.recovering().value_or(100);
+  const std::chrono::milliseconds patience = percent > 50 ? kNearEndWait : kRecoveryWait;
+  for (const WaitingHello& one : std::exchange(m_waiting, {})) {
+    Session* p_session = m_setup.sessions.find(one.session);
+    if (p_session == nullptr || p_session->state() != Session::State::kGreeting) continue;
+    if (!waitsForRound(*one.hello)) {
+      judgeHello(*p_session, *one.hello);
+    } else if (p_session->now() - one.since < patience) {
+      m_waiting.push_back(one);
+    } else {
+      refuseBusy(*p_session,
+                 "The server was down and restores your game: " + std::to_string(percent) + " %.");
+    }
+  }
+}
+
+void Admission::restoreSessions(Room& room, const std::vector<KeptSession>& sessions) {
+  if (!m_setup.restore_session) return;
+  for (const KeptSession& kept : sessions) {
+    Session& session = m_setup.restore_session(welcomeOf(room, kept.player, kept.name, kept.color));
+    session.setGrace(graceTime());
+    session.standing().setMuted(kept.muted);
+    m_tokens.restore(session.id(), {kept.newest, kept.redeemed});
+    m_setup.rooms.add(room, session);
+    m_next_player = std::max(m_next_player, kept.player + 1);
+    ++m_counters.restored;
+  }
+}
+
+// The client's new stream is a session of its own, which knows as little as the client: the world is sent
+// from the beginning. Its welcome may be lost, so the token before stays good until the client proves that it
+// has read it.
+void Admission::takeOverSession(Session& before, Session& session, const wire::Hello& hello) {
+  Room* p_room = m_setup.rooms.roomOf(before);
+  wire::Welcome welcome = before.welcomed();
+  if (p_room != nullptr) welcome.set_tick(p_room->tick());
+  welcome.clear_resumed();
+  welcome.clear_continuation();
+  std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
+  welcome.clear_connection_id();
+  welcome.clear_aead();
+  welcome.clear_epoch();
+  describe(datagrams.get(), welcome);
+  m_tokens.move(before.id(), session.id());
+  welcome.set_resume_token(m_tokens.issue(session.id()));
+  m_setup.prefixes.forget(before.id());
+  m_setup.prefixes.note(session.id(), prefixOf(session));
+  if (p_room != nullptr)
+    p_room->port().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), before.standing().isMuted()));
+  session.setGrace(graceTime());
+  session.welcome(welcome, std::move(datagrams));
+  session.takeOver(before);
+  if (p_room != nullptr) {
+    p_room->remove(before);
+    m_setup.rooms.add(*p_room, session);
+  }
+  m_setup.on_new_client();
+  ++m_counters.returned;
+  m_setup.log_client(session.address(),
+                     newsOf("resumed", session.name(), "is back, in the round that goes on"));
+}
+
+void Admission::confirmToken(Session& session) {
+  session.confirm();
+  m_tokens.confirm(session.id());
+  noteSession(session);
+}
+
+void Admission::noteSession(const Session& session) const {
+  Room* p_room = m_setup.rooms.roomOf(session);
+  if (p_room != nullptr) p_room->port().noteSession(keptSession(session));
+}
+
+void Admission::noteSessions(const Room& room) const {
+  room.forEachPlaying([this](const Session& session) { noteSession(session); });
+}
+
+KeptSession Admission::keptSession(const Session& session) const {
+  return keptOf(session.welcomed(), m_tokens.hashed(session.id()), session.standing().isMuted());
+}
+
+// ---- new players ------------------------------------------------------------------------------------------
+
+void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
+  if (!checkLimits(session)) return;
+  const std::string wanted = cleanName(hello.player_name());
+  if (wanted.empty()) {
+    ++m_counters.refused_name;
+    return session.refuse(wire::Refused::NAME, "A player needs a name of 1 to 16 printable characters.");
+  }
+  Room* p_room = roomFor(session, hello);
+  if (p_room == nullptr) return;
+  const std::string name = freeName(wanted);
+  wire::Welcome welcome = welcomeTo(*p_room, name);
+  std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
+  describe(datagrams.get(), welcome);
+  session.setGrace(graceTime());
+  if (m_setup.options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
+  m_setup.prefixes.note(session.id(), prefixOf(session));
+  p_room->port().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), false));
+  session.welcome(welcome, std::move(datagrams));
+  m_setup.rooms.add(*p_room, session);
+  m_setup.on_new_client();
+  const std::string program = safeText(hello.program(), kMaxProgramLength);
+  m_setup.log_client(session.address(),
+                     newsOf("joined", name, "joined with " + inQuotes(program), {{"program", program}}));
+}
+
+// False: the session was refused.
+bool Admission::checkLimits(Session& session) {
+  if (!m_setup.is_open()) {
+    ++m_counters.refused_closing;
+    refuseFull(session, "The server is closing and lets no new players in.");
+    return false;
+  }
+  const int max_players = m_setup.options.max_players;
+  const int max_per_address = m_setup.options.max_per_address;
+  if (m_setup.sessions.playing() >= static_cast<std::size_t>(max_players)) {
+    ++m_counters.refused_full;
+    refuseFull(session, "The server is full (" + std::to_string(max_players) + " players). Try again later.");
+    return false;
+  }
+  // A player whose connection broke counts: their place is kept, and an address must not collect such places.
+  if (m_setup.prefixes.count(prefixOf(session)) >= static_cast<std::size_t>(max_per_address)) {
+    ++m_counters.refused_address;
+    session.refuse(wire::Refused::FULL, "There are " + std::to_string(max_per_address) +
+                                            " players from your address already. Try again later.");
+    return false;
+  }
+  return true;
+}
+
+// Another server of the fleet may have a place.
+void Admission::refuseFull(Session& session, const std::string& sentence) {
+  const auto link = m_setup.send_on ? m_setup.send_on() : std::nullopt;
+  if (!link) return session.refuse(wire::Refused::FULL, sentence);
+  ++m_counters.sent_on;
+  const std::string said = safeText(sentence + " There is a place at " + link->text(), kMaxSentenceLength);
+  session.refuse(wire::Refused::FULL, said, JoinLink{link->where, "", link->key}.text(), link->room);
+}
+
+// Null: the session was refused. A client that leaves and joins again has fresh allowances each time, so how
+// often it joins is limited for its address.
+Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
+  const AddressPrefix prefix = prefixOf(session);
+  const Session::Clock::time_point now = session.now();
+  if (!m_joins.take(prefix, now)) {
+    refuseBusy(session, "Too many players have joined from your address. Try again in a moment.");
+    return nullptr;
+  }
+  if (m_setup.rooms.isNamed()) return namedRoomFor(session, hello);
+  if (m_setup.rooms.isPrivate() && !m_new_worlds.take(prefix, now)) {
+    refuseBusy(session, "Too many worlds have begun lately. Try again in a moment.");
+    return nullptr;
+  }
+  std::string problem;
+  Room* p_room = m_setup.rooms.roomForNewPlayer(problem);
+  if (p_room != nullptr) return p_room;
+  if (!problem.empty())
+    m_setup.log_client(session.address(), {LogEvent::Level::kError, "gets no world: " + problem});
+  refuseBusy(session, "The server cannot begin another world. Try again later.");
+  return nullptr;
+}
+
+Room* Admission::namedRoomFor(Session& session, const wire::Hello& hello) {
+  RoomDoor::Refusal refusal;
+  Room* p_room = m_door.findRoom(hello.room(), hello.game(), refusal);
+  if (p_room == nullptr) {
+    refuseRoom(session, refusal);
+  } else if (const auto closed = m_door.open(*p_room, prefixOf(session), session.now())) {
+    refuseRoom(session, *closed);
+    p_room = nullptr;
+  }
+  return p_room;
+}
+
+void Admission::refuseRoom(Session& session, const RoomDoor::Refusal& refusal) {
+  if (!refusal.log.empty())
+    m_setup.log_client(session.address(), {LogEvent::Level::kError, "gets no world: " + refusal.log});
+  switch (refusal.why) {
+    case RoomDoor::Why::kUnknown:
+      ++m_counters.refused_room;
+      return session.refuse(wire::Refused::GAME, safeText(refusal.sentence, kMaxSentenceLength));
+    case RoomDoor::Why::kGame:
+      ++m_counters.refused_game;
+      return session.refuse(wire::Refused::GAME, refusal.sentence);
+    case RoomDoor::Why::kFull:
+      ++m_counters.refused_full;
+      return session.refuse(wire::Refused::FULL, refusal.sentence);
+    case RoomDoor::Why::kForNow:
+      return refuseBusy(session, refusal.sentence);
+  }
+}
+
+// The player is another one there: an id is used once in a world.
+std::string Admission::moveSession(Session& session, const std::string& room, bool led) {
+  if (!m_setup.rooms.isNamed()) return "This server has no rooms.";
+  if (room.empty()) return "A room has a name.";
+  if (session.isDetached() && !led) return "Your connection is broken.";
+  if (!session.knowsRooms())
+    return "Your client is too old to go to another room: join it by HOST/" + room + ".";
+  RoomDoor::Refusal refusal;
+  Room* const p_to = m_door.findRoom(room, "", refusal);
+  if (p_to == nullptr) return safeText(refusal.sentence, kMaxChatLength);
+  const AddressPrefix prefix = prefixOf(session);
+  if (!led && !m_door.takeMove(prefix, session.now()))
+    return "Too many have changed rooms. Try again in a moment.";
+  if (const auto closed = m_door.open(*p_to, prefix, session.now())) return closed->sentence;
+  if (Room* const p_from = m_setup.rooms.roomOf(session))
+    p_from->port().noteSession({.player = session.player(), .over = true});
+  m_setup.rooms.leaveRoom(session);
+  const auto color = static_cast<df::Color>(session.welcomed().color());
+  wire::Welcome welcome = session.welcomed();
+  const std::uint32_t player = p_to->join(m_next_player, session.name(), color);
+  m_next_player = player + 1;
+  welcome.set_player(player);
+  describeRoom(*p_to, welcome);
+  session.enterRoom(welcome);
+  m_setup.rooms.add(*p_to, session);
+  noteSession(session);
+  return {};
+}
+
+void Admission::refuseBusy(Session& session, const std::string& sentence) {
+  ++m_counters.refused_busy;
+  session.refuse(wire::Refused::BUSY, sentence);
+}
+
+std::string Admission::freeName(const std::string& wanted) const {
+  std::vector<std::string> taken;
+  m_setup.sessions.forEachPlaying([&](const Session& other) { taken.push_back(other.name()); });
+  return uniqueName(wanted, taken);
+}
+
+// A player of this name joins the room's world.
+wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
+  const df::Color color = colorOf(m_counters.joined++);
+  const std::uint32_t player = room.join(m_next_player, name, color);
+  m_next_player = player + 1;
+  wire::Welcome welcome = welcomeOf(room, player, name, color);
+  return welcome;
+}
+
+std::chrono::milliseconds Admission::graceTime() const {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+      std::chrono::duration<double>(m_setup.options.grace));
+}
+
+// What it says of the room and its game.
+void Admission::describeRoom(const Room& room, wire::Welcome& welcome) const {
+  const RoomPlan* const p_plan = room.plan();
+  welcome.set_tick(room.tick());
+  welcome.set_game(p_plan != nullptr ? p_plan->game : m_setup.game);
+  welcome.set_room(p_plan != nullptr ? p_plan->name : "");
+  const int width = p_plan != nullptr ? p_plan->ready.window_width : m_p_world->getWindowWidth();
+  const int height = p_plan != nullptr ? p_plan->ready.window_height : m_p_world->getWindowHeight();
+  welcome.set_view_width(static_cast<std::uint32_t>(width));
+  welcome.set_view_height(static_cast<std::uint32_t>(height));
+  welcome.clear_help();
+  for (const std::string& line : p_plan != nullptr ? p_plan->ready.help : m_p_world->getHelp()) {
+    if (welcome.help_size() < static_cast<int>(kMaxHelpLines)) {
+      welcome.add_help(safeText(line, kMaxHelpLength));
+    }
+  }
+}
+
+wire::Welcome Admission::welcomeOf(const Room& room, std::uint32_t player, const std::string& name,
+                                   df::Color color) const {
+  const TickLength tick = TickLength::fromMicros(m_setup.options.frame_micros);
+  wire::Welcome welcome;
+  welcome.set_player(player);
+  welcome.set_name(name);
+  welcome.set_tick_micros(static_cast<std::uint32_t>(tick.times(1) / std::chrono::microseconds(1)));
+  describeRoom(room, welcome);
+  welcome.set_color(static_cast<std::uint32_t>(color));
+  welcome.set_grace_millis(static_cast<std::uint32_t>(graceTime().count()));
+  welcome.set_second_stream(m_setup.options.grace > 0);
+  welcome.set_server(safeText(m_setup.options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
+  return welcome;
+}
+
+// With the first cipher of the client's list that there is.
+std::unique_ptr<SealedChannel> Admission::openDatagrams(const Session& session,
+                                                        const wire::Hello& hello) const {
+  for (const std::uint32_t wanted : hello.aeads()) {
+    if (const auto aead = aeadFromWire(wanted)) return m_setup.open_datagrams(*session.stream(), *aead);
+  }
+  return nullptr;
+}
+
+}  // namespace naiad

@@ -1,0 +1,50 @@
+#include "host/admission/Places.h"
+
+#include <algorithm>
+
+#include "host/rooms/Rooms.h"
+#include "shared/net/base/RoomName.h"
+
+namespace naiad {
+
+namespace {
+
+/// Half-open connections: of a class behind one address, and of as many from there as the host lets in; of a
+/// few such crowds; of all players, if they come back at once. Each takes up to 192 KiB.
+constexpr std::size_t kMinHalfOpenPerPrefix = 64;
+constexpr std::size_t kMinHalfOpen = 256;
+constexpr std::size_t kMaxHalfOpen = 2048;
+
+/// Beside connections: libraries, logs.
+constexpr std::size_t kOtherFiles = 256;
+
+/// A private world has its socket and that of its keeper; a room's its output, too, twice where one follows
+/// another.
+std::size_t worldFiles(const HostOptions& options) {
+  if (!options.rooms.empty()) return 6 * kMaxRooms;
+  return options.players == "private" ? 2 * Rooms::mostWorlds(options) : 0;
+}
+
+}  // namespace
+
+std::size_t maxConnections(const HostOptions& options) {
+  return static_cast<std::size_t>(options.max_players) * 2 + 16;
+}
+
+HalfOpenPlaces halfOpenPlaces(const HostOptions& options) {
+  const auto players = static_cast<std::size_t>(options.max_players);
+  const auto per_address = static_cast<std::size_t>(options.max_per_address);
+  HalfOpenPlaces places;
+  places.in_all = std::clamp(2 * per_address, kMinHalfOpen, kMaxHalfOpen);
+  places.known = std::clamp(players, places.in_all, kMaxHalfOpen);
+  places.of_a_prefix = std::clamp(per_address, kMinHalfOpenPerPrefix, places.in_all / 2);
+  return places;
+}
+
+std::size_t wantedFiles(const HostOptions& options) {
+  const HalfOpenPlaces half_open = halfOpenPlaces(options);
+  return maxConnections(options) + static_cast<std::size_t>(options.max_players) +  // with second streams
+         half_open.in_all + half_open.known + worldFiles(options) + kOtherFiles;
+}
+
+}  // namespace naiad

@@ -1,0 +1,179 @@
+#include "host/ops/ChatCommands.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/admin/PlayerChoice.h"
+#include "host/ops/HostAdmin.h"
+#include "host/rooms/ServerLine.h"
+#include "shared/admin/AdminText.h"
+#include "shared/net/base/AddressPrefix.h"
+#include "shared/program/LogText.h"
+
+namespace naiad {
+
+namespace {
+
+using Level = AdminCommand::Level;
+using Place = AdminCommand::Place;
+
+constexpr std::string_view kAdminCommand = "/admin ";
+constexpr const char* kInFront = " ?";  // of a command
+
+Level levelOf(const Session& session) {
+  return session.standing().isAdmin() ? Level::kAdmin : Level::kPlayer;
+}
+
+}  // namespace
+
+ChatCommands::ChatCommands(Setup setup, const asio::any_io_executor& executor) : m_setup(std::move(setup)) {
+  const std::string& password = m_setup.options.admin_password;
+  if (!password.empty())
+    m_password = std::make_unique<PasswordCheck>(executor, PasswordHash::fromText(password));
+}
+
+bool ChatCommands::isCommand(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(kInFront);
+  return first != std::string::npos && line[first] == '/';
+}
+
+// A password may have quotes and blanks, so that line is not split into words.
+void ChatCommands::serve(Session& session, const std::string& whole) {
+  const std::string line = whole.substr(whole.find_first_not_of(kInFront));
+  if (line.starts_with(kAdminCommand)) return becomeAdmin(session, line.substr(kAdminCommand.size()));
+  try {
+    execute(session, readAdminRequest(splitAdminLine(std::string_view(line).substr(1))));
+  } catch (const AdminUsageError& error) {
+    reply(session, {error.what(), "/help lists the commands."});
+  }
+}
+
+void ChatCommands::execute(Session& session, const AdminRequest& request) {
+  const AdminCommand& command = *request.command;
+  if (!command.isFor(levelOf(session), Place::kChat))
+    return reply(session, {"You may not give the command \"" + command.name + "\" here."});
+  if (command.name == "help" || command.name == "commands") return help(session, request);
+  if (command.name == "admin") return becomeAdmin(session, request.of("password"));
+  if (command.name == "vote") return vote(session, request);
+  AdminCaller caller;
+  caller.level = levelOf(session);
+  caller.name = "player " + inQuotes(session.name()) + " at " + session.address();
+  caller.player = session.name();
+  caller.session = session.id();
+  m_setup.console.execute(request, caller, [this, id = session.id()](const AdminAnswer& answer) {
+    if (Session* p_session = m_setup.sessions.find(id)) reply(*p_session, answerText(answer));
+  });
+}
+
+void ChatCommands::help(Session& session, const AdminRequest& request) {
+  const AdminCommand* const p_command = findAdminCommand(request.of("command"));
+  if (!request.has("command")) return reply(session, adminHelp(levelOf(session), Place::kChat));
+  if (p_command == nullptr || !p_command->isFor(levelOf(session), Place::kChat))
+    return reply(session, {"There is no command \"" + request.of("command") + "\" for you."});
+  reply(session, adminHelp(*p_command));
+}
+
+void ChatCommands::reply(Session& session, const std::vector<std::string>& lines) {
+  const std::size_t shown = lines.size() > kMaxLines ? kMaxLines - 1 : lines.size();
+  for (std::size_t i = 0; i < shown; ++i) sendServerLine(session, lines[i]);
+  if (shown < lines.size())
+    sendServerLine(session, "… and " + std::to_string(lines.size() - shown) + " more lines.");
+}
+
+// ---- admins -----------------------------------------------------------------------------------------------
+
+void ChatCommands::becomeAdmin(Session& session, const std::string& password) {
+  if (!m_password) return reply(session, {"This server has no admins in the chat."});
+  const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
+  m_password->check(prefix, true, password, session.now(),
+                    [this, id = session.id(), streams = session.standing().streams()](auto answer) {
+                      onPassword(id, streams, answer);
+                    });
+}
+
+// The rights are the stream's: another one may have come meanwhile, with a token.
+void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordCheck::Answer answer) {
+  Session* const p_session = m_setup.sessions.find(id);
+  if (p_session == nullptr || p_session->state() != Session::State::kPlaying) return;
+  const std::string who = inQuotes(p_session->name());
+  switch (answer) {
+    case PasswordCheck::Answer::kRight:
+      if (p_session->standing().streams() != streams || p_session->isDetached()) return;
+      p_session->standing().setAdmin();
+      m_setup.log_client(p_session->address(), who + " is an admin now");
+      return reply(*p_session, {"You are an admin until your connection ends."});
+    case PasswordCheck::Answer::kWrong:
+      m_setup.log_refusal(p_session->address(), "That is not the admins' password.");
+      return reply(*p_session, {"That is not the admins' password."});
+    case PasswordCheck::Answer::kTooMany:
+      m_setup.log_refusal(p_session->address(), "Too many wrong passwords for admins.");
+      return reply(*p_session, {"Too many wrong passwords. Try again in a minute."});
+    case PasswordCheck::Answer::kBusy:
+      return reply(*p_session, {"The server is busy. Try again in a moment."});
+  }
+}
+
+// ---- votes ------------------------------------------------------------------------------------------------
+
+void ChatCommands::vote(Session& session, const AdminRequest& request) {
+  if (!m_setup.options.vote_kick) return reply(session, {"This server has no votes."});
+  const std::vector<AdminPlayer> players = m_setup.target.players();
+  const PlayerChoice choice = choosePlayer(players, request.of("player"));
+  if (!choice.player) return reply(session, answerText(choice.problem));
+  const std::string& name = choice.player->name;
+  const auto outcome = m_vote.vote(players, session.id(), choice.player->session, session.now());
+  const std::string voices =
+      " (" + std::to_string(m_vote.voices()) + " of " + std::to_string(m_vote.needed()) + " voices)";
+  switch (outcome) {
+    case VoteKick::Outcome::kBegun:
+      m_setup.log_client(session.address(),
+                         inQuotes(session.name()) + " begins a vote to throw out " + inQuotes(name));
+      return m_setup.target.say(session.name() + " wants " + name + " out. /vote kick " + name +
+                                " agrees, within 30 seconds" + voices + ".");
+    case VoteKick::Outcome::kAgreed:
+      return m_setup.target.say(session.name() + " agrees that " + name + " goes" + voices + ".");
+    case VoteKick::Outcome::kPassed:
+      return throwOut(*choice.player);
+    case VoteKick::Outcome::kAlready:
+      return reply(session, {"You have agreed already."});
+    case VoteKick::Outcome::kOther:
+      return reply(session, {"A vote on another player is on. Wait until it is over."});
+    case VoteKick::Outcome::kTooSoon:
+      return reply(session, {"You began a vote a moment ago. Try again in two minutes."});
+    case VoteKick::Outcome::kSelf:
+      return reply(session, {"You cannot vote on a player at your own address."});
+  }
+}
+
+// By name, and by address where nobody else plays there. A moment: not written to disk.
+void ChatCommands::throwOut(const AdminPlayer& player) {
+  m_setup.log_client(player.address, inQuotes(player.name) + " is thrown out by a vote");
+  m_setup.target.say("The players have voted: " + player.name + " goes for five minutes.");
+  Ban ban;
+  ban.name = player.name;
+  ban.reason = "the players voted you out";
+  ban.by = "a vote";
+  ban.made = m_setup.bans.time();
+  ban.until = ban.made + VoteKick::kOut;
+  ban.lasting = false;
+  const auto ignored = [](const std::string&) {};
+  m_setup.bans.add(ban, ignored);
+  const std::vector<AdminPlayer> players = m_setup.target.players();
+  const auto prefix = AddressPrefix::ofEndpoint(player.address);
+  const bool alone = std::none_of(players.begin(), players.end(), [&](const AdminPlayer& other) {
+    return other.session != player.session && AddressPrefix::ofEndpoint(other.address) == prefix;
+  });
+  const auto address = endpointAddress(player.address);
+  if (alone && address && !address->is_loopback()) {
+    ban.kind = Ban::Kind::kRange;
+    ban.range = AddressRange::around(*address);
+    m_setup.bans.add(ban, ignored);
+  }
+  m_setup.target.endPlayer(player.session, banSentence(ban));
+}
+
+void ChatCommands::update(Session::Clock::time_point now) {
+  if (m_vote.takeFailed(now)) m_setup.target.say("The vote is over: too few agreed.");
+}
+
+}  // namespace naiad

@@ -1,0 +1,308 @@
+#include "host/ops/HostAdmin.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/rooms/ServerLine.h"
+#include "host/settings/RoomList.h"
+#include "naiad.pb.h"
+#include "shared/admin/TimeSpan.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/options/NearestName.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+namespace {
+
+/// Those that may change while the server runs, as the command line calls them.
+const std::vector<std::string>& changeableOptions() {
+  static const std::vector<std::string> names{"max-players",   "max-per-address", "server-name",
+                                              "grace",         "exit-when-empty", "drain-time",
+                                              "inactive-kick", "vote-kick",       "log-chat"};
+  return names;
+}
+
+std::chrono::seconds since(Session::Clock::time_point then, Session::Clock::time_point now) {
+  return std::chrono::duration_cast<std::chrono::seconds>(now - then);
+}
+
+AdminPlayer factsOf(const Session& session, Session::Clock::time_point now) {
+  AdminPlayer player;
+  player.session = session.id();
+  player.id = session.player();
+  player.name = session.name();
+  player.address = session.address();
+  player.connected = since(session.standing().joined(), now);
+  player.idle = since(session.standing().acted(), now);
+  player.rtt_millis = session.rttMillis();
+  player.detached = session.isDetached();
+  player.muted = session.standing().isMuted();
+  player.admin = session.standing().isAdmin();
+  player.room = session.welcomed().room();
+  return player;
+}
+
+AdminAnswer listOf(const std::vector<ScoreRow>& scores) {
+  AdminAnswer answer = AdminAnswer::done(scores.empty() ? "No scores are kept." : "");
+  answer.is_list = true;
+  std::int64_t place = 0;
+  for (const ScoreRow& row : scores) {
+    place = !answer.rows.empty() && row.table == std::get<std::string>(answer.rows.back()[0].second)
+                ? place + 1
+                : 1;
+    const std::chrono::system_clock::time_point at{std::chrono::seconds(row.at)};
+    answer.rows.push_back({{"table", row.table},
+                           {"place", place},
+                           {"name", row.name},
+                           {"points", row.points},
+                           {"at", timeText(at)},
+                           {"recording", row.recording},
+                           {"round", row.round},
+                           {"tick", std::int64_t{row.tick}},
+                           {"number", std::int64_t{row.number}}});
+  }
+  return answer;
+}
+
+/// "rooms one, two".
+std::string listed(const std::vector<std::string>& rooms) {
+  std::string text = rooms.size() == 1 ? "room " : "rooms ";
+  for (std::size_t i = 0; i < rooms.size(); ++i) text += (i > 0 ? ", " : "") + rooms[i];
+  return text;
+}
+
+std::string unknownGame(const std::string& typed, const std::vector<std::string>& games) {
+  const std::string near = nearestName(typed, games);
+  const std::string sentence = "No game \"" + safeText(typed, 100) + "\" is played here";
+  if (!near.empty()) return sentence + "; did you mean \"" + near + "\"?";
+  std::string all;
+  for (const std::string& game : games) all += (all.empty() ? "" : ", ") + game;
+  return sentence + ". There are: " + all + ".";
+}
+
+double millis(std::chrono::microseconds time) {
+  return static_cast<double>(time.count()) / 1000;
+}
+
+}  // namespace
+
+HostAdmin::HostAdmin(Setup setup) : m_setup(std::move(setup)), m_began(Session::Clock::now()) {}
+
+std::vector<AdminPlayer> HostAdmin::players() const {
+  std::vector<AdminPlayer> players;
+  const auto now = m_setup.network.now();
+  m_setup.sessions.forEachPlaying([&](const Session& session) { players.push_back(factsOf(session, now)); });
+  std::sort(players.begin(), players.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return players;
+}
+
+AdminRow HostAdmin::status() const {
+  const Counters& counters = m_setup.counters;
+  const TickTimes& times = m_setup.network.tickTimes();
+  const auto number = [](std::uint64_t count) { return static_cast<std::int64_t>(count); };
+  return {{"server", m_setup.options.name},
+          {"version", std::string(kVersion)},
+          {"game", m_setup.admission.game()},
+          {"address", m_setup.network.address()},
+          {"up_s", number(static_cast<std::uint64_t>(since(m_began, Session::Clock::now()).count()))},
+          {"rooms", number(m_setup.rooms.countAwake())},
+          {"players", number(m_setup.sessions.playing())},
+          {"connected", number(m_setup.sessions.connected())},
+          {"max_players", std::int64_t{m_setup.options.max_players}},
+          {"password", m_setup.admission.needsPassword()},
+          {"ticks", number(counters.ticks)},
+          {"late_ticks", number(counters.late_ticks)},
+          {"tick_p50_ms", millis(times.quantile(0.5))},
+          {"tick_p99_ms", millis(times.quantile(0.99))},
+          {"joined", number(counters.joined)}};
+}
+
+std::vector<AdminRow> HostAdmin::rooms() const {
+  std::vector<AdminRow> rows;
+  if (!m_setup.rooms.isNamed()) return rows;
+  m_setup.rooms.forEachRoom([&rows](const Room& room) {
+    rows.push_back({{"room", room.plan()->name},
+                    {"game", room.plan()->game},
+                    {"players", static_cast<std::int64_t>(room.countPlaying())},
+                    {"max_players", std::int64_t{room.plan()->max_players}},
+                    {"asleep", room.isAsleep()},
+                    {"ticks", static_cast<std::int64_t>(room.ticks())},
+                    {"late_ticks", static_cast<std::int64_t>(room.lateTicks())}});
+  });
+  return rows;
+}
+
+Session* HostAdmin::findPlaying(std::uint64_t session) const {
+  Session* p_session = m_setup.sessions.find(session);
+  return p_session != nullptr && p_session->state() == Session::State::kPlaying ? p_session : nullptr;
+}
+
+// The end of a session is the end of its token (Admission::forgetSession).
+void HostAdmin::endPlayer(std::uint64_t session, const std::string& sentence) {
+  if (Session* p_session = findPlaying(session)) p_session->goodbye(safeText(sentence, kMaxSentenceLength));
+}
+
+void HostAdmin::say(const std::string& text) {
+  m_setup.sessions.forEachPlaying([&text](Session& session) { sendServerLine(session, text); });
+}
+
+void HostAdmin::tell(std::uint64_t session, const std::string& text) {
+  if (Session* p_session = findPlaying(session)) sendServerLine(*p_session, text);
+}
+
+void HostAdmin::setMuted(std::uint64_t session, bool muted) {
+  Session* p_session = findPlaying(session);
+  if (p_session == nullptr) return;
+  p_session->standing().setMuted(muted);
+  m_setup.admission.noteSession(*p_session);
+}
+
+// ---- the server -------------------------------------------------------------------------------------------
+
+AdminAnswer HostAdmin::stop(const std::string& sentence) {
+  m_setup.controls.end(
+      {.at = Session::Clock::time_point(), .sentence = safeText(sentence, kMaxSentenceLength)});
+  return AdminAnswer::done("The server ends.");
+}
+
+AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
+  Ending::Plan plan{.begins_again = true};
+  std::string when = "now";
+  switch (restart.when) {
+    case AdminRestart::When::kNow:
+      plan.at = Session::Clock::time_point();
+      break;
+    case AdminRestart::When::kIn:
+      plan.at = Session::Clock::now() + restart.in;
+      when = "in " + std::to_string(restart.in.count()) + " s";
+      break;
+    case AdminRestart::When::kAtRoundEnd:
+      plan.at_round_end = true;
+      when = "when the round is over";
+      break;
+  }
+  m_setup.controls.end(std::move(plan));
+  return AdminAnswer::done("The server restarts " + when + ".");
+}
+
+void HostAdmin::keepRound(std::function<void(AdminAnswer)> done) {
+  m_setup.controls.keep_round([done = std::move(done)](bool is_done, const std::string& sentence) {
+    const std::string text = sentence + ".";
+    done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
+  });
+}
+
+// Without a time of its own, or of the server's option: until the last one leaves.
+AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
+  Ending::Plan plan{.when_empty = true};
+  std::chrono::duration<double> patience(m_setup.options.drain_time);
+  if (most) patience = *most;
+  std::string text = "Nobody is let in any more. The server ends when all have left";
+  if (most || patience.count() > 0) {
+    plan.at = Session::Clock::now() + std::chrono::duration_cast<Session::Clock::duration>(patience);
+    text += ", and in " + std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) +
+            " s at the latest";
+  }
+  m_setup.controls.end(std::move(plan));
+  return AdminAnswer::done(text + ".");
+}
+
+AdminAnswer HostAdmin::cancel() {
+  if (!m_setup.controls.cancel_end()) return AdminAnswer::refused("There is nothing to call off.");
+  say("The server goes on after all.");
+  return AdminAnswer::done("The server goes on.");
+}
+
+void HostAdmin::reload(std::function<void(AdminAnswer)> done) {
+  m_setup.controls.reload([done = std::move(done)](bool is_done, const std::string& sentence) {
+    const std::string text = sentence + ".";
+    done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
+  });
+}
+
+AdminAnswer HostAdmin::changePassword(std::optional<PasswordHash> hash) {
+  const bool needed = hash.has_value();
+  m_setup.admission.changePassword(std::move(hash));
+  return AdminAnswer::done(needed ? "New players need the new password."
+                                  : "New players need no password any more.");
+}
+
+std::vector<HostAdmin::Board> HostAdmin::boards() const {
+  if (!m_setup.rooms.isNamed()) return {{m_setup.admission.game(), &m_setup.scores, {}}};
+  std::vector<Board> boards;
+  m_setup.rooms.forEachRoom([&boards](const Room& room) {
+    const RoomPlan& plan = *room.plan();
+    auto board = std::find_if(boards.begin(), boards.end(),
+                              [&plan](const Board& one) { return one.game == plan.game; });
+    if (board == boards.end()) board = boards.insert(board, {plan.game, plan.p_scores, {}});
+    board->rooms.push_back(plan.name);
+  });
+  return boards;
+}
+
+const HostAdmin::Board* HostAdmin::findBoard(const std::vector<Board>& boards, const AdminScores& which,
+                                             AdminAnswer& refusal) {
+  std::vector<std::string> games;
+  std::vector<std::string> rooms;
+  for (const Board& board : boards) {
+    games.push_back(board.game);
+    rooms.insert(rooms.end(), board.rooms.begin(), board.rooms.end());
+    const bool has_room = std::find(board.rooms.begin(), board.rooms.end(), which.room) != board.rooms.end();
+    const bool is_meant = which.game.empty() ? has_room : board.game == which.game;
+    if (is_meant) return &board;
+  }
+  if (which.game.empty() && which.room.empty() && boards.size() == 1) return &boards.front();
+  if (!which.game.empty()) {
+    refusal = AdminAnswer::refused(unknownGame(which.game, games));
+  } else if (!which.room.empty()) {
+    refusal =
+        AdminAnswer::refused(rooms.empty() ? "This server has no rooms." : unknownRoom(which.room, rooms));
+  } else {
+    refusal =
+        AdminAnswer::refused("Each game has tables of its own; --game or --room says which one is meant:");
+    for (const Board& board : boards)
+      refusal.candidates.push_back("--game " + board.game + "  (" + listed(board.rooms) + ")");
+  }
+  return nullptr;
+}
+
+void HostAdmin::scores(const AdminScores& which, std::function<void(AdminAnswer)> done) {
+  const std::vector<Board> all = boards();
+  AdminAnswer refusal;
+  const Board* const p_board = findBoard(all, which, refusal);
+  if (p_board == nullptr) return done(refusal);
+  ScoreKeeper& scores = *p_board->p_scores;
+  if (!scores.hasFile())
+    return done(AdminAnswer::refused("This server keeps no scores on disk (--state, or see its log)."));
+  const auto answer = [this, done](const auto& rows, const std::string& problem) {
+    const AdminAnswer read = problem.empty() ? listOf(rows) : AdminAnswer::refused(problem);
+    m_setup.controls.post([read, done] { done(read); });
+  };
+  const bool reads = scores.read(which.table, which.count, answer);
+  if (!reads) done(AdminAnswer::refused("Too much waits to be done. Try again in a moment."));
+}
+
+AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) {
+  const auto& names = changeableOptions();
+  if (std::find(names.begin(), names.end(), option) == names.end())
+    return AdminAnswer::refused("\"" + option + "\" is no option that can be changed while the server runs.");
+  HostOptions changed = m_setup.options;
+  try {
+    setHostOption(changed, option, value);
+  } catch (const OptionError& error) {
+    return AdminAnswer::refused(error.what());
+  }
+  m_setup.controls.take_over(changed);
+  return AdminAnswer::done(option + " is " + hostOptionValue(m_setup.options, option) + ".");
+}
+
+AdminRow HostAdmin::settings() const {
+  AdminRow row;
+  for (const std::string& name : changeableOptions())
+    row.emplace_back(name, hostOptionValue(m_setup.options, name));
+  return row;
+}
+
+}  // namespace naiad

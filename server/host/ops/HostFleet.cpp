@@ -1,0 +1,184 @@
+#include "host/ops/HostFleet.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "host/fleet/AgonesPlatform.h"
+#include "host/fleet/SystemdPlatform.h"
+#include "host/rooms/NewsEvent.h"
+#include "shared/fleet/GameResult.h"
+#include "shared/fleet/ServerId.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/net/stream/JoinLink.h"
+
+namespace naiad {
+
+namespace {
+
+constexpr std::chrono::seconds kSayPlayers{1};
+constexpr std::chrono::milliseconds kLastWord{1500};  ///< to the platform, and to the bus
+
+BusSettings busSettings(const HostOptions& options) {
+  return {options.bus, options.bus_credentials, options.bus_ca};
+}
+
+/// Each sets a variable for what it runs.
+std::string platformOf(const HostOptions& options) {
+  if (options.platform != "auto") return options.platform;
+  if (std::getenv("AGONES_SDK_HTTP_PORT") != nullptr) return "agones";
+  return std::getenv("NOTIFY_SOCKET") != nullptr ? "systemd" : "none";
+}
+
+std::unique_ptr<HostPlatform> makePlatform(const HostOptions& options) {
+  const std::string platform = platformOf(options);
+  if (platform == "agones") return std::make_unique<AgonesPlatform>(0);
+  if (platform == "systemd") return std::make_unique<SystemdPlatform>();
+  return std::make_unique<NoPlatform>();
+}
+
+/// The machine and the port, if nothing is given.
+std::string busId(const HostOptions& options, std::uint16_t port) {
+  if (!options.bus_id.empty()) return options.bus_id;
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  return serverIdOf(std::string(host).substr(0, kMaxServerId - 6) + "-" + std::to_string(port));
+}
+
+}  // namespace
+
+std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms) {
+  std::vector<PresenceRoom> all;
+  if (!rooms.isNamed()) return all;
+  rooms.forEachRoom([&all](const Room& room) {
+    const RoomPlan& plan = *room.plan();
+    all.push_back({plan.name, plan.game, static_cast<std::uint32_t>(room.countPlaying()),
+                   static_cast<std::uint32_t>(plan.max_players)});
+  });
+  return all;
+}
+
+HostFleet::HostFleet(Setup setup) : m_setup(std::move(setup)), m_platform(makePlatform(m_setup.options)) {
+  if (m_setup.options.bus.empty()) return;
+  m_id = busId(m_setup.options, m_setup.network.port());
+  BusSettings settings = busSettings(m_setup.options);
+  settings.subjects = {sendOnSubject(m_id)};
+  m_bus = connectBus(settings);
+}
+
+HostFleet::~HostFleet() = default;
+
+void HostFleet::begin() {
+  m_platform->notifyReady();
+}
+
+void HostFleet::tick(Clock::time_point now) {
+  m_platform->notifyTick(now);
+  if (m_bus && now - m_present >= interval()) {
+    m_present = now;
+    m_bus->publish({presenceSubject(m_id), presence().payload()});
+    hearDirectory(now);
+  }
+  if (now - m_said < kSayPlayers) return;
+  m_said = now;
+  sayPlayers();
+  if (m_platform->takeEnd()) m_setup.end();
+  hearDirectory(now);
+  takeNews();
+}
+
+// What is no good says nothing, and what was good before ends by itself.
+void HostFleet::hearDirectory(Clock::time_point now) {
+  if (!m_bus) return;
+  for (const BusMessage& message : m_bus->takeMessages()) {
+    auto other = SendOn::parse(message.payload);
+    if (!other || other->to == m_id) continue;
+    m_other = *std::move(other);
+    m_other_heard = now;
+  }
+}
+
+std::optional<JoinLink> HostFleet::linkToOther(Clock::time_point now) const {
+  const bool holds = m_other && now - m_other_heard < 3 * interval();
+  return holds ? std::optional(m_other->link) : std::nullopt;
+}
+
+void HostFleet::sayPlayers() {
+  PlatformPlayers players;
+  players.address = m_setup.network.address();
+  players.most = static_cast<std::size_t>(m_setup.options.max_players);
+  m_setup.sessions.forEachPlaying([&](const Session& session) { players.ids.push_back(session.player()); });
+  std::sort(players.ids.begin(), players.ids.end());
+  m_platform->notifyPlayers(players);
+}
+
+Presence HostFleet::presence() const {
+  const HostOptions& options = m_setup.options;
+  const auto link =
+      options.link_host.empty() ? std::nullopt : LinkHost::parse(options.link_host, m_setup.network.port());
+  Presence presence;
+  presence.id = m_id;
+  presence.name = safeText(options.name, Presence::kMaxName);
+  presence.game = safeText(m_setup.game, Presence::kMaxName);
+  const auto given = m_platform->address();
+  presence.host = link ? link->host : given ? given->host : "";
+  presence.port = link ? link->port : given ? given->port : m_setup.network.port();
+  presence.key = m_setup.key;
+  presence.protocol = kProtocolVersion;
+  presence.players = static_cast<std::uint32_t>(m_setup.sessions.playing());
+  presence.max_players = static_cast<std::uint32_t>(options.max_players);
+  presence.asks_password = !options.password.empty();
+  presence.is_open = m_setup.is_open();
+  presence.rooms = m_setup.rooms();
+  return presence;
+}
+
+void HostFleet::noteScore(const ScoreRow& row, const std::string& game) {
+  if (!m_bus) return;
+  GameResult result;
+  result.server = m_id;
+  result.game = safeText(game, Presence::kMaxName);
+  result.table = row.table;
+  result.name = row.name;
+  result.points = row.points;
+  result.at = row.at;
+  result.round = row.round;
+  result.tick = row.tick;
+  result.number = row.number;
+  result.recording = row.recording;
+  m_bus->publish({resultSubject(m_id), result.payload(), result.messageId()});
+}
+
+void HostFleet::takeNews() {
+  if (const std::string news = m_platform->takeNews(); !news.empty()) m_setup.log(newsEvent(news));
+  const PlatformCounters platform = m_platform->counters();
+  m_setup.counters.platform_requests = platform.requests;
+  m_setup.counters.platform_failures = platform.failures;
+  if (!m_bus) return;
+  if (const std::string news = m_bus->takeNews(); !news.empty()) m_setup.log(newsEvent(news));
+  const BusCounters bus = m_bus->counters();
+  m_setup.counters.bus_published = bus.published;
+  m_setup.counters.bus_dropped = bus.dropped;
+  m_setup.counters.bus_failures = bus.failures;
+  m_setup.counters.bus_connections = bus.connections;
+}
+
+// A platform that is sent the end takes the server away: so it comes last.
+void HostFleet::noteStopping() {
+  m_platform->notifyStopping();
+  if (!m_bus) return;
+  Presence last = presence();
+  last.is_open = false;
+  m_bus->publish({presenceSubject(m_id), last.payload()});
+}
+
+void HostFleet::finish() {
+  if (m_bus) m_bus->finish(kLastWord);
+  m_platform->finish(kLastWord);
+  takeNews();
+}
+
+}  // namespace naiad

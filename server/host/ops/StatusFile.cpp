@@ -1,0 +1,85 @@
+#include "host/ops/StatusFile.h"
+
+#include <unistd.h>
+
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "shared/json/Json.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeFile.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+std::string statusText(const StatusFacts& facts, std::size_t players) {
+  Json status{{"name", safeText(facts.name, kMaxProgramLength)},
+              {"game", safeText(facts.game, kMaxProgramLength)},
+              {"players", players},
+              {"max_players", facts.max_players},
+              {"password", facts.asks_password},
+              {"protocol", kProtocolVersion},
+              {"version", kVersion}};
+  if (!facts.link.empty()) status.set("link", facts.link);
+  return status.toString(Json::Style::kAscii) + "\n";
+}
+
+StatusFile::StatusFile(std::string path, StatusFacts facts)
+    : m_path(std::move(path)), m_facts(std::move(facts)) {
+  try {
+    publishFile(m_path, statusText(m_facts, 0));
+  } catch (const std::system_error& error) {
+    throw std::runtime_error("The status file " + m_path + " cannot be written: " + error.what());
+  }
+  m_thread = std::thread([this] { run(); });
+}
+
+StatusFile::~StatusFile() {
+  {
+    const std::lock_guard lock(m_mutex);
+    m_stopping = true;
+  }
+  m_stop.notify_one();
+  m_thread.join();
+  ::unlink(m_path.c_str());
+}
+
+void StatusFile::setPlayers(std::size_t players) {
+  const std::lock_guard lock(m_mutex);
+  m_players = players;
+}
+
+std::string StatusFile::takeNews() {
+  const std::lock_guard lock(m_mutex);
+  return std::exchange(m_news, std::string());
+}
+
+void StatusFile::run() {
+  std::unique_lock lock(m_mutex);
+  while (!m_stop.wait_for(lock, kInterval, [this] { return m_stopping; })) {
+    const std::size_t players = m_players;
+    lock.unlock();
+    write(players);
+    lock.lock();
+  }
+}
+
+// A full disk is said once, and once more when it is over.
+void StatusFile::write(std::size_t players) {
+  std::string problem;
+  try {
+    publishFile(m_path, statusText(m_facts, players));
+  } catch (const std::system_error& error) {
+    problem = error.what();
+  }
+  const std::lock_guard lock(m_mutex);
+  const bool failing = !problem.empty();
+  if (failing == m_failing) return;
+  m_failing = failing;
+  m_news = failing ? "warning: the status file " + m_path + " cannot be written: " + problem
+                   : "the status file " + m_path + " is written again";
+}
+
+}  // namespace naiad

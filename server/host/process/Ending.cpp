@@ -1,0 +1,56 @@
+#include "host/process/Ending.h"
+
+#include <utility>
+
+namespace naiad {
+
+namespace {
+
+std::string inSeconds(Ending::Time at, Ending::Time now) {
+  const auto left = std::chrono::ceil<std::chrono::seconds>(at - now).count();
+  return "in " + std::to_string(left) + (left == 1 ? " second" : " seconds");
+}
+
+}  // namespace
+
+void Ending::setPlan(Plan plan, Time now) {
+  m_plan = std::move(plan);
+  m_announced = false;
+  m_last_call = !m_plan->at || *m_plan->at - now <= kLastCall;
+}
+
+bool Ending::cancel() {
+  return std::exchange(m_plan, std::nullopt).has_value();
+}
+
+bool Ending::isDue(Time now, bool is_empty) const {
+  if (!m_plan) return false;
+  return (m_plan->at && now >= *m_plan->at) || (m_plan->when_empty && is_empty);
+}
+
+std::string Ending::sentence() const {
+  if (!m_plan) return {};
+  if (!m_plan->sentence.empty()) return m_plan->sentence;
+  return m_plan->begins_again ? "The server restarts. It is back in a moment."
+                              : "The server is shutting down.";
+}
+
+std::optional<std::string> Ending::takeNews(Time now) {
+  if (!m_plan || (m_plan->at && now >= *m_plan->at)) return std::nullopt;
+  if (!std::exchange(m_announced, true)) return news(now);
+  if (m_last_call || *m_plan->at - now > kLastCall) return std::nullopt;
+  m_last_call = true;
+  return news(now);
+}
+
+std::string Ending::news(Time now) const {
+  const std::string what = m_plan->begins_again ? "The server restarts" : "The server closes";
+  const std::string then = m_plan->begins_again ? " Your client comes back by itself." : "";
+  if (m_plan->at_round_end) return what + " when this round is over." + then;
+  if (m_plan->when_empty && m_plan->at)
+    return what + " when all have left, and " + inSeconds(*m_plan->at, now) + " at the latest." + then;
+  if (m_plan->when_empty) return what + " when all have left." + then;
+  return what + " " + (m_plan->at ? inSeconds(*m_plan->at, now) : "soon") + "." + then;
+}
+
+}  // namespace naiad

@@ -1,0 +1,188 @@
+// Rooms that have names: which there are, when they sleep and wake, and what becomes of one whose game fails.
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "host/rooms/Rooms.h"
+#include "host/world/SleepingWorld.h"
+
+namespace naiad {
+
+namespace {
+
+using Time = RoomSleep::Time;
+
+/// A game that fails as soon as it begins is not begun again before.
+constexpr std::chrono::seconds kClosedTime{30};
+
+constexpr std::uint32_t kRoomsEvery = 15;  ///< ticks between two looks at what games know of rooms
+
+df::GameRoom gameRoomOf(const Room& room) {
+  return {.name = room.plan()->name,
+          .game = room.plan()->game.substr(0, df::GameRooms::kMaxGame),
+          .players = static_cast<int>(room.countPlaying()),
+          .max_players = room.plan()->max_players,
+          .is_asleep = room.isAsleep()};
+}
+
+Time presentTime() {
+  return std::chrono::steady_clock::now();
+}
+
+}  // namespace
+
+void Rooms::setNamed(std::vector<RoomPlan> plans) {
+  m_plans = std::move(plans);
+  std::set<ScoreKeeper*> all;
+  for (const RoomPlan& plan : m_plans) {
+    if (plan.p_scores != nullptr) all.insert(plan.p_scores);
+  }
+  m_all_scores.assign(all.begin(), all.end());
+}
+
+void Rooms::openNamed() {
+  for (const RoomPlan& plan : m_plans) {
+    Room& room = *m_rooms.emplace_back(
+        std::make_unique<Room>(std::make_unique<SleepingWorld>(), plan.first_only, m_stages));
+    room.setPlan(plan);
+    room.sleep().asleep = true;
+    room.port().checkProcess(tickNumber());
+    m_game_rooms.push_back(gameRoomOf(room));
+  }
+  for (const auto& room : m_rooms) {
+    std::string problem;
+    const bool begins = room == m_rooms.front() || room->plan()->goes_on;
+    if (begins && !wake(*room, problem))
+      m_log("the room " + room->plan()->name + " cannot begin: " + problem);
+  }
+}
+
+Room* Rooms::findRoom(const std::string& name) const {
+  const auto found = std::find_if(m_rooms.begin(), m_rooms.end(), [&name](const auto& room) {
+    return room->plan() != nullptr && room->plan()->name == name;
+  });
+  return found != m_rooms.end() ? found->get() : nullptr;
+}
+
+std::size_t Rooms::countAwake() const {
+  return static_cast<std::size_t>(
+      std::count_if(m_rooms.begin(), m_rooms.end(), [](const auto& room) { return !room->isAsleep(); }));
+}
+
+std::vector<std::string> Rooms::roomNames() const {
+  std::vector<std::string> names;
+  for (const RoomPlan& plan : m_plans) names.push_back(plan.name);
+  return names;
+}
+
+std::unique_ptr<WorldPort> Rooms::newWorld(const Room& room) const {
+  return room.plan() != nullptr ? room.plan()->new_world() : m_new_world();
+}
+
+bool Rooms::wake(Room& room, std::string& problem) {
+  if (!room.isAsleep()) return true;
+  if (m_closing || m_upgraded) return false;
+  try {
+    room.changeWorld(newWorld(room));
+  } catch (const std::system_error& error) {
+    problem = error.what();
+    return false;
+  }
+  room.sleep() = {};
+  watchWorld(room);
+  return true;
+}
+
+void Rooms::leaveRoom(const Session& session) {
+  if (Room* const p_room = roomOf(session)) p_room->stopSounds(session);
+  leave(session);
+  removeSession(session);
+}
+
+// ---- what games know of rooms -----------------------------------------------------------------------------
+
+void Rooms::passRooms(Room& room) const {
+  if (room.port().recovering())
+    return;  // the inputs of then are in its journal; those of now come behind them
+  for (std::size_t i = 0; i < m_game_rooms.size(); ++i) {
+    df::GameRoom known = m_game_rooms[i];
+    known.is_this_one = m_rooms[i].get() == &room;
+    room.port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = std::move(known)});
+  }
+}
+
+// To all worlds, and only what has changed: half a second is soon enough for a sign on a door.
+void Rooms::publishRooms() {
+  if (tickNumber() % kRoomsEvery != 0) return;
+  m_game_rooms.resize(m_rooms.size());
+  for (std::size_t i = 0; i < m_rooms.size(); ++i) {
+    df::GameRoom present = gameRoomOf(*m_rooms[i]);
+    if (present == m_game_rooms[i]) continue;
+    m_game_rooms[i] = present;
+    for (const auto& room : m_rooms) {
+      if (room->isAsleep() || room->port().recovering()) continue;
+      present.is_this_one = room == m_rooms[i];
+      room->port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = present});
+    }
+  }
+}
+
+// A world may be a stranger's program: it sends its own players alone.
+void Rooms::passSent(Room& room) {
+  for (const df::SentPlayer& sent : room.port().takeSent()) {
+    Session* const p_session = room.find(sent.player);
+    if (p_session != nullptr && m_on_sent) m_on_sent(*p_session, sent.room);
+  }
+}
+
+// ---- sleep ------------------------------------------------------------------------------------------------
+
+// A world that ends takes time, which the room does not wait for.
+void Rooms::putToSleep(Room& room) {
+  auto port = room.changeWorld(std::make_unique<SleepingWorld>());
+  room.port().checkProcess(tickNumber());
+  port->setOnTick({});
+  port->close();
+  m_ending.push_back(std::move(port));
+  room.sleep() = {.asleep = true, .empty_since = {}};
+  room.countShortRounds(false);
+}
+
+void Rooms::checkSleep() {
+  const Time now = presentTime();
+  const std::chrono::duration<double> patience(m_options.room_sleep);
+  for (const auto& room : m_rooms) {
+    RoomSleep& sleep = room->sleep();
+    if (sleep.asleep || room->port().recovering()) continue;
+    if (!room->isEmpty()) {
+      sleep.empty_since.reset();
+    } else if (!sleep.empty_since) {
+      sleep.empty_since = now;
+    } else if (now - *sleep.empty_since >= patience) {
+      putToSleep(*room);
+    }
+  }
+  checkEnding();
+}
+
+void Rooms::checkEnding() {
+  for (const auto& port : m_ending) port->checkProcess(tickNumber());
+  std::erase_if(m_ending, [](const auto& port) { return port->end().has_value(); });
+}
+
+// The other rooms go on. Its players are led away in the next tick.
+void Rooms::closeRoom(Room& room, const std::string& sentence) {
+  m_log("the room " + room.plan()->name + " is closed for " + std::to_string(kClosedTime.count()) +
+        " s: " + sentence);
+  putToSleep(room);
+  room.sleep().closed_until = presentTime() + kClosedTime;
+  if (m_on_closed) m_on_closed(room, sentence);
+}
+
+ScoreKeeper* Rooms::scoresOf(const Room& room) const {
+  return room.plan() != nullptr ? room.plan()->p_scores : m_p_scores;
+}
+
+}  // namespace naiad

@@ -1,0 +1,188 @@
+#include "host/rooms/Room.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+
+namespace naiad {
+
+namespace {
+
+wire::ServerMessage line(const std::string& text) {
+  wire::ServerMessage message;
+  message.mutable_chat()->set_text(text);  // without a player: the server's
+  return message;
+}
+
+df::InputQueue::Input inputOf(const Session& session, const Input& input) {
+  if (!input.is_mouse) {
+    return {.kind = df::InputQueue::kKey,
+            .player = session.player(),
+            .key = static_cast<df::Keyboard::Key>(input.key),
+            .key_action = static_cast<df::EventKeyboardAction>(input.action)};
+  }
+  return {.kind = df::InputQueue::kMouse,
+          .player = session.player(),
+          .seen = session.viewedTick(input),
+          .button = static_cast<df::Mouse::Button>(int{input.button} - 1),
+          .mouse_action = static_cast<df::EventMouseAction>(input.action),
+          .x = input.x,
+          .y = input.y};
+}
+
+bool isBefore(const Session* p_session, std::uint32_t player) {
+  return p_session->player() < player;
+}
+
+}  // namespace
+
+Room::Room(std::unique_ptr<WorldPort> port, bool first_only, StageClock& stages)
+    : m_p_port(std::move(port)), m_stages(stages), m_turn(first_only) {}
+
+void Room::add(Session& session) {
+  m_members.insert(std::lower_bound(m_members.begin(), m_members.end(), session.player(), isBefore),
+                   &session);
+  announceTurn(session);
+}
+
+void Room::remove(const Session& session) {
+  std::erase(m_members, &session);
+}
+
+bool Room::has(const Session& session) const {
+  return std::find(m_members.begin(), m_members.end(), &session) != m_members.end();
+}
+
+Session* Room::find(std::uint32_t player) const {
+  const auto found = std::lower_bound(m_members.begin(), m_members.end(), player, isBefore);
+  const bool plays = found != m_members.end() && (*found)->player() == player &&
+                     (*found)->state() == Session::State::kPlaying;
+  return plays ? *found : nullptr;
+}
+
+bool Room::isEmpty() const {
+  return std::none_of(m_members.begin(), m_members.end(), [](const Session* p_session) {
+    return p_session->state() == Session::State::kPlaying;
+  });
+}
+
+std::size_t Room::countPlaying() const {
+  std::size_t count = 0;
+  forEachPlaying([&count](const Session&) { ++count; });
+  return count;
+}
+
+void Room::say(const std::string& text) const {
+  const wire::ServerMessage message = line(text);
+  forEachPlaying([&message](Session& session) { session.sendKept(message); });
+}
+
+void Room::dismiss(const std::string& sentence, std::chrono::seconds again) const {
+  forEachPlaying([&](Session& session) { session.goodbye(sentence, again); });
+}
+
+// ---- ticks ------------------------------------------------------------------------------------------------
+
+bool Room::beginTick(bool truth, std::uint32_t pictured) {
+  m_stages.enter(Stage::kInputs);
+  passTurn();
+  applyInputs();
+  if (!m_p_port->isReady()) return false;
+  const bool watched = !isEmpty();
+  if (watched && !m_watched) m_publisher = Publisher();
+  m_watched = watched;
+  m_ticking = true;
+  m_stages.enter(Stage::kWorld);
+  m_pictured = watched && pictured != 0 && find(pictured) != nullptr ? pictured : 0;
+  m_p_port->setPictured(truth ? 0 : m_pictured);
+  m_p_port->tick(watched, truth || m_pictured != 0);
+  return true;
+}
+
+void Room::applyInputs() {
+  const std::uint32_t next = m_p_port->nextTick();
+  forEachPlaying([this, next](Session& session) {
+    session.takeInputs(next, [&](const Input& input) {
+      if (m_turn.isHeard(session.player(), input)) m_p_port->addInput(inputOf(session, input));
+    });
+  });
+}
+
+void Room::publish(TruthWriter* p_truth) {
+  m_ticking = false;
+  ++m_ticks;
+  if (!m_watched) return;
+  const Stage before = m_stages.enter(Stage::kPublish);
+  m_publisher.update(m_p_port->view());
+  m_p_port->notePublished(m_publisher);
+  m_stages.enter(Stage::kSnapshots);
+  sendSnapshots(p_truth);
+  m_stages.enter(Stage::kNews);
+  m_sound_news.tick(m_p_port->view(), soundSender());
+  sendNotes();
+  m_stages.enter(before);
+}
+
+void Room::sendSnapshots(TruthWriter* p_truth) {
+  forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
+    // The truth first: a test that compares must find it once the snapshot has arrived.
+    if (p_truth != nullptr) p_truth->write(m_publisher.tick(), facts.id, m_p_port->renderPlayer(facts.id));
+    if (facts.id == m_pictured && session.isAudited())
+      session.recordTruth(m_publisher.tick(), m_p_port->renderPlayer(facts.id));
+    session.setControls(facts.steering.p_table);
+    session.sendTick(m_publisher, facts);
+  });
+}
+
+SoundNews::Send Room::soundSender() const {
+  return [this](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
+    Session* p_session = find(player);
+    if (p_session == nullptr) return false;
+    if (!lasts) return p_session->sendFleeting(message);
+    p_session->sendKept(message);
+    return true;
+  };
+}
+
+// Lines of the engine's own for the players.
+void Room::sendNotes() const {
+  for (const std::string& note : m_p_port->view().notes) say(safeText(note, kMaxChatLength));
+}
+
+std::unique_ptr<WorldPort> Room::changeWorld(std::unique_ptr<WorldPort> port) {
+  std::swap(m_p_port, port);
+  m_publisher = Publisher();
+  m_sound_news.changeWorld(soundSender());
+  m_watched = m_ticking = false;
+  m_ticks = 0;
+  forEachPlaying([this](Session& session) {
+    session.beginWorld();
+    join(session.player(), session.name(), static_cast<df::Color>(session.welcomed().color()));
+  });
+  return port;
+}
+
+// ---- whose turn it is -------------------------------------------------------------------------------------
+
+// It is the turn of the first of the connected players.
+void Room::passTurn() {
+  if (!m_turn.isOneOnly()) return;
+  const Session* p_first = nullptr;
+  forEachPlaying([&p_first](const Session& session) {
+    if (p_first == nullptr && !session.isDetached()) p_first = &session;
+  });
+  const std::uint32_t turn = p_first != nullptr ? p_first->player() : 0;
+  m_p_port->setHeard(turn);
+  if (m_turn.passTo(turn)) say(p_first->name() + " plays now.");
+}
+
+void Room::announceTurn(Session& session) const {
+  const Session* p_first = m_turn.player() != 0 ? find(m_turn.player()) : nullptr;
+  if (p_first != nullptr)
+    session.sendKept(line(p_first->name() + " plays; you watch until it is your turn."));
+}
+
+}  // namespace naiad

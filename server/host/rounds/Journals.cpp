@@ -1,0 +1,475 @@
+#include "host/rounds/Journals.h"
+
+#include <openssl/evp.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <sstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "host/auth/Seed.h"
+#include "host/journal/DfrWriter.h"
+#include "host/journal/Salvage.h"
+#include "host/process/TickClock.h"
+#include "host/rounds/DebugCommand.h"
+#include "host/rounds/WorldSandbox.h"
+#include "host/world/BuildId.h"
+#include "host/world/Repeatable.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Bytes of turns that may wait for a disk: of a thousand players for 20 seconds, of a room's, and of one
+/// alone.
+constexpr std::size_t kSharedRing = std::size_t{4} << 20;
+constexpr std::size_t kRoomRing = std::size_t{1} << 20;
+constexpr std::size_t kPrivateRing = std::size_t{256} << 10;
+
+/// To go on with one round. A server that ends while it does so may have been ended by the round.
+constexpr int kMaxAttempts = 3;
+
+std::string hexOf(const unsigned char* p, std::size_t count) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) {
+    text.push_back(kDigits[p[i] >> 4]);
+    text.push_back(kDigits[p[i] & 15]);
+  }
+  return text;
+}
+
+std::string readSettings() {
+  const char* p_named = std::getenv("DRAGONFLY_CONFIG");
+  const fs::path path = p_named != nullptr ? p_named : "df-config.txt";
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kMaxSettings) return {};
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string hexNumber(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+  return text;
+}
+
+/// dfreplay executes modules alone.
+std::string describeLastDeath(const std::string& path, std::uint32_t tick, const std::string& game,
+                              const std::string& module) {
+  if (module.empty())
+    return " again; the round is kept in " + path + ", where it is tick " + std::to_string(tick);
+  return " again; the round is kept; to see where: " + debugCommand(path, tick, game, module);
+}
+
+DfrFacts factsOfStart(const WorldProcess& world) {
+  DfrFacts facts;
+  facts[kFactFirstTick] = std::to_string(world.nextTick());
+  if (!world.ready()) return facts;
+  facts[kFactAddresses] = world.ready()->fixed_addresses ? "fixed" : "random";
+  for (const ReadFile& file : world.ready()->files) facts[kFactFile + file.name] = hexNumber(file.hash);
+  return facts;
+}
+
+}  // namespace
+
+namespace {
+
+/// The header of a file that is one of this game's by its name, which pathOf() has made.
+std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& game) {
+  const std::string name = path.filename().string();
+  if (path.extension() != ".dfr" || !name.starts_with(game + "-")) return std::nullopt;
+  std::string bytes(kDfrHeaderSize, '\0');
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return std::nullopt;
+  const DfrReader reader(bytes);
+  return reader.problem().empty() ? std::optional(reader.header()) : std::nullopt;
+}
+
+/// Newest first.
+std::vector<fs::path> roundsOf(const std::string& folder, const std::string& game) {
+  std::vector<std::pair<std::uint64_t, fs::path>> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (const auto header = headerOfRound(entry.path(), game))
+      found.emplace_back(header->start_nanos, entry.path());
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<fs::path> paths;
+  paths.reserve(found.size());
+  for (auto& [time, path] : found) paths.push_back(std::move(path));
+  return paths;
+}
+
+/// What of a round is not as this server would play it, in words; empty: nothing is.
+std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::uint64_t frame_nanos,
+                         const KeptRounds& kept) {
+  if ((round.header().flags & kDfrStopped) != 0) return "its journal had stopped before";
+  if ((round.header().flags & kDfrInProcess) != 0) return "the game ran in the server's own process";
+  if (round.fact(kFactRepeatable) == "no") return "the game is not repeatable";
+  if (round.header().frame_nanos != frame_nanos) return "its ticks have another length";
+  if (round.fact(kFactClocks) != "repeatable") return "its clocks were real";
+  const auto proven = kept.find(uuidText(round.header().uuid));
+  for (const char* p_name : {kFactModule, kFactPlayers, kFactGameOver, kFactSettings, kFactClocks}) {
+    const auto here = expected.find(p_name);
+    const std::string value = here != expected.end() ? here->second : std::string();
+    const bool is_proven =
+        proven != kept.end() && std::string_view(p_name) == kFactModule && value == proven->second;
+    if (round.fact(p_name) != value && !is_proven)
+      return "of its facts, " + std::string(p_name) + " is another one here";
+  }
+  for (const auto& [name, value] : expected) {
+    if (name.starts_with(kFactVariable) && round.fact(name) != value)
+      return "of its facts, " + name + " is another one here";
+  }
+  return {};
+}
+
+}  // namespace
+
+// Only the newest one: from those before, players have gone on already.
+std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
+                                         std::uint64_t frame_nanos, std::string& said,
+                                         const KeptRounds& kept) {
+  for (const fs::path& path : roundsOf(folder, expected.at(kFactGame))) {
+    try {
+      auto round = std::make_unique<OpenRound>(path.string());
+      if (round->fact(kFactPort) != expected.at(kFactPort)) continue;  // another server's
+      if (round->isOver() || round->turns() == 0) return nullptr;
+      const std::string difference = differenceOf(*round, expected, frame_nanos, kept);
+      if (difference.empty()) return round;
+      said = path.string() + ": " + difference;
+    } catch (const OpenRoundError& error) {
+      said = path.string() + ": " + error.what();
+    }
+    return nullptr;
+  }
+  return nullptr;
+}
+
+std::string hashOfModule(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  EVP_MD_CTX* p_context = EVP_MD_CTX_new();
+  bool good = file.good() && p_context != nullptr && EVP_DigestInit_ex(p_context, EVP_sha256(), nullptr) == 1;
+  std::array<char, 65'536> part{};
+  while (good && file.read(part.data(), part.size()).gcount() > 0)
+    good = EVP_DigestUpdate(p_context, part.data(), static_cast<std::size_t>(file.gcount())) == 1;
+  unsigned char hash[EVP_MAX_MD_SIZE];
+  unsigned size = 0;
+  good = good && EVP_DigestFinal_ex(p_context, hash, &size) == 1;
+  EVP_MD_CTX_free(p_context);
+  return good ? hexOf(hash, size) : std::string();
+}
+
+DfrFacts factsOfMachine() {
+  DfrFacts facts;
+  utsname system{};
+  if (uname(&system) == 0) facts["kernel"] = std::string(system.release) + " " + system.machine;
+  for (const char* p_library : {"libdragonfly.so", "libc.so", "libstdc++.so"})
+    facts["build " + std::string(p_library)] = buildIdOf(p_library);
+  return facts;
+}
+
+std::shared_ptr<Journals> Journals::open(const HostOptions& options, const std::string& game,
+                                         const std::string& module, const LogLine& log) {
+  return wantsJournal(options) ? std::make_shared<Journals>(options, game, module, log) : nullptr;
+}
+
+Journals::Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log,
+                   std::shared_ptr<SharedJournals> p_shared)
+    : m_folder(fs::absolute(options.journal).string()),
+      m_of_room(p_shared != nullptr),
+      m_game(std::move(game)),
+      m_module(module),
+      m_seed(options.seed),
+      m_frame_nanos(static_cast<std::uint64_t>(
+          std::chrono::nanoseconds(TickLength::fromMicros(options.frame_micros).times(1)).count())),
+      m_ring(options.players == "private" ? kPrivateRing
+             : p_shared != nullptr        ? kRoomRing
+                                          : kSharedRing),
+      m_copies(options.players != "private"),
+      m_facts(factsOfMachine()),
+      m_log(std::move(log)),
+      m_is_private(options.players == "private"),
+      m_recovers(options.recover == "on"),
+      m_shared(p_shared != nullptr ? std::move(p_shared) : std::make_shared<SharedJournals>()) {
+  m_facts[kFactGame] = m_game;
+  m_facts[kFactVersion] = kVersion;
+  m_facts[kFactPort] = std::to_string(options.port);
+  m_facts[kFactPlayers] = options.players;
+  m_facts[kFactGameOver] = options.on_game_over;
+  m_facts[kFactClocks] = repeatPreload().empty() ? "real" : "repeatable";
+  if (!module.empty()) m_facts[kFactModule] = hashOfModule(module);
+  if (const std::string settings = readSettings(); !settings.empty()) m_facts[kFactSettings] = settings;
+  for (const std::string& entry : makeFixedEnvironment(options)) {
+    const std::size_t equals = entry.find('=');
+    if (isGameVariable(entry)) m_facts[kFactVariable + entry.substr(0, equals)] = entry.substr(equals + 1);
+  }
+  std::set<std::string> left;
+  for (const auto& [uuid, hash] : m_shared->kept) left.insert(uuid);
+  for (const std::string& sentence : salvageRounds(m_folder, left)) m_log(sentence);
+  findRound(options);
+  m_log("each round is written down in " + m_folder);
+  if (repeatPreload().empty())
+    m_log("warning: libdragonfly-repeat.so is missing: a game that reads a clock cannot be executed again");
+}
+
+std::uint32_t Journals::highestPlayer() const {
+  return m_open != nullptr ? m_open->highestPlayer() : 0;
+}
+
+WorldOrder Journals::makeOrder() const {
+  WorldOrder order;
+  order.seed = m_seed != 0 ? static_cast<std::uint64_t>(m_seed) : newSeed();
+  order.repeatable = true;
+  order.copies = m_copies;
+  order.start_nanos = static_cast<std::uint64_t>(
+      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
+  order.frame_nanos = m_frame_nanos;
+  return order;
+}
+
+std::string Journals::pathOf(const DfrHeader& header) const {
+  const auto seconds = static_cast<std::time_t>(header.start_nanos / 1'000'000'000);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  char when[32];
+  std::strftime(when, sizeof when, "%Y%m%d-%H%M%S", &utc);
+  return m_folder + "/" + m_game + "-" + when + "-" + uuidText(header.uuid).substr(0, 8) + ".dfr";
+}
+
+void Journals::findRound(const HostOptions& options) {
+  if (options.recover != "on") return;
+  std::string why_not;
+  m_open = findOpenRound(m_folder, m_facts, m_frame_nanos, why_not, m_shared->kept);
+  if (m_open != nullptr && options.players == "private") {
+    why_not = m_open->path() + ": worlds of single players are not gone on with";
+    m_open.reset();
+  }
+  // A player comes back within the grace time; a file is written once a second.
+  const auto patience = std::chrono::duration<double>(options.grace) + JournalWriter::kBetween;
+  if (m_open != nullptr && std::filesystem::file_time_type::clock::now() - m_open->writtenAt() > patience)
+    m_open->dropSessions();
+  if (!why_not.empty()) m_log({LogEvent::Level::kWarning, "warning: the round cannot go on: " + why_not});
+}
+
+std::optional<WorldOrder> Journals::orderOfOpenRound() const {
+  if (m_open == nullptr) return std::nullopt;
+  WorldOrder order;
+  order.seed = m_open->header().seed;
+  order.repeatable = true;
+  order.copies = m_copies;
+  order.again = true;  // or a game that sleeps would take as long as the round
+  order.start_nanos = m_open->header().start_nanos;
+  order.frame_nanos = m_open->header().frame_nanos;
+  return order;
+}
+
+namespace {
+
+/// Attempts to go on with the round from where it is. Each that comes to its end adds a turn.
+int attemptsOf(const OpenRound& round) {
+  std::istringstream fact(round.fact(kFactAttempts));
+  int attempts = 0;
+  std::uint32_t turns = 0;
+  return fact >> attempts >> turns && turns >= round.turns() ? attempts : 0;
+}
+
+}  // namespace
+
+// The attempt is noted in the file before it begins: a round that kills the server again and again is given
+// up.
+std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
+  auto sink = std::make_unique<JournalFileSink>(round.path(), round.wholeBytes());
+  const int attempts = attemptsOf(round);
+  if (attempts >= kMaxAttempts) {
+    sink->write(spellDfrDone("given up: it could not go on " + std::to_string(attempts) + " times"));
+    sink->sync();
+    m_log({LogEvent::Level::kError, "the round " + round.path() + " has ended " + std::to_string(attempts) +
+                                        " servers that went on with it; another one begins"});
+    return nullptr;
+  }
+  sink->write(
+      spellDfrMeta({{kFactAttempts, std::to_string(attempts + 1) + " " + std::to_string(round.turns())}}));
+  sink->sync();
+  return std::make_shared<Journal>(std::move(sink), round.header(), DfrFacts(), m_ring, true,
+                                   round.takePlace(), ringFolder(m_folder));
+}
+
+std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
+                                          std::function<void()> on_recovered, NewWorld another) {
+  const auto round = std::shared_ptr<OpenRound>(std::move(m_open));
+  const std::string path = round->path();
+  JournaledWorld::Book book = makeBook(path, *world);
+  try {
+    book.journal = goOnWriting(*round);
+  } catch (const std::system_error& error) {
+    m_log({LogEvent::Level::kError, "the round cannot go on: " + std::string(error.what())});
+  }
+  if (book.journal == nullptr) return nullptr;
+  const bool is_kept = isKept(*round);
+  if (is_kept) book.journal->addFacts(m_facts);  // its game is this one from now on
+  if (!is_kept)
+    book.find_difference = [p_world = world.get(), round] {
+      for (const auto& [name, value] : factsOfStart(*p_world)) {
+        const std::string before = round->fact(name);
+        if (name.starts_with(kFactFile) && !before.empty() && before != value)
+          return "it reads another " + name + " than it did";
+      }
+      return std::string();
+    };
+  book.on_recovered = [log = m_log, path, began = std::chrono::steady_clock::now(),
+                       on_recovered = std::move(on_recovered)](std::uint32_t ticks,
+                                                               const std::string& problem) {
+    on_recovered();
+    if (!problem.empty()) {
+      log({LogEvent::Level::kError, "the round cannot go on, and is kept in " + path + ": " + problem});
+      return;
+    }
+    const auto took =
+        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - began);
+    log("the round goes on after " + std::to_string(ticks) + " ticks, which were executed again in " +
+        std::to_string(took.count()) + " ms");
+  };
+  m_log((is_kept ? "the round is executed again in this program: "
+                 : "the server was killed in a round, which is executed again: ") +
+        path);
+  book.history = round->records();
+  book.first_tick =
+      static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
+  book.new_world = std::move(another);
+  book.recovery = std::make_unique<RoundRecovery>(round);
+  m_shared->writer->add(book.journal);
+  noteCurrent(book.journal, path);
+  return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
+}
+
+JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProcess& world) const {
+  JournaledWorld::Book book;
+  book.writer = m_shared->writer;
+  const fs::path file(path);
+  book.recording = (m_of_room ? file.parent_path().filename() / file.filename() : file.filename()).string();
+  book.late_facts = [&world] { return factsOfStart(world); };
+  book.on_problem = [log = m_log, path](const std::string& problem) {
+    log({LogEvent::Level::kError,
+         "the round is not written down any more, and goes on: " + problem + " (" + path + ")"});
+  };
+  book.on_death = [log = m_log, path, game = m_game, module = m_module](const WorldEnd& end,
+                                                                        std::uint32_t tick, bool goes_on) {
+    log({LogEvent::Level::kError,
+         "the game " + end.text + (end.when.empty() ? "" : " " + end.when) +
+             (goes_on ? "; another world takes over, without the keys and clicks of that tick"
+                      : describeLastDeath(path, tick, game, module))});
+    for (const std::string& line : end.last_lines) log("the game's log: " + line);
+  };
+  book.on_taken_over = [log = m_log](const TakeOver& done, std::chrono::milliseconds time) {
+    log(std::string("the game goes on: ") + (done.by_copy ? "a copy of its world" : "another world") +
+        " executed " + std::to_string(done.ticks) + " ticks again, in " + std::to_string(time.count()) +
+        " ms");
+  };
+  book.on_copies = [log = m_log](const std::string& sentence) { log(sentence); };
+  return book;
+}
+
+std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
+                                          RepeatCheck::NewWorld again, NewWorld another) {
+  DfrHeader header;
+  std::random_device device;
+  for (std::uint8_t& byte : header.uuid) byte = static_cast<std::uint8_t>(device());
+  header.seed = order.seed;
+  header.start_nanos = order.start_nanos;
+  header.frame_nanos = order.frame_nanos;
+  const std::string path = pathOf(header);
+  JournaledWorld::Book book = makeBook(path, *world);
+  try {
+    book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring,
+                                             true, std::nullopt, ringFolder(m_folder), book.recording);
+  } catch (const std::system_error& error) {
+    m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
+    return world;
+  }
+  book.new_world = std::move(another);
+  if (again && m_shared->checked.insert(m_game).second) {
+    book.check = std::make_unique<RepeatCheck>(
+        std::move(again),
+        [log = m_log, journal = book.journal, repeats = m_repeats](const std::string& sentence) {
+          *repeats = false;
+          journal->addFacts({{kFactRepeatable, "no"}});
+          log(LogEvent::warning(sentence));
+        });
+  }
+  m_shared->writer->add(book.journal);
+  noteCurrent(book.journal, path);
+  m_shared->writer->wake();  // a server that is killed within the first second leaves a file, too
+  return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
+}
+
+// ---- a program that goes on in this one's place -----------------------------------------------------------
+
+namespace {
+
+/// Not an option: it is of one start, and no configuration.
+constexpr const char* kKeptVariable = "DF_KEPT_ROUNDS";
+
+}  // namespace
+
+KeptRounds takeKeptRounds() {
+  KeptRounds rounds;
+  const char* p_value = std::getenv(kKeptVariable);
+  std::istringstream words(p_value != nullptr ? p_value : "");
+  for (std::string uuid, hash; words >> uuid >> hash;) rounds[uuid] = hash;
+  unsetenv(kKeptVariable);
+  return rounds;
+}
+
+void Journals::announceKept(const KeptRounds& rounds) {
+  std::ostringstream text;
+  for (const auto& [uuid, hash] : rounds) text << uuid << ' ' << hash << ' ';
+  setenv(kKeptVariable, text.str().c_str(), 1);
+}
+
+void Journals::noteCurrent(const std::shared_ptr<Journal>& journal, const std::string& file) {
+  m_current = journal;
+  m_current_file = file;
+}
+
+std::optional<Journals::CurrentRound> Journals::currentRound() const {
+  const auto journal = m_current.lock();
+  if (journal == nullptr || !journal->isOpen()) return std::nullopt;
+  return CurrentRound{uuidText(journal->header().uuid), m_current_file, journal->header().start_nanos};
+}
+
+std::string Journals::whyNotKept() const {
+  if (m_is_private) return "each player has a world of their own";
+  if (!m_recovers) return "--recover is off";
+  if (m_module.empty()) return "the game is a program of its own";
+  if (!*m_repeats) return "the game is not repeatable";
+  const auto journal = m_current.lock();
+  if (journal != nullptr && journal->hasStopped()) return "its journal has stopped";
+  const auto clocks = m_facts.find(kFactClocks);
+  return clocks == m_facts.end() || clocks->second != "repeatable" ? "the game's clocks are real"
+                                                                   : std::string();
+}
+
+void Journals::leaveOpen() {
+  if (const auto journal = m_current.lock()) journal->leaveOpen();
+}
+
+bool Journals::isKept(const OpenRound& round) const {
+  return m_shared->kept.contains(uuidText(round.header().uuid));
+}
+
+}  // namespace naiad

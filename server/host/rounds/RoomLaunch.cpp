@@ -1,0 +1,81 @@
+#include "host/rounds/RoomLaunch.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "host/rounds/Worlds.h"
+#include "host/settings/GameModule.h"
+#include "host/settings/RoomList.h"
+
+namespace naiad {
+
+namespace {
+
+/// A game that takes all it can get leaves the front, which serves all rooms, as much as that needs.
+constexpr int kNice = 5;
+
+/// Rooms that differ in nothing but their names and places share a launcher.
+std::string kindOf(const RoomOptions& room) {
+  return room.game + " " + std::to_string(room.world_memory) + " " + std::to_string(room.seed) + " " +
+         room.players;
+}
+
+/// What is the same for several launchers is logged once.
+LogLine onceOnly(const LogLine& log) {
+  return [log, said = std::make_shared<std::set<std::string>>()](const LogEvent& event) {
+    if (said->insert(event.text).second) log(event);
+  };
+}
+
+WorldReady preview(const RoomOptions& room, const WorldLauncher& launcher, const LogLine& print) {
+  Preview seen = previewWorld(launcher, print);
+  if (seen.ready) return *std::move(seen.ready);
+  throw GameError("--room " + room.name + ": the game " + seen.end.text +
+                  (seen.end.when.empty() ? " before GM.run()" : " " + seen.end.when));
+}
+
+void warnOfTicks(const std::vector<LaunchedRoom>& rooms, const HostOptions& options, const LogLine& log) {
+  if (options.frame_micros != 0) return;
+  for (const LaunchedRoom& room : rooms) {
+    const int wanted = room.plan.ready.frame_millis;
+    const int given = rooms.front().plan.ready.frame_millis;
+    if (wanted == given) continue;
+    log({LogEvent::Level::kWarning,
+         "warning: the game in the room " + room.plan.name + " asks for ticks of " + std::to_string(wanted) +
+             " ms; those of this server take " + std::to_string(given) + " ms, as in its first room"});
+  }
+}
+
+}  // namespace
+
+std::vector<LaunchedRoom> launchRooms(const HostOptions& options, const std::string& config,
+                                      const LogLine& log,
+                                      const std::function<LogLine(const std::string& room)>& print) {
+  const std::vector<RoomOptions> rooms = roomsOf(options);
+  const LogLine log_once = onceOnly(log);
+  std::map<std::string, std::shared_ptr<const WorldLauncher>> launchers;
+  for (const RoomOptions& room : rooms) {
+    auto& launcher = launchers[kindOf(room)];
+    if (launcher != nullptr) continue;
+    launcher =
+        launchModule(optionsOf(options, room), GameModule::find(room.game).string(), config, log_once, kNice);
+  }
+  std::map<std::string, WorldReady> seen;
+  std::vector<LaunchedRoom> launched;
+  for (const RoomOptions& room : rooms) {
+    const std::string kind = kindOf(room);
+    if (!seen.contains(kind)) seen[kind] = preview(room, *launchers[kind], print(room.name));
+    launched.push_back({{.name = room.name,
+                         .game = GameModule::nameOf(GameModule::find(room.game)),
+                         .max_players = room.max_players,
+                         .first_only = room.players == "first",
+                         .ready = seen[kind],
+                         .new_world = {}},
+                        launchers[kind]});
+  }
+  warnOfTicks(launched, options, log);
+  return launched;
+}
+
+}  // namespace naiad

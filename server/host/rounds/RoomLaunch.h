@@ -1,0 +1,28 @@
+// Starts what the worlds of rooms are started from.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/rounds/RoomPlan.h"
+#include "host/settings/HostOptions.h"
+#include "host/world/WorldLauncher.h"
+#include "shared/program/LineLog.h"
+
+namespace naiad {
+
+struct LaunchedRoom {
+  RoomPlan plan;  ///< without new_world and p_scores
+  std::shared_ptr<const WorldLauncher> launcher;
+};
+
+/// The rooms of these options. Each game runs until GM.run(), in a world that is ended then; `print` makes
+/// what gets its lines in a room. Better called before this process has threads and secrets. Throws GameError
+/// for a game that does not come so far, or std::system_error.
+std::vector<LaunchedRoom> launchRooms(const HostOptions& options, const std::string& config,
+                                      const LogLine& log,
+                                      const std::function<LogLine(const std::string& room)>& print);
+
+}  // namespace naiad

@@ -1,0 +1,188 @@
+#include "host/rounds/RoundHandover.h"
+
+#include <pthread.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "host/net/ListeningSockets.h"
+#include "host/rounds/WorldSandbox.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+
+namespace naiad {
+
+namespace {
+
+/// For what waits for the disk, before it is read again. The game goes on meanwhile, and other programs may
+/// keep the disk busy.
+constexpr std::chrono::seconds kSyncTime{20};
+/// For a program that only reads its options.
+constexpr std::chrono::seconds kCheckTime{20};
+constexpr std::size_t kMaxProblem = 200;
+
+constexpr std::string_view kProtocolKey = " protocol=";
+
+/// The last line that begins so; with an empty `begin` the last one that is not empty.
+std::string lineWith(const std::string& text, std::string_view begin) {
+  std::istringstream lines(text);
+  std::string found;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.starts_with(begin)) found = line;
+  }
+  return found;
+}
+
+/// The last line, as the rest of a sentence.
+std::string lastWords(const std::string& printed) {
+  std::string last = lineWith(printed, "");
+  while (last.ends_with('.')) last.pop_back();
+  return safeText(last, kMaxProblem);
+}
+
+std::string protocolProblem(const std::string& verified) {
+  const std::size_t at = verified.find(kProtocolKey);
+  if (at == std::string::npos) return "it does not say which protocol it speaks";
+  const long protocol = std::strtol(verified.c_str() + at + kProtocolKey.size(), nullptr, 10);
+  if (protocol == long{kProtocolVersion}) return {};
+  return "it speaks protocol " + std::to_string(protocol) + ", and the players' clients speak " +
+         std::to_string(kProtocolVersion);
+}
+
+/// What has no exit code of the program's own; empty: it has one.
+std::string abruptEnd(const std::string& name, const ProgramEnd& end) {
+  if (end.is_late) return name + ", which tries that out, does not come to its end";
+  if (end.signal != 0)
+    return name + ", which tries that out, was ended by signal " + std::to_string(end.signal);
+  if (end.code == ProgramEnd::kNotStarted) return name + ", which tries that out, cannot be started";
+  return {};
+}
+
+std::chrono::milliseconds timeFor(const Journals::CurrentRound& round) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::chrono::nanoseconds played =
+      std::max(std::chrono::nanoseconds(0), now - std::chrono::nanoseconds(round.start_nanos));
+  const auto time = RoundHandover::kLeastTime +
+                    std::chrono::duration_cast<std::chrono::seconds>(played / RoundHandover::kPartOfRound);
+  return std::min<std::chrono::milliseconds>(time, RoundHandover::kMaxTime);
+}
+
+/// Why, of the room of that name if rooms have names; empty: there is no reason.
+std::string inRoom(const std::string& name, const std::string& why) {
+  return why.empty() || name.empty() ? why : "room " + name + ": " + why;
+}
+
+}  // namespace
+
+std::string readVerdict(const ProgramEnd& end) {
+  if (std::string abrupt = abruptEnd("dfreplay", end); !abrupt.empty()) return abrupt;
+  if (end.code == 0) return protocolProblem(lineWith(end.printed, "verified "));
+  const std::string tick = end.code == 1 ? lineWith(end.printed, "tick ") : std::string();
+  if (!tick.empty()) return safeText(tick, kMaxProblem);
+  const std::string last = lastWords(end.printed);
+  return last.empty() ? "dfreplay ended with code " + std::to_string(end.code) : last;
+}
+
+RoundHandover::RoundHandover(const StartCommand& command, std::vector<Room> rooms)
+    : m_command(command), m_rooms(std::move(rooms)) {}
+
+RoundHandover::~RoundHandover() {
+  m_run.cancel();
+  if (m_thread.joinable()) m_thread.join();
+}
+
+std::string RoundHandover::refusal() const {
+  if (m_proving) return "that is being tried already";
+  bool is_any = false;
+  for (const Room& room : m_rooms) {
+    if (const std::string why_not = room.journals->whyNotKept(); !why_not.empty())
+      return inRoom(room.name, why_not);
+    is_any = is_any || room.journals->currentRound();
+  }
+  return is_any ? std::string() : "none is being written down";
+}
+
+// Signals are for the thread that ticks.
+void RoundHandover::prove(std::function<void(const Result& result)> done) {
+  if (m_thread.joinable()) m_thread.join();  // it has done its work
+  m_proofs.clear();
+  for (const Room& room : m_rooms) {
+    if (const auto round = room.journals->currentRound()) m_proofs.push_back({&room, *round});
+  }
+  m_proving = true;
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  m_thread = std::thread([this, done = std::move(done)] {
+    const Result result = execute();
+    m_proving = false;
+    done(result);
+  });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+RoundHandover::Result RoundHandover::execute() {
+  if (const std::string problem = problemOfProgram(); !problem.empty()) return {problem, false};
+  for (Proof& proof : m_proofs) {
+    if (const std::string problem = problemOf(proof); !problem.empty())
+      return {inRoom(proof.p_room->name, problem)};
+  }
+  return {};
+}
+
+// One that ends at once, for it cannot be loaded or has other options, would end the game.
+std::string RoundHandover::problemOfProgram() {
+  std::vector<std::string> arguments = withoutPasswords(m_command.arguments());
+  arguments.emplace_back("--check-config");
+  const ProgramEnd end = m_run.run(m_command.program(), arguments, kCheckTime);
+  if (std::string abrupt = abruptEnd("dfserver", end); !abrupt.empty()) return abrupt;
+  if (end.code == 0) return {};
+  return "dfserver does not start with the options of this server: " + safeText(end.printed, kMaxProblem);
+}
+
+std::string RoundHandover::problemOf(Proof& proof) {
+  Journals& journals = *proof.p_room->journals;
+  if (!journals.sync(kSyncTime)) return "the disk is too slow";
+  proof.module_hash = hashOfModule(journals.module());
+  const std::string replay = std::filesystem::path(m_command.program()).replace_filename("dfreplay").string();
+  return readVerdict(m_run.run(replay,
+                               {proof.round.file, "--verify", "--for-server", "--game", journals.module()},
+                               timeFor(proof.round)));
+}
+
+std::string RoundHandover::changeSinceProof() const {
+  for (const Room& room : m_rooms) {
+    if (const std::string why_not = room.journals->whyNotKept(); !why_not.empty())
+      return inRoom(room.name, why_not);
+    const auto round = room.journals->currentRound();
+    if (!round) continue;
+    const bool is_proven = std::any_of(m_proofs.begin(), m_proofs.end(), [&round](const Proof& proof) {
+      return proof.round.uuid == round->uuid;
+    });
+    if (!is_proven) return inRoom(room.name, "another round has begun meanwhile");
+  }
+  for (const Proof& proof : m_proofs) {
+    if (hashOfModule(proof.p_room->journals->module()) != proof.module_hash)
+      return inRoom(proof.p_room->name, "the game was replaced meanwhile");
+  }
+  return {};
+}
+
+void RoundHandover::leaveOpen(std::uint16_t port) {
+  m_sockets = copyListeningSockets(port);
+  for (const Room& room : m_rooms) room.journals->leaveOpen();
+}
+
+void RoundHandover::announce() const {
+  KeptRounds rounds;
+  for (const Proof& proof : m_proofs) rounds[proof.round.uuid] = proof.module_hash;
+  Journals::announceKept(rounds);
+}
+
+}  // namespace naiad

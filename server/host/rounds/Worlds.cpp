@@ -1,0 +1,195 @@
+#include "host/rounds/Worlds.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "host/rounds/WorldSandbox.h"
+#include "host/settings/GameModule.h"
+#include "host/world/Repeatable.h"
+#include "host/world/WorldProcess.h"
+#include "host/world/WorldStart.h"
+
+namespace naiad {
+
+namespace {
+
+static_assert(kMaxServerPlayers <= kMaxViewPlayers);
+
+constexpr const char* kThisProgram = "/proc/self/exe";
+constexpr std::chrono::milliseconds kBetweenChecks{10};
+
+std::vector<std::string> ownArguments() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin < all.size(); begin += words.back().size() + 1) {
+    words.emplace_back(all.data() + begin);
+  }
+  return words;
+}
+
+/// What a world needs of dfserver's options; the others are the front's.
+std::vector<std::string> moduleArguments(const HostOptions& options, const std::string& module) {
+  std::vector<std::string> words{"dfserver", "--game=" + module, "--players=" + options.players,
+                                 "--on-game-over=" + options.on_game_over};
+  // Where rounds are written down each world is given its seed, and has the same arguments again.
+  if (options.seed != 0 && !wantsJournal(options)) words.push_back("--seed=" + std::to_string(options.seed));
+  return words;
+}
+
+std::string gameSettings() {
+  const char* p_named = std::getenv("DRAGONFLY_CONFIG");
+  return p_named != nullptr ? p_named : "df-config.txt";
+}
+
+std::chrono::milliseconds hangTime(const HostOptions& options) {
+  return std::chrono::milliseconds(std::llround(options.hang_time * 1000));
+}
+
+std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const GamePlace& place,
+                                            std::vector<std::string> arguments, const LogLine& log,
+                                            int nice = 0) {
+  const WorldSandbox made = makeWorldSandbox(options, place);
+  auto launcher = std::make_shared<const WorldLauncher>(
+      WorldProgram{kThisProgram, std::move(arguments),
+                   wantsJournal(options) ? makeFixedEnvironment(options) : makeWorldEnvironment(options),
+                   firstDirectory(), made.sandbox, repeatPreload(), hangTime(options), nice});
+  if (!made.sandbox.on) {
+    log("games in processes of their own have no sandbox: they can do what this user can");
+    return launcher;
+  }
+  hideProcess();
+  if (const std::string gaps = sandboxGaps(launcher->support()); !gaps.empty()) log(gaps);
+  if (launcher->support().landlock == 0) return launcher;
+  for (const std::string& note : made.notes) log(note);
+  return launcher;
+}
+
+struct RepeatingWorld {
+  std::unique_ptr<WorldProcess> world;
+  std::function<void()> on_repeated;  ///< what it prints from then on is news
+};
+
+RepeatingWorld startRepeating(const WorldLauncher& launcher, const WorldOrder& order, const LogLine& print,
+                              asio::io_context& home) {
+  const auto repeats = std::make_shared<bool>(true);
+  const auto print_news = [print, repeats](const std::string& line) {
+    if (!*repeats) print(line);
+  };
+  return {std::make_unique<WorldProcess>(home, launcher.start(order), print_news),
+          [repeats] { *repeats = false; }};
+}
+
+Journals::NewWorld repeatLater(const std::shared_ptr<const WorldLauncher>& launcher, WorldOrder order,
+                               const LogLine& print, asio::io_context& home) {
+  order.again = true;  // or a game that sleeps would take as long as the round
+  return [launcher, order, print, &home] {
+    RepeatingWorld another = startRepeating(*launcher, order, print, home);
+    return JournaledWorld::AnotherWorld{std::move(another.world), std::move(another.on_repeated)};
+  };
+}
+
+/// Null: there is no round to go on with.
+std::unique_ptr<WorldPort> goOnWithRound(const std::shared_ptr<const WorldLauncher>& launcher,
+                                         const LogLine& print, Journals& journals, asio::io_context& home) {
+  const auto order = journals.orderOfOpenRound();
+  if (!order) return nullptr;
+  auto [world, on_repeated] = startRepeating(*launcher, *order, print, home);
+  return journals.goOn(std::move(world), std::move(on_repeated), repeatLater(launcher, *order, print, home));
+}
+
+}  // namespace
+
+bool leavesAlone(const HostOptions& options) {
+  return options.on_game_over != "exit";
+}
+
+std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, const std::string& module,
+                                                  const std::string& config, const LogLine& log, int nice) {
+  GamePlace place;
+  place.files = {module, gameSettings()};
+  place.folders = GameModule::resourceFolders(module);
+  place.server_files = {options.log_file,   options.join_file, options.port_file,
+                        options.truth_file, options.visitors,  options.control};
+  place.secrets = {config, options.state};
+  return launch(options, place, moduleArguments(options, module), log, nice);
+}
+
+std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, const std::string& log_file,
+                                                   const LogLine& log) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::read_symlink(kThisProgram, error).parent_path();
+  GamePlace place;
+  place.files = {gameSettings()};
+  if (!error) place.folders = {folder.string(), folder.parent_path().string()};
+  place.logs = {log_file};
+  place.server_files = {options.log_file,   options.join_file, options.port_file,
+                        options.truth_file, options.visitors,  options.control};
+  place.secrets = {options.state};
+  place.is_program = true;
+  return launch(options, place, ownArguments(), log);
+}
+
+std::function<std::unique_ptr<WorldPort>(asio::io_context& home)> startWorlds(
+    std::shared_ptr<const WorldLauncher> launcher, LogLine print, std::shared_ptr<Journals> journals) {
+  using NewPort = std::unique_ptr<WorldPort>;
+  return [launcher = std::move(launcher), print = std::move(print),
+          journals = std::move(journals)](asio::io_context& home) -> NewPort {
+    if (journals == nullptr) return std::make_unique<WorldProcess>(home, launcher->start(), print);
+    if (auto world = goOnWithRound(launcher, print, *journals, home)) return world;
+    const WorldOrder order = journals->makeOrder();
+    auto world = std::make_unique<WorldProcess>(home, launcher->start(order), print);
+    WorldOrder again = order;
+    again.again = true;
+    again.reads_only = true;
+    again.copies = false;
+    RepeatCheck::NewWorld start_again;
+    if (launcher->support().landlock > 0) {
+      start_again = [launcher, again, &home] {
+        return std::make_unique<WorldProcess>(home, launcher->start(again), OutputRelay::Line());
+      };
+    }
+    return journals->keep(std::move(world), order, std::move(start_again),
+                          repeatLater(launcher, order, print, home));
+  };
+}
+
+// 33 ms is how the published engine writes 1/30 s.
+HostOptions withFrameTime(HostOptions options, const WorldReady& ready) {
+  constexpr int kUsualMillis = 33;
+  if (options.frame_micros == 0 && ready.frame_millis != kUsualMillis)
+    options.frame_micros = ready.frame_millis * 1000;
+  return options;
+}
+
+std::shared_ptr<const WorldLauncher> launchAgain(const HostOptions& options, const std::string& module,
+                                                 const std::string& program, const std::string& folder,
+                                                 const std::vector<std::string>& variables) {
+  GamePlace place;
+  place.files = {program, module};
+  place.folders = GameModule::resourceFolders(module);
+  WorldSandbox made = makeWorldSandbox(options, place);
+  made.sandbox.writable = {folder};
+  std::vector<std::string> environment = makeFixedEnvironment(options);
+  std::erase_if(environment, isGameVariable);
+  environment.insert(environment.end(), variables.begin(), variables.end());
+  return std::make_shared<const WorldLauncher>(WorldProgram{program, moduleArguments(options, module),
+                                                            std::move(environment), folder, made.sandbox,
+                                                            repeatPreload(), hangTime(options)});
+}
+
+Preview previewWorld(const WorldLauncher& launcher, const LogLine& print) {
+  asio::io_context home;
+  WorldProcess world(home, launcher.start(), print);
+  while (!world.ready() && !world.end()) {
+    home.restart();
+    home.run_one_for(kBetweenChecks);
+    world.checkProcess(1);
+  }
+  return {world.ready(), world.end().value_or(WorldEnd())};
+}
+
+}  // namespace naiad

@@ -1,0 +1,543 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <asio/executor_work_guard.hpp>
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "engine/world/World.h"
+#include "host/admission/Admission.h"
+#include "host/auth/PasswordHash.h"
+#include "naiad.pb.h"
+#include "tests/server/host/rooms/Clients.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Client;
+using test::helloOf;
+
+/// A world that is closed at once, or not before the test says so.
+class FakeWorld : public WorldPort {
+ public:
+  FakeWorld(int& worlds, const bool& ends) : m_worlds(worlds), m_ends(ends) { ++m_worlds; }
+  ~FakeWorld() override { --m_worlds; }
+  FakeWorld(const FakeWorld&) = delete;
+  FakeWorld& operator=(const FakeWorld&) = delete;
+
+  std::uint32_t addInput(df::InputQueue::Input input) override { return input.player; }
+  void setHeard(std::uint32_t) override {}
+  void endGame() override {}
+  bool isReady() const override { return false; }
+  void tick(bool, bool) override {}
+  std::uint32_t nextTick() const override { return 1; }
+  const df::WorldView& view() const override { return m_view; }
+  void notePublished(const Publisher&) override {}
+  std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
+  bool isGameOver() const override { return false; }
+  df::Canvas renderPlayer(std::uint32_t) const override { return {}; }
+  std::optional<WorldEnd> end() const override {
+    return m_closed && m_ends ? std::optional(WorldEnd()) : std::nullopt;
+  }
+  void close() override { m_closed = true; }
+  std::optional<int> recovering() const override { return percent; }
+
+  std::optional<int> percent;
+
+ private:
+  int& m_worlds;
+  const bool& m_ends;
+  bool m_closed = false;
+  df::WorldView m_view;
+};
+
+class AdmissionTest : public testing::Test {
+ protected:
+  AdmissionTest() {
+    world.setLogSink([](const std::string&) {});
+    options.max_players = 3;
+  }
+
+  Admission& admission() {
+    if (!m_admission) {
+      rooms.open(world);
+      m_admission.emplace(
+          Admission::Setup{options, "maze", sessions, rooms, prefixes, counters, bans,
+                           [this](const std::string& address, const std::string& text) {
+                             log.push_back(address + " " + text);
+                           },
+                           [](const ReliableChannel&, AeadId) { return nullptr; }, [this] { ++new_clients; }},
+          io.get_executor());
+      m_admission->setWorld(world);
+    }
+    return *m_admission;
+  }
+  Client& greet(const wire::Hello& hello, const std::string& address = "192.0.2.1:1") {
+    admission();
+    Client& client = clients.emplace_back();
+    client.address = address;
+    sessions.add(std::make_unique<test::FakeChannel>(client), events(), now);
+    client.greet(hello);
+    return client;
+  }
+  static wire::Hello returning(const Client& client) {
+    wire::Hello hello = helloOf("Ann");
+    hello.set_resume_token(client.welcome().resume_token());
+    return hello;
+  }
+  Session& sessionOf(std::uint64_t id) { return *sessions.find(id); }
+  /// A player joins from there, and leaves again at once. False: they were refused for now.
+  bool visit(const std::string& address) {
+    Client& client = greet(helloOf("Ann"), address);
+    const bool welcome = client.isWelcome();
+    if (welcome)
+      leave(client);
+    else
+      EXPECT_EQ(client.refusal(), wire::Refused::BUSY);
+    sessions.sweep();
+    rooms.checkWorlds();
+    if (sessions.isEmpty()) clients.clear();
+    return welcome;
+  }
+  static void leave(const Client& client) {
+    wire::ClientMessage message;
+    message.mutable_leave();
+    client.receive(message);
+    client.drop();
+  }
+  int joinClass(int pupils) {
+    int welcome = 0;
+    std::vector<Client*> all;
+    for (int i = 0; i < pupils; ++i) all.push_back(&greet(helloOf("Ann")));
+    for (const Client* client : all) {
+      welcome += client->isWelcome() ? 1 : 0;
+      if (client->isWelcome()) leave(*client);
+    }
+    sessions.sweep();
+    rooms.checkWorlds();
+    return welcome;
+  }
+  /// A round of a server that was killed is executed again.
+  FakeWorld& recover(int percent) {
+    auto room = std::make_unique<FakeWorld>(worlds, worlds_end);
+    FakeWorld& recovering = *room;
+    recovering.percent = percent;
+    rooms.setWorlds(
+        [made = std::make_shared<std::unique_ptr<FakeWorld>>(std::move(room))] { return std::move(*made); });
+    return recovering;
+  }
+  bool waitsAfter(const Client& client, std::chrono::milliseconds time) {
+    now += time;
+    admission().judgeWaiting();
+    return !client.isWelcome() && !client.isRefused();
+  }
+  void playInPrivate() {
+    options.players = "private";
+    rooms.setWorlds([this] { return std::make_unique<FakeWorld>(worlds, worlds_end); });
+  }
+
+  HostOptions options;
+  SessionTable::Clock::time_point now = SessionTable::Clock::now();
+  df::World world;
+  const df::World::Scope scope{world};
+  asio::io_context io;
+  Counters counters;
+  PlayerPrefixes prefixes;
+  AdminWorker worker;
+  BanList bans{worker, {}};
+  std::deque<Client> clients;
+  std::vector<std::string> log;
+  int new_clients = 0;
+  int worlds = 0;
+  bool worlds_end = true;
+  std::vector<std::string> log_of_rooms;
+  SessionTable sessions{256, counters, [this](Session& session) { rooms.removeSession(session); }};
+  StageClock stages;
+  Rooms rooms{options, sessions, counters, [this](const std::string& line) { log_of_rooms.push_back(line); },
+              [] {},   stages};
+
+ private:
+  Session::Events events() {
+    return {[this](Session& session, const wire::Hello& hello) { m_admission->judgeHello(session, hello); },
+            [](Session&, const std::string&) {},
+            [this](Session& session) {
+              m_admission->forgetSession(session);
+              if (session.player() != 0) rooms.leave(session);
+            },
+            [this] { return now; }};
+  }
+
+  std::optional<Admission> m_admission;
+};
+
+TEST_F(AdmissionTest, NoNameReadsAsAnotherPlayersLineInTheLog) {
+  wire::Hello hello = helloOf("A\" joined with");
+  hello.set_program("x\"\n192.0.2.9:1 \"Bob\" left");
+  greet(hello, "192.0.2.1:1");
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_EQ(log[0], R"(192.0.2.1:1 "A\" joined with" joined with "x\" 192.0.2.9:1 \"Bob\" left")");
+}
+
+TEST_F(AdmissionTest, AHelloMakesAPlayerWhoIsWelcomed) {
+  const Client& ann = greet(helloOf("Ann"));
+  const Client& bob = greet(helloOf("Ann"));
+  ASSERT_TRUE(ann.isWelcome() && bob.isWelcome());
+  EXPECT_EQ(ann.welcome().name(), "Ann");
+  EXPECT_NE(bob.welcome().name(), "Ann") << "names differ";
+  EXPECT_NE(ann.welcome().player(), bob.welcome().player());
+  EXPECT_NE(ann.welcome().color(), bob.welcome().color());
+  EXPECT_EQ(ann.welcome().game(), "maze");
+  EXPECT_EQ(ann.welcome().grace_millis(), 60'000u);
+  EXPECT_NE(rooms.findPlayer(ann.welcome().player()), nullptr);
+  EXPECT_EQ(counters.joined, 2u);
+  EXPECT_EQ(new_clients, 2);
+}
+
+TEST_F(AdmissionTest, AHelloWaitsASecondForARoundThatIsExecutedAgain) {
+  FakeWorld& room = recover(50);
+  const Client& client = greet(helloOf("Ann"));
+  EXPECT_TRUE(waitsAfter(client, 999ms));
+  EXPECT_FALSE(waitsAfter(client, 1ms));
+  EXPECT_EQ(client.refusal(), wire::Refused::BUSY);
+  room.percent.reset();
+  EXPECT_TRUE(greet(helloOf("Ann")).isWelcome());
+}
+
+TEST_F(AdmissionTest, AHelloWaitsForTheRestOfARoundThatIsMoreThanHalfDone) {
+  FakeWorld& room = recover(40);
+  const Client& client = greet(helloOf("Ann"));
+  EXPECT_TRUE(waitsAfter(client, 999ms));
+  room.percent = 51;
+  EXPECT_TRUE(waitsAfter(client, 2000ms));
+  room.percent.reset();
+  EXPECT_FALSE(waitsAfter(client, 0ms));
+  EXPECT_TRUE(client.isWelcome());
+}
+
+TEST_F(AdmissionTest, ARoundThatNeverEndsKeepsNoHelloForEver) {
+  recover(99);
+  const Client& client = greet(helloOf("Ann"));
+  EXPECT_TRUE(waitsAfter(client, 2999ms));
+  EXPECT_FALSE(waitsAfter(client, 1ms));
+  EXPECT_EQ(client.refusal(), wire::Refused::BUSY);
+}
+
+TEST_F(AdmissionTest, AnotherVersionOrGameIsRefused) {
+  wire::Hello other_version = helloOf("Ann");
+  other_version.set_protocol(kProtocolVersion + 1);
+  EXPECT_EQ(greet(other_version).refusal(), wire::Refused::VERSION);
+  EXPECT_EQ(counters.refused_version, 1u);
+  wire::Hello other_game = helloOf("Ann");
+  other_game.set_game("tron");
+  EXPECT_EQ(greet(other_game).refusal(), wire::Refused::GAME);
+  EXPECT_EQ(counters.refused_game, 1u);
+}
+
+TEST_F(AdmissionTest, ANameWithoutPrintableCharactersIsRefused) {
+  EXPECT_EQ(greet(helloOf(" \t ")).refusal(), wire::Refused::NAME);
+  EXPECT_EQ(counters.refused_name, 1u);
+  EXPECT_EQ(counters.joined, 0u);
+}
+
+TEST_F(AdmissionTest, NoMorePlayersThanTheServerOrOneAddressMayHave) {
+  options.max_per_address = 1;
+  EXPECT_TRUE(greet(helloOf("Ann"), "192.0.2.1:1").isWelcome());
+  EXPECT_EQ(greet(helloOf("Bob"), "192.0.2.1:2").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(counters.refused_address, 1u);
+  EXPECT_TRUE(greet(helloOf("Bob"), "192.0.2.2:1").isWelcome());
+  EXPECT_TRUE(greet(helloOf("Cid"), "192.0.2.3:1").isWelcome());
+  EXPECT_EQ(greet(helloOf("Dan"), "192.0.2.4:1").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(counters.refused_full, 1u);
+}
+
+TEST_F(AdmissionTest, OneAddressCannotCollectThePlacesOfBrokenStreams) {
+  options.max_per_address = 1;
+  Client& ann = greet(helloOf("Ann"));
+  ann.drop();
+  EXPECT_EQ(greet(helloOf("Bob")).refusal(), wire::Refused::FULL);
+  EXPECT_EQ(counters.refused_address, 1u);
+  EXPECT_EQ(sessions.playing(), 1u);
+  EXPECT_TRUE(greet(returning(ann)).isWelcome()) << "coming back takes no place";
+  admission().forgetSession(sessionOf(1));
+  EXPECT_TRUE(greet(helloOf("Cid")).isWelcome());
+}
+
+TEST_F(AdmissionTest, APlayerWhoComesBackIsWelcomeWhereTheirAddressIsFull) {
+  options.max_per_address = 1;
+  Client& ann = greet(helloOf("Ann"), "192.0.2.1:1");
+  greet(helloOf("Bob"), "192.0.2.2:1");
+  ann.drop();
+  EXPECT_TRUE(greet(returning(ann), "192.0.2.2:2").welcome().resumed());
+  EXPECT_EQ(greet(helloOf("Cid"), "192.0.2.1:2").refusal(), wire::Refused::FULL)
+      << "moving on frees no place for another one";
+  EXPECT_EQ(greet(helloOf("Cid"), "192.0.2.2:2").refusal(), wire::Refused::FULL);
+}
+
+TEST_F(AdmissionTest, AMovedPlayerCountsWhereTheyAre) {
+  options.max_per_address = 1;
+  Client& ann = greet(helloOf("Ann"), "192.0.2.1:1");
+  ann.drop();
+  greet(returning(ann), "192.0.2.2:1");
+  EXPECT_EQ(greet(helloOf("Bob"), "192.0.2.2:2").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(greet(helloOf("Bob"), "192.0.2.1:2").refusal(), wire::Refused::FULL);
+  EXPECT_TRUE(greet(helloOf("Bob"), "192.0.2.3:2").isWelcome());
+}
+
+TEST_F(AdmissionTest, ATokenContinuesItsSessionOnAnotherStream) {
+  Client& ann = greet(helloOf("Ann"));
+  ann.drop();
+  const Client& back = greet(returning(ann));
+  ASSERT_TRUE(back.isWelcome());
+  EXPECT_TRUE(back.welcome().resumed());
+  EXPECT_EQ(back.welcome().player(), ann.welcome().player());
+  EXPECT_NE(back.welcome().resume_token(), ann.welcome().resume_token());
+  EXPECT_FALSE(sessionOf(1).isDetached());
+  EXPECT_EQ(sessions.playing(), 1u);
+}
+
+TEST_F(AdmissionTest, AClientThatComesBackTooOftenIsRefusedForNowAndItsTokenStaysGood) {
+  Client* p_ann = &greet(helloOf("Ann"));
+  const std::uint32_t player = p_ann->welcome().player();
+  const auto comeBack = [&](bool fresh) {
+    p_ann->drop();
+    wire::Hello hello = returning(*p_ann);
+    hello.set_fresh(fresh);
+    Client& back = greet(hello);
+    if (back.isWelcome()) p_ann = &back;
+    return back.isWelcome();
+  };
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(comeBack(i % 2 == 0));
+  wire::Hello hello = returning(*p_ann);
+  p_ann->drop();
+  for (int i = 0; i < 10; ++i) {
+    hello.set_fresh(i % 2 == 0);
+    EXPECT_EQ(greet(hello).refusal(), wire::Refused::BUSY);
+    sessions.sweep();
+  }
+  EXPECT_EQ(counters.resumes_deferred, 10u);
+  EXPECT_EQ(counters.unknown_tokens, 0u);
+  EXPECT_TRUE(sessionOf(1).isDetached());
+  now += 1s;
+  hello.set_fresh(false);
+  const Client& back = greet(hello);
+  ASSERT_TRUE(back.isWelcome());
+  EXPECT_EQ(back.welcome().player(), player);
+  EXPECT_EQ(counters.resumed, 4u);
+  EXPECT_EQ(sessions.playing(), 1u);
+}
+
+TEST_F(AdmissionTest, ATokenIsVoidOnceTheNextOneIsConfirmed) {
+  Client& ann = greet(helloOf("Ann"));
+  ann.drop();
+  greet(returning(ann));
+  admission().confirmToken(sessionOf(1));
+  const Client& late = greet(returning(ann));
+  EXPECT_EQ(counters.unknown_tokens, 1u);
+  EXPECT_NE(late.welcome().player(), ann.welcome().player()) << "a new player";
+}
+
+TEST_F(AdmissionTest, AProcessWhoseSessionWentOnElsewhereIsRefused) {
+  Client& ann = greet(helloOf("Ann"));
+  wire::Hello fresh = returning(ann);
+  fresh.set_fresh(true);
+  const Client& other = greet(fresh);
+  ASSERT_TRUE(other.isWelcome());
+  EXPECT_EQ(new_clients, 2);
+  admission().confirmToken(sessionOf(1));
+  EXPECT_EQ(greet(returning(ann)).refusal(), wire::Refused::ELSEWHERE);
+  EXPECT_EQ(counters.refused_elsewhere, 1u);
+}
+
+TEST_F(AdmissionTest, NothingGoesOnWithASessionThatWasForgotten) {
+  Client& ann = greet(helloOf("Ann"));
+  admission().forgetSession(sessionOf(1));
+  greet(returning(ann));
+  EXPECT_EQ(counters.unknown_tokens, 1u);
+  EXPECT_EQ(sessions.playing(), 2u);
+}
+
+TEST_F(AdmissionTest, ASecondStreamNeedsTheTokenOfASessionThatHasItsFirst) {
+  wire::Hello second = helloOf("Ann");
+  second.set_second_stream(true);
+  second.set_resume_token("no token");
+  EXPECT_EQ(greet(second).refusal(), wire::Refused::BAD_REQUEST);
+  Client& ann = greet(helloOf("Ann"));
+  second.set_resume_token(ann.welcome().resume_token());
+  greet(second);
+  EXPECT_TRUE(sessionOf(2).hasSecondStream());
+  ann.drop();
+  EXPECT_EQ(greet(second).refusal(), wire::Refused::BAD_REQUEST);
+  EXPECT_EQ(counters.unknown_tokens, 2u);
+  EXPECT_EQ(counters.joined, 1u);
+}
+
+TEST_F(AdmissionTest, SecondStreamsThatComeTooOftenAreRefusedForNow) {
+  Client& ann = greet(helloOf("Ann"));
+  wire::Hello second = returning(ann);
+  second.set_second_stream(true);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(greet(second).isWelcome()) << i;
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_EQ(greet(second).refusal(), wire::Refused::BUSY);
+    sessions.sweep();
+  }
+  EXPECT_EQ(counters.second_streams, 4u);
+  EXPECT_EQ(counters.seconds_deferred, 100u);
+  EXPECT_EQ(counters.unknown_tokens, 0u);
+  EXPECT_TRUE(sessionOf(1).hasSecondStream()) << "the one it has stays";
+  EXPECT_FALSE(sessionOf(1).isDetached());
+  ann.drop();
+  const Client& back = greet(returning(ann));
+  ASSERT_TRUE(back.isWelcome()) << "the token stays good";
+  second.set_resume_token(back.welcome().resume_token());
+  EXPECT_EQ(greet(second).refusal(), wire::Refused::BUSY) << "coming back refills nothing";
+  for (int i = 0; i < 20; ++i) {
+    now += 2s;  // as often as clients ask
+    EXPECT_TRUE(greet(second).isWelcome()) << i;
+  }
+}
+
+TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
+  options.password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
+  const auto work = asio::make_work_guard(io);
+  const auto answered = [this](const Client& client) {
+    for (int i = 0; i < 100 && client.sent.empty(); ++i) io.run_one_for(1s);
+    return !client.sent.empty();
+  };
+  wire::Hello hello = helloOf("Ann");
+  hello.set_password("open barley");
+  Client& wrong = greet(hello);
+  EXPECT_TRUE(wrong.sent.empty()) << "it is being checked";
+  ASSERT_TRUE(answered(wrong));
+  EXPECT_EQ(wrong.refusal(), wire::Refused::PASSWORD);
+  EXPECT_EQ(counters.refused_password, 1u);
+  EXPECT_EQ(admission().passwordCounters().wrong, 1u);
+  hello.set_password("open sesame");
+  Client& right = greet(hello);
+  ASSERT_TRUE(answered(right));
+  ASSERT_TRUE(right.isWelcome());
+  right.drop();
+  EXPECT_TRUE(greet(returning(right)).isWelcome()) << "at once, by its token";
+}
+
+TEST_F(AdmissionTest, APasswordThatWasCheckedAfterItsClientLeftAdmitsNoPlayer) {
+  options.password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
+  const auto work = asio::make_work_guard(io);
+  wire::Hello hello = helloOf("Ann");
+  hello.set_password("open sesame");
+  greet(hello).drop();
+  sessions.sweep();
+  ASSERT_EQ(io.run_one_for(60s), 1u) << "the answer";
+  EXPECT_EQ(counters.joined, 0u);
+  EXPECT_TRUE(sessions.isEmpty());
+}
+
+TEST_F(AdmissionTest, APasswordThatIsNotComparedIsCounted) {
+  options.password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
+  const auto work = asio::make_work_guard(io);
+  wire::Hello hello = helloOf("Ann");
+  hello.set_password("open barley");
+  for (int i = 0; i < 20; ++i) greet(hello, "192.0." + std::to_string(i) + ".1:1");
+  for (int i = 0; i < 100 && counters.refused_busy + counters.refused_password < 20; ++i) io.run_one_for(1s);
+  EXPECT_EQ(counters.refused_busy + counters.refused_password, 20u);
+  EXPECT_GE(counters.refused_busy, 10u) << "eight places";
+  EXPECT_EQ(admission().passwordCounters().busy, counters.refused_busy);
+}
+
+// ---- joining again and again ------------------------------------------------------------------------------
+
+TEST_F(AdmissionTest, AClassOf64BehindOneAddressJoinsLeavesAndJoinsAgainAtOnce) {
+  options.max_players = 64;
+  EXPECT_EQ(joinClass(64), 64);
+  EXPECT_EQ(joinClass(64), 64);
+  EXPECT_EQ(counters.refused_busy, 0u);
+  EXPECT_EQ(joinClass(64), 0) << "enough for now";
+  now += 32s;
+  EXPECT_EQ(joinClass(64), 64);
+}
+
+TEST_F(AdmissionTest, WhoLeavesAndJoinsAgainIsSlowedDown) {
+  int joins = 0;
+  for (int i = 0; i < 1000; ++i, now += 10ms) joins += visit("192.0.2.1:1") ? 1 : 0;
+  EXPECT_LE(joins, 128 + 2 * 10);
+  EXPECT_GE(joins, 128 + 2 * 10 - 1);
+  EXPECT_EQ(counters.refused_busy, 1000u - static_cast<unsigned>(joins));
+  EXPECT_TRUE(visit("192.0.2.2:1")) << "another address";
+}
+
+TEST_F(AdmissionTest, AClientOfManyAddressesIsSlowedDownByItsNetwork) {
+  int joins = 0;
+  for (int i = 0; i < 2000; ++i, now += 5ms) {
+    std::array<char, 64> address{};
+    std::snprintf(address.data(), address.size(), "[2001:db8:1:%x::1]:1", i);
+    joins += visit(address.data()) ? 1 : 0;
+  }
+  EXPECT_LE(joins, 512 + 8 * 10);
+  EXPECT_TRUE(visit("[2001:db8:2::1]:1")) << "another network";
+}
+
+TEST_F(AdmissionTest, AClassOf64HasPrivateWorldsAtOnce) {
+  options.max_players = 64;
+  playInPrivate();
+  EXPECT_EQ(joinClass(64), 64);
+  EXPECT_EQ(worlds, 0) << "they have left";
+  EXPECT_EQ(joinClass(64), 64) << "and are back";
+}
+
+TEST_F(AdmissionTest, NewWorldsAreLimitedForOneAddressAndInAll) {
+  options.max_players = 100;
+  playInPrivate();
+  int joins = 0;
+  for (int i = 0; i < 1000; ++i, now += 10ms) joins += visit("192.0.2.1:1") ? 1 : 0;
+  EXPECT_LE(joins, 128 + 10);
+  EXPECT_GE(joins, 128 + 10 - 1);
+  now += 1h;
+  joins = 0;
+  for (int i = 0; i < 1000; ++i, now += 10ms) {
+    joins += visit("198.51." + std::to_string(i % 200) + ".1:1") ? 1 : 0;
+  }
+  EXPECT_LE(joins, 200 + 8 * 10);
+  EXPECT_GE(joins, 200 + 8 * 10 - 1);
+}
+
+TEST_F(AdmissionTest, WorldsThatDoNotEndArePlacesTaken) {
+  playInPrivate();
+  worlds_end = false;
+  int joins = 0;
+  for (int i = 0; i < 20; ++i, now += 1s) joins += visit("192.0.2.1:1") ? 1 : 0;
+  EXPECT_EQ(joins, 3 + 8) << "one for each player allowed, and a few that are ending";
+  EXPECT_EQ(worlds, 3 + 8);
+  worlds_end = true;
+  rooms.checkWorlds();
+  EXPECT_TRUE(visit("192.0.2.1:1"));
+}
+
+TEST_F(AdmissionTest, AWorldThatCannotBeginIsALineOfItsClient) {
+  options.players = "private";
+  rooms.setWorlds([]() -> std::unique_ptr<WorldPort> {
+    throw std::system_error(std::make_error_code(std::errc::too_many_files_open), "a new world");
+  });
+  EXPECT_EQ(greet(helloOf("Ann")).refusal(), wire::Refused::BUSY);
+  EXPECT_EQ(counters.refused_busy, 1u);
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_TRUE(log[0].starts_with("192.0.2.1:1 gets no world: a new world: ")) << log[0];
+  EXPECT_TRUE(log_of_rooms.empty()) << "there a client could write without end";
+}
+
+TEST_F(AdmissionTest, AHelloThatComesAfterTheWorldsWereClosedIsRefused) {
+  admission();
+  rooms.closeWorlds();
+  EXPECT_EQ(greet(helloOf("Ann")).refusal(), wire::Refused::BUSY);
+  EXPECT_EQ(counters.joined, 0u);
+}
+
+}  // namespace
+}  // namespace naiad

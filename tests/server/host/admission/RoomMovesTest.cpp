@@ -1,0 +1,356 @@
+// Who goes from room to room, and who does not: with worlds that do what the test says.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/world/World.h"
+#include "host/admission/Admission.h"
+#include "host/admission/RoomMoves.h"
+#include "tests/server/host/rooms/Clients.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Client;
+using test::helloOf;
+
+/// Notes what it is given, and sends players where the test says.
+class DoorPort : public WorldPort {
+ public:
+  std::uint32_t addInput(df::InputQueue::Input input) override {
+    const std::uint32_t player = input.player;
+    inputs.push_back(std::move(input));
+    return player;
+  }
+  void setHeard(std::uint32_t /*player*/) override {}
+  void endGame() override {}
+  bool isReady() const override { return true; }
+  void tick(bool /*watched*/, bool /*truth*/) override {
+    ++m_view.tick;
+    reportTick();
+  }
+  std::uint32_t nextTick() const override { return m_view.tick + 1; }
+  const df::WorldView& view() const override { return m_view; }
+  void notePublished(const Publisher& /*publisher*/) override {}
+  std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
+  std::vector<df::SentPlayer> takeSent() override { return std::exchange(sent, {}); }
+  bool isGameOver() const override { return false; }
+  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
+  std::optional<WorldEnd> end() const override { return ended; }
+  void close() override { ended = WorldEnd(); }
+
+  std::size_t count(df::InputQueue::Kind kind, std::uint32_t player) const {
+    return static_cast<std::size_t>(std::count_if(inputs.begin(), inputs.end(), [&](const auto& input) {
+      return input.kind == kind && input.player == player;
+    }));
+  }
+  std::vector<df::InputQueue::Input> inputs;
+  std::vector<df::SentPlayer> sent;
+  std::optional<WorldEnd> ended;
+
+ private:
+  df::WorldView m_view;
+};
+
+class RoomMovesTest : public testing::Test {
+ protected:
+  RoomMovesTest() {
+    options.max_players = 8;
+    rooms.setNamed({plan("lobby", 8), plan("arcade", 1), plan("quiet", 8)});
+    rooms.watchSent([this](Session& session, const std::string& room) { moves.askByGame(session, room); });
+    rooms.watchClosed(
+        [this](const Room& room, const std::string& sentence) { moves.leadAway(room, sentence); });
+    rooms.open(world);
+    admission.setWorld(world);
+  }
+  RoomPlan plan(const std::string& name, int places) {
+    return {.name = name,
+            .game = "game of " + name,
+            .max_players = places,
+            .ready = {},
+            .new_world = [this, name] {
+              auto port = std::make_unique<DoorPort>();
+              ports[name] = port.get();
+              ++begun[name];
+              return port;
+            }};
+  }
+  Client& connect(const wire::Hello& hello) {
+    Client& client = clients.emplace_back();
+    sessions.add(std::make_unique<test::FakeChannel>(client),
+                 {[this](Session& session, const wire::Hello& said) { admission.judgeHello(session, said); },
+                  [](Session&, const std::string&) {},
+                  [this](Session& session) {
+                    admission.forgetSession(session);
+                    rooms.leave(session);
+                  },
+                  [this] { return now; },
+                  {},
+                  [this](Session& session) { moves.sendList(session); },
+                  [this](Session& session, const std::string& room) { moves.ask(session, room); }},
+                 now);
+    client.greet(hello);
+    return client;
+  }
+  static wire::Hello helloTo(const std::string& name, const std::string& room, bool knows_rooms = true) {
+    wire::Hello hello = helloOf(name);
+    hello.set_room(room);
+    hello.set_rooms(knows_rooms);
+    return hello;
+  }
+  Client& join(const std::string& name, const std::string& room, bool knows_rooms = true) {
+    Client& client = connect(helloTo(name, room, knows_rooms));
+    EXPECT_TRUE(client.isWelcome());
+    return client;
+  }
+  static void enter(Client& client, const std::string& room) {
+    wire::ClientMessage message;
+    message.mutable_enter()->set_room(room);
+    client.receive(message);
+  }
+  void tick() {
+    now += 33ms;
+    ++counters.ticks;
+    rooms.checkWorlds();
+    moves.update();
+    rooms.beginTicks();
+  }
+  /// Where the client is, as it was sent.
+  static std::string roomOf(const Client& client) {
+    std::string room = client.welcome().room();
+    for (const wire::ServerMessage& message : client.sent) {
+      if (message.has_entered()) room = message.entered().room();
+    }
+    return room;
+  }
+  static std::string lastLine(const Client& client) {
+    std::string line;
+    for (const wire::ServerMessage& message : client.sent) {
+      if (message.has_chat()) line = message.chat().text();
+    }
+    return line;
+  }
+  Session& sessionOf(const Client& client) {
+    Session* p_found = nullptr;
+    sessions.forEach([&](Session& session) {
+      if (session.name() == client.welcome().name()) p_found = &session;
+    });
+    return *p_found;
+  }
+
+  HostOptions options;
+  SessionTable::Clock::time_point now = SessionTable::Clock::now();
+  df::World world;
+  const df::World::Scope scope{world};
+  asio::io_context io;
+  Counters counters;
+  PlayerPrefixes prefixes;
+  std::deque<Client> clients;
+  std::map<std::string, DoorPort*> ports;
+  std::map<std::string, int> begun;
+  SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
+  StageClock stages;
+  Rooms rooms{options, sessions, counters, [](const LogEvent&) {}, [] {}, stages};
+  AdminWorker worker;
+  BanList bans{worker, {}};
+  Admission admission{{options, "game of lobby", sessions, rooms, prefixes, counters, bans,
+                       [](const std::string&, const LogEvent&) {},
+                       [](const ReliableChannel&, AeadId) { return nullptr; }, [] {}},
+                      io.get_executor()};
+  RoomMoves moves{{sessions, rooms, admission, counters, [](const std::string&, const LogEvent&) {}}};
+};
+
+TEST_F(RoomMovesTest, AHelloLeadsToTheRoomOrTheGameThatItNames) {
+  EXPECT_EQ(join("ann", "").welcome().room(), "lobby");
+  EXPECT_EQ(join("bob", "quiet").welcome().game(), "game of quiet");
+  wire::Hello by_game = helloTo("cid", "");
+  by_game.set_game("game of arcade");
+  EXPECT_EQ(connect(by_game).welcome().room(), "arcade");
+  by_game.set_game("chess");
+  EXPECT_EQ(connect(by_game).refusal(), wire::Refused::GAME);
+  Client& lost = connect(helloTo("dan", "lobbi"));
+  ASSERT_TRUE(lost.isRefused());
+  EXPECT_EQ(lost.sent.front().refused().sentence(), "There is no room \"lobbi\"; did you mean \"lobby\"?");
+  EXPECT_EQ(counters.refused_room, 1u);
+  EXPECT_EQ(connect(helloTo("eve", "arcade")).refusal(), wire::Refused::FULL);
+}
+
+TEST_F(RoomMovesTest, RoomsBeginWithTheirFirstPlayer) {
+  EXPECT_EQ(begun["lobby"], 1) << "where players begin is always there at the start";
+  EXPECT_EQ(begun["quiet"], 0);
+  join("ann", "quiet");
+  join("bob", "quiet");
+  EXPECT_EQ(begun["quiet"], 1);
+}
+
+TEST_F(RoomMovesTest, AMoveLeavesOneWorldAndJoinsAnotherUnderAnotherId) {
+  Client& ann = join("ann", "lobby");
+  tick();
+  const std::uint32_t before = ann.welcome().player();
+  enter(ann, "quiet");
+  EXPECT_EQ(roomOf(ann), "lobby") << "between two ticks";
+  tick();
+  EXPECT_EQ(roomOf(ann), "quiet");
+  const std::uint32_t after = sessionOf(ann).player();
+  EXPECT_GT(after, before);
+  EXPECT_EQ(ports["lobby"]->count(df::InputQueue::kLeave, before), 1u);
+  EXPECT_EQ(ports["quiet"]->count(df::InputQueue::kJoin, after), 1u);
+  EXPECT_EQ(sessionOf(ann).welcomed().room(), "quiet") << "as a welcome back says it";
+  EXPECT_EQ(counters.room_moves, 1u);
+  enter(ann, "quiet");
+  tick();
+  EXPECT_EQ(counters.room_moves, 1u) << "they are there";
+}
+
+TEST_F(RoomMovesTest, WhoCannotGoStaysAndHearsWhy) {
+  Client& ann = join("ann", "lobby");
+  join("bob", "arcade");
+  enter(ann, "arcade");
+  tick();
+  EXPECT_EQ(roomOf(ann), "lobby");
+  EXPECT_EQ(lastLine(ann), "The room \"arcade\" is full (1 players). Try again later.");
+  enter(ann, "quite");
+  tick();
+  EXPECT_EQ(lastLine(ann), "There is no room \"quite\"; did you mean \"quiet\"?");
+  enter(ann, "");
+  tick();
+  EXPECT_EQ(roomOf(ann), "lobby");
+  enter(ann, "\033[2J" + std::string(500, 'x'));
+  tick();
+  EXPECT_EQ(lastLine(ann).find('\033'), std::string::npos);
+  EXPECT_EQ(counters.room_moves, 0u);
+  EXPECT_EQ(counters.room_moves_refused, 4u);
+}
+
+TEST_F(RoomMovesTest, RequestsBeyondTwoASecondAreDropped) {
+  Client& ann = join("ann", "lobby");
+  wire::ClientMessage list;
+  list.mutable_list_rooms();
+  for (int i = 0; i < 100; ++i) ann.receive(list);
+  const auto lists = [&] {
+    return std::count_if(ann.sent.begin(), ann.sent.end(),
+                         [](const auto& message) { return message.has_rooms(); });
+  };
+  EXPECT_EQ(lists(), 4);
+  EXPECT_EQ(counters.room_requests_dropped, 96u);
+  now += 1s;
+  for (int i = 0; i < 100; ++i) ann.receive(list);
+  EXPECT_EQ(lists(), 6);
+}
+
+TEST_F(RoomMovesTest, TheListHasAllRooms) {
+  Client& ann = join("ann", "quiet");
+  wire::ClientMessage list;
+  list.mutable_list_rooms();
+  ann.receive(list);
+  ASSERT_TRUE(ann.sent.back().has_rooms());
+  const wire::RoomList& sent = ann.sent.back().rooms();
+  ASSERT_EQ(sent.rooms_size(), 3);
+  EXPECT_EQ(sent.rooms(0).name(), "lobby");
+  EXPECT_FALSE(sent.rooms(0).asleep());
+  EXPECT_TRUE(sent.rooms(1).asleep());
+  EXPECT_EQ(sent.rooms(2).players(), 1u);
+  EXPECT_EQ(sent.rooms(2).max_players(), 8u);
+}
+
+// It would take the message for that of a broken server.
+TEST_F(RoomMovesTest, AClientOfBeforeRoomsStaysWhereItJoinedAndIsSentNothingOfThem) {
+  Client& old = join("old", "", false);
+  enter(old, "quiet");
+  moves.askByGame(sessionOf(old), "quiet");
+  tick();
+  EXPECT_EQ(roomOf(old), "lobby");
+  EXPECT_NE(lastLine(old).find("too old"), std::string::npos);
+  for (const wire::ServerMessage& message : old.sent)
+    EXPECT_FALSE(message.has_entered() || message.has_rooms());
+}
+
+TEST_F(RoomMovesTest, AGameSendsItsOwnPlayersAlone) {
+  Client& ann = join("ann", "lobby");
+  Client& bob = join("bob", "quiet");
+  ports["lobby"]->sent = {
+      {sessionOf(bob).player(), "arcade"}, {4711, "arcade"}, {sessionOf(ann).player(), "quiet"}};
+  tick();
+  tick();
+  EXPECT_EQ(roomOf(ann), "quiet");
+  EXPECT_EQ(roomOf(bob), "quiet");
+}
+
+TEST_F(RoomMovesTest, AGameThatSendsWithoutEndFloodsNoPlayer) {
+  Client& ann = join("ann", "lobby");
+  for (int i = 0; i < 100; ++i) {
+    ports["lobby"]->sent.assign(64, {sessionOf(ann).player(), "nowhere"});
+    tick();
+  }
+  const auto lines =
+      std::count_if(ann.sent.begin(), ann.sent.end(), [](const auto& message) { return message.has_chat(); });
+  EXPECT_LE(lines, 12) << "in 3.3 s";
+  EXPECT_GE(lines, 4);
+}
+
+TEST_F(RoomMovesTest, GamesKnowTheRoomsAndHearWhenTheyChange) {
+  const auto known = [&](const std::string& where, const std::string& name) {
+    df::GameRoom last;
+    for (const auto& input : ports[where]->inputs) {
+      if (input.kind == df::InputQueue::kRoom && input.room.name == name) last = input.room;
+    }
+    return last;
+  };
+  EXPECT_TRUE(known("lobby", "lobby").is_this_one);
+  EXPECT_TRUE(known("lobby", "quiet").is_asleep);
+  EXPECT_EQ(known("lobby", "arcade").max_players, 1);
+  join("ann", "quiet");
+  EXPECT_TRUE(known("quiet", "quiet").is_this_one);
+  for (int i = 0; i < 16; ++i) tick();
+  EXPECT_EQ(known("lobby", "quiet").players, 1);
+  EXPECT_FALSE(known("lobby", "quiet").is_asleep);
+  const std::size_t inputs = ports["lobby"]->inputs.size();
+  for (int i = 0; i < 60; ++i) tick();
+  EXPECT_EQ(ports["lobby"]->inputs.size(), inputs) << "nothing has changed";
+}
+
+TEST_F(RoomMovesTest, AnAddressWakesFourRoomsAtOnceAndThenOneInASecond) {
+  std::vector<RoomPlan> plans;
+  for (int i = 0; i < 20; ++i) plans.push_back(plan("room-" + std::to_string(i), 8));
+  Rooms many{options, sessions, counters, [](const LogEvent&) {}, [] {}, stages};
+  many.setNamed(plans);
+  many.open(world);
+  RoomDoor door(many, 64);
+  const auto prefix = AddressPrefix::ofEndpoint("192.0.2.1:1").value_or(AddressPrefix());
+  int woken = 0;
+  for (int i = 1; i < 20; ++i)
+    woken += door.open(*many.findRoom("room-" + std::to_string(i)), prefix, now) ? 0 : 1;
+  EXPECT_EQ(woken, 4);
+  EXPECT_FALSE(door.open(many.firstRoom(), prefix, now)) << "what is awake is open to all";
+  EXPECT_FALSE(door.open(*many.findRoom("room-19"), prefix, now + 2s));
+}
+
+TEST_F(RoomMovesTest, ARoomWhoseGameFailsAgainAndAgainLosesItsPlayersToTheFirst) {
+  options.on_game_over = "restart";
+  Client& ann = join("ann", "quiet");
+  Client& old = join("old", "quiet", false);
+  for (int i = 0; i < 5; ++i) {
+    ports["quiet"]->ended = WorldEnd{WorldEnd::kCrashed, "crashed (SIGSEGV)"};
+    tick();
+  }
+  tick();
+  EXPECT_EQ(roomOf(ann), "lobby");
+  EXPECT_EQ(begun["quiet"], 5);
+  EXPECT_TRUE(old.sent.back().has_goodbye()) << "it cannot be led";
+  EXPECT_EQ(connect(helloTo("bob", "quiet")).refusal(), wire::Refused::BUSY);
+  EXPECT_FALSE(rooms.isOver()) << "the others go on";
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "host/ops/StatusFile.h"
+#include "shared/net/base/Limits.h"
+#include "shared/values/Version.h"
+
+namespace naiad {
+namespace {
+
+namespace fs = std::filesystem;
+
+StatusFacts statusFacts() {
+  return {"Ann's \"own\"", "hello", 16, true, "naiad://game.example#abcdefghijklmnopqrstuvwxya"};
+}
+
+TEST(StatusFile, TheTextIsJsonWithTheLink) {
+  EXPECT_EQ(statusText(statusFacts(), 3),
+            "{\"name\": \"Ann's \\\"own\\\"\", \"game\": \"hello\", \"players\": 3, \"max_players\": 16, "
+            "\"password\": true, \"protocol\": " +
+                std::to_string(kProtocolVersion) + ", \"version\": \"" + kVersion +
+                "\", "
+                "\"link\": \"naiad://game.example#abcdefghijklmnopqrstuvwxya\"}\n");
+}
+
+TEST(StatusFile, WithoutALinkThereIsNone) {
+  StatusFacts facts = statusFacts();
+  facts.link.clear();
+  EXPECT_EQ(statusText(facts, 0).find("link"), std::string::npos);
+}
+
+TEST(StatusFile, AHostileNameStaysInItsQuotes) {
+  StatusFacts facts = statusFacts();
+  facts.name = "a\n\033[2J\"}";
+  EXPECT_NE(statusText(facts, 0).find("\"a ?[2J\\\"}\""), std::string::npos) << statusText(facts, 0);
+}
+
+TEST(StatusFile, IsThereWhileItLivesAndGoneAfterwards) {
+  std::string name = fs::temp_directory_path() / "naiad-status-XXXXXX";
+  const fs::path home = mkdtemp(name.data());
+  {
+    const StatusFile file(home / "status.json", statusFacts());
+    std::stringstream text;
+    text << std::ifstream(home / "status.json").rdbuf();
+    EXPECT_EQ(text.str(), statusText(statusFacts(), 0));
+  }
+  EXPECT_FALSE(fs::exists(home / "status.json"));
+  EXPECT_THROW(StatusFile(home / "none" / "status.json", statusFacts()), std::runtime_error);
+  fs::remove_all(home);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,98 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "host/process/ProgramRun.h"
+
+namespace naiad {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kLong{60};
+constexpr std::chrono::milliseconds kShort{200};
+
+ProgramEnd runShell(const std::string& script, std::chrono::milliseconds limit = kLong) {
+  return ProgramRun().run("/bin/sh", {"-c", script}, limit);
+}
+
+TEST(ProgramRun, SaysWhatItPrintedAndItsCode) {
+  const ProgramEnd end = runShell("echo out; echo err >&2; exit 3");
+  EXPECT_EQ(end.code, 3);
+  EXPECT_EQ(end.signal, 0);
+  EXPECT_FALSE(end.is_late);
+  EXPECT_EQ(end.printed, "out\nerr\n");
+}
+
+TEST(ProgramRun, SaysWhichSignalEndedIt) {
+  const ProgramEnd end = runShell("kill -9 $$");
+  EXPECT_EQ(end.signal, SIGKILL);
+  EXPECT_FALSE(end.is_late);
+}
+
+TEST(ProgramRun, SaysThatItCannotBeStarted) {
+  EXPECT_EQ(ProgramRun().run("/nowhere/dfreplay", {}, kLong).code, ProgramEnd::kNotStarted);
+}
+
+TEST(ProgramRun, OneThatHangsIsKilledWithWhatItHasStarted) {
+  const auto began = Clock::now();
+  const ProgramEnd end = runShell("sleep 300 & echo $!; trap '' TERM; wait", kShort);
+  EXPECT_TRUE(end.is_late);
+  EXPECT_LT(Clock::now() - began, kLong);
+  const pid_t other = std::stoi(end.printed);
+  // It is a zombie at most, until whatever is its parent now has waited for it.
+  while (kill(other, 0) == 0 && Clock::now() - began < kLong) {
+    char state = '?';
+    if (FILE* p_file = fopen(("/proc/" + std::to_string(other) + "/stat").c_str(), "r")) {
+      if (fscanf(p_file, "%*d (%*[^)]) %c", &state) != 1) state = '?';
+      fclose(p_file);
+    }
+    if (state == 'Z') return;
+    std::this_thread::yield();
+  }
+  EXPECT_NE(kill(other, 0), 0);
+}
+
+TEST(ProgramRun, WhatItLeavesBehindIsNotWaitedFor) {
+  const auto began = Clock::now();
+  const ProgramEnd end = runShell("sleep 300 & echo $!");
+  EXPECT_EQ(end.code, 0);
+  EXPECT_LT(Clock::now() - began, kLong);
+  kill(std::stoi(end.printed), SIGKILL);
+}
+
+TEST(ProgramRun, OneThatPrintsWithoutEndIsKilledAtItsTime) {
+  const ProgramEnd end = runShell("yes", kShort);
+  EXPECT_TRUE(end.is_late);
+  EXPECT_EQ(end.printed.size(), ProgramRun::kMaxPrinted);
+}
+
+TEST(ProgramRun, ItGetsNoFileOfThisProcess) {
+  const int file = open("/dev/zero", O_RDONLY);  // without O_CLOEXEC
+  ASSERT_GE(file, 0);
+  const ProgramEnd end =
+      runShell("test -e /proc/self/fd/" + std::to_string(file) + " && echo there || echo gone");
+  close(file);
+  EXPECT_EQ(end.printed, "gone\n");
+}
+
+TEST(ProgramRun, ItCanBeCalledOff) {
+  ProgramRun run;
+  ProgramEnd end;
+  std::thread thread([&] { end = run.run("/bin/sh", {"-c", "echo x; exec sleep 300"}, kLong * 5); });
+  const auto began = Clock::now();
+  run.cancel();
+  thread.join();
+  EXPECT_LT(Clock::now() - began, kLong);
+  EXPECT_TRUE(end.signal == SIGKILL || end.code == ProgramEnd::kNotStarted);
+  EXPECT_EQ(run.run("/bin/sh", {"-c", "exit 0"}, kLong).code, ProgramEnd::kNotStarted) << "no other begins";
+}
+
+}  // namespace
+}  // namespace naiad

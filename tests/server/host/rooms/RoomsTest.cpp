@@ -1,0 +1,214 @@
+// What of a world's own report reaches the players of other worlds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Clients.h"
+#include "engine/world/World.h"
+#include "host/admission/Admission.h"
+#include "host/rooms/PlayerNews.h"
+#include "naiad.pb.h"
+
+namespace naiad {
+namespace {
+
+using test::Client;
+using test::helloOf;
+
+/// Reports whatever the test says.
+class ScriptedPort : public WorldPort {
+ public:
+  std::uint32_t addInput(df::InputQueue::Input input) override { return input.player; }
+  void setHeard(std::uint32_t /*player*/) override {}
+  void endGame() override {}
+  bool isReady() const override { return true; }
+  void setPictured(std::uint32_t player) override { m_pictured = player; }
+  void tick(bool /*watched*/, bool truth) override {
+    pictured.push_back(truth ? m_pictured : 0);
+    ++m_view.tick;
+    m_view.players = players;
+    reportTick();
+  }
+  std::uint32_t nextTick() const override { return m_view.tick + 1; }
+  const df::WorldView& view() const override { return m_view; }
+  void notePublished(const Publisher& /*publisher*/) override {}
+  std::vector<std::uint32_t> takeLeavers() override { return {}; }
+  std::vector<df::AddedScore> takeScores() override { return {}; }
+  bool isGameOver() const override { return false; }
+  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
+
+  std::vector<df::PlayerFacts> players;
+  std::vector<std::uint32_t> pictured;  ///< by tick: whose picture was wanted; 0: none
+
+ private:
+  std::uint32_t m_pictured = 0;
+  df::WorldView m_view;
+};
+
+df::PlayerFacts factsOf(std::uint32_t id, const std::string& name, int score) {
+  df::PlayerFacts facts;
+  facts.id = id;
+  facts.name = name;
+  facts.score = score;
+  return facts;
+}
+
+/// Players in worlds of their own.
+class RoomsTest : public testing::Test {
+ protected:
+  RoomsTest() {
+    options.players = "private";
+    rooms.setWorlds([this] {
+      auto port = std::make_unique<ScriptedPort>();
+      ports.push_back(port.get());
+      return port;
+    });
+    rooms.open(world);
+    admission.setWorld(world);
+  }
+
+  Client& join(const std::string& name) {
+    Client& client = clients.emplace_back();
+    sessions.add(
+        std::make_unique<test::FakeChannel>(client),
+        {[this](Session& session, const wire::Hello& hello) { admission.judgeHello(session, hello); },
+         [](Session&, const std::string&) {}, [this](Session& session) { admission.forgetSession(session); },
+         [this] { return now; }},
+        now);
+    client.greet(helloOf(name));
+    EXPECT_TRUE(client.isWelcome());
+    return client;
+  }
+  /// As a host does at the end of a tick in which a list is due.
+  void sendList() {
+    rooms.beginTicks();
+    news.tick(
+        0, rooms.players(), [](std::uint32_t) { return 0u; },
+        [this](std::uint32_t player, const wire::ServerMessage& message) {
+          EXPECT_LE(message.ByteSizeLong(), kMaxServerFrame);
+          if (Session* p_session = rooms.findPlayer(player)) p_session->sendKept(message);
+        });
+  }
+  /// The newest list that came, as "name=score" each; empty if none has.
+  static std::vector<std::string> listOf(const Client& client) {
+    std::vector<std::string> lines;
+    for (const wire::ServerMessage& message : client.sent) {
+      if (!message.has_players()) continue;
+      lines.clear();
+      for (const wire::PlayerEntry& entry : message.players().players())
+        lines.push_back(entry.name() + "=" + std::to_string(entry.score()));
+    }
+    return lines;
+  }
+
+  HostOptions options;
+  SessionTable::Clock::time_point now = SessionTable::Clock::now();
+  df::World world;
+  const df::World::Scope scope{world};
+  asio::io_context io;
+  Counters counters;
+  PlayerPrefixes prefixes;
+  std::deque<Client> clients;
+  std::vector<ScriptedPort*> ports;
+  SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
+  StageClock stages;
+  Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}, stages};
+  PlayerNews news;
+  AdminWorker worker;
+  BanList bans{worker, {}};
+  Admission admission{{options, "maze", sessions, rooms, prefixes, counters, bans,
+                       [](const std::string&, const std::string&) {},
+                       [](const ReliableChannel&, AeadId) { return nullptr; }, [] {}},
+                      io.get_executor()};
+};
+
+// ---- the audit of pictures --------------------------------------------------------------------------------
+
+constexpr std::uint32_t kTicksPerSecond = 2;
+
+class AuditTurnsTest : public RoomsTest {
+ protected:
+  void tick(int count) {
+    for (int i = 0; i < count; ++i, ++counters.ticks) rooms.beginTicks();
+  }
+  /// In how many ticks somebody's picture was wanted, of the player's own world.
+  std::size_t wanted(std::size_t number, const Client& client) const {
+    const std::vector<std::uint32_t>& all = ports[number]->pictured;
+    const auto own = std::count(all.begin(), all.end(), client.welcome().player());
+    EXPECT_EQ(own + std::count(all.begin(), all.end(), 0u), static_cast<std::ptrdiff_t>(all.size()));
+    return static_cast<std::size_t>(own);
+  }
+};
+
+TEST_F(AuditTurnsTest, WithoutAnAuditNoPictureIsWanted) {
+  const Client& ann = join("Ann");
+  tick(40);
+  EXPECT_EQ(wanted(0, ann), 0u);
+}
+
+TEST_F(AuditTurnsTest, OnePlayersPictureIsWantedOneSecondInTen) {
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  const Client& bob = join("Bob");
+  tick(2 * AuditTurns::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(0, ann), 2 * kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), 0u);
+}
+
+TEST_F(AuditTurnsTest, TheTurnGoesToThoseWhoJoinAfterItHasLastedTenSeconds) {
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  tick(AuditTurns::kPeriod * kTicksPerSecond);
+  const Client& bob = join("Bob");
+  const Client& cal = join("Cal");
+  tick(AuditTurns::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(0, ann), kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), kTicksPerSecond);
+  EXPECT_EQ(wanted(2, cal), 0u);
+}
+
+TEST_F(AuditTurnsTest, WhenOneHasLeftTheNextToJoinHasTheTurnAtOnce) {
+  options.grace = 0;
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  tick(1);
+  ann.drop();
+  sessions.sweep();
+  const Client& bob = join("Bob");
+  tick(AuditTurns::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), kTicksPerSecond);
+}
+
+TEST_F(RoomsTest, AWorldThatLiesAboutItsPlayersIsBelievedItsOwnScoresAlone) {
+  const Client& ann = join("Ann");
+  const Client& bob = join("Bob");
+  const std::uint32_t of_ann = ann.welcome().player();
+  const std::uint32_t of_bob = bob.welcome().player();
+  ports[0]->players = {factsOf(of_ann, "Ann", 3)};
+  ports[1]->players = {factsOf(of_ann, "Cheat", -100), factsOf(of_bob, "\xff", 7)};
+  for (std::uint32_t id = 1000; id < 1200; ++id)
+    ports[1]->players.push_back(factsOf(id, std::string(64, 'x'), 9));
+  sendList();
+  const std::vector<std::string> honest{"Ann=3", "Bob=7"};
+  EXPECT_EQ(listOf(ann), honest);
+  EXPECT_EQ(listOf(bob), honest);
+}
+
+TEST_F(RoomsTest, PlayersAreListedOnceTheirWorldHasThem) {
+  const Client& ann = join("Ann");
+  const Client& bob = join("Bob");
+  ports[0]->players = {factsOf(ann.welcome().player(), "Ann", 0)};
+  sendList();
+  EXPECT_EQ(listOf(ann), std::vector<std::string>{"Ann=0"});
+  EXPECT_TRUE(listOf(bob).empty());
+}
+
+}  // namespace
+}  // namespace naiad

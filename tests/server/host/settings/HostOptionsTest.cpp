@@ -1,0 +1,518 @@
+// The command line of dfserver: what would start a server by mistake is an error.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "host/settings/HostOptions.h"
+#include "host/settings/RoomList.h"
+#include "shared/options/Options.h"
+
+namespace naiad {
+namespace {
+
+CommandLine parse(const std::vector<const char*>& arguments, HostOptions& options) {
+  std::vector<const char*> all = {"dfserver"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return parseHostOptions(static_cast<int>(all.size()), all.data(), options);
+}
+
+TEST(HostOptions, AMisspeltOptionInTheConfigFileIsAnError) {
+  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".ini";
+  std::ofstream(path) << "ticks = 3\n";
+  HostOptions options;
+  EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
+  EXPECT_EQ(options.ticks, 3);
+  std::ofstream(path) << "ticsk = 3\n";
+  EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kUsageError);
+  std::remove(path.c_str());
+}
+
+TEST(HostOptions, ReadAgainTheyThrowInsteadOfPrinting) {
+  const char* const good[] = {"dfserver", "--max-players", "3"};
+  EXPECT_EQ(readHostOptions(3, good).max_players, 3);
+  const char* const bad[] = {"dfserver", "--max-players", "many"};
+  EXPECT_THROW(readHostOptions(3, bad), OptionError);
+  const char* const together[] = {"dfserver", "--qr"};
+  EXPECT_THROW(readHostOptions(2, together), OptionError);
+  const char* const unknown[] = {"dfserver", "--max-plyers", "3"};
+  try {
+    readHostOptions(3, unknown);
+    ADD_FAILURE() << "it was taken";
+  } catch (const OptionError& error) {
+    EXPECT_STREQ(error.what(), "there is no option --max-plyers; did you mean --max-players?");
+  }
+}
+
+TEST(HostOptions, ARunningServerTakesOverWhatMayChange) {
+  HostOptions now;
+  HostOptions next;
+  EXPECT_EQ(takeOver(next, now).text(), "none has changed");
+  next.max_players = 7;
+  next.password = "xyzzy";
+  next.grace = 12.5;
+  next.log_chat = true;
+  EXPECT_EQ(takeOver(next, now).text(), "max-players, password, grace and log-chat have changed");
+  EXPECT_EQ(now.max_players, 7);
+  EXPECT_EQ(now.password, "xyzzy");
+  EXPECT_EQ(now.grace, 12.5);
+  EXPECT_TRUE(now.log_chat);
+}
+
+TEST(HostOptions, ARunningServerNamesWhatNeedsARestart) {
+  HostOptions now;
+  HostOptions next;
+  next.port = 1;
+  next.max_players = 7;
+  EXPECT_EQ(takeOver(next, now).text(), "max-players has changed; port needs a restart");
+  EXPECT_EQ(now.port, HostOptions().port);
+  next.game = "tron";
+  EXPECT_EQ(takeOver(next, now).text(), "none has changed; game and port need a restart");
+}
+
+/// Games that are there while this is: hello and tron, which are not loaded.
+class Games {
+ public:
+  Games() {
+    std::string name = testing::TempDir() + "naiad-games-XXXXXX";
+    m_folder = mkdtemp(name.data());
+    for (const char* game : {"hello.so", "tron.so"}) std::ofstream(m_folder / game) << "no module";
+    setenv("NAIAD_GAMES", m_folder.c_str(), 1);
+  }
+  ~Games() {
+    unsetenv("NAIAD_GAMES");
+    std::filesystem::remove_all(m_folder);
+  }
+
+ private:
+  std::filesystem::path m_folder;
+};
+
+/// What dfserver says to these rooms.
+std::string complaintOf(const std::vector<const char*>& rooms) {
+  std::vector<const char*> words;
+  for (const char* p_room : rooms) words.insert(words.end(), {"--room", p_room});
+  HostOptions options;
+  testing::internal::CaptureStderr();
+  const CommandLine line = parse(words, options);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(line, CommandLine::kUsageError) << said;
+  return said.substr(0, said.find('\n'));
+}
+
+TEST(HostOptions, RoomsAreReadInTheirOrder) {
+  const Games games;
+  HostOptions options;
+  ASSERT_EQ(
+      parse({"--room", "first=hello", "--room", "Second_2=tron,max-players=3,players=first,world-memory=512",
+             "--max-players", "40", "--room-sleep", "2.5"},
+            options),
+      CommandLine::kRun);
+  const std::vector<RoomOptions> rooms = roomsOf(options);
+  ASSERT_EQ(rooms.size(), 2u);
+  EXPECT_EQ(rooms[0].name, "first");
+  EXPECT_EQ(rooms[0].game, "hello");
+  EXPECT_EQ(rooms[0].max_players, 40);
+  EXPECT_EQ(rooms[0].players, "together");
+  EXPECT_EQ(rooms[1].name, "Second_2");
+  EXPECT_EQ(rooms[1].max_players, 3);
+  EXPECT_EQ(rooms[1].world_memory, 512);
+  EXPECT_EQ(rooms[1].players, "first");
+  EXPECT_EQ(options.game, "hello") << "where players begin";
+  EXPECT_EQ(options.room_sleep, 2.5);
+  EXPECT_TRUE(roomsOf(HostOptions()).empty());
+}
+
+TEST(HostOptions, ARoomThatMakesNoSenseIsNamedWithTheNearestThatDoes) {
+  const Games games;
+  EXPECT_EQ(complaintOf({"hello"}), "dfserver: --room \"hello\": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
+  EXPECT_EQ(complaintOf({"a b=hello"}), "dfserver: --room \"a\": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
+  for (const char* name : {"=hello", "-x=hello", "a/b=hello", "\xc3\xbc=hello", "\033[2J=hello"}) {
+    const std::string said = complaintOf({name});
+    EXPECT_NE(said.find("is no name of a room: 1 to 32 of"), std::string::npos) << said;
+    EXPECT_EQ(said.find('\033'), std::string::npos);
+  }
+  EXPECT_EQ(complaintOf({"a=hello", "b=tron", "A=hello"}),
+            "dfserver: --room A: there are two rooms of this name");
+  EXPECT_EQ(complaintOf({"a=helo"}), "dfserver: --room a: there is no game \"helo\"; did you mean hello?");
+  EXPECT_EQ(complaintOf({"a=zzzzzz"}),
+            "dfserver: --room a: there is no game \"zzzzzz\"; --list-games prints those that there are");
+  EXPECT_EQ(complaintOf({"a=/no/such/game.so"}), "dfserver: --room a: there is no file \"/no/such/game.so\"");
+  EXPECT_EQ(complaintOf({"a=hello,max-player=3"}),
+            "dfserver: --room a: a room has no setting \"max-player\"; did you mean max-players?");
+  EXPECT_EQ(complaintOf({"a=hello,max-players"}), "dfserver: --room a: max-players=VALUE is wanted");
+  EXPECT_NE(complaintOf({"a=hello,max-players=many"}).find("--room a: max-players: "), std::string::npos);
+  EXPECT_NE(complaintOf({"a=hello,players=private"}).find("--room a: players: "), std::string::npos);
+  std::vector<std::string> many;
+  for (int i = 0; i < 65; ++i) many.push_back("room-" + std::to_string(i) + "=hello");
+  std::vector<const char*> all;
+  for (const std::string& room : many) all.push_back(room.c_str());
+  EXPECT_EQ(complaintOf(all), "dfserver: --room: a server has 64 rooms at most, not 65");
+}
+
+TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
+  const Games games;
+  HostOptions options;
+  EXPECT_EQ(parse({"--room", "a=hello", "--players", "private"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--room", "a=hello", "--on-game-over", "exit"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(
+      parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--truth", "/tmp/t"},
+            options),
+      CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--truth", "", "--journal", "/tmp"}, options), CommandLine::kRun);
+}
+
+TEST(HostOptions, TheNearestRoomIsNamed) {
+  EXPECT_EQ(unknownRoom("tronn", {"lobby", "tron"}), "There is no room \"tronn\"; did you mean \"tron\"?");
+  EXPECT_EQ(unknownRoom("x\033[2J", {"lobby", "tron"}).find('\033'), std::string::npos);
+  EXPECT_EQ(unknownRoom("", {"lobby", "tron"}), "There is no room \"\". There are: lobby, tron.");
+}
+
+TEST(HostOptions, ATickThatNoClientWouldBelieveIsAnError) {
+  HostOptions options;
+  EXPECT_EQ(parse({"--frame-time", "999"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--frame-time", "1000"}, options), CommandLine::kRun);
+  EXPECT_EQ(parse({"--frame-time", "0"}, options), CommandLine::kRun);
+}
+
+TEST(HostOptions, OneAddressMayHaveAllPlaces) {
+  HostOptions options;
+  const std::string most = std::to_string(kMaxServerPlayers);
+  EXPECT_EQ(parse({"--max-players", most.c_str(), "--max-per-address", most.c_str()}, options),
+            CommandLine::kRun);
+  EXPECT_EQ(options.max_per_address, options.max_players);
+  const std::string more = std::to_string(kMaxServerPlayers + 1);
+  EXPECT_EQ(parse({"--max-per-address", more.c_str()}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--max-per-address", "0"}, options), CommandLine::kUsageError);
+}
+
+TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
+  HostOptions options;
+  EXPECT_EQ(parse({"--players", "nobody"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--players", "first", "--on-game-over", "exit"}, options), CommandLine::kRun);
+  EXPECT_EQ(options.players, "first");
+  EXPECT_EQ(options.on_game_over, "exit");
+}
+
+TEST(HostOptions, MetricsOnAPublicAddressAreAnErrorUnlessThatIsAskedFor) {
+  for (const char* address : {"127.0.0.1:0", "[::1]:9100", "10.0.0.7:9100"}) {
+    HostOptions options;
+    EXPECT_EQ(parse({"--metrics", address, "--metrics-hosts", "game.internal,b"}, options),
+              CommandLine::kRun);
+    EXPECT_EQ(options.metrics, address);
+  }
+  for (const char* address : {"0.0.0.0:9100", "[::]:9100", "8.8.8.8:9100"}) {
+    HostOptions options;
+    EXPECT_EQ(parse({"--metrics", address}, options), CommandLine::kUsageError) << address;
+    EXPECT_EQ(parse({"--metrics", address, "--metrics-public"}, options), CommandLine::kRun) << address;
+  }
+  HostOptions options;
+  EXPECT_EQ(parse({"--metrics", "localhost:9100"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--metrics", "127.0.0.1"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--metrics-hosts", "a b"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--audit", "perhaps"}, options), CommandLine::kUsageError);
+}
+
+TEST(HostOptions, WhatIsPrintedForPlayersIsChecked) {
+  HostOptions options;
+  EXPECT_EQ(parse({"--link-host", "game.example:9877", "--ssh-door", "play@game.example:2222",
+                   "--web-address", "https://game.example/play", "--qr"},
+                  options),
+            CommandLine::kRun);
+  const std::vector<std::vector<const char*>> all = {{"--link-host", "a b"},
+                                                     {"--link-host", "http://x"},
+                                                     {"--ssh-door", "game.example"},
+                                                     {"--ssh-door", "a;b@x"},
+                                                     {"--ssh-door=-oX@y"},
+                                                     {"--ssh-door", "@x"},
+                                                     {"--web-address", "ftp://x"},
+                                                     {"--web-address", "https://x y"},
+                                                     {"--qr"}};
+  for (const std::vector<const char*>& bad : all) {
+    HostOptions others;
+    EXPECT_EQ(parse(bad, others), CommandLine::kUsageError) << bad.front();
+  }
+}
+
+TEST(HostOptions, ThoseOfProgramsAreNoneOfDfservers) {
+  HostOptions options;
+  EXPECT_EQ(parse({"--headless"}, options), CommandLine::kUsageError);
+}
+
+TEST(HostOptions, APasswordThatEveryUserCanReadIsWarnedOf) {
+  namespace fs = std::filesystem;
+  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".conf";
+  const auto warnings = [&path](const std::string& text, fs::perms perms) {
+    std::ofstream(path) << text;
+    fs::permissions(path, perms);
+    HostOptions options;
+    EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
+    return options.warnings;
+  };
+  constexpr fs::perms kOpen = fs::perms::owner_all | fs::perms::others_read;
+  EXPECT_EQ(warnings("password = sesame\n", kOpen),
+            std::vector<std::string>{path + " has the password, and every user can read it. Run: chmod o-r " +
+                                     path});
+  EXPECT_TRUE(warnings("password = sesame\n", fs::perms::owner_all).empty());
+  EXPECT_TRUE(warnings("ticks = 3\n", kOpen).empty());
+  EXPECT_TRUE(warnings("password = $argon2id$v=19$m=8,t=1,p=1$c2FsdHNhbHQ$aGFzaA\n", kOpen).empty());
+  std::remove(path.c_str());
+}
+
+/// Of a game that is a program: what df-config.txt says, and an environment without the variables used here.
+class ProgramOptions : public testing::Test {
+ protected:
+  ProgramOptions() { clear(); }
+  ~ProgramOptions() override { clear(); }
+  static void clear() {
+    for (const char* name :
+         {"NAIAD_PORT", "NAIAD_HEADLESS", "NAIAD_FRAME_TIME", "NAIAD_GAME", "NAIAD_ADDRESS", "NAIAD_PUBLIC"})
+      unsetenv(name);
+  }
+  std::set<std::string> read() {
+    return readProgramOptions([this](const std::string& key) { return config[key]; }, options,
+                              [](const std::string& key) { return "df-config.txt:3: " + key; });
+  }
+  std::string complaint() {
+    options = {};
+    try {
+      read();
+    } catch (const OptionError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  std::map<std::string, std::string> config;
+  HostOptions options;
+};
+
+TEST_F(ProgramOptions, ComeFromTheConfigFile) {
+  config = {
+      {"port", "1234"}, {"max_players", "3"}, {"server_name", "den"}, {"headless", "true"}, {"grace", "1.5"}};
+  const std::set<std::string> expected{"port", "max-players", "server-name", "headless", "grace"};
+  EXPECT_EQ(read(), expected);
+  EXPECT_EQ(options.port, 1234);
+  EXPECT_EQ(options.max_players, 3);
+  EXPECT_EQ(options.name, "den");
+  EXPECT_TRUE(options.headless);
+  EXPECT_EQ(options.grace, 1.5);
+}
+
+TEST_F(ProgramOptions, AndBeforeThatFromTheEnvironment) {
+  config = {{"port", "1234"}, {"headless", "true"}};
+  setenv("NAIAD_PORT", "4321", 1);
+  setenv("NAIAD_HEADLESS", "0", 1);
+  read();
+  EXPECT_EQ(options.port, 4321);
+  EXPECT_FALSE(options.headless);
+}
+
+TEST_F(ProgramOptions, TheGamesFrameTimeIsNotTheHosts) {
+  config = {{"frame_time", "50"}};  // milliseconds, for GM.getFrameTime()
+  EXPECT_TRUE(read().empty());
+  EXPECT_EQ(options.frame_micros, 0);
+  setenv("NAIAD_FRAME_TIME", "5000", 1);
+  read();
+  EXPECT_EQ(options.frame_micros, 5000);
+}
+
+TEST_F(ProgramOptions, WhichGameIsNoQuestion) {
+  setenv("NAIAD_GAME", "hello", 1);
+  config = {{"game", "hello"}};
+  EXPECT_TRUE(read().empty());
+  EXPECT_EQ(options.game, HostOptions().game);
+}
+
+TEST_F(ProgramOptions, ListensOnLoopbackUnlessAskedOtherwise) {
+  read();
+  EXPECT_EQ(options.address, "127.0.0.1");
+  options = {};
+  config = {{"public", "true"}};
+  read();
+  EXPECT_EQ(options.address, "::");
+  options = {};
+  config = {{"address", "192.0.2.1"}, {"public", "true"}};
+  read();
+  EXPECT_EQ(options.address, "192.0.2.1");
+  options = {};
+  config.clear();
+  setenv("NAIAD_PUBLIC", "1", 1);
+  read();
+  EXPECT_EQ(options.address, "::");
+}
+
+TEST_F(ProgramOptions, NonsenseIsNamedWithItsPlace) {
+  config = {{"port", "70000"}};
+  EXPECT_EQ(complaint(), "df-config.txt:3: port: Value 70000 not in range 0 to 65535");
+  setenv("NAIAD_PORT", "70001", 1);
+  EXPECT_EQ(complaint(), "NAIAD_PORT: Value 70001 not in range 0 to 65535");
+  unsetenv("NAIAD_PORT");
+  config = {{"on_game_over", "dance"}};
+  EXPECT_EQ(complaint().rfind("df-config.txt:3: on_game_over: dance not in ", 0), 0u) << complaint();
+  config = {{"local_client", "perhaps"}};
+  EXPECT_EQ(complaint().rfind("df-config.txt:3: local_client: ", 0), 0u) << complaint();
+  config = {{"key", "key.pem"}};
+  EXPECT_NE(complaint().find("--certificate"), std::string::npos) << complaint();
+  config.clear();
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST(HostOptions, OnlyDfserverHasAControlSocketByItself) {
+  HostOptions server;
+  EXPECT_EQ(parse({}, server), CommandLine::kRun);
+  EXPECT_TRUE(server.control_by_port);
+  HostOptions off;
+  EXPECT_EQ(parse({"--control", "off"}, off), CommandLine::kRun);
+  EXPECT_FALSE(off.control_by_port);
+  EXPECT_EQ(off.control, "");
+  HostOptions named;
+  EXPECT_EQ(parse({"--control", "/run/naiad/a.sock"}, named), CommandLine::kRun);
+  EXPECT_FALSE(named.control_by_port);
+  EXPECT_EQ(named.control, "/run/naiad/a.sock");
+  HostOptions program;
+  readProgramOptions([](const std::string&) { return std::string(); }, program);
+  EXPECT_FALSE(program.control_by_port);
+  EXPECT_EQ(program.control, "");
+  EXPECT_EQ(program.state, "");
+}
+
+TEST(HostOptions, OneIsChangedByItsNameWithinItsRange) {
+  HostOptions options;
+  setHostOption(options, "max-players", "7");
+  EXPECT_EQ(options.max_players, 7);
+  EXPECT_EQ(hostOptionValue(options, "max-players"), "7");
+  EXPECT_THROW(setHostOption(options, "max-players", "0"), OptionError);
+  EXPECT_THROW(setHostOption(options, "max-players", "many"), OptionError);
+  EXPECT_THROW(setHostOption(options, "banana", "7"), OptionError);
+  EXPECT_EQ(options.max_players, 7);
+}
+
+/// What a page or a check prints.
+std::string printed(const std::vector<const char*>& arguments, CommandLine wanted = CommandLine::kDone) {
+  HostOptions options;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(parse(arguments, options), wanted);
+  return testing::internal::GetCapturedStdout();
+}
+
+// Each line of the example, with its # taken away, is what holds anyhow: it is not refused, and changes
+// nothing.
+TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
+  const std::string path = testing::TempDir() + "naiad-example-" + std::to_string(getpid());
+  std::istringstream lines(printed({"--option-page", "config"}));
+  std::ofstream example(path);
+  int settings = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_setting = line.size() > 1 && line[0] == '#' && line[1] != ' ';
+    settings += is_setting ? 1 : 0;
+    example << (is_setting ? line.substr(1) : line) << "\n";
+  }
+  example.close();
+  EXPECT_GT(settings, 25);
+  EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), printed({"--print-config"}));
+  std::remove(path.c_str());
+}
+
+TEST(HostOptions, WhatIsPrintedAsAConfigurationIsOne) {
+  const std::string path = testing::TempDir() + "naiad-printed-" + std::to_string(getpid());
+  const std::vector<const char*> given{"--server-name", "a # \"b\"",     "--port",      "0",
+                                       "--qr",          "--web-address", "https://x/#y"};
+  std::vector<const char*> words = given;
+  words.push_back("--print-config");
+  const std::string first = printed(words);
+  EXPECT_NE(first.find("\nport = 0\n"), std::string::npos) << first;
+  std::ofstream(path) << first;
+  EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), first);
+  std::remove(path.c_str());
+}
+
+TEST(HostOptions, APasswordIsNotPrinted) {
+  const std::string text = printed({"--password", "verysecret", "--print-config"});
+  EXPECT_EQ(text.find("verysecret"), std::string::npos);
+  EXPECT_NE(text.find("# password is given, and not printed\n"), std::string::npos);
+}
+
+TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
+  const std::string path = testing::TempDir() + "naiad-checked-" + std::to_string(getpid());
+  std::ofstream(path) << "prot = 1\n\nmax-players = many\n";
+  testing::internal::CaptureStderr();
+  HostOptions options;
+  EXPECT_EQ(parse({"--config", path.c_str(), "--check-config"}, options), CommandLine::kUsageError);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("dfserver: " + path + ":1: there is no option \"prot\"; did you mean port?\n"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("dfserver: " + path + ":3: max-players: "), std::string::npos) << said;
+  std::ofstream(path) << "port = 1\n";
+  EXPECT_EQ(printed({"--config", path.c_str(), "--check-config"}), "");
+  std::ofstream(path) << "certificate = x\n";
+  printed({"--config", path.c_str(), "--check-config"}, CommandLine::kUsageError);
+  std::remove(path.c_str());
+}
+
+TEST(HostOptions, AVariableThatIsNoneIsAWarning) {
+  setenv("NAIAD_MAX_PLAYER", "3", 1);
+  HostOptions options;
+  EXPECT_EQ(parse({}, options), CommandLine::kRun);
+  unsetenv("NAIAD_MAX_PLAYER");
+  EXPECT_EQ(std::count(options.warnings.begin(), options.warnings.end(),
+                       "there is no variable NAIAD_MAX_PLAYER; did you mean NAIAD_MAX_PLAYERS?"),
+            1);
+}
+
+// Variables of the other programs may be set for all of them.
+TEST(HostOptions, VariablesOfTheClientAreNoMistakes) {
+  namespace fs = std::filesystem;
+  std::set<std::string> names;
+  const std::regex name("\"(NAIAD_[A-Z_]+)\"");
+  for (const char* folder : {"client", "shared", "server"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(NAIAD_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      const std::string source = text.str();
+      for (std::sregex_iterator found(source.begin(), source.end(), name); found != std::sregex_iterator();
+           ++found)
+        names.insert((*found)[1]);
+    }
+  }
+  EXPECT_GT(names.size(), 40u);
+  names.erase("NAIAD_");
+  for (const std::string& variable : names) {
+    if (getenv(variable.c_str()) != nullptr) continue;
+    setenv(variable.c_str(), "", 1);
+    HostOptions options;
+    parse({"--check-config"}, options);
+    unsetenv(variable.c_str());
+    EXPECT_EQ(
+        std::count(options.warnings.begin(), options.warnings.end(), "there is no variable " + variable), 0)
+        << variable;
+  }
+}
+
+TEST(HostOptions, SocketsFromTheServiceManagerDecideAddressAndPort) {
+  HostOptions options;
+  useSockets({3, 4, "127.0.0.1", 4000}, options);
+  EXPECT_EQ(options.address, "127.0.0.1");
+  EXPECT_EQ(options.port, 4000);
+  EXPECT_TRUE(options.warnings.empty()) << "nothing else was asked for";
+  HostOptions other;
+  other.port = 5000;
+  useSockets({3, 4, "127.0.0.1", 4000}, other);
+  EXPECT_EQ(other.warnings, std::vector<std::string>{
+                                "the port is 4000, of the sockets from the service manager, and not 5000"});
+}
+
+}  // namespace
+}  // namespace naiad
