@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "host/rounds/WorldSandbox.h"
 #include "host/world/WorldStart.h"
@@ -23,7 +24,10 @@ class WorldSandboxTest : public testing::Test {
     fs::create_directories(m_folder / "secret/sprites");
     options.identity = m_folder / "identity";
   }
-  ~WorldSandboxTest() override { fs::remove_all(m_folder); }
+  ~WorldSandboxTest() override {
+    m_home ? setenv("HOME", m_home->c_str(), 1) : unsetenv("HOME");
+    fs::remove_all(m_folder);
+  }
 
   bool reads(const fs::path& path) const {
     const auto paths = makeWorldSandbox(options, place).sandbox.readable;
@@ -33,6 +37,12 @@ class WorldSandboxTest : public testing::Test {
     return std::find(all.begin(), all.end(), one) != all.end();
   }
 
+  static std::optional<std::string> homeNow() {
+    const char* p_home = getenv("HOME");
+    return p_home != nullptr ? std::optional<std::string>(p_home) : std::nullopt;
+  }
+
+  const std::optional<std::string> m_home = homeNow();  ///< tests set others
   fs::path m_folder;
   HostOptions options;
   GamePlace place;
@@ -59,8 +69,6 @@ TEST_F(WorldSandboxTest, OfAFolderWithTheServersKeyTheSpritesAreReadable) {
 }
 
 TEST_F(WorldSandboxTest, FoldersOfTheUserAndOfTheMachineAreNotReadable) {
-  const char* p_home = getenv("HOME");
-  const std::string before = p_home != nullptr ? p_home : "";
   setenv("HOME", (m_folder / "game").c_str(), 1);
   place.folders = {(m_folder / "game").string(), m_folder.string(), "/", "/etc", "/tmp"};
   EXPECT_FALSE(reads(m_folder / "game"));
@@ -69,7 +77,6 @@ TEST_F(WorldSandboxTest, FoldersOfTheUserAndOfTheMachineAreNotReadable) {
   EXPECT_FALSE(reads("/"));
   EXPECT_FALSE(reads("/etc"));
   EXPECT_FALSE(reads("/tmp"));
-  before.empty() ? unsetenv("HOME") : setenv("HOME", before.c_str(), 1);
 }
 
 TEST_F(WorldSandboxTest, LinksToSpritesAreFollowedWithinAProject) {
