@@ -136,7 +136,7 @@ TerminalGuard::~TerminalGuard() {
   for (const int signal : kReported) install(signal, SIG_DFL, 0);
   // A signal that came too late for the event loop must still end the process.
   int unread = 0;
-  for (char signal = 0; ::read(g_pipe[0], &signal, 1) == 1;)
+  for (unsigned char signal = 0; ::read(g_pipe[0], &signal, 1) == 1;)
     if (isTerminating(signal)) unread = signal;
   if (unread != 0) raise(unread);
   close(g_pipe[0]);

@@ -131,7 +131,7 @@ void InheritedSockets::exportToExec() const {
 }
 
 std::optional<InheritedSockets> InheritedSockets::take() {
-  if (const auto exported = readExported()) return exported;
+  if (auto exported = readExported()) return exported;
   return take(getpid(), [](const char* p_name) { return std::getenv(p_name); });
 }
 
