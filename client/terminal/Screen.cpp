@@ -62,7 +62,7 @@ Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(option
   std::setlocale(LC_CTYPE, "");
   if (std::strcmp(nl_langinfo(CODESET), "UTF-8") != 0) m_ascii = true;
 
-  // It allocates what these say, and only otherwise asks the terminal.
+  // newterm() allocates the size in these variables. Without them it takes the terminal's, unlimited.
   const Size size = terminalSize();
   setenv("COLUMNS", std::to_string(size.columns).c_str(), 1);
   setenv("LINES", std::to_string(size.rows).c_str(), 1);

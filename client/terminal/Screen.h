@@ -27,8 +27,8 @@ class Screen {
     int columns;
     int rows;
   };
-  /// Larger terminals are drawn on up to here: ncurses takes 100 bytes for each cell, and a visitor of a door
-  /// chooses the size. A game's view is smaller (shared/replica/Limits.h).
+  /// Only this part of a larger terminal is drawn on: ncurses takes 100 bytes for each cell, and a visitor of
+  /// a door chooses the size. A game's view is smaller (shared/replica/Limits.h).
   static constexpr Size kMaxSize{640, 256};
   /// The terminal's size, 1 to kMaxSize; of COLUMNS and LINES if the terminal has none, and 80 x 24 without.
   static Size terminalSize();

@@ -31,7 +31,7 @@ constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
 constexpr int kTerminating[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kReported[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
 constexpr int kWriteTimeoutMillis = 1000;  // for a terminal that takes no bytes
-constexpr int kMaxStops = 16;              // in the background, until the process ends instead
+constexpr int kMaxStops = 16;              // of a process in the background; then it ends
 
 // What the signal handlers read: lock-free and initialised before they are installed.
 termios g_original;
@@ -39,7 +39,7 @@ volatile sig_atomic_t g_taken = 0;  ///< from before raw mode is set to after th
 volatile sig_atomic_t g_modes_on = 0;
 volatile sig_atomic_t g_kitty = 0;
 volatile sig_atomic_t g_end_asked = 0;
-pthread_t g_thread;  ///< that draws
+pthread_t g_thread;  ///< the one that draws
 int g_pipe[2] = {-1, -1};
 alignas(16) char g_signal_stack[64 * 1024];
 

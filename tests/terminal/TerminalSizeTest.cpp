@@ -1,6 +1,7 @@
 // The real dfclient on terminals of every size that a visitor can ask for.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -37,24 +38,34 @@ class TerminalSizeTest : public testing::Test {
   FakeServer server;
 };
 
+constexpr int kMegabytes = 40;  ///< resident, of a client on any terminal
+constexpr std::pair<int, int> kLarge[] = {{65535, 65535}, {3000, 250}, {65535, 1}, {1, 65535}};
+
 TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
-  PtyTerminal usual(options(100, 30));
-  ASSERT_TRUE(usual.waitFor("NAIAD-HERE"));
-  const int little = residentMegabytes(usual.pid());
-  for (const auto& [columns, rows] : {std::pair(65535, 65535), {3000, 3000}, {65535, 1}, {1, 65535}}) {
-    // From the beginning, and by a change of the window during the game.
-    PtyTerminal large(options(columns, rows));
-    ASSERT_TRUE(large.waitFor("\033[?u")) << columns << " x " << rows;
-    EXPECT_LT(residentMegabytes(large.pid()), little + 40) << columns << " x " << rows;
-    leave(large);
-    usual.forget();
-    usual.resize(columns, rows);
-    ASSERT_TRUE(usual.waitFor("\033["));
-    EXPECT_LT(residentMegabytes(usual.pid()), little + 40) << columns << " x " << rows;
-    usual.resize(100, 30);
+  for (const auto& [columns, rows] : kLarge) {
+    PtyTerminal terminal(options(columns, rows));
+    ASSERT_TRUE(terminal.waitFor("\033[?u")) << columns << " x " << rows;
+    EXPECT_LT(residentMegabytes(terminal.pid()), kMegabytes) << columns << " x " << rows;
+    leave(terminal);
   }
-  leave(usual);
+}
+
+TEST_F(TerminalSizeTest, AWindowThatGrowsDuringTheGameTakesBoundedMemory) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  PtyTerminal terminal(options(100, 30));
+  ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
+  for (const auto& [columns, rows] : kLarge) {
+    terminal.resize(columns, rows);
+    // It tells the server once it has the memory.
+    const auto is_resize = [columns = columns, rows = rows](const wire::ClientMessage& m) {
+      return m.has_resize() && static_cast<int>(m.resize().columns()) == std::min(columns, 640) &&
+             static_cast<int>(m.resize().rows()) == std::min(rows, 256);
+    };
+    ASSERT_TRUE(server.hasReceived(is_resize)) << columns << " x " << rows;
+    EXPECT_LT(residentMegabytes(terminal.pid()), kMegabytes) << columns << " x " << rows;
+  }
+  leave(terminal);
 }
 
 // Not every description of a terminal has a size.
@@ -82,7 +93,7 @@ TEST_F(TerminalSizeTest, ColumnsAndLinesAreBoundedLikewise) {
     without.environment["LINES"] = number;
     PtyTerminal terminal(without);
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << number;
-    EXPECT_LT(residentMegabytes(terminal.pid()), 60) << number;
+    EXPECT_LT(residentMegabytes(terminal.pid()), kMegabytes) << number;
     leave(terminal);
   }
 }

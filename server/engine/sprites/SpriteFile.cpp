@@ -38,7 +38,7 @@ class Lines {
   }
 
   bool isDone() const { return m_next == m_lines.size(); }
-  /// But not a line of exactly `row` blanks, which is a row of a frame.
+  /// Skips blank lines, but not a line of exactly `row` blanks, which is a row of a frame.
   void skipBlank(std::size_t row = std::string::npos) {
     while (isBlank() && m_lines[m_next].size() != row) ++m_next;
   }

@@ -75,7 +75,7 @@ void noteAddress(InheritedSockets& sockets) {
   sockets.port = streams.port();
 }
 
-/// Nothing: the variable is not there, or is for another process.
+/// Nullopt: the variable is missing or names another process.
 std::optional<InheritedSockets> readExported() {
   const char* p_text = std::getenv(kExported);
   if (p_text == nullptr) return std::nullopt;

@@ -38,8 +38,8 @@ struct InheritedSockets {
   /// (TcpListener.h) if they are not one listening TCP socket and one UDP socket, in any order, on the same
   /// address and port. `first`: the lowest of the descriptors.
   static std::optional<InheritedSockets> take(pid_t process, const Variable& variable, int first = 3);
-  /// Those of exportToExec() or, where there are none, the same for this process and its environment. Does
-  /// not leave the numbers of exportToExec() in the environment.
+  /// Returns the sockets that exportToExec() left open for this program, and removes their numbers from the
+  /// environment. Without such sockets: as above, for this process and its environment.
   static std::optional<InheritedSockets> take();
 };
 

@@ -1,4 +1,4 @@
-// What a server itself says to a player.
+// Chat lines from the server to one player.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace naiad {
 
-/// A line of the server's own in the chat of one player, cut to the length of one.
+/// Sends a chat line from the server, cut to kMaxChatLength characters. Thread: the host's.
 void sendServerLine(Session& session, const std::string& text);
 
 }  // namespace naiad

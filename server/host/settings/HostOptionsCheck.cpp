@@ -17,18 +17,17 @@ namespace {
 constexpr int kMinFrameMicros = 1000;        // clients believe no shorter one
 constexpr std::size_t kMaxWebAddress = 300;  // a QR code of more does not fit a terminal
 
-/// What is wrong with --in-process and what else was asked for; empty if nothing is.
+/// Returns why --in-process cannot be combined with another option; empty if it can.
 std::string inProcessComplaint(const HostOptions& options) {
   if (!options.in_process) return {};
   if (wantsJournal(options))
     return "--in-process goes without --journal: rounds are written down of games in processes of their own";
   if (options.rooms.empty() && !wantsWorlds(options)) return {};
   return "--in-process is not for --room, --on-game-over restart or --players private: each of their worlds "
-         "has "
-         "a process of its own";
+         "has a process of its own";
 }
 
-/// What is wrong with where metrics are given out; empty if nothing is.
+/// Returns the problem of the metrics options; empty if they are valid.
 std::string metricsComplaint(const HostOptions& options) {
   if (!MetricsHosts::parse(options.metrics_hosts))
     return "--metrics-hosts: names with commas between are wanted";
@@ -41,7 +40,7 @@ std::string metricsComplaint(const HostOptions& options) {
   return {};
 }
 
-/// What is wrong with the options of platform and bus; empty if nothing is.
+/// Returns the problem of the bus options; empty if they are valid.
 std::string fleetComplaint(const HostOptions& options) {
   if (options.bus.empty()) {
     if (!options.bus_credentials.empty() || !options.bus_ca.empty() || !options.bus_id.empty())
@@ -59,7 +58,7 @@ bool isWebAddress(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
 }
 
-/// What is wrong with the options that are printed for players; empty if nothing is.
+/// Returns the problem of the addresses that are printed for players; empty if they are valid.
 std::string announcementComplaint(const HostOptions& options) {
   if (!options.link_host.empty() && !LinkHost::parse(options.link_host))
     return "--link-host: HOST or HOST:PORT is wanted, IPv6 in brackets";

@@ -1,4 +1,4 @@
-// Do options go together, and mean something?
+// Checks that the options of a host are valid together.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace naiad {
 
-/// What is wrong with options together; empty if nothing is.
+/// Returns one sentence about the first problem of the options; empty if they are valid.
 std::string optionsComplaint(const HostOptions& options);
 
 }  // namespace naiad
