@@ -88,7 +88,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libdragonfly0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
 # Packages of games that are linked with it depend on this version: CPack would list game modules as libraries, too.
-file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libdragonfly 0 libdragonfly0 (= ${version})\nlibdragonfly-physics 0 libdragonfly0 (= ${version})\n")
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libdragonfly 0 libdragonfly0 (= ${version})\nlibdragonfly-physics 0 libdragonfly0 (= ${version})\nlibdragonfly-ops 0 libdragonfly0 (= ${version})\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${debian}/libdragonfly0/triggers ${CMAKE_CURRENT_BINARY_DIR}/shlibs)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "engine, physics and hosting for networked text games
 A text-character game engine with the interface of Dragonfly, with bodies

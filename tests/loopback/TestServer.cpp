@@ -15,7 +15,8 @@ HostOptions fastOptions() {
 }
 
 TestServer::TestServer(std::function<void(df::World&)> populate, HostOptions options)
-    : m_host(std::make_unique<Host>(std::move(options), "test", [](const std::string&) {})) {
+    : m_host(std::make_unique<Host>(std::move(options), "test",
+                                    [this](const LogEvent& event) { readLog(event); })) {
   m_host->setObserver([this](df::World& world) { record(world); });
   std::promise<void> populated;
   m_thread = std::thread([this, populate = std::move(populate), &populated] {
@@ -38,6 +39,12 @@ void TestServer::stop(const std::string& sentence) {
   if (!m_thread.joinable()) return;
   m_host->stop(sentence);
   m_thread.join();
+}
+
+void TestServer::readLog(const LogEvent& event) {
+  const std::string begin = "metrics are at http://127.0.0.1:";
+  if (event.text.starts_with(begin))
+    m_metrics_port = static_cast<std::uint16_t>(std::stoi(event.text.substr(begin.size())));
 }
 
 void TestServer::record(df::World& world) {

@@ -13,6 +13,9 @@
 
 #include "engine/world/World.h"
 #include "host/loop/Host.h"
+#include "host/loop/HostClients.h"
+#include "host/loop/HostControls.h"
+#include "host/loop/HostEndpoint.h"
 #include "host/settings/HostOptions.h"
 #include "shared/values/Canvas.h"
 
@@ -28,9 +31,10 @@ class TestServer {
   explicit TestServer(std::function<void(df::World&)> populate, HostOptions options = fastOptions());
   ~TestServer();
 
-  std::uint16_t port() const { return m_host->port(); }
-  std::uint16_t metricsPort() const { return m_host->metricsPort(); }
-  std::optional<Fingerprint> fingerprint() const { return m_host->fingerprint(); }
+  std::uint16_t port() const { return m_host->endpoint().port(); }
+  /// As the log says it; 0: it does not.
+  std::uint16_t metricsPort() const { return m_metrics_port; }
+  std::optional<Fingerprint> fingerprint() const { return m_host->endpoint().fingerprint(); }
   /// Run `job` on the server's thread between two ticks and return what it returns.
   template <class Job>
   auto inWorld(Job job) {
@@ -39,15 +43,15 @@ class TestServer {
     return result.get_future().get();
   }
   Counters counters() {
-    return inWorld([this](df::World&) { return m_host->counters(); });
+    return inWorld([this](df::World&) { return m_host->context().counters; });
   }
   /// What became of the datagrams that have arrived.
   DatagramGateCounters datagrams() {
-    return inWorld([this](df::World&) { return m_host->datagramCounters(); });
+    return inWorld([this](df::World&) { return m_host->endpoint().network().gateCounters(); });
   }
   /// Ticks at whose end the server knew that this player was not up to date.
   std::uint64_t skippedTicks(std::uint32_t player) {
-    return inWorld([this, player](df::World&) { return m_host->skippedTicks(player); });
+    return inWorld([this, player](df::World&) { return m_host->clients().sessions().skippedTicks(player); });
   }
   /// What the book's draw path shows `player` at the end of `tick`, if they were in that tick.
   std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
@@ -56,7 +60,7 @@ class TestServer {
   /// End the server so; it goes on until then.
   void end(const Ending::Plan& plan) {
     inWorld([&](df::World&) {
-      m_host->end(plan);
+      m_host->controls().end(plan);
       return true;
     });
   }
@@ -66,6 +70,9 @@ class TestServer {
  private:
   void record(df::World& world);
 
+  void readLog(const LogEvent& event);
+
+  std::uint16_t m_metrics_port = 0;
   std::unique_ptr<Host> m_host;
   std::atomic<bool> m_draws = true;
   mutable std::mutex m_mutex;

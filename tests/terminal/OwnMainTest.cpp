@@ -308,6 +308,20 @@ TEST_F(OwnMain, WithoutAClientItIsAServer) {
   expectOrderlyEnd(*game);
 }
 
+TEST_F(OwnMain, WithoutTheOperatorsLibraryItIsPlayedAllTheSame) {
+  const fs::path libraries = fs::path(programPath("lone_game")).parent_path().parent_path() / "lib";
+  fs::create_directory(m_home / "lib");
+  fs::copy(libraries / "libdragonfly.so.0", m_home / "lib");
+  const auto server = startServer({{"LD_LIBRARY_PATH", m_home / "lib"}, {"NAIAD_LOG", m_home / "log"}});
+  const auto ann = join("ann");
+  ann->type("\035t/help\r");
+  EXPECT_TRUE(ann->waitFor("no commands")) << ann->output();
+  const std::string log = read("log");
+  const std::string warning = "no scores, bans, dfctl, metrics, local network or bus: libdragonfly-ops.so.0";
+  EXPECT_NE(log.find(warning), std::string::npos) << log;
+  EXPECT_EQ(log.find(warning), log.rfind(warning)) << "once";
+}
+
 TEST_F(OwnMain, ATerminalThatCannotDrawLeavesAServer) {
   auto game = start({{"TERM", "unknown"}});
   ASSERT_TRUE(game->waitFor("the game goes on as a server")) << game->output();

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "host/admin/AdminConsole.h"
-#include "host/admin/WatchFeed.h"
+#include "host/process/WatchFeed.h"
 #include "shared/admin/AdminJson.h"
 
 namespace naiad {

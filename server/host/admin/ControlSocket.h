@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "host/admin/AdminConsole.h"
-#include "host/admin/WatchFeed.h"
+#include "host/process/WatchFeed.h"
 #include "shared/admin/AdminRequest.h"
 #include "shared/program/LineLog.h"
 

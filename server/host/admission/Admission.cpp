@@ -62,15 +62,19 @@ LogEvent newsOf(const char* what, const std::string& name, const std::string& ha
 
 }  // namespace
 
-Admission::Admission(Setup setup, const asio::any_io_executor& executor)
+Admission::Admission(Setup setup)
     : m_setup(std::move(setup)),
-      m_counters(m_setup.counters),
-      m_joins(PrefixRates::joins(m_setup.options.max_per_address)),
-      m_new_worlds(PrefixRates::worlds(m_setup.options.max_per_address, m_setup.options.max_players)),
-      m_door(m_setup.rooms, m_setup.options.max_per_address),
-      m_executor(executor) {
-  const std::string& password = m_setup.options.password;
+      m_options(m_setup.context.options),
+      m_counters(m_setup.context.counters),
+      m_joins(PrefixRates::joins(m_options.max_per_address)),
+      m_new_worlds(PrefixRates::worlds(m_options.max_per_address, m_options.max_players)),
+      m_door(m_setup.rooms, m_options.max_per_address) {
+  const std::string& password = m_options.password;
   if (!password.empty()) changePassword(PasswordHash::fromText(password));
+}
+
+void Admission::log(const Session& session, LogEvent event) const {
+  m_setup.context.client_log.logNews(session.address(), std::move(event), session.now());
 }
 
 // Guesses that wait are compared with the new one, or admitted where none is needed any more.
@@ -78,7 +82,7 @@ void Admission::changePassword(std::optional<PasswordHash> hash) {
   m_needs_password = hash.has_value();
   if (!hash) return;
   if (m_password) return m_password->setHash(std::move(*hash));
-  m_password = std::make_unique<PasswordCheck>(m_executor, std::move(*hash));
+  m_password = std::make_unique<PasswordCheck>(m_setup.context.home.get_executor(), std::move(*hash));
 }
 
 void Admission::judgeHello(Session& session, const wire::Hello& hello) {
@@ -104,7 +108,8 @@ bool Admission::waitsForRound(const wire::Hello& hello) const {
 // The address was asked for before TLS; a ban may have come meanwhile.
 bool Admission::isBanned(Session& session, const std::string& name) {
   const auto address = endpointAddress(session.address());
-  const std::string sentence = m_setup.bans.refusal(address.value_or(asio::ip::address()), name);
+  const std::string sentence =
+      m_find_ban ? m_find_ban(address.value_or(asio::ip::address()), name) : std::string();
   if (sentence.empty()) return false;
   ++m_counters.refused_banned;
   session.refuse(wire::Refused::BAD_REQUEST, safeText(sentence, kMaxSentenceLength));
@@ -117,10 +122,10 @@ bool Admission::checkHello(Session& session, const wire::Hello& hello) {
     session.refuse(wire::Refused::VERSION, versionSentence(hello.protocol()));
     return false;
   }
-  if (!hello.game().empty() && hello.game() != m_setup.game && !m_setup.rooms.isNamed()) {
+  if (!hello.game().empty() && hello.game() != m_setup.context.game && !m_setup.rooms.isNamed()) {
     ++m_counters.refused_game;
-    session.refuse(wire::Refused::GAME,
-                   "This server plays \"" + m_setup.game + "\", not \"" + cleanName(hello.game()) + "\".");
+    session.refuse(wire::Refused::GAME, "This server plays \"" + m_setup.context.game + "\", not \"" +
+                                            cleanName(hello.game()) + "\".");
     return false;
   }
   if (!hello.room().empty() && !m_setup.rooms.isNamed()) {
@@ -217,9 +222,9 @@ void Admission::restartSession(Session& before, Session& session, const wire::He
   auto datagrams = openDatagrams(session, hello);
   describe(datagrams.get(), welcome);
   before.restart(session, welcome, std::move(datagrams));
-  m_setup.on_new_client();
+  m_setup.news.repeat();
   if (Room* p_room = m_setup.rooms.roomOf(before)) p_room->repeatSounds(before.player());
-  m_setup.log_client(before.address(), newsOf("restarted", before.name(), "is back, with another client"));
+  log(before, newsOf("restarted", before.name(), "is back, with another client"));
 }
 
 void Admission::continueSession(Session& before, Session& session, const wire::Hello& hello,
@@ -230,7 +235,7 @@ void Admission::continueSession(Session& before, Session& session, const wire::H
     if (p_datagrams->renew(*session.stream(), epoch)) describe(p_datagrams, welcome);
   }
   before.adopt(session, welcome, hello.received());
-  m_setup.log_client(before.address(), newsOf("resumed", before.name(), "is back"));
+  log(before, newsOf("resumed", before.name(), "is back"));
 }
 
 // The token is that of a session that has its stream. Without one the client is refused: it asked for a
@@ -247,7 +252,7 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
     return session.refuse(wire::Refused::BUSY,
                           "Your second stream comes again too often. Try again in a moment.");
   }
-  m_setup.log_client(session.address(), newsOf("second_stream", p_first->name(), "has a second stream"));
+  log(session, newsOf("second_stream", p_first->name(), "has a second stream"));
   p_first->accompany(session);
 }
 
@@ -312,10 +317,9 @@ void Admission::takeOverSession(Session& before, Session& session, const wire::H
     p_room->remove(before);
     m_setup.rooms.add(*p_room, session);
   }
-  m_setup.on_new_client();
+  m_setup.news.repeat();
   ++m_counters.returned;
-  m_setup.log_client(session.address(),
-                     newsOf("resumed", session.name(), "is back, in the round that goes on"));
+  log(session, newsOf("resumed", session.name(), "is back, in the round that goes on"));
 }
 
 void Admission::confirmToken(Session& session) {
@@ -353,26 +357,25 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
   describe(datagrams.get(), welcome);
   session.setGrace(graceTime());
-  if (m_setup.options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
+  if (m_options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
   m_setup.prefixes.note(session.id(), prefixOf(session));
   p_room->port().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), false));
   session.welcome(welcome, std::move(datagrams));
   m_setup.rooms.add(*p_room, session);
-  m_setup.on_new_client();
+  m_setup.news.repeat();
   const std::string program = safeText(hello.program(), kMaxProgramLength);
-  m_setup.log_client(session.address(),
-                     newsOf("joined", name, "joined with " + inQuotes(program), {{"program", program}}));
+  log(session, newsOf("joined", name, "joined with " + inQuotes(program), {{"program", program}}));
 }
 
 // False: the session was refused.
 bool Admission::checkLimits(Session& session) {
-  if (!m_setup.is_open()) {
+  if (!m_setup.context.ending.isOpen()) {
     ++m_counters.refused_closing;
     refuseFull(session, "The server is closing and lets no new players in.");
     return false;
   }
-  const int max_players = m_setup.options.max_players;
-  const int max_per_address = m_setup.options.max_per_address;
+  const int max_players = m_options.max_players;
+  const int max_per_address = m_options.max_per_address;
   if (m_setup.sessions.playing() >= static_cast<std::size_t>(max_players)) {
     ++m_counters.refused_full;
     refuseFull(session, "The server is full (" + std::to_string(max_players) + " players). Try again later.");
@@ -390,7 +393,7 @@ bool Admission::checkLimits(Session& session) {
 
 // Another server of the fleet may have a place.
 void Admission::refuseFull(Session& session, const std::string& sentence) {
-  const auto link = m_setup.send_on ? m_setup.send_on() : std::nullopt;
+  const auto link = m_find_other ? m_find_other() : std::nullopt;
   if (!link) return session.refuse(wire::Refused::FULL, sentence);
   ++m_counters.sent_on;
   const std::string said = safeText(sentence + " There is a place at " + link->text(), kMaxSentenceLength);
@@ -414,8 +417,7 @@ Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
   std::string problem;
   Room* p_room = m_setup.rooms.roomForNewPlayer(problem);
   if (p_room != nullptr) return p_room;
-  if (!problem.empty())
-    m_setup.log_client(session.address(), {LogEvent::Level::kError, "gets no world: " + problem});
+  if (!problem.empty()) log(session, {LogEvent::Level::kError, "gets no world: " + problem});
   refuseBusy(session, "The server cannot begin another world. Try again later.");
   return nullptr;
 }
@@ -433,8 +435,7 @@ Room* Admission::namedRoomFor(Session& session, const wire::Hello& hello) {
 }
 
 void Admission::refuseRoom(Session& session, const RoomDoor::Refusal& refusal) {
-  if (!refusal.log.empty())
-    m_setup.log_client(session.address(), {LogEvent::Level::kError, "gets no world: " + refusal.log});
+  if (!refusal.log.empty()) log(session, {LogEvent::Level::kError, "gets no world: " + refusal.log});
   switch (refusal.why) {
     case RoomDoor::Why::kUnknown:
       ++m_counters.refused_room;
@@ -501,14 +502,14 @@ wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
 
 std::chrono::milliseconds Admission::graceTime() const {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double>(m_setup.options.grace));
+      std::chrono::duration<double>(m_options.grace));
 }
 
 // What it says of the room and its game.
 void Admission::describeRoom(const Room& room, wire::Welcome& welcome) const {
   const RoomPlan* const p_plan = room.plan();
   welcome.set_tick(room.tick());
-  welcome.set_game(p_plan != nullptr ? p_plan->game : m_setup.game);
+  welcome.set_game(p_plan != nullptr ? p_plan->game : m_setup.context.game);
   welcome.set_room(p_plan != nullptr ? p_plan->name : "");
   const int width = p_plan != nullptr ? p_plan->ready.window_width : m_p_world->getWindowWidth();
   const int height = p_plan != nullptr ? p_plan->ready.window_height : m_p_world->getWindowHeight();
@@ -524,7 +525,7 @@ void Admission::describeRoom(const Room& room, wire::Welcome& welcome) const {
 
 wire::Welcome Admission::welcomeOf(const Room& room, std::uint32_t player, const std::string& name,
                                    df::Color color) const {
-  const TickLength tick = TickLength::fromMicros(m_setup.options.frame_micros);
+  const TickLength tick = TickLength::fromMicros(m_options.frame_micros);
   wire::Welcome welcome;
   welcome.set_player(player);
   welcome.set_name(name);
@@ -532,8 +533,8 @@ wire::Welcome Admission::welcomeOf(const Room& room, std::uint32_t player, const
   describeRoom(room, welcome);
   welcome.set_color(static_cast<std::uint32_t>(color));
   welcome.set_grace_millis(static_cast<std::uint32_t>(graceTime().count()));
-  welcome.set_second_stream(m_setup.options.grace > 0);
-  welcome.set_server(safeText(m_setup.options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
+  welcome.set_second_stream(m_options.grace > 0);
+  welcome.set_server(safeText(m_options.name, kMaxProgramLength - 20) + " (dfserver " + kVersion + ")");
   return welcome;
 }
 

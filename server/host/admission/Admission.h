@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <asio/any_io_executor.hpp>
+#include <asio/ip/address.hpp>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "engine/world/World.h"
-#include "host/admin/BanList.h"
 #include "host/admission/RoomDoor.h"
 #include "host/auth/PasswordCheck.h"
 #include "host/auth/ResumeTokens.h"
@@ -20,7 +19,6 @@
 #include "host/net/SealedChannel.h"
 #include "host/rooms/Rooms.h"
 #include "host/rooms/SessionTable.h"
-#include "host/settings/HostOptions.h"
 #include "shared/net/base/PrefixAllowance.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/program/LogEvent.h"
@@ -34,30 +32,24 @@ class Admission {
  public:
   /// What it works with; all of it outlives the Admission.
   struct Setup {
-    const HostOptions& options;
-    std::string game;  ///< that is played; a hello may ask for one by name
+    HostContext& context;
     SessionTable& sessions;
     Rooms& rooms;
+    PlayerNews& news;
     PlayerPrefixes& prefixes;
-    Counters& counters;
-    const BanList& bans;
-    /// Log what becomes of the client at this address.
-    std::function<void(const std::string& address, LogEvent event)> log_client;
     /// A channel for datagrams, with keys from this stream; null if there are none.
     std::function<std::unique_ptr<SealedChannel>(const ReliableChannel& stream, AeadId aead)> open_datagrams;
-    /// A client plays that has no list of players yet.
-    std::function<void()> on_new_client;
-    /// May new players join?
-    std::function<bool()> is_open = [] { return true; };
     /// A session without a stream, waiting for its client. Null: there are none.
     std::function<Session&(const wire::Welcome& welcome)> restore_session = {};
-    /// A link to another server that has places, or to a room of it; nothing: none is known. Null: there are
-    /// no others.
-    std::function<std::optional<JoinLink>()> send_on = {};
   };
+  explicit Admission(Setup setup);
 
-  /// `executor` runs what is left of a judgement once a password has been checked.
-  Admission(Setup setup, const asio::any_io_executor& executor);
+  /// Why a client with this address and name may not play: a sentence; empty if it may.
+  using FindBan = std::function<std::string(const asio::ip::address& address, const std::string& name)>;
+  void setBans(FindBan find_ban) { m_find_ban = std::move(find_ban); }
+  /// A link to another server that has places, or to a room of it; nothing: none is known.
+  using FindOther = std::function<std::optional<JoinLink>()>;
+  void setOthers(FindOther find_other) { m_find_other = std::move(find_other); }
 
   /// The world whose window and help go into welcomes. Before the first hello.
   void setWorld(const df::World& world) { m_p_world = &world; }
@@ -91,8 +83,6 @@ class Admission {
   /// Whoever joins from now on needs this password; nothing: none.
   void changePassword(std::optional<PasswordHash> hash);
   bool needsPassword() const { return m_needs_password; }
-  /// That is played.
-  const std::string& game() const { return m_setup.game; }
   /// What became of passwords; all zero if none is needed.
   PasswordCheck::Counters passwordCounters() const;
 
@@ -128,14 +118,18 @@ class Admission {
   wire::Welcome welcomeTo(Room& room, const std::string& name);
   std::unique_ptr<SealedChannel> openDatagrams(const Session& session, const wire::Hello& hello) const;
 
+  void log(const Session& session, LogEvent event) const;
+
   Setup m_setup;
+  const HostOptions& m_options;
   Counters& m_counters;
+  FindBan m_find_ban;      ///< null: nobody is banned
+  FindOther m_find_other;  ///< null: there are no others
   const df::World* m_p_world = nullptr;
   ResumeTokens m_tokens;
   PrefixAllowance m_joins;
   PrefixAllowance m_new_worlds;
   RoomDoor m_door;
-  asio::any_io_executor m_executor;
   std::unique_ptr<PasswordCheck> m_password;  ///< null: none was needed yet
   bool m_needs_password = false;
   std::uint32_t m_next_player = 1;

@@ -19,14 +19,14 @@ void RoomMoves::ask(const Session& session, const std::string& room) {
 
 void RoomMoves::askByGame(Session& session, const std::string& room) {
   session.admitRoomRequest() ? ask(session, room)
-                             : static_cast<void>(++m_setup.counters.room_requests_dropped);
+                             : static_cast<void>(++m_context.counters.room_requests_dropped);
 }
 
 void RoomMoves::leadAway(const Room& room, const std::string& sentence) {
-  if (&room == &m_setup.rooms.firstRoom()) return room.dismiss(sentence);
+  if (&room == &m_rooms.firstRoom()) return room.dismiss(sentence);
   room.say(sentence);
   room.forEachPlaying([&](Session& session) {
-    ask(session, m_setup.rooms.firstRoom().plan()->name);
+    ask(session, m_rooms.firstRoom().plan()->name);
     m_wishes.back().or_goodbye = sentence;
   });
 }
@@ -36,29 +36,31 @@ void RoomMoves::update() {
 }
 
 void RoomMoves::grant(const Wish& wish) {
-  Session* const p_session = m_setup.sessions.find(wish.session);
+  Session* const p_session = m_sessions.find(wish.session);
   if (p_session == nullptr || p_session->state() != Session::State::kPlaying) return;
-  const Room* const p_from = m_setup.rooms.roomOf(*p_session);
+  const Room* const p_from = m_rooms.roomOf(*p_session);
   if (p_from != nullptr && p_from->plan() != nullptr && p_from->plan()->name == wish.room) return;
-  const std::string refusal = m_setup.admission.moveSession(*p_session, wish.room, !wish.or_goodbye.empty());
+  const std::string refusal = m_admission.moveSession(*p_session, wish.room, !wish.or_goodbye.empty());
   if (!refusal.empty()) return refuse(*p_session, wish, refusal);
-  ++m_setup.counters.room_moves;
-  m_setup.log_client(p_session->address(), {"moved",
-                                            inQuotes(p_session->name()) + " goes to the room " + wish.room,
-                                            {{"player", p_session->name()}, {"room", wish.room}}});
+  ++m_context.counters.room_moves;
+  m_context.client_log.logNews(p_session->address(),
+                               {"moved",
+                                inQuotes(p_session->name()) + " goes to the room " + wish.room,
+                                {{"player", p_session->name()}, {"room", wish.room}}},
+                               p_session->now());
 }
 
 void RoomMoves::refuse(Session& session, const Wish& wish, const std::string& sentence) {
-  ++m_setup.counters.room_moves_refused;
+  ++m_context.counters.room_moves_refused;
   if (!wish.or_goodbye.empty()) return session.goodbye(wish.or_goodbye);
   sendServerLine(session, sentence);
 }
 
 void RoomMoves::sendList(Session& session) const {
-  if (!m_setup.rooms.isNamed()) return;
+  if (!m_rooms.isNamed()) return;
   wire::ServerMessage message;
   wire::RoomList& list = *message.mutable_rooms();
-  m_setup.rooms.forEachRoom([&list](const Room& room) {
+  m_rooms.forEachRoom([&list](const Room& room) {
     wire::RoomEntry& entry = *list.add_rooms();
     entry.set_name(room.plan()->name);
     entry.set_game(safeText(room.plan()->game, kMaxProgramLength));

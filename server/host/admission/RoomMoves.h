@@ -2,30 +2,21 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "host/admission/Admission.h"
 #include "host/rooms/Rooms.h"
 #include "host/rooms/SessionTable.h"
-#include "host/session/Counters.h"
-#include "shared/program/LogEvent.h"
 
 namespace naiad {
 
 /// Not thread-safe.
 class RoomMoves {
  public:
-  /// What it works with; all of it outlives the RoomMoves.
-  struct Setup {
-    SessionTable& sessions;
-    Rooms& rooms;
-    Admission& admission;
-    Counters& counters;
-    std::function<void(const std::string& address, LogEvent event)> log_client;
-  };
-  explicit RoomMoves(Setup setup) : m_setup(std::move(setup)) {}
+  /// All of these outlive it.
+  RoomMoves(HostContext& context, SessionTable& sessions, Rooms& rooms, Admission& admission)
+      : m_context(context), m_sessions(sessions), m_rooms(rooms), m_admission(admission) {}
 
   /// In the next update(). Of several for a session, the last one holds.
   void ask(const Session& session, const std::string& room);
@@ -47,7 +38,10 @@ class RoomMoves {
   void grant(const Wish& wish);
   void refuse(Session& session, const Wish& wish, const std::string& sentence);
 
-  Setup m_setup;
+  HostContext& m_context;
+  SessionTable& m_sessions;
+  Rooms& m_rooms;
+  Admission& m_admission;
   std::vector<Wish> m_wishes;  ///< one of a session at most
 };
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "shared/fleet/BusSettings.h"
+
 namespace naiad {
 
 struct BusMessage {
@@ -23,13 +25,6 @@ struct BusCounters {
   std::uint64_t connections = 0;  ///< more than one: the bus was lost and came back
   std::uint64_t received = 0;     ///< of the subjects asked for
   std::uint64_t ignored = 0;      ///< of these: too long, or of too many subjects
-};
-
-struct BusSettings {
-  std::string url;          ///< nats://HOST:PORT or tls://HOST:PORT
-  std::string credentials;  ///< file of a user's token and seed; empty: none
-  std::string authorities;  ///< file of certificates (PEM) that the bus's is signed with; empty: the system's
-  std::vector<std::string> subjects = {};  ///< to listen to; "naiad.presence.*" are all with one word there
 };
 
 class Bus {
@@ -52,8 +47,6 @@ class Bus {
   virtual std::string takeNews() = 0;
 };
 
-/// Why there can be no such bus: a sentence; empty if there can. Whether it can be reached shows later.
-std::string busComplaint(const BusSettings& settings);
 /// NATS, by libnats. The settings have no complaint.
 std::unique_ptr<Bus> connectBus(const BusSettings& settings);
 

@@ -19,27 +19,6 @@
 
 namespace naiad {
 
-namespace {
-
-constexpr std::string_view kPlain = "nats://";
-constexpr std::string_view kEncrypted = "tls://";
-
-}  // namespace
-
-std::string busComplaint(const BusSettings& settings) {
-#ifndef NAIAD_NATS
-  return "--bus: this program was built without NATS (Debian: libnats-dev)";
-#endif
-  const std::string& url = settings.url;
-  for (const std::string_view scheme : {kPlain, kEncrypted}) {
-    if (url.starts_with(scheme) && url.size() > scheme.size()) {
-      if (scheme == kPlain && !settings.authorities.empty()) return "--bus-ca is for tls://, not for nats://";
-      return "";
-    }
-  }
-  return "--bus: nats://HOST:PORT or tls://HOST:PORT is wanted";
-}
-
 #ifdef NAIAD_NATS
 
 namespace {
@@ -76,7 +55,7 @@ Options optionsOf(const BusSettings& settings) {
               natsOptions_SetTimeout(p_made, kTimeoutMillis) == NATS_OK &&
               natsOptions_SetPingInterval(p_made, kPingMillis) == NATS_OK &&
               natsOptions_SetMaxPingsOut(p_made, kMaxPings) == NATS_OK;
-  if (settings.url.starts_with(kEncrypted)) good = good && natsOptions_SetSecure(p_made, true) == NATS_OK;
+  if (settings.isEncrypted()) good = good && natsOptions_SetSecure(p_made, true) == NATS_OK;
   if (!settings.authorities.empty())
     good = good && natsOptions_LoadCATrustedCertificates(p_made, settings.authorities.c_str()) == NATS_OK;
   if (!settings.credentials.empty())

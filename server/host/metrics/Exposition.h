@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/metrics/Histogram.h"
+#include "host/process/Histogram.h"
 
 namespace naiad {
 

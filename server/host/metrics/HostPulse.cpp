@@ -44,13 +44,13 @@ HostPulse::Verdict HostPulse::health(Clock::time_point now) const {
   const Phase phase = m_phase;
   if (phase == Phase::kStarting) return {true, "starting"};
   if (phase == Phase::kEnding) return {true, "ending"};
-  const auto since = now - Clock::time_point(Clock::duration(m_began.load(std::memory_order_relaxed)));
+  const Clock::time_point start{Clock::duration(m_began.load(std::memory_order_relaxed))};
+  const auto since = now - std::max(start, m_stages.tickBegan());
   if (since <= std::chrono::nanoseconds(m_patience.load(std::memory_order_relaxed))) return {true, "ok"};
   char text[128];
   std::snprintf(text, sizeof text, "no tick has begun for %.1f s; since tick %llu the stage is: %s",
                 std::chrono::duration<double>(since).count(),
-                static_cast<unsigned long long>(m_tick.load(std::memory_order_relaxed)),
-                nameOf(m_stages.current()));
+                static_cast<unsigned long long>(m_stages.tick()), nameOf(m_stages.current()));
   return {false, text};
 }
 

@@ -7,9 +7,12 @@
 #include <cstdint>
 #include <string>
 
-#include "host/metrics/StageClock.h"
+#include "host/process/StageClock.h"
 
 namespace naiad {
+
+/// As in the metric's label: "between", "receive", ….
+const char* nameOf(Stage stage);
 
 /// Writers are for the thread that ticks, health() and readiness() for any. Time is passed in.
 class HostPulse {
@@ -20,16 +23,11 @@ class HostPulse {
   static constexpr std::chrono::nanoseconds kLeastPatience = std::chrono::seconds(1);
   static constexpr int kPatienceTicks = 10;
 
-  /// `stages`: says in which stage a host hangs; outlives this.
+  /// `stages`: ticks that begin, and in which stage a host hangs; outlives this.
   explicit HostPulse(const StageClock& stages) : m_stages(stages) {}
 
   /// Listening, and ticks of this length begin.
   void begin(std::chrono::nanoseconds tick_length, Clock::time_point now);
-  /// A tick begins.
-  void beat(std::uint64_t number, Clock::time_point now) {
-    m_tick.store(number, std::memory_order_relaxed);
-    m_began.store(now.time_since_epoch().count(), std::memory_order_relaxed);
-  }
   /// All places are taken, or no longer.
   void setFull(bool full) { m_full.store(full, std::memory_order_relaxed); }
   /// It takes no more players and is about to end; `ticks`: as long as it ticks it can hang.
@@ -52,8 +50,7 @@ class HostPulse {
 
   const StageClock& m_stages;
   std::atomic<Phase> m_phase = Phase::kStarting;
-  std::atomic<Clock::rep> m_began = 0;  ///< when the newest tick did
-  std::atomic<std::uint64_t> m_tick = 0;
+  std::atomic<Clock::rep> m_began = 0;       ///< when ticks were to begin
   std::atomic<std::int64_t> m_patience = 0;  ///< in nanoseconds
   std::atomic<bool> m_full = false;
 };

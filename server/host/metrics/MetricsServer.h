@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/metrics/MetricsAddress.h"
+#include "host/settings/MetricsAddress.h"
 
 namespace naiad {
 

@@ -9,18 +9,14 @@
 #include <vector>
 
 #include "host/auth/PasswordCheck.h"
-#include "host/metrics/Histogram.h"
-#include "host/metrics/StageClock.h"
 #include "host/net/NetworkThread.h"
+#include "host/process/Histogram.h"
+#include "host/process/StageClock.h"
 #include "host/session/Counters.h"
 
 namespace naiad {
 
-/// Upper bounds of buckets. A tick is 33 ms by default, and the late ones are of interest.
-inline constexpr std::array<double, 14> kTickBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
-                                                    0.02,   0.033,   0.05,   0.1,   0.25,   0.5,   1};
-inline constexpr std::array<double, 11> kLatenessBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005,
-                                                        0.01,   0.033,   0.1,    0.5,   1};
+/// Upper bounds of buckets.
 inline constexpr std::array<double, 10> kRoundTripBounds{0.001, 0.005, 0.01, 0.025, 0.05,
                                                          0.1,   0.2,   0.4,  0.8,   2};
 inline constexpr std::array<double, 9> kLossBounds{0, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};

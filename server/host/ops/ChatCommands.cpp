@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "host/admin/PlayerChoice.h"
-#include "host/ops/HostAdmin.h"
+#include "host/loop/HostClients.h"
 #include "host/rooms/ServerLine.h"
 #include "shared/admin/AdminText.h"
 #include "shared/net/base/AddressPrefix.h"
@@ -18,7 +18,6 @@ using Level = AdminCommand::Level;
 using Place = AdminCommand::Place;
 
 constexpr std::string_view kAdminCommand = "/admin ";
-constexpr const char* kInFront = " ?";  // of a command
 
 Level levelOf(const Session& session) {
   return session.standing().isAdmin() ? Level::kAdmin : Level::kPlayer;
@@ -26,20 +25,26 @@ Level levelOf(const Session& session) {
 
 }  // namespace
 
-ChatCommands::ChatCommands(Setup setup, const asio::any_io_executor& executor) : m_setup(std::move(setup)) {
-  const std::string& password = m_setup.options.admin_password;
+ChatCommands::ChatCommands(const HostAccess& access, AdminTarget& target, AdminConsole& console,
+                           BanList& bans)
+    : m_access(access), m_target(target), m_console(console), m_bans(bans) {
+  const std::string& password = access.context.options.admin_password;
   if (!password.empty())
-    m_password = std::make_unique<PasswordCheck>(executor, PasswordHash::fromText(password));
+    m_password =
+        std::make_unique<PasswordCheck>(access.context.home.get_executor(), PasswordHash::fromText(password));
 }
 
-bool ChatCommands::isCommand(const std::string& line) {
-  const std::size_t first = line.find_first_not_of(kInFront);
-  return first != std::string::npos && line[first] == '/';
+void ChatCommands::logNews(const Session& session, const std::string& text) {
+  m_access.context.client_log.logNews(session.address(), text, session.now());
+}
+
+void ChatCommands::refuse(Session& session, const std::string& sentence) {
+  m_access.context.client_log.logRefusal(session.address(), sentence, session.now());
 }
 
 // A password may have quotes and blanks, so that line is not split into words.
 void ChatCommands::serve(Session& session, const std::string& whole) {
-  const std::string line = whole.substr(whole.find_first_not_of(kInFront));
+  const std::string line = whole.substr(whole.find('/'));
   if (line.starts_with(kAdminCommand)) return becomeAdmin(session, line.substr(kAdminCommand.size()));
   try {
     execute(session, readAdminRequest(splitAdminLine(std::string_view(line).substr(1))));
@@ -60,8 +65,8 @@ void ChatCommands::execute(Session& session, const AdminRequest& request) {
   caller.name = "player " + inQuotes(session.name()) + " at " + session.address();
   caller.player = session.name();
   caller.session = session.id();
-  m_setup.console.execute(request, caller, [this, id = session.id()](const AdminAnswer& answer) {
-    if (Session* p_session = m_setup.sessions.find(id)) reply(*p_session, answerText(answer));
+  m_console.execute(request, caller, [this, id = session.id()](const AdminAnswer& answer) {
+    if (Session* p_session = m_access.clients.sessions().find(id)) reply(*p_session, answerText(answer));
   });
 }
 
@@ -93,20 +98,20 @@ void ChatCommands::becomeAdmin(Session& session, const std::string& password) {
 
 // The rights are the stream's: another one may have come meanwhile, with a token.
 void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordCheck::Answer answer) {
-  Session* const p_session = m_setup.sessions.find(id);
+  Session* const p_session = m_access.clients.sessions().find(id);
   if (p_session == nullptr || p_session->state() != Session::State::kPlaying) return;
   const std::string who = inQuotes(p_session->name());
   switch (answer) {
     case PasswordCheck::Answer::kRight:
       if (p_session->standing().streams() != streams || p_session->isDetached()) return;
       p_session->standing().setAdmin();
-      m_setup.log_client(p_session->address(), who + " is an admin now");
+      logNews(*p_session, who + " is an admin now");
       return reply(*p_session, {"You are an admin until your connection ends."});
     case PasswordCheck::Answer::kWrong:
-      m_setup.log_refusal(p_session->address(), "That is not the admins' password.");
+      refuse(*p_session, "That is not the admins' password.");
       return reply(*p_session, {"That is not the admins' password."});
     case PasswordCheck::Answer::kTooMany:
-      m_setup.log_refusal(p_session->address(), "Too many wrong passwords for admins.");
+      refuse(*p_session, "Too many wrong passwords for admins.");
       return reply(*p_session, {"Too many wrong passwords. Try again in a minute."});
     case PasswordCheck::Answer::kBusy:
       return reply(*p_session, {"The server is busy. Try again in a moment."});
@@ -116,8 +121,8 @@ void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordC
 // ---- votes ------------------------------------------------------------------------------------------------
 
 void ChatCommands::vote(Session& session, const AdminRequest& request) {
-  if (!m_setup.options.vote_kick) return reply(session, {"This server has no votes."});
-  const std::vector<AdminPlayer> players = m_setup.target.players();
+  if (!m_access.context.options.vote_kick) return reply(session, {"This server has no votes."});
+  const std::vector<AdminPlayer> players = m_target.players();
   const PlayerChoice choice = choosePlayer(players, request.of("player"));
   if (!choice.player) return reply(session, answerText(choice.problem));
   const std::string& name = choice.player->name;
@@ -126,12 +131,11 @@ void ChatCommands::vote(Session& session, const AdminRequest& request) {
       " (" + std::to_string(m_vote.voices()) + " of " + std::to_string(m_vote.needed()) + " voices)";
   switch (outcome) {
     case VoteKick::Outcome::kBegun:
-      m_setup.log_client(session.address(),
-                         inQuotes(session.name()) + " begins a vote to throw out " + inQuotes(name));
-      return m_setup.target.say(session.name() + " wants " + name + " out. /vote kick " + name +
-                                " agrees, within 30 seconds" + voices + ".");
+      logNews(session, inQuotes(session.name()) + " begins a vote to throw out " + inQuotes(name));
+      return m_target.say(session.name() + " wants " + name + " out. /vote kick " + name +
+                          " agrees, within 30 seconds" + voices + ".");
     case VoteKick::Outcome::kAgreed:
-      return m_setup.target.say(session.name() + " agrees that " + name + " goes" + voices + ".");
+      return m_target.say(session.name() + " agrees that " + name + " goes" + voices + ".");
     case VoteKick::Outcome::kPassed:
       return throwOut(*choice.player);
     case VoteKick::Outcome::kAlready:
@@ -147,18 +151,19 @@ void ChatCommands::vote(Session& session, const AdminRequest& request) {
 
 // By name, and by address where nobody else plays there. A moment: not written to disk.
 void ChatCommands::throwOut(const AdminPlayer& player) {
-  m_setup.log_client(player.address, inQuotes(player.name) + " is thrown out by a vote");
-  m_setup.target.say("The players have voted: " + player.name + " goes for five minutes.");
+  if (const Session* const p_session = m_access.clients.sessions().find(player.session))
+    logNews(*p_session, inQuotes(player.name) + " is thrown out by a vote");
+  m_target.say("The players have voted: " + player.name + " goes for five minutes.");
   Ban ban;
   ban.name = player.name;
   ban.reason = "the players voted you out";
   ban.by = "a vote";
-  ban.made = m_setup.bans.time();
+  ban.made = m_bans.time();
   ban.until = ban.made + VoteKick::kOut;
   ban.lasting = false;
   const auto ignored = [](const std::string&) {};
-  m_setup.bans.add(ban, ignored);
-  const std::vector<AdminPlayer> players = m_setup.target.players();
+  m_bans.add(ban, ignored);
+  const std::vector<AdminPlayer> players = m_target.players();
   const auto prefix = AddressPrefix::ofEndpoint(player.address);
   const bool alone = std::none_of(players.begin(), players.end(), [&](const AdminPlayer& other) {
     return other.session != player.session && AddressPrefix::ofEndpoint(other.address) == prefix;
@@ -167,13 +172,13 @@ void ChatCommands::throwOut(const AdminPlayer& player) {
   if (alone && address && !address->is_loopback()) {
     ban.kind = Ban::Kind::kRange;
     ban.range = AddressRange::around(*address);
-    m_setup.bans.add(ban, ignored);
+    m_bans.add(ban, ignored);
   }
-  m_setup.target.endPlayer(player.session, banSentence(ban));
+  m_target.endPlayer(player.session, banSentence(ban));
 }
 
 void ChatCommands::update(Session::Clock::time_point now) {
-  if (m_vote.takeFailed(now)) m_setup.target.say("The vote is over: too few agreed.");
+  if (m_vote.takeFailed(now)) m_target.say("The vote is over: too few agreed.");
 }
 
 }  // namespace naiad

@@ -1,11 +1,14 @@
 #include "host/ops/HostAdmin.h"
 
 #include <algorithm>
+#include <asio/post.hpp>
 #include <utility>
 
+#include "host/loop/HostClients.h"
+#include "host/loop/HostControls.h"
+#include "host/loop/HostEndpoint.h"
 #include "host/rooms/ServerLine.h"
 #include "host/settings/RoomList.h"
-#include "naiad.pb.h"
 #include "shared/admin/TimeSpan.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
@@ -88,30 +91,32 @@ double millis(std::chrono::microseconds time) {
 
 }  // namespace
 
-HostAdmin::HostAdmin(Setup setup) : m_setup(std::move(setup)), m_began(Session::Clock::now()) {}
+HostAdmin::HostAdmin(const HostAccess& access, HostScores& scores)
+    : m_access(access), m_scores(scores), m_began(Session::Clock::now()) {}
 
 std::vector<AdminPlayer> HostAdmin::players() const {
   std::vector<AdminPlayer> players;
-  const auto now = m_setup.network.now();
-  m_setup.sessions.forEachPlaying([&](const Session& session) { players.push_back(factsOf(session, now)); });
+  const auto now = m_access.endpoint.network().now();
+  m_access.clients.sessions().forEachPlaying(
+      [&](const Session& session) { players.push_back(factsOf(session, now)); });
   std::sort(players.begin(), players.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return players;
 }
 
 AdminRow HostAdmin::status() const {
-  const Counters& counters = m_setup.counters;
-  const TickTimes& times = m_setup.network.tickTimes();
+  const Counters& counters = m_access.context.counters;
+  const TickTimes& times = m_access.endpoint.network().tickTimes();
   const auto number = [](std::uint64_t count) { return static_cast<std::int64_t>(count); };
-  return {{"server", m_setup.options.name},
+  return {{"server", m_access.context.options.name},
           {"version", std::string(kVersion)},
-          {"game", m_setup.admission.game()},
-          {"address", m_setup.network.address()},
+          {"game", m_access.context.game},
+          {"address", m_access.endpoint.address()},
           {"up_s", number(static_cast<std::uint64_t>(since(m_began, Session::Clock::now()).count()))},
-          {"rooms", number(m_setup.rooms.countAwake())},
-          {"players", number(m_setup.sessions.playing())},
-          {"connected", number(m_setup.sessions.connected())},
-          {"max_players", std::int64_t{m_setup.options.max_players}},
-          {"password", m_setup.admission.needsPassword()},
+          {"rooms", number(m_access.clients.rooms().countAwake())},
+          {"players", number(m_access.clients.sessions().playing())},
+          {"connected", number(m_access.clients.sessions().connected())},
+          {"max_players", std::int64_t{m_access.context.options.max_players}},
+          {"password", m_access.clients.admission().needsPassword()},
           {"ticks", number(counters.ticks)},
           {"late_ticks", number(counters.late_ticks)},
           {"tick_p50_ms", millis(times.quantile(0.5))},
@@ -121,8 +126,8 @@ AdminRow HostAdmin::status() const {
 
 std::vector<AdminRow> HostAdmin::rooms() const {
   std::vector<AdminRow> rows;
-  if (!m_setup.rooms.isNamed()) return rows;
-  m_setup.rooms.forEachRoom([&rows](const Room& room) {
+  if (!m_access.clients.rooms().isNamed()) return rows;
+  m_access.clients.rooms().forEachRoom([&rows](const Room& room) {
     rows.push_back({{"room", room.plan()->name},
                     {"game", room.plan()->game},
                     {"players", static_cast<std::int64_t>(room.countPlaying())},
@@ -135,7 +140,7 @@ std::vector<AdminRow> HostAdmin::rooms() const {
 }
 
 Session* HostAdmin::findPlaying(std::uint64_t session) const {
-  Session* p_session = m_setup.sessions.find(session);
+  Session* p_session = m_access.clients.sessions().find(session);
   return p_session != nullptr && p_session->state() == Session::State::kPlaying ? p_session : nullptr;
 }
 
@@ -145,7 +150,7 @@ void HostAdmin::endPlayer(std::uint64_t session, const std::string& sentence) {
 }
 
 void HostAdmin::say(const std::string& text) {
-  m_setup.sessions.forEachPlaying([&text](Session& session) { sendServerLine(session, text); });
+  m_access.clients.say(text);
 }
 
 void HostAdmin::tell(std::uint64_t session, const std::string& text) {
@@ -156,13 +161,13 @@ void HostAdmin::setMuted(std::uint64_t session, bool muted) {
   Session* p_session = findPlaying(session);
   if (p_session == nullptr) return;
   p_session->standing().setMuted(muted);
-  m_setup.admission.noteSession(*p_session);
+  m_access.clients.admission().noteSession(*p_session);
 }
 
 // ---- the server -------------------------------------------------------------------------------------------
 
 AdminAnswer HostAdmin::stop(const std::string& sentence) {
-  m_setup.controls.end(
+  m_access.controls.end(
       {.at = Session::Clock::time_point(), .sentence = safeText(sentence, kMaxSentenceLength)});
   return AdminAnswer::done("The server ends.");
 }
@@ -183,12 +188,12 @@ AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
       when = "when the round is over";
       break;
   }
-  m_setup.controls.end(std::move(plan));
+  m_access.controls.end(std::move(plan));
   return AdminAnswer::done("The server restarts " + when + ".");
 }
 
 void HostAdmin::keepRound(std::function<void(AdminAnswer)> done) {
-  m_setup.controls.keep_round([done = std::move(done)](bool is_done, const std::string& sentence) {
+  m_access.controls.keepRound([done = std::move(done)](bool is_done, const std::string& sentence) {
     const std::string text = sentence + ".";
     done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
   });
@@ -197,7 +202,7 @@ void HostAdmin::keepRound(std::function<void(AdminAnswer)> done) {
 // Without a time of its own, or of the server's option: until the last one leaves.
 AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
   Ending::Plan plan{.when_empty = true};
-  std::chrono::duration<double> patience(m_setup.options.drain_time);
+  std::chrono::duration<double> patience(m_access.context.options.drain_time);
   if (most) patience = *most;
   std::string text = "Nobody is let in any more. The server ends when all have left";
   if (most || patience.count() > 0) {
@@ -205,18 +210,18 @@ AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
     text += ", and in " + std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) +
             " s at the latest";
   }
-  m_setup.controls.end(std::move(plan));
+  m_access.controls.end(std::move(plan));
   return AdminAnswer::done(text + ".");
 }
 
 AdminAnswer HostAdmin::cancel() {
-  if (!m_setup.controls.cancel_end()) return AdminAnswer::refused("There is nothing to call off.");
+  if (!m_access.controls.cancelEnd()) return AdminAnswer::refused("There is nothing to call off.");
   say("The server goes on after all.");
   return AdminAnswer::done("The server goes on.");
 }
 
 void HostAdmin::reload(std::function<void(AdminAnswer)> done) {
-  m_setup.controls.reload([done = std::move(done)](bool is_done, const std::string& sentence) {
+  m_access.controls.reload([done = std::move(done)](bool is_done, const std::string& sentence) {
     const std::string text = sentence + ".";
     done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
   });
@@ -224,19 +229,19 @@ void HostAdmin::reload(std::function<void(AdminAnswer)> done) {
 
 AdminAnswer HostAdmin::changePassword(std::optional<PasswordHash> hash) {
   const bool needed = hash.has_value();
-  m_setup.admission.changePassword(std::move(hash));
+  m_access.clients.admission().changePassword(std::move(hash));
   return AdminAnswer::done(needed ? "New players need the new password."
                                   : "New players need no password any more.");
 }
 
 std::vector<HostAdmin::Board> HostAdmin::boards() const {
-  if (!m_setup.rooms.isNamed()) return {{m_setup.admission.game(), &m_setup.scores, {}}};
+  if (!m_access.clients.rooms().isNamed()) return {{m_access.context.game, {}}};
   std::vector<Board> boards;
-  m_setup.rooms.forEachRoom([&boards](const Room& room) {
+  m_access.clients.rooms().forEachRoom([&boards](const Room& room) {
     const RoomPlan& plan = *room.plan();
     auto board = std::find_if(boards.begin(), boards.end(),
                               [&plan](const Board& one) { return one.game == plan.game; });
-    if (board == boards.end()) board = boards.insert(board, {plan.game, plan.p_scores, {}});
+    if (board == boards.end()) board = boards.insert(board, {plan.game, {}});
     board->rooms.push_back(plan.name);
   });
   return boards;
@@ -273,12 +278,12 @@ void HostAdmin::scores(const AdminScores& which, std::function<void(AdminAnswer)
   AdminAnswer refusal;
   const Board* const p_board = findBoard(all, which, refusal);
   if (p_board == nullptr) return done(refusal);
-  ScoreKeeper& scores = *p_board->p_scores;
+  ScoreKeeper& scores = m_scores.of(p_board->game);
   if (!scores.hasFile())
     return done(AdminAnswer::refused("This server keeps no scores on disk (--state, or see its log)."));
   const auto answer = [this, done](const auto& rows, const std::string& problem) {
     const AdminAnswer read = problem.empty() ? listOf(rows) : AdminAnswer::refused(problem);
-    m_setup.controls.post([read, done] { done(read); });
+    asio::post(m_access.context.home, [read, done] { done(read); });
   };
   const bool reads = scores.read(which.table, which.count, answer);
   if (!reads) done(AdminAnswer::refused("Too much waits to be done. Try again in a moment."));
@@ -288,20 +293,20 @@ AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) 
   const auto& names = changeableOptions();
   if (std::find(names.begin(), names.end(), option) == names.end())
     return AdminAnswer::refused("\"" + option + "\" is no option that can be changed while the server runs.");
-  HostOptions changed = m_setup.options;
+  HostOptions changed = m_access.context.options;
   try {
     setHostOption(changed, option, value);
   } catch (const OptionError& error) {
     return AdminAnswer::refused(error.what());
   }
-  m_setup.controls.take_over(changed);
-  return AdminAnswer::done(option + " is " + hostOptionValue(m_setup.options, option) + ".");
+  m_access.controls.adopt(changed);
+  return AdminAnswer::done(option + " is " + hostOptionValue(m_access.context.options, option) + ".");
 }
 
 AdminRow HostAdmin::settings() const {
   AdminRow row;
   for (const std::string& name : changeableOptions())
-    row.emplace_back(name, hostOptionValue(m_setup.options, name));
+    row.emplace_back(name, hostOptionValue(m_access.context.options, name));
   return row;
 }
 

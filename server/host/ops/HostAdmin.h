@@ -8,42 +8,17 @@
 #include <vector>
 
 #include "host/admin/AdminTarget.h"
-#include "host/admission/Admission.h"
-#include "host/net/NetworkThread.h"
-#include "host/process/Ending.h"
-#include "host/rooms/Rooms.h"
-#include "host/rooms/SessionTable.h"
-#include "host/scores/ScoreKeeper.h"
-#include "host/session/Counters.h"
-#include "host/settings/HostOptions.h"
+#include "host/loop/HostPart.h"
+#include "host/ops/HostScores.h"
+#include "host/session/Session.h"
 
 namespace naiad {
-
-/// What ends a server or reads its options again: its host.
-struct AdminControls {
-  std::function<void(Ending::Plan plan)> end;
-  std::function<void(std::function<void()> job)> post;  ///< run it on the host's thread; from any
-  std::function<bool()> cancel_end;                     ///< false: nothing was planned
-  std::function<void(std::function<void(bool is_done, const std::string& sentence)> done)> reload;
-  std::function<void(std::function<void(bool is_done, const std::string& sentence)> done)> keep_round;
-  std::function<void(const HostOptions& options)> take_over;  ///< those that may change while it runs
-};
 
 /// On the host's thread.
 class HostAdmin : public AdminTarget {
  public:
-  /// What it works with; all of it outlives this.
-  struct Setup {
-    const HostOptions& options;
-    const SessionTable& sessions;
-    const Rooms& rooms;
-    Admission& admission;
-    const Counters& counters;
-    const NetworkThread& network;
-    ScoreKeeper& scores;
-    AdminControls controls;
-  };
-  explicit HostAdmin(Setup setup);
+  /// What it works with outlives it.
+  HostAdmin(const HostAccess& access, HostScores& scores);
 
   std::vector<AdminPlayer> players() const override;
   AdminRow status() const override;
@@ -67,7 +42,6 @@ class HostAdmin : public AdminTarget {
   /// The tables of a game, and the rooms that play it; without rooms those of the one game.
   struct Board {
     std::string game;
-    ScoreKeeper* p_scores = nullptr;
     std::vector<std::string> rooms;
   };
   std::vector<Board> boards() const;
@@ -76,7 +50,8 @@ class HostAdmin : public AdminTarget {
                                 AdminAnswer& refusal);
   Session* findPlaying(std::uint64_t session) const;
 
-  Setup m_setup;
+  HostAccess m_access;
+  HostScores& m_scores;
   Session::Clock::time_point m_began;
 };
 

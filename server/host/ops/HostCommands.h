@@ -1,64 +1,45 @@
 // Takes commands for a host: from the socket for programs of this machine, and from the chat.
 #pragma once
 
-#include <asio/io_context.hpp>
 #include <memory>
-#include <string>
 
 #include "host/admin/AdminConsole.h"
 #include "host/admin/AdminWorker.h"
 #include "host/admin/BanList.h"
 #include "host/admin/ControlSocket.h"
-#include "host/admin/WatchFeed.h"
+#include "host/loop/HostPart.h"
 #include "host/ops/ChatCommands.h"
 #include "host/ops/HostAdmin.h"
-#include "shared/program/ClientLog.h"
 
 namespace naiad {
 
 /// On the host's thread, where commands are carried out, too.
-class HostCommands {
+class HostCommands : public HostPart {
  public:
-  /// What it works with; all of it outlives this.
-  struct Setup {
-    HostAdmin::Setup host;
-    BanList& bans;
-    AdminWorker& worker;
-    WatchFeed& feed;  ///< what those who watch see
-    ClientLog& client_log;
-    LogLine log;
-  };
-  /// `home` runs what is carried out later. Throws PasswordError.
-  HostCommands(Setup setup, asio::io_context& home);
-  /// Closes.
-  ~HostCommands();
+  /// Makes the socket, by HostOptions::control, and has clients that are banned kept out. Throws
+  /// BanFileError, PasswordError, and ListenError where the socket's path was asked for and cannot be; the
+  /// usual one is a convenience, without which a server goes on.
+  HostCommands(const HostAccess& access, HostScores& scores);
+  /// As finish().
+  ~HostCommands() override;
   HostCommands(const HostCommands&) = delete;
   HostCommands& operator=(const HostCommands&) = delete;
 
-  /// Make the socket, by HostOptions::control. Throws ListenError where that path was asked for and cannot
-  /// be; the usual one is a convenience, without which a server goes on.
-  void listen();
-  /// Of the socket; empty: there is none.
-  const std::string& path() const { return m_path; }
-
-  /// `line` of the chat is a command (ChatCommands::isCommand).
-  void serveChat(Session& session, const std::string& line) { m_chat.serve(session, line); }
-  /// Once a tick.
-  void update(Session::Clock::time_point now) { m_chat.update(now); }
-  /// Take no more. What was promised is written before.
-  void close();
+  void tick(Clock::time_point now) override { m_chat.update(now); }
+  /// No more commands are taken. What was promised is written before.
+  void finish() override;
 
  private:
-  ChatCommands::Setup chatSetup();
+  void listen();
   ControlListening listening(bool by_default) const;
   ControlSocket::Execute executor();
 
-  Setup m_setup;
-  asio::io_context& m_home;
+  HostAccess m_access;
+  AdminWorker m_worker;
+  BanList m_bans;  ///< the network thread asks it, too
   HostAdmin m_admin;
   AdminConsole m_console;
   ChatCommands m_chat;
-  std::string m_path;
   std::unique_ptr<ControlSocket> m_control;  ///< null: there is none
 };
 

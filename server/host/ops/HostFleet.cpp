@@ -8,6 +8,9 @@
 
 #include "host/fleet/AgonesPlatform.h"
 #include "host/fleet/SystemdPlatform.h"
+#include "host/loop/HostClients.h"
+#include "host/loop/HostControls.h"
+#include "host/loop/HostEndpoint.h"
 #include "host/rooms/NewsEvent.h"
 #include "shared/fleet/GameResult.h"
 #include "shared/fleet/ServerId.h"
@@ -48,8 +51,7 @@ std::string busId(const HostOptions& options, std::uint16_t port) {
   return serverIdOf(std::string(host).substr(0, kMaxServerId - 6) + "-" + std::to_string(port));
 }
 
-}  // namespace
-
+/// The rooms of a server, where they have names.
 std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms) {
   std::vector<PresenceRoom> all;
   if (!rooms.isNamed()) return all;
@@ -61,12 +63,22 @@ std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms) {
   return all;
 }
 
-HostFleet::HostFleet(Setup setup) : m_setup(std::move(setup)), m_platform(makePlatform(m_setup.options)) {
-  if (m_setup.options.bus.empty()) return;
-  m_id = busId(m_setup.options, m_setup.network.port());
-  BusSettings settings = busSettings(m_setup.options);
+}  // namespace
+
+HostFleet::HostFleet(const HostAccess& access, HostScores& scores)
+    : m_access(access), m_platform(makePlatform(access.context.options)) {
+  access.controls.watchReloads([this](bool is_done, Clock::time_point now) {
+    is_done ? m_platform->notifyReady() : m_platform->notifyReloading(now);
+  });
+  access.controls.watchForcedEnd(
+      [this](std::chrono::milliseconds patience) { m_platform->finish(patience); });
+  if (access.context.options.bus.empty()) return;
+  m_id = busId(access.context.options, access.endpoint.port());
+  BusSettings settings = busSettings(access.context.options);
   settings.subjects = {sendOnSubject(m_id)};
   m_bus = connectBus(settings);
+  access.clients.admission().setOthers([this] { return linkToOther(); });
+  scores.setObserver([this](const ScoreRow& row, const std::string& game) { publishScore(row, game); });
 }
 
 HostFleet::~HostFleet() = default;
@@ -85,7 +97,10 @@ void HostFleet::tick(Clock::time_point now) {
   if (now - m_said < kSayPlayers) return;
   m_said = now;
   sayPlayers();
-  if (m_platform->takeEnd()) m_setup.end();
+  if (m_platform->takeEnd()) {
+    m_access.context.log("the platform shuts the server down");
+    m_access.controls.endWhenEmpty(m_access.context.options.drain_time);
+  }
   hearDirectory(now);
   takeNews();
 }
@@ -101,43 +116,44 @@ void HostFleet::hearDirectory(Clock::time_point now) {
   }
 }
 
-std::optional<JoinLink> HostFleet::linkToOther(Clock::time_point now) const {
-  const bool holds = m_other && now - m_other_heard < 3 * interval();
+std::optional<JoinLink> HostFleet::linkToOther() const {
+  const bool holds = m_other && Clock::now() - m_other_heard < 3 * interval();
   return holds ? std::optional(m_other->link) : std::nullopt;
 }
 
 void HostFleet::sayPlayers() {
   PlatformPlayers players;
-  players.address = m_setup.network.address();
-  players.most = static_cast<std::size_t>(m_setup.options.max_players);
-  m_setup.sessions.forEachPlaying([&](const Session& session) { players.ids.push_back(session.player()); });
+  players.address = m_access.endpoint.address();
+  players.most = static_cast<std::size_t>(m_access.context.options.max_players);
+  m_access.clients.sessions().forEachPlaying(
+      [&](const Session& session) { players.ids.push_back(session.player()); });
   std::sort(players.ids.begin(), players.ids.end());
   m_platform->notifyPlayers(players);
 }
 
 Presence HostFleet::presence() const {
-  const HostOptions& options = m_setup.options;
-  const auto link =
-      options.link_host.empty() ? std::nullopt : LinkHost::parse(options.link_host, m_setup.network.port());
+  const HostOptions& options = m_access.context.options;
+  const std::uint16_t port = m_access.endpoint.port();
+  const auto link = options.link_host.empty() ? std::nullopt : LinkHost::parse(options.link_host, port);
   Presence presence;
   presence.id = m_id;
   presence.name = safeText(options.name, Presence::kMaxName);
-  presence.game = safeText(m_setup.game, Presence::kMaxName);
+  presence.game = safeText(m_access.context.game, Presence::kMaxName);
   const auto given = m_platform->address();
   presence.host = link ? link->host : given ? given->host : "";
-  presence.port = link ? link->port : given ? given->port : m_setup.network.port();
-  presence.key = m_setup.key;
+  presence.port = link ? link->port : given ? given->port : port;
+  const auto key = m_access.endpoint.fingerprint();
+  presence.key = key ? key->text() : "";
   presence.protocol = kProtocolVersion;
-  presence.players = static_cast<std::uint32_t>(m_setup.sessions.playing());
+  presence.players = static_cast<std::uint32_t>(m_access.clients.sessions().playing());
   presence.max_players = static_cast<std::uint32_t>(options.max_players);
   presence.asks_password = !options.password.empty();
-  presence.is_open = m_setup.is_open();
-  presence.rooms = m_setup.rooms();
+  presence.is_open = m_access.context.ending.isOpen();
+  presence.rooms = presenceOfRooms(m_access.clients.rooms());
   return presence;
 }
 
-void HostFleet::noteScore(const ScoreRow& row, const std::string& game) {
-  if (!m_bus) return;
+void HostFleet::publishScore(const ScoreRow& row, const std::string& game) {
   GameResult result;
   result.server = m_id;
   result.game = safeText(game, Presence::kMaxName);
@@ -153,21 +169,21 @@ void HostFleet::noteScore(const ScoreRow& row, const std::string& game) {
 }
 
 void HostFleet::takeNews() {
-  if (const std::string news = m_platform->takeNews(); !news.empty()) m_setup.log(newsEvent(news));
+  if (const std::string news = m_platform->takeNews(); !news.empty()) m_access.context.log(newsEvent(news));
   const PlatformCounters platform = m_platform->counters();
-  m_setup.counters.platform_requests = platform.requests;
-  m_setup.counters.platform_failures = platform.failures;
+  m_access.context.counters.platform_requests = platform.requests;
+  m_access.context.counters.platform_failures = platform.failures;
   if (!m_bus) return;
-  if (const std::string news = m_bus->takeNews(); !news.empty()) m_setup.log(newsEvent(news));
+  if (const std::string news = m_bus->takeNews(); !news.empty()) m_access.context.log(newsEvent(news));
   const BusCounters bus = m_bus->counters();
-  m_setup.counters.bus_published = bus.published;
-  m_setup.counters.bus_dropped = bus.dropped;
-  m_setup.counters.bus_failures = bus.failures;
-  m_setup.counters.bus_connections = bus.connections;
+  m_access.context.counters.bus_published = bus.published;
+  m_access.context.counters.bus_dropped = bus.dropped;
+  m_access.context.counters.bus_failures = bus.failures;
+  m_access.context.counters.bus_connections = bus.connections;
 }
 
 // A platform that is sent the end takes the server away: so it comes last.
-void HostFleet::noteStopping() {
+void HostFleet::drain() {
   m_platform->notifyStopping();
   if (!m_bus) return;
   Presence last = presence();

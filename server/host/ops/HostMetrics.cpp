@@ -4,13 +4,19 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <string_view>
-#include <utility>
+#include <system_error>
 
+#include "host/loop/HostClients.h"
+#include "host/loop/HostEndpoint.h"
 #include "host/metrics/Exposition.h"
-#include "host/metrics/MetricsAddress.h"
 #include "host/metrics/MetricsPage.h"
 #include "host/metrics/ProcessFacts.h"
+#include "host/process/TickClock.h"
+#include "host/settings/MetricsAddress.h"
+#include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 
@@ -24,17 +30,34 @@ std::chrono::nanoseconds cpuOf(clockid_t clock) {
   return std::chrono::seconds(spent.tv_sec) + std::chrono::nanoseconds(spent.tv_nsec);
 }
 
+void writePortFile(const std::string& path, const std::string& port) {
+  if (path.empty()) return;
+  try {
+    publishFile(path, port + "\n");
+  } catch (const std::system_error& error) {
+    throw std::runtime_error("The metrics' port file " + path + " cannot be written: " + error.what());
+  }
+}
+
 MetricsServer::Answer answerOf(const HostPulse::Verdict& verdict) {
   return {verdict.is_good ? 200 : 503, verdict.sentence + "\n"};
 }
 
 }  // namespace
 
-HostMetrics::HostMetrics(const Sources& sources) : m_sources(sources), m_pulse(sources.stages) {
-  m_sources.stages.start();
-  m_server = std::make_unique<MetricsServer>(*MetricsAddress::parse(sources.options.metrics),
-                                             *MetricsHosts::parse(sources.options.metrics_hosts),
-                                             [this](std::string_view path) { return answer(path); });
+HostMetrics::HostMetrics(const HostAccess& access) : m_access(access), m_pulse(access.context.stages) {
+  const HostOptions& options = access.context.options;
+  access.context.stages.start();
+  const MetricsAddress address = *MetricsAddress::parse(options.metrics);
+  try {
+    m_server = std::make_unique<MetricsServer>(address, *MetricsHosts::parse(options.metrics_hosts),
+                                               [this](std::string_view path) { return answer(path); });
+  } catch (const MetricsError& error) {  // an error as for the players' port
+    throw ListenError(error.what(), std::make_error_code(std::errc::address_in_use));
+  }
+  const std::string port = std::to_string(m_server->port());
+  access.context.log("metrics are at http://" + address.hostText() + ":" + port + "/metrics");
+  writePortFile(options.metrics_port_file, port);
 }
 
 HostMetrics::~HostMetrics() = default;
@@ -49,39 +72,36 @@ MetricsServer::Answer HostMetrics::answer(std::string_view path) {
   return {404, "There are /metrics, /healthz and /readyz.\n"};
 }
 
-void HostMetrics::begin(std::chrono::nanoseconds tick_length) {
-  m_next.tick_length = std::chrono::duration<double>(tick_length).count();
+void HostMetrics::begin() {
+  const HostOptions& options = m_access.context.options;
+  const auto tick = TickLength::fromMicros(options.frame_micros).times(1);
+  m_next.tick_length = std::chrono::duration<double>(tick).count();
   m_measure_at = Clock::now();
-  m_pulse.begin(tick_length, m_measure_at);
+  m_pulse.begin(tick, m_measure_at);
+  if (options.audit == "on")
+    m_access.clients.rooms().startAudit(static_cast<std::uint32_t>(std::chrono::seconds(1) / tick));
 }
 
-void HostMetrics::beginTick(std::uint64_t number, Clock::time_point deadline, Clock::time_point now) {
-  m_pulse.beat(number, now);
-  m_next.tick_lateness.add(std::chrono::duration<double>(now - deadline).count());
-  m_tick_began = now;
-  m_in_tick = true;
-}
-
-void HostMetrics::endTick(Clock::time_point now) {
-  if (!std::exchange(m_in_tick, false)) return;
-  m_next.tick_durations.add(std::chrono::duration<double>(now - m_tick_began).count());
-}
-
-void HostMetrics::update(Clock::time_point now) {
+void HostMetrics::tick(Clock::time_point now) {
+  m_access.context.ending.isOpen() ? m_pulse.cancelDrain() : m_pulse.beginDrain(true);
   if (now >= m_measure_at) measure(now);
 }
 
 void HostMetrics::measure(Clock::time_point now) {
   m_measure_at = now + kMeasureEvery;
-  m_next.max_players = static_cast<std::uint64_t>(m_sources.options.max_players);
-  m_next.counters = m_sources.counters;
-  m_next.passwords = m_sources.admission.passwordCounters();
-  m_next.network = m_sources.network.latestCounters();
-  m_sources.network.askForCounters();  // for the next time
-  m_next.stages = m_sources.stages.spent();
-  m_next.rooms = m_sources.rooms.countAwake();
+  const HostContext& context = m_access.context;
+  NetworkThread& network = m_access.endpoint.network();
+  m_next.max_players = static_cast<std::uint64_t>(context.options.max_players);
+  m_next.counters = context.counters;
+  m_next.passwords = m_access.clients.admission().passwordCounters();
+  m_next.network = network.latestCounters();
+  network.askForCounters();  // for the next time
+  m_next.stages = context.stages.spent();
+  m_next.tick_lateness = context.stages.lateness();
+  m_next.tick_durations = context.stages.durations();
+  m_next.rooms = m_access.clients.rooms().countAwake();
   measureRooms();
-  m_next.objects = m_sources.rooms.objects();
+  m_next.objects = m_access.clients.rooms().objects();
   measureSessions();
   measureCpu();
   m_pulse.setFull(m_next.connected + m_next.detached >= m_next.max_players);
@@ -90,8 +110,9 @@ void HostMetrics::measure(Clock::time_point now) {
 
 void HostMetrics::measureRooms() {
   m_next.named_rooms.clear();
-  if (!m_sources.rooms.isNamed()) return;
-  m_sources.rooms.forEachRoom([this](const Room& room) {
+  const Rooms& rooms = m_access.clients.rooms();
+  if (!rooms.isNamed()) return;
+  rooms.forEachRoom([this](const Room& room) {
     m_next.named_rooms.push_back(
         {room.plan()->name, room.plan()->game, room.countPlaying(), room.lateTicks(), room.isAsleep()});
   });
@@ -99,7 +120,7 @@ void HostMetrics::measureRooms() {
 
 void HostMetrics::measureSessions() {
   m_next.connected = m_next.detached = m_next.greeting = 0;
-  m_sources.sessions.forEach([this](const Session& session) {
+  m_access.clients.sessions().forEach([this](const Session& session) {
     if (session.state() != Session::State::kPlaying) {
       ++m_next.greeting;
       return;
@@ -115,7 +136,7 @@ void HostMetrics::measureSessions() {
 void HostMetrics::measureCpu() {
   MetricsSnapshot::Cpu& cpu = m_next.cpu;
   cpu.tick = cpuOf(CLOCK_THREAD_CPUTIME_ID);
-  cpu.network = std::max(cpu.network, m_sources.network.cpuTime());
+  cpu.network = std::max(cpu.network, m_access.endpoint.network().cpuTime());
   cpu.metrics = m_server->cpuTime();
   cpu.other = std::max(cpu.other, cpuOf(CLOCK_PROCESS_CPUTIME_ID) - cpu.tick - cpu.network - cpu.metrics);
 }

@@ -6,58 +6,31 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <memory>
+#include <string_view>
 
-#include "host/admission/Admission.h"
+#include "host/loop/HostPart.h"
 #include "host/metrics/HostPulse.h"
 #include "host/metrics/LatestValue.h"
 #include "host/metrics/MetricsServer.h"
 #include "host/metrics/MetricsSnapshot.h"
-#include "host/metrics/StageClock.h"
-#include "host/net/NetworkThread.h"
-#include "host/rooms/Rooms.h"
-#include "host/rooms/SessionTable.h"
-#include "host/settings/HostOptions.h"
 
 namespace naiad {
 
 /// All calls are for the thread that ticks.
-class HostMetrics {
+class HostMetrics : public HostPart {
  public:
-  using Clock = std::chrono::steady_clock;
-
-  /// What it measures; all of it outlives this.
-  struct Sources {
-    const HostOptions& options;
-    const Counters& counters;
-    NetworkThread& network;
-    const SessionTable& sessions;
-    const Rooms& rooms;
-    const Admission& admission;
-    StageClock& stages;
-  };
-
-  /// Listens on HostOptions::metrics. Throws MetricsError.
-  explicit HostMetrics(const Sources& sources);
-  ~HostMetrics();
+  /// Listens on HostOptions::metrics, and writes HostOptions::metrics_port_file. Throws ListenError for a
+  /// port that is taken, and std::runtime_error for a file that cannot be written.
+  explicit HostMetrics(const HostAccess& access);
+  ~HostMetrics() override;
   HostMetrics(const HostMetrics&) = delete;
   HostMetrics& operator=(const HostMetrics&) = delete;
 
-  std::uint16_t port() const { return m_server->port(); }
-
-  /// Ticks of this length begin.
-  void begin(std::chrono::nanoseconds tick_length);
-  /// A tick begins that was due at `deadline`.
-  void beginTick(std::uint64_t number, Clock::time_point deadline, Clock::time_point now);
-  /// All that the tick has sent is with the network thread; further calls for one tick are ignored.
-  void endTick(Clock::time_point now);
-  /// Between two ticks: measure, if it is time.
-  void update(Clock::time_point now);
-  /// The host lets no new players in; `ticks`: but it ticks on.
-  void beginDrain(bool ticks) { m_pulse.beginDrain(ticks); }
-  /// It does not end after all.
-  void cancelDrain() { m_pulse.cancelDrain(); }
+  void begin() override;
+  /// Measures, if it is time.
+  void tick(Clock::time_point now) override;
+  void drain() override { m_pulse.beginDrain(false); }
 
  private:
   MetricsServer::Answer answer(std::string_view path);
@@ -66,13 +39,11 @@ class HostMetrics {
   void measureSessions();
   void measureCpu();
 
-  Sources m_sources;
+  HostAccess m_access;
   HostPulse m_pulse;
   LatestValue<MetricsSnapshot> m_newest;
   MetricsSnapshot m_next;  ///< histograms and times that go on
-  Clock::time_point m_tick_began{};
   Clock::time_point m_measure_at{};
-  bool m_in_tick = false;
   std::unique_ptr<MetricsServer> m_server;  ///< last: its thread uses the others
 };
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "host/loop/Host.h"
+#include "host/loop/HostEndpoint.h"
 #include "host/program/QrCode.h"
 #include "host/settings/HostOptions.h"
 #include "host/settings/SshDoor.h"
@@ -39,18 +39,19 @@ bool isHomeAlone(const std::string& address) {
 
 }  // namespace
 
-std::vector<std::string> howToJoin(const Host& host, const HostOptions& options, const Openness& openness) {
-  const auto local = host.joinLink(false);
+std::vector<std::string> howToJoin(const HostEndpoint& endpoint, const HostOptions& options,
+                                   const Openness& openness) {
+  const auto local = endpoint.joinLink(false);
   std::vector<std::string> lines{"Join from this machine with: dfclient " +
-                                 (local ? local->text() : host.joinArguments())};
+                                 (local ? local->text() : endpoint.joinArguments())};
   if (isHomeAlone(options.address)) {
-    lines.push_back("From elsewhere nobody can join: it listens on " + host.address() + " alone. " +
+    lines.push_back("From elsewhere nobody can join: it listens on " + endpoint.address() + " alone. " +
                     openness.how_to_open);
     addOtherDoors(options, lines);
     return lines;
   }
-  if (const auto link = host.joinLink(true)) lines.push_back("From elsewhere: dfclient " + link->text());
-  if (const auto fingerprint = host.fingerprint()) {
+  if (const auto link = endpoint.joinLink(true)) lines.push_back("From elsewhere: dfclient " + link->text());
+  if (const auto fingerprint = endpoint.fingerprint()) {
     const std::string begin = options.link_host.empty()
                                   ? "From elsewhere with its name or address in place of the link's; its"
                                   : "Its";
@@ -60,7 +61,7 @@ std::vector<std::string> howToJoin(const Host& host, const HostOptions& options,
   const bool any = options.address == "::" || options.address == "0.0.0.0";
   lines.push_back(
       "Listening on " +
-      (any ? "every address of this machine, port " + std::to_string(host.port()) : host.address()) +
+      (any ? "every address of this machine, port " + std::to_string(endpoint.port()) : endpoint.address()) +
       ", TCP and UDP. " + openness.how_to_restrict);
   return lines;
 }
@@ -72,11 +73,9 @@ std::vector<std::string> qrLines(const HostOptions& options) {
   return {"No QR code: this program was built without libqrencode."};
 }
 
-void writeWhereabouts(const HostOptions& options, const Host& host) {
-  writeLine(options.port_file, "port", std::to_string(host.port()));
-  if (host.metricsPort() != 0)
-    writeLine(options.metrics_port_file, "metrics' port", std::to_string(host.metricsPort()));
-  writeLine(options.join_file, "join", host.joinArguments());
+void writeWhereabouts(const HostOptions& options, const HostEndpoint& endpoint) {
+  writeLine(options.port_file, "port", std::to_string(endpoint.port()));
+  writeLine(options.join_file, "join", endpoint.joinArguments());
 }
 
 }  // namespace naiad

@@ -19,6 +19,8 @@
 #include "engine/world/World.h"
 #include "host/auth/Seed.h"
 #include "host/loop/Host.h"
+#include "host/loop/HostClients.h"
+#include "host/loop/HostEndpoint.h"
 #include "host/process/CrashReport.h"
 #include "host/process/Restart.h"
 #include "host/program/Announcement.h"
@@ -135,11 +137,11 @@ class TerminalPlayer {
       return;
     }
     std::vector<std::string> arguments{"--attached", "--no-resume"};
-    std::istringstream words(host.joinArguments());
+    std::istringstream words(host.endpoint().joinArguments());
     for (std::string word; words >> word;) arguments.push_back(word);
     try {
       m_client.emplace(*program, arguments, options.password, log_file);
-      m_host.setEndsWithLast(true);
+      m_host.clients().rooms().setEndsWithLast(true);
     } catch (const std::system_error& error) {
       std::cout << error.what() << std::endl;
     }
@@ -148,18 +150,18 @@ class TerminalPlayer {
   /// Once a tick.
   void update() {
     if (m_client && m_client->hasEnded()) endClient();
-    if (m_local_left && m_host.connected() == 0) m_host.stop("The game is over.");
+    if (m_local_left && m_host.clients().sessions().connected() == 0) m_host.stop("The game is over.");
   }
 
  private:
   void endClient() {
     const bool failed = m_client->hasFailed();
     m_client.reset();
-    m_host.setEndsWithLast(false);
+    m_host.clients().rooms().setEndsWithLast(false);
     m_local_left = !failed;
     if (failed) {
       std::cout << "No client in this terminal; the game goes on as a server. Ctrl-C ends it." << std::endl;
-    } else if (const std::size_t others = m_host.connected(); others > 0) {
+    } else if (const std::size_t others = m_host.clients().sessions().connected(); others > 0) {
       std::cout << others << " still playing: the server ends when they have left, or with Ctrl-C."
                 << std::endl;
     }
@@ -176,7 +178,7 @@ class TerminalPlayer {
 class WatchedLog {
  public:
   WatchedLog(df::World& world, Host& host) : m_world(world) {
-    const LogLine log = host.watchedGame([&world](const std::string& line) {
+    const LogLine log = host.context().feed.watchedGame([&world](const std::string& line) {
       df::writeToLogFile(df::Config::getInstance().getLogFile(), line, world.getLogFlush());
     });
     world.setLogSink([log](const std::string& line) { log(line); });
@@ -191,7 +193,7 @@ class WatchedLog {
 
 /// The process runs its program again; the game's statics end with it.
 [[noreturn]] void beginAgain(std::unique_ptr<Host>& host) {
-  const std::uint16_t port = host->port();
+  const std::uint16_t port = host->endpoint().port();
   host.reset();
   LineLog::waitUntilWritten(kLogTime);
   std::cout.flush();
@@ -297,9 +299,9 @@ void ProgramHost::serve(df::World& world) {
   const crash::Report crashes(programName(), lines ? lines->descriptor() : -1);
   if (const auto sockets = InheritedSockets::take()) useSockets(*sockets, m_options);
   std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0 || m_options.sockets, log);
-  writeWhereabouts(m_options, *host);
-  log(programName() + " is a server on " + host->address());
-  const std::vector<std::string> how = howToJoin(*host, m_options, kOpenness);
+  writeWhereabouts(m_options, host->endpoint());
+  log(programName() + " is a server on " + host->endpoint().address());
+  const std::vector<std::string> how = howToJoin(host->endpoint(), m_options, kOpenness);
   for (const std::string& line : how) std::cout << line << std::endl;
   for (const std::string& line : qrLines(m_options)) std::cout << line << std::endl;
   std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")
@@ -309,10 +311,10 @@ void ProgramHost::serve(df::World& world) {
 
   if (launcher != nullptr) {
     HostOptions journaled = m_options;
-    journaled.port = host->port();  // a round goes on where its players look for it
+    journaled.port = host->endpoint().port();  // a round goes on where its players look for it
     const auto journals = Journals::open(journaled, programName(), "", log);
-    host->setWorlds(startWorlds(launcher, host->watchedGame(printLine), journals),
-                    journals ? journals->highestPlayer() : 0);
+    host->clients().setWorlds(startWorlds(launcher, host->context().feed.watchedGame(printLine), journals),
+                              journals ? journals->highestPlayer() : 0);
   }
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
@@ -322,8 +324,9 @@ void ProgramHost::serve(df::World& world) {
     host->run(world);
   }
   world.setHelp(help);
-  if (host->beginsAgain()) beginAgain(host);
-  if (!host->failure().empty()) fail(kGameFailed, "the game " + host->failure());
+  if (host->context().ending.beginsAgain()) beginAgain(host);
+  if (!host->clients().rooms().failure().empty())
+    fail(kGameFailed, "the game " + host->clients().rooms().failure());
 }
 
 }  // namespace naiad

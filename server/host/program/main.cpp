@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,10 @@
 #include "engine/world/WorldExtras.h"
 #include "host/auth/Seed.h"
 #include "host/loop/Host.h"
+#include "host/loop/HostClients.h"
+#include "host/loop/HostControls.h"
+#include "host/loop/HostEndpoint.h"
+#include "host/loop/OperatorLibrary.h"
 #include "host/net/InheritedSockets.h"
 #include "host/process/CrashReport.h"
 #include "host/process/Restart.h"
@@ -97,8 +102,9 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
 }
 
 void announce(const naiad::HostOptions& options, const naiad::Host& host) {
-  naiad::writeWhereabouts(options, host);
-  for (const std::string& line : naiad::howToJoin(host, options, kOpenness)) std::cout << line << std::endl;
+  naiad::writeWhereabouts(options, host.endpoint());
+  for (const std::string& line : naiad::howToJoin(host.endpoint(), options, kOpenness))
+    std::cout << line << std::endl;
   for (const std::string& line : naiad::qrLines(options)) std::cout << line << std::endl;
 }
 
@@ -154,7 +160,7 @@ void takeSockets(Start& start) {
 }
 
 void watchReloads(const Start& start, naiad::Host& host, naiad::LineLog& lines) {
-  host.setReload([&start, &lines] {
+  host.controls().setReload([&start, &lines] {
     naiad::HostOptions options = naiad::readHostOptions(start.command.argc(), start.command.argv().data());
     useLogOptions(options, lines);
     if (start.kept) naiad::useSockets(*start.kept, options);
@@ -163,13 +169,13 @@ void watchReloads(const Start& start, naiad::Host& host, naiad::LineLog& lines) 
 }
 
 void noteEnd(const naiad::Host& host, Start& start) {
-  if (host.beginsAgain()) start.again = host.port();
+  if (host.context().ending.beginsAgain()) start.again = host.endpoint().port();
 }
 
 /// The same of a host that may keep its rounds.
 void noteEnd(const naiad::Host& host, const naiad::RoundHandover& handover, Start& start) {
   noteEnd(host, start);
-  if (!host.keepsRound()) return;
+  if (!host.controls().keepsRound()) return;
   start.handed_over = handover.sockets();
   handover.announce();
 }
@@ -197,21 +203,21 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(start.options, name, log);
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
-  journaled.port = host.port();  // a round goes on where its players look for it
+  journaled.port = host.endpoint().port();  // a round goes on where its players look for it
   const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
-  host.setWorlds(naiad::startWorlds(launcher, host.watchedGame(print), journals),
-                 journals ? journals->highestPlayer() : 0);
+  host.clients().setWorlds(naiad::startWorlds(launcher, host.context().feed.watchedGame(print), journals),
+                           journals ? journals->highestPlayer() : 0);
   watchReloads(start, host, lines);
   announce(options, host);
-  log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.address() +
+  log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.endpoint().address() +
       ", in worlds of their own");
   df::World& world = df::World::current();
   setUp(world, *preview.ready);
   naiad::RoundHandover handover(start.command, {{"", journals}});
-  if (journals) host.setHandover(handover);
+  if (journals) host.controls().setHandover(handover);
   host.run(world);
   noteEnd(host, handover, start);
-  return host.failure().empty() ? kOk : failGame(host.failure());
+  return host.clients().rooms().failure().empty() ? kOk : failGame(host.clients().rooms().failure());
 }
 
 /// For lines of a room's game.
@@ -221,11 +227,10 @@ naiad::LogLine roomLog(naiad::LineLog& log, const std::string& room) {
   };
 }
 
-std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host,
-                                            const std::vector<naiad::LaunchedRoom>& launched,
-                                            const std::vector<std::shared_ptr<naiad::Journals>>& journals,
-                                            naiad::LineLog& lines) {
-  std::vector<naiad::Host::NamedRoom> rooms;
+std::vector<naiad::RoomPlan> roomsOf(naiad::Host& host, const std::vector<naiad::LaunchedRoom>& launched,
+                                     const std::vector<std::shared_ptr<naiad::Journals>>& journals,
+                                     naiad::LineLog& lines) {
+  std::vector<naiad::RoomPlan> rooms;
   rooms.reserve(launched.size());
   for (std::size_t i = 0; i < launched.size(); ++i) {
     naiad::RoomPlan plan = launched[i].plan;
@@ -233,8 +238,9 @@ std::vector<naiad::Host::NamedRoom> roomsOf(naiad::Host& host,
       plan.goes_on = journals[i]->orderOfOpenRound().has_value();
       plan.highest_player = journals[i]->highestPlayer();
     }
-    const naiad::LogLine print = host.watchedGame(roomLog(lines, plan.name));
-    rooms.push_back({std::move(plan), naiad::startWorlds(launched[i].launcher, print, journals[i])});
+    const naiad::LogLine print = host.context().feed.watchedGame(roomLog(lines, plan.name));
+    plan.new_world = naiad::startWorlds(launched[i].launcher, print, journals[i]);
+    rooms.push_back(std::move(plan));
   }
   return rooms;
 }
@@ -258,16 +264,16 @@ int serveRooms(Start& start, naiad::LineLog& lines) {
   const std::vector<naiad::LaunchedRoom> launched = naiad::launchRooms(options, start.config, log, print);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   naiad::Host host(start.options, launched.front().plan.game, log);
-  const auto journals = naiad::openRoomJournals(options, host.port(), launched, log);
-  host.setRooms(roomsOf(host, launched, journals, lines));
+  const auto journals = naiad::openRoomJournals(options, host.endpoint().port(), launched, log);
+  host.clients().setRooms(roomsOf(host, launched, journals, lines));
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) +
-      " rooms on " + host.address());
+      " rooms on " + host.endpoint().address());
   df::World& world = df::World::current();
   setUp(world, launched.front().plan.ready);
   naiad::RoundHandover handover(start.command, keptRooms(launched, journals));
-  if (naiad::wantsJournal(options)) host.setHandover(handover);
+  if (naiad::wantsJournal(options)) host.controls().setHandover(handover);
   host.run(world);
   noteEnd(host, handover, start);
   return kOk;
@@ -282,6 +288,8 @@ int serve(Start& start) {
     return play(naiad::GameModule(options.game), " in a world of its own", world, options, log,
                 [&log](const naiad::LogEvent& event) { log(event); });  // the front marks
   }
+  if (const std::string problem = naiad::operatorPartsProblem(); !problem.empty())
+    throw std::runtime_error("The operators' features cannot be loaded, bans among them: " + problem);
   naiad::LineLog log(options.log_file);
   useLogOptions(options, log);
   if (!options.rooms.empty()) return serveRooms(start, log);
@@ -292,10 +300,10 @@ int serve(Start& start) {
   naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
   watchReloads(start, host, log);
   announce(options, host);
-  const ExitCode code =
-      play(game, " on " + host.address(), host, options, log, host.watchedGame(markedLog(log)));
+  const ExitCode code = play(game, " on " + host.endpoint().address(), host, options, log,
+                             host.context().feed.watchedGame(markedLog(log)));
   noteEnd(host, start);
-  return host.failure().empty() ? code : failGame(host.failure());
+  return host.clients().rooms().failure().empty() ? code : failGame(host.clients().rooms().failure());
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // Rooms that have names: which there are, when they sleep and wake, and what becomes of one whose game fails.
 #include <algorithm>
 #include <chrono>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -32,15 +31,6 @@ Time presentTime() {
 }
 
 }  // namespace
-
-void Rooms::setNamed(std::vector<RoomPlan> plans) {
-  m_plans = std::move(plans);
-  std::set<ScoreKeeper*> all;
-  for (const RoomPlan& plan : m_plans) {
-    if (plan.p_scores != nullptr) all.insert(plan.p_scores);
-  }
-  m_all_scores.assign(all.begin(), all.end());
-}
 
 void Rooms::openNamed() {
   for (const RoomPlan& plan : m_plans) {
@@ -78,7 +68,7 @@ std::vector<std::string> Rooms::roomNames() const {
 }
 
 std::unique_ptr<WorldPort> Rooms::newWorld(const Room& room) const {
-  return room.plan() != nullptr ? room.plan()->new_world() : m_new_world();
+  return room.plan() != nullptr ? room.plan()->new_world(m_context.home) : m_new_world(m_context.home);
 }
 
 bool Rooms::wake(Room& room, std::string& problem) {
@@ -179,10 +169,6 @@ void Rooms::closeRoom(Room& room, const std::string& sentence) {
   putToSleep(room);
   room.sleep().closed_until = presentTime() + kClosedTime;
   if (m_on_closed) m_on_closed(room, sentence);
-}
-
-ScoreKeeper* Rooms::scoresOf(const Room& room) const {
-  return room.plan() != nullptr ? room.plan()->p_scores : m_p_scores;
 }
 
 }  // namespace naiad

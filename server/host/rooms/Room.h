@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/metrics/StageClock.h"
+#include "host/process/StageClock.h"
 #include "host/rooms/InputTurn.h"
 #include "host/rooms/SoundNews.h"
 #include "host/rounds/RoomPlan.h"

@@ -1,6 +1,8 @@
 #include "host/rooms/Rooms.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <random>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -23,6 +25,18 @@ constexpr std::size_t kEndingWorlds = 8;      ///< of players who left, beside o
 constexpr const char* kHowToSeeMore =
     "to see where: run the game by itself in a debugger, as docs/when-it-goes-wrong.md says";
 
+/// A name for a round, which no other round has.
+std::string newRoundId() {
+  std::random_device random;
+  std::string name;
+  for (int i = 0; i < 4; ++i) {
+    char part[9];
+    std::snprintf(part, sizeof part, "%08x", static_cast<unsigned>(random()));
+    name += part;
+  }
+  return name;
+}
+
 /// For the log: which room; empty if it has no name.
 std::string inRoom(const Room& room) {
   return room.plan() != nullptr ? " in the room " + room.plan()->name : "";
@@ -30,14 +44,14 @@ std::string inRoom(const Room& room) {
 
 }  // namespace
 
-Rooms::Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
-             std::function<void()> on_late_tick, StageClock& stages)
-    : m_options(options),
+Rooms::Rooms(HostContext& context, const SessionTable& sessions, std::function<void()> on_late_tick)
+    : m_context(context),
+      m_options(context.options),
       m_sessions(sessions),
-      m_counters(counters),
-      m_log(std::move(log)),
+      m_counters(context.counters),
+      m_log(context.log),
       m_on_late_tick(std::move(on_late_tick)),
-      m_stages(stages) {
+      m_stages(context.stages) {
   if (m_options.truth_file.empty()) return;
   requireRegular(m_options.truth_file);
   m_truth.emplace(m_options.truth_file);
@@ -52,7 +66,7 @@ void Rooms::open(df::World& world) {
   } else if (!m_new_world) {
     openRoom(std::make_unique<WorldInProcess>(world), first_only);
   } else if (!isPrivate()) {
-    openRoom(m_new_world(), first_only);
+    openRoom(m_new_world(m_context.home), first_only);
   }
 }
 
@@ -71,13 +85,11 @@ void Rooms::watchWorld(Room& room) {
 
 // Inputs like any other: before all others of its first tick. A round that goes on has had them.
 void Rooms::passScores(Room& room) const {
-  ScoreKeeper* const p_scores = scoresOf(room);
-  if (p_scores == nullptr) return;
   RoundName round = room.port().roundName();
-  if (round.id.empty()) round.id = ScoreKeeper::beginRound();
+  if (round.id.empty()) round.id = newRoundId();
   room.setRound(std::move(round));
-  if (room.port().recovering()) return;  // they are in its journal
-  for (const auto& [table, rows] : p_scores->tables()) {
+  if (m_p_scores == nullptr || room.port().recovering()) return;  // they are in its journal
+  for (const auto& [table, rows] : m_p_scores->tables(gameOf(room))) {
     for (const df::HighScore& row : rows)
       room.port().addInput({.kind = df::InputQueue::kScore,
                             .player = 0,
@@ -87,30 +99,8 @@ void Rooms::passScores(Room& room) const {
   }
 }
 
-void Rooms::keepScores(Room& room) {
-  const std::vector<df::AddedScore> added = room.port().takeScores();
-  if (ScoreKeeper* const p_scores = scoresOf(room)) p_scores->add(room.round().id, added, room.round().file);
-}
-
-void Rooms::noteScores() {
-  ScoreCounters sum;
-  for (ScoreKeeper* const p_scores : m_all_scores) {
-    const ScoreCounters counters = p_scores->counters();
-    sum.added += counters.added;
-    sum.refused += counters.refused;
-    sum.written += counters.written;
-    sum.dropped += counters.dropped;
-    if (const std::string news = p_scores->takeNews(); !news.empty()) m_log(newsEvent(news));
-  }
-  m_counters.scores = sum.added;
-  m_counters.scores_refused = sum.refused;
-  m_counters.scores_written = sum.written;
-  m_counters.scores_dropped = sum.dropped;
-}
-
-void Rooms::finishScores() {
-  for (ScoreKeeper* const p_scores : m_all_scores) p_scores->finish();
-  noteScores();
+const std::string& Rooms::gameOf(const Room& room) const {
+  return room.plan() != nullptr ? room.plan()->game : m_context.game;
 }
 
 // ---- players ----------------------------------------------------------------------------------------------
@@ -127,7 +117,7 @@ Room* Rooms::roomForNewPlayer(std::string& problem) {
     return nullptr;
   }
   try {
-    return &openRoom(m_new_world(), false);
+    return &openRoom(m_new_world(m_context.home), false);
   } catch (const std::system_error& error) {
     problem = error.what();
     return nullptr;
@@ -192,7 +182,6 @@ const std::vector<ListedPlayer>& Rooms::players() {
 // ---- ticks ------------------------------------------------------------------------------------------------
 
 void Rooms::beginTicks() {
-  noteScores();
   if (isNamed()) publishRooms();
   m_in_begin = true;
   for (const auto& room : m_rooms) {
@@ -211,7 +200,8 @@ bool Rooms::isTicking() const {
 void Rooms::endTick(Room& room) {
   dismissLeavers(room);
   publish(room);
-  keepScores(room);
+  const std::vector<df::AddedScore> added = room.port().takeScores();
+  if (m_p_scores != nullptr) m_p_scores->add(gameOf(room), room.round(), added);
   if (isNamed()) passSent(room);
   if (!m_in_begin) m_on_late_tick();
 }

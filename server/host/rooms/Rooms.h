@@ -10,15 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "host/metrics/StageClock.h"
 #include "host/rooms/AuditTurns.h"
+#include "host/rooms/HostContext.h"
 #include "host/rooms/PlayerNews.h"
 #include "host/rooms/Room.h"
+#include "host/rooms/ScoreBoard.h"
 #include "host/rooms/SessionTable.h"
-#include "host/scores/ScoreKeeper.h"
-#include "host/session/Counters.h"
-#include "host/settings/HostOptions.h"
-#include "shared/program/LineLog.h"
 #include "shared/replica/TruthFile.h"
 
 namespace df {
@@ -30,19 +27,15 @@ namespace naiad {
 /// Not thread-safe.
 class Rooms {
  public:
-  /// Makes a world; throws std::system_error if it cannot.
-  using NewWorld = std::function<std::unique_ptr<WorldPort>()>;
-
-  /// All of these outlive the Rooms. `on_late_tick`: a tick has ended after beginTicks() had returned. Throws
-  /// std::runtime_error for a truth file that cannot be written.
-  Rooms(const HostOptions& options, const SessionTable& sessions, Counters& counters, LogLine log,
-        std::function<void()> on_late_tick, StageClock& stages);
+  /// `context` and `sessions` outlive the Rooms. `on_late_tick`: a tick has ended after beginTicks() had
+  /// returned. Throws std::runtime_error for a truth file that cannot be written.
+  Rooms(HostContext& context, const SessionTable& sessions, std::function<void()> on_late_tick);
 
   /// Play in such worlds, not in the one that open() is given. Before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
   /// Have such rooms, instead of the one that open() makes. They begin asleep, but for the first. Before
   /// open().
-  void setNamed(std::vector<RoomPlan> plans);
+  void setNamed(std::vector<RoomPlan> plans) { m_plans = std::move(plans); }
   /// The game of a room that has a name cannot go on: its players have to leave.
   void watchClosed(std::function<void(Room& room, const std::string& sentence)> on_closed) {
     m_on_closed = std::move(on_closed);
@@ -62,12 +55,7 @@ class Rooms {
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
 
   /// Tables of scores for all worlds; outlives the Rooms. Before open().
-  void setScores(ScoreKeeper& scores) {
-    m_p_scores = &scores;
-    m_all_scores = {&scores};
-  }
-  /// Wait until the last ones are on disk. No world ticks after this.
-  void finishScores();
+  void setScores(ScoreBoard& scores) { m_p_scores = &scores; }
 
   /// Audit pictures of players, one at a time.
   void startAudit(std::uint32_t ticks_per_second) { m_audit.start(ticks_per_second); }
@@ -167,10 +155,8 @@ class Rooms {
   void passRooms(Room& room) const;
   void passSent(Room& room);
   void closeRoom(Room& room, const std::string& sentence);
-  ScoreKeeper* scoresOf(const Room& room) const;
+  const std::string& gameOf(const Room& room) const;
   void passScores(Room& room) const;
-  void keepScores(Room& room);
-  void noteScores();
   void watchWorld(Room& room);
   void endTick(Room& room);
   void publish(Room& room);
@@ -182,10 +168,11 @@ class Rooms {
   void countEnd(WorldEnd::Why why);
   bool beginRound(Room& room);
 
+  HostContext& m_context;
   const HostOptions& m_options;
   const SessionTable& m_sessions;
   Counters& m_counters;
-  LogLine m_log;
+  const LogLine& m_log;
   std::function<void()> m_on_late_tick;
   StageClock& m_stages;
   NewWorld m_new_world;  ///< empty: the world of this process, or m_plans
@@ -200,8 +187,7 @@ class Rooms {
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
   AuditTurns m_audit;
-  ScoreKeeper* m_p_scores = nullptr;       ///< null: nothing is kept
-  std::vector<ScoreKeeper*> m_all_scores;  ///< each once
+  ScoreBoard* m_p_scores = nullptr;  ///< null: nothing is kept
   bool m_ends_with_last = false;
   bool m_in_begin = false;
   bool m_over = false;  ///< there is no next round

@@ -14,7 +14,7 @@
 namespace naiad {
 
 struct LaunchedRoom {
-  RoomPlan plan;  ///< without new_world and p_scores
+  RoomPlan plan;  ///< without new_world
   std::shared_ptr<const WorldLauncher> launcher;
 };
 

@@ -13,7 +13,9 @@
 
 namespace naiad {
 
-class ScoreKeeper;
+/// Makes a world that was not there before. `home` runs the handlers of the host's thread, and outlives it.
+/// Throws std::system_error if there can be none.
+using NewWorld = std::function<std::unique_ptr<WorldPort>(asio::io_context& home)>;
 
 struct RoomPlan {
   std::string name;         ///< isRoomName()
@@ -21,9 +23,7 @@ struct RoomPlan {
   int max_players = 0;      ///< at a time
   bool first_only = false;  ///< of several players, only the first one's input is heard
   WorldReady ready;         ///< what the game sets up for those who join
-  /// Makes its world; throws std::system_error if it cannot.
-  std::function<std::unique_ptr<WorldPort>()> new_world;
-  ScoreKeeper* p_scores = nullptr;  ///< of the game; null: nothing is kept
+  NewWorld new_world;
   /// Its first world goes on with the round of a server that was killed: it does not wait for players.
   bool goes_on = false;
   std::uint32_t highest_player = 0;  ///< id that a player of that round ever had

@@ -1,8 +1,6 @@
 #include "host/scores/ScoreKeeper.h"
 
 #include <chrono>
-#include <cstdio>
-#include <random>
 #include <utility>
 
 namespace naiad {
@@ -38,17 +36,6 @@ ScoreKeeper::ScoreKeeper(const std::filesystem::path& folder, std::string game)
 
 ScoreKeeper::~ScoreKeeper() {
   finish();
-}
-
-std::string ScoreKeeper::beginRound() {
-  std::random_device random;
-  std::string name;
-  for (int i = 0; i < 4; ++i) {
-    char part[9];
-    std::snprintf(part, sizeof part, "%08x", static_cast<unsigned>(random()));
-    name += part;
-  }
-  return name;
 }
 
 void ScoreKeeper::add(const std::string& round, const std::vector<df::AddedScore>& scores,

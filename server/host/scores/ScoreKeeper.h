@@ -50,8 +50,6 @@ class ScoreKeeper {
 
   /// What a world is passed at its start.
   const std::map<std::string, std::vector<df::HighScore>>& tables() const { return m_tables.all(); }
-  /// A name for a round that begins, which no other round has.
-  static std::string beginRound();
   /// Gets each row that is taken over, before it is written. On the host's thread.
   void setObserver(std::function<void(const ScoreRow& row)> observer) { m_observer = std::move(observer); }
   /// A world has added these in its round. It may be a stranger's program: all is checked. Of a round that

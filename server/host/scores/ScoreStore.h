@@ -17,7 +17,7 @@ struct ScoreRow {
   std::string name;  ///< of the player
   std::int64_t points = 0;
   std::int64_t at = 0;         ///< seconds since 1970
-  std::string round;           ///< of ScoreKeeper::beginRound()
+  std::string round;           ///< RoundName::id
   std::uint32_t tick = 0;      ///< of the round in which it was added
   int number = 0;              ///< how many were added before it in that tick
   std::string recording = {};  ///< the name of the round's; empty: there is none

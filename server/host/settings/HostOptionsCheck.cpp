@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "host/fleet/Bus.h"
-#include "host/metrics/MetricsAddress.h"
+#include "host/settings/MetricsAddress.h"
 #include "host/settings/RoomList.h"
 #include "host/settings/SshDoor.h"
+#include "shared/fleet/BusSettings.h"
 #include "shared/fleet/ServerId.h"
 #include "shared/net/stream/JoinLink.h"
 

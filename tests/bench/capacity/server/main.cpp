@@ -24,6 +24,7 @@
 #include "engine/world/Player.h"
 #include "engine/world/World.h"
 #include "host/loop/Host.h"
+#include "host/loop/HostEndpoint.h"
 #include "shared/program/OpenFiles.h"
 
 namespace {
@@ -103,8 +104,8 @@ class Measurement {
  public:
   explicit Measurement(naiad::Host& host) : m_host(host) {}
   void begin() {
-    m_before = m_host.counters();
-    m_host.resetTickTimes();
+    m_before = m_host.context().counters;
+    m_host.endpoint().network().resetTickTimes();
     m_pictures.clear();
   }
   void observe(const df::World& world) {
@@ -115,8 +116,8 @@ class Measurement {
     }
   }
   void end() {
-    const naiad::Counters& now = m_host.counters();
-    const naiad::TickTimes& times = m_host.tickTimes();
+    const naiad::Counters& now = m_host.context().counters;
+    const naiad::TickTimes& times = m_host.endpoint().network().tickTimes();
     std::printf(
         "figures ticks=%llu late_ticks=%llu tick_p50_us=%lld tick_p99_us=%lld snapshots=%llu "
         "snapshot_bytes=%llu "
@@ -156,7 +157,7 @@ int serve(const std::string& identity, int most) {
   });
   Measurement measurement(host);
   host.setObserver([&](df::World& world) { measurement.observe(world); });
-  std::printf("listening %s\n", host.joinArguments().c_str());
+  std::printf("listening %s\n", host.endpoint().joinArguments().c_str());
   std::fflush(stdout);
   std::thread control([&] {
     for (std::string line; std::getline(std::cin, line);) {

@@ -79,7 +79,7 @@ class RoomMovesTest : public testing::Test {
             .game = "game of " + name,
             .max_players = places,
             .ready = {},
-            .new_world = [this, name] {
+            .new_world = [this, name](asio::io_context&) {
               auto port = std::make_unique<DoorPort>();
               ports[name] = port.get();
               ++begun[name];
@@ -149,26 +149,22 @@ class RoomMovesTest : public testing::Test {
     return *p_found;
   }
 
-  HostOptions options;
+  HostContext context{{}, "game of lobby", [](const LogEvent&) {}};
+  HostOptions& options = context.options;
+  Counters& counters = context.counters;
   SessionTable::Clock::time_point now = SessionTable::Clock::now();
   df::World world;
   const df::World::Scope scope{world};
-  asio::io_context io;
-  Counters counters;
   PlayerPrefixes prefixes;
   std::deque<Client> clients;
   std::map<std::string, DoorPort*> ports;
   std::map<std::string, int> begun;
   SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
-  StageClock stages;
-  Rooms rooms{options, sessions, counters, [](const LogEvent&) {}, [] {}, stages};
-  AdminWorker worker;
-  BanList bans{worker, {}};
-  Admission admission{{options, "game of lobby", sessions, rooms, prefixes, counters, bans,
-                       [](const std::string&, const LogEvent&) {},
-                       [](const ReliableChannel&, AeadId) { return nullptr; }, [] {}},
-                      io.get_executor()};
-  RoomMoves moves{{sessions, rooms, admission, counters, [](const std::string&, const LogEvent&) {}}};
+  Rooms rooms{context, sessions, [] {}};
+  PlayerNews news;
+  Admission admission{
+      {context, sessions, rooms, news, prefixes, [](const ReliableChannel&, AeadId) { return nullptr; }}};
+  RoomMoves moves{context, sessions, rooms, admission};
 };
 
 TEST_F(RoomMovesTest, AHelloLeadsToTheRoomOrTheGameThatItNames) {
@@ -323,7 +319,7 @@ TEST_F(RoomMovesTest, GamesKnowTheRoomsAndHearWhenTheyChange) {
 TEST_F(RoomMovesTest, AnAddressWakesFourRoomsAtOnceAndThenOneInASecond) {
   std::vector<RoomPlan> plans;
   for (int i = 0; i < 20; ++i) plans.push_back(plan("room-" + std::to_string(i), 8));
-  Rooms many{options, sessions, counters, [](const LogEvent&) {}, [] {}, stages};
+  Rooms many{context, sessions, [] {}};
   many.setNamed(plans);
   many.open(world);
   RoomDoor door(many, 64);

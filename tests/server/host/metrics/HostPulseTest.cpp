@@ -25,7 +25,7 @@ TEST(HostPulse, ATickThatDoesNotBeginWithinASecondIsAHang) {
   stages.start();
   HostPulse pulse(stages);
   pulse.begin(33ms, kStart);
-  pulse.beat(17, kStart + 500ms);
+  stages.beginTick(17, kStart + 500ms, kStart + 500ms);
   EXPECT_TRUE(pulse.health(kStart + 1500ms).is_good);
   EXPECT_TRUE(pulse.readiness(kStart + 1500ms).is_good);
   stages.enter(Stage::kWorld);
@@ -33,7 +33,7 @@ TEST(HostPulse, ATickThatDoesNotBeginWithinASecondIsAHang) {
   EXPECT_FALSE(verdict.is_good);
   EXPECT_EQ(verdict.sentence, "no tick has begun for 1.0 s; since tick 17 the stage is: world");
   EXPECT_FALSE(pulse.readiness(kStart + 1501ms).is_good);
-  pulse.beat(18, kStart + 2s);
+  stages.beginTick(18, kStart + 2s, kStart + 2s);
   EXPECT_TRUE(pulse.health(kStart + 2s).is_good);
 }
 
@@ -46,10 +46,11 @@ TEST(HostPulse, BeforeTheFirstTickTimeCountsFromWhereTicksWereToBegin) {
 }
 
 TEST(HostPulse, LongTicksHaveTenOfThemBeforeItIsAHang) {
-  const StageClock stages;
+  StageClock stages;
+  stages.start();
   HostPulse pulse(stages);
   pulse.begin(1s, kStart);
-  pulse.beat(1, kStart);
+  stages.beginTick(1, kStart, kStart);
   EXPECT_TRUE(pulse.health(kStart + 10s).is_good);
   EXPECT_FALSE(pulse.health(kStart + 10'001ms).is_good);
 }
@@ -92,8 +93,27 @@ TEST(StageClock, TimeBelongsToTheStageInWhichItPassed) {
   EXPECT_EQ(spent[static_cast<std::size_t>(Stage::kFlush)], 0ms);
 }
 
+TEST(StageClock, CountsEachTickOnceHoweverOftenItEnds) {
+  StageClock clock;
+  clock.start();
+  const auto now = StageClock::Clock::now();
+  clock.beginTick(7, now - 3ms, now);
+  clock.endTick();
+  clock.endTick();
+  EXPECT_EQ(clock.tick(), 7u);
+  EXPECT_EQ(clock.tickBegan(), now);
+  EXPECT_DOUBLE_EQ(clock.lateness().sum(), 0.003);
+  std::uint64_t ended = 0;
+  for (std::size_t i = 0; i <= kTickBounds.size(); ++i) ended += clock.durations().count(i);
+  EXPECT_EQ(ended, 1u);
+}
+
 TEST(StageClock, MeasuresNothingBeforeItIsStarted) {
   StageClock clock;
+  clock.beginTick(1, kStart, kStart + 1s);
+  clock.endTick();
+  EXPECT_EQ(clock.tick(), 0u);
+  EXPECT_EQ(clock.lateness().sum(), 0);
   clock.enter(Stage::kWorld);
   clock.enter(Stage::kFlush);
   for (const auto spent : clock.spent()) EXPECT_EQ(spent, 0ms);

@@ -65,7 +65,7 @@ class RoomsTest : public testing::Test {
  protected:
   RoomsTest() {
     options.players = "private";
-    rooms.setWorlds([this] {
+    rooms.setWorlds([this](asio::io_context&) {
       auto port = std::make_unique<ScriptedPort>();
       ports.push_back(port.get());
       return port;
@@ -108,25 +108,20 @@ class RoomsTest : public testing::Test {
     return lines;
   }
 
-  HostOptions options;
+  HostContext context{{}, "maze", [](const LogEvent&) {}};
+  HostOptions& options = context.options;
+  Counters& counters = context.counters;
   SessionTable::Clock::time_point now = SessionTable::Clock::now();
   df::World world;
   const df::World::Scope scope{world};
-  asio::io_context io;
-  Counters counters;
   PlayerPrefixes prefixes;
   std::deque<Client> clients;
   std::vector<ScriptedPort*> ports;
   SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
-  StageClock stages;
-  Rooms rooms{options, sessions, counters, [](const std::string&) {}, [] {}, stages};
+  Rooms rooms{context, sessions, [] {}};
   PlayerNews news;
-  AdminWorker worker;
-  BanList bans{worker, {}};
-  Admission admission{{options, "maze", sessions, rooms, prefixes, counters, bans,
-                       [](const std::string&, const std::string&) {},
-                       [](const ReliableChannel&, AeadId) { return nullptr; }, [] {}},
-                      io.get_executor()};
+  Admission admission{
+      {context, sessions, rooms, news, prefixes, [](const ReliableChannel&, AeadId) { return nullptr; }}};
 };
 
 // ---- the audit of pictures --------------------------------------------------------------------------------

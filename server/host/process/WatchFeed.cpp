@@ -1,4 +1,4 @@
-#include "host/admin/WatchFeed.h"
+#include "host/process/WatchFeed.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "host/ops/StreamRefusalLog.h"
+#include "host/loop/StreamRefusalLog.h"
 
 #include <asio/post.hpp>
 #include <chrono>

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "host/metrics/Histogram.h"
+#include "host/process/Histogram.h"
 
 namespace naiad {
 namespace {

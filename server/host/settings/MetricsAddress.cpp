@@ -1,4 +1,4 @@
-#include "host/metrics/MetricsAddress.h"
+#include "host/settings/MetricsAddress.h"
 
 #include <algorithm>
 #include <charconv>

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "host/admin/WatchFeed.h"
+#include "host/process/WatchFeed.h"
 
 namespace naiad {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/ops/NetworkReport.h"
+#include "host/loop/NetworkReport.h"
 
 #include "host/session/Counters.h"
 
@@ -53,16 +53,6 @@ void logRefusals(const NetworkThread& network, const LogLine& log) {
                        {"stranger_flood", gate.stranger_flood},
                        {"refused", gate.refused}});
   if (!text.empty()) log("datagrams: " + text);
-}
-
-void logLan(const LanCounters& lan, const LogLine& log) {
-  const std::string text = listCounters({{"answered", lan.answered},
-                                         {"routed", lan.routed},
-                                         {"foreign", lan.foreign},
-                                         {"malformed", lan.malformed},
-                                         {"too_often", lan.too_often},
-                                         {"unsent", lan.unsent}});
-  if (!text.empty()) log("local network: " + text);
 }
 
 }  // namespace naiad

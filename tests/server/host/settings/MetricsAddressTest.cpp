@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/metrics/MetricsAddress.h"
+#include "host/settings/MetricsAddress.h"
 
 namespace naiad {
 namespace {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/auth/PasswordCheck.h"
-#include "host/net/LanQueryJudge.h"
 #include "host/net/NetworkThread.h"
 #include "shared/program/LineLog.h"
 
@@ -13,7 +12,5 @@ void logPasswords(const PasswordCheck::Counters& passwords, const LogLine& log);
 /// Log what was refused or dropped before it reached a session, in up to three lines. After the network's
 /// stop().
 void logRefusals(const NetworkThread& network, const LogLine& log);
-/// Log what became of the queries of the local network, in one line or none.
-void logLan(const LanCounters& lan, const LogLine& log);
 
 }  // namespace naiad

@@ -1,0 +1,160 @@
+#include "host/loop/HostClients.h"
+
+#include <utility>
+
+#include "host/admission/Places.h"
+#include "host/rooms/ServerLine.h"
+#include "host/session/LookAlikes.h"
+#include "naiad.pb.h"
+#include "shared/program/LogText.h"
+#include "shared/program/OpenFiles.h"
+
+namespace naiad {
+
+namespace {
+
+/// Is this line of the chat a command? It is clean (cleanChat). Blanks in front do not matter, nor characters
+/// that cannot be drawn, which are question marks by now: a password after one of them must not reach others.
+bool isCommand(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(" ?");
+  return first != std::string::npos && line[first] == '/';
+}
+
+}  // namespace
+
+HostClients::HostClients(HostContext& context, HostEndpoint& endpoint, std::function<void()> on_late_tick)
+    : m_context(context),
+      m_endpoint(endpoint),
+      m_sessions(maxConnections(context.options), context.counters,
+                 [this](Session& session) { m_rooms.removeSession(session); }),
+      m_rooms(context, m_sessions, std::move(on_late_tick)),
+      m_admission({context, m_sessions, m_rooms, m_player_news, endpoint.prefixes(),
+                   [&endpoint](const auto& stream, AeadId aead) {
+                     return endpoint.network().openDatagrams(stream, aead);
+                   },
+                   [this](const wire::Welcome& welcome) -> Session& {
+                     Session& session = m_sessions.addDetached(Clock::now());
+                     session.restore(welcome, sessionEvents());
+                     return session;
+                   }}),
+      m_room_moves(context, m_sessions, m_rooms, m_admission),
+      m_chat(PrefixRates::chat(context.options.max_per_address)) {
+  m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
+                      [this](Room& room, const std::vector<KeptSession>& sessions) {
+                        m_admission.restoreSessions(room, sessions);
+                      });
+  m_rooms.watchSent(
+      [this](Session& session, const std::string& room) { m_room_moves.askByGame(session, room); });
+  m_rooms.watchClosed(
+      [this](const Room& room, const std::string& sentence) { m_room_moves.leadAway(room, sentence); });
+  shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
+  makePlaces();
+}
+
+void HostClients::setWorlds(NewWorld new_world, std::uint32_t highest_player) {
+  m_admission.reservePlayers(highest_player);
+  m_rooms.setWorlds(std::move(new_world));
+}
+
+void HostClients::setRooms(std::vector<RoomPlan> plans) {
+  for (const RoomPlan& plan : plans) m_admission.reservePlayers(plan.highest_player);
+  m_rooms.setNamed(std::move(plans));
+}
+
+void HostClients::add(std::unique_ptr<ReliableChannel> channel) {
+  m_sessions.add(std::move(channel), sessionEvents(), Clock::now());
+}
+
+void HostClients::makePlaces() {
+  m_sessions.setMost(maxConnections(m_context.options));
+  const std::size_t wanted = wantedFiles(m_context.options);
+  if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
+    m_context.log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
+                  std::to_string(m_context.options.max_players) + " players and those who come back");
+  }
+}
+
+void HostClients::update(Clock::time_point now) {
+  const std::chrono::seconds idle_limit(m_context.options.inactive_kick);
+  m_sessions.forEach([&](Session& session) {
+    session.checkDeadlines(now);
+    if (session.takeProof()) m_admission.confirmToken(session);
+    m_inactivity.check(session, idle_limit, m_context.counters, sendServerLine);
+  });
+  m_context.client_log.update(now);
+  m_rooms.checkWorlds();
+  m_admission.judgeWaiting();
+  m_room_moves.update();
+}
+
+void HostClients::sendPlayers() {
+  if (m_sessions.playing() == 0) return;
+  m_player_news.tick(
+      static_cast<std::uint32_t>(m_context.counters.ticks), m_rooms.players(),
+      [this](std::uint32_t player) {
+        const Session* p_session = m_rooms.findPlayer(player);
+        return p_session != nullptr ? p_session->rttMillis() : 0;
+      },
+      [this](std::uint32_t player, const wire::ServerMessage& message) {
+        if (Session* p_session = m_rooms.findPlayer(player)) p_session->sendKept(message);
+      });
+}
+
+void HostClients::say(const std::string& text) {
+  m_sessions.forEachPlaying([&text](Session& session) { sendServerLine(session, text); });
+}
+
+Session::Events HostClients::sessionEvents() {
+  return {[this](Session& session, const wire::Hello& hello) { m_admission.judgeHello(session, hello); },
+          [this](Session& session, const std::string& text) { takeChat(session, text); },
+          [this](Session& session) { endSession(session); },
+          [this] { return m_endpoint.network().now(); },
+          [this](Session& session, const std::string& sentence) {
+            m_context.client_log.logRefusal(session.address(), sentence, session.now());
+          },
+          [this](Session& session) { m_room_moves.sendList(session); },
+          [this](Session& session, const std::string& room) { m_room_moves.ask(session, room); }};
+}
+
+// A command is for the server alone, whatever becomes of it.
+void HostClients::takeChat(Session& session, const std::string& text) {
+  const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
+  if (!m_chat.take(prefix, session.now())) {
+    ++m_context.counters.chat_dropped;
+  } else if (isCommand(text)) {
+    m_serve_command ? m_serve_command(session, text)
+                    : sendServerLine(session, "This server has no commands.");
+  } else if (session.standing().isMuted()) {
+    ++m_context.counters.chat_muted;
+    sendServerLine(session, "You are muted: nobody reads your lines.");
+  } else {
+    sendChat(session, text);
+  }
+}
+
+void HostClients::sendChat(const Session& session, const std::string& text) {
+  m_context.feed.publish("chat", inQuotes(session.name()) + ": " + text);
+  if (m_context.options.log_chat) {
+    m_context.client_log.logNews(session.address(),
+                                 {"chat",
+                                  inQuotes(session.name()) + " says " + inQuotes(text),
+                                  {{"player", session.name()}, {"line", text}}},
+                                 session.now());
+  }
+  wire::ServerMessage message;
+  message.mutable_chat()->set_player(session.player());
+  message.mutable_chat()->set_text(text);
+  m_sessions.forEachPlaying([&](Session& other) { other.sendKept(message); });
+}
+
+void HostClients::endSession(Session& session) {
+  m_admission.forgetSession(session);
+  m_inactivity.forget(session);
+  if (session.player() == 0) return;
+  m_rooms.leave(session);
+  m_context.client_log.logNews(session.address(),
+                               {"left", inQuotes(session.name()) + " left", {{"player", session.name()}}},
+                               session.now());
+}
+
+}  // namespace naiad

@@ -1,0 +1,80 @@
+// A host's clients: their sessions, who of them plays and in which room, what they say, and the list of
+// players.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/admission/Admission.h"
+#include "host/admission/RoomMoves.h"
+#include "host/loop/HostEndpoint.h"
+#include "host/loop/InactivityCheck.h"
+#include "host/rooms/HostContext.h"
+#include "host/rooms/PlayerNews.h"
+#include "host/rooms/Rooms.h"
+#include "host/rooms/SessionTable.h"
+#include "shared/net/base/PrefixAllowance.h"
+
+namespace naiad {
+
+/// On the host's thread.
+class HostClients {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `context` and `endpoint` outlive this. `on_late_tick`: of Rooms. Throws std::runtime_error for a truth
+  /// file that cannot be written, and PasswordError.
+  HostClients(HostContext& context, HostEndpoint& endpoint, std::function<void()> on_late_tick);
+
+  SessionTable& sessions() { return m_sessions; }
+  const SessionTable& sessions() const { return m_sessions; }
+  Rooms& rooms() { return m_rooms; }
+  const Rooms& rooms() const { return m_rooms; }
+  Admission& admission() { return m_admission; }
+
+  /// Play in such worlds instead of the one that Host::run() is given: one after the other, or one for each
+  /// player (HostOptions::players). From the one it is given it takes only what welcomes say. New players get
+  /// ids above `highest_player`, which the first world may have seen. Before run().
+  void setWorlds(NewWorld new_world, std::uint32_t highest_player = 0);
+  /// Have these rooms instead. Players begin in the first. Before run().
+  void setRooms(std::vector<RoomPlan> plans);
+
+  /// Commands in the chat, which begin with "/". They reach nobody but this, whatever becomes of them.
+  void setCommands(std::function<void(Session& session, const std::string& line)> serve_command) {
+    m_serve_command = std::move(serve_command);
+  }
+
+  /// A connection was accepted.
+  void add(std::unique_ptr<ReliableChannel> channel);
+  /// As many as may join by the options in force; a log line says so if too few files may be open for that.
+  void makePlaces();
+  /// Once a tick, before worlds tick: deadlines, hellos that wait, and moves between rooms.
+  void update(Clock::time_point now);
+  /// Once a tick, after them: the list of players, which has those of all rooms.
+  void sendPlayers();
+  /// A line from the server to all players.
+  void say(const std::string& text);
+
+ private:
+  Session::Events sessionEvents();
+  void takeChat(Session& session, const std::string& text);
+  void sendChat(const Session& session, const std::string& text);
+  void endSession(Session& session);
+
+  HostContext& m_context;
+  HostEndpoint& m_endpoint;
+  SessionTable m_sessions;
+  Rooms m_rooms;
+  PlayerNews m_player_news;
+  Admission m_admission;
+  RoomMoves m_room_moves;
+  PrefixAllowance m_chat;
+  InactivityCheck m_inactivity;
+  std::function<void(Session&, const std::string&)> m_serve_command;  ///< null: there are none
+};
+
+}  // namespace naiad

@@ -1,0 +1,160 @@
+#include "host/loop/HostControls.h"
+
+#include <signal.h>
+
+#include <asio/post.hpp>
+#include <memory>
+#include <utility>
+
+#include "host/loop/HostClients.h"
+#include "host/loop/HostEndpoint.h"
+#include "host/rounds/RoundHandover.h"
+#include "shared/program/LineLog.h"
+
+namespace naiad {
+
+namespace {
+
+const std::string kCannotBeKept = "The round cannot be kept: ";
+
+}  // namespace
+
+void HostControls::end(Ending::Plan plan) {
+  Rooms& rooms = m_clients.rooms();
+  if (plan.at_round_end && (rooms.isPrivate() || rooms.isNamed()))
+    plan.at_round_end = !(plan.when_empty = true);
+  rooms.setLastRound(plan.at_round_end);
+  m_keeps_round = false;
+  m_context.ending.setPlan(std::move(plan), Clock::now());
+}
+
+void HostControls::endWhenEmpty(double seconds) {
+  const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  end({.at = Clock::now() + patience, .when_empty = true});
+}
+
+bool HostControls::cancelEnd() {
+  m_clients.rooms().setLastRound(false);
+  m_clients.rooms().forgetUpgrade();
+  m_keeps_round = false;
+  return m_context.ending.cancel();
+}
+
+void HostControls::update(Clock::time_point now) {
+  if (const auto news = m_context.ending.takeNews(now)) m_clients.say(*news);
+  heedUpgrade(now);
+}
+
+// The worlds that there are go on; the next ones take a server that is of their build.
+void HostControls::heedUpgrade(Clock::time_point now) {
+  const auto news = m_clients.rooms().takeUpgrade();
+  if (!news) return;
+  const bool waits = m_clients.rooms().isPrivate();
+  m_context.log(
+      LogEvent::warning(*news + (waits ? "; it begins again when all have left" : "; it begins again")));
+  Ending::Plan plan = m_context.ending.plan().value_or(Ending::Plan{.begins_again = true});
+  if (waits) {
+    plan.when_empty = true;
+  } else {
+    plan.at = now;
+  }
+  end(std::move(plan));
+}
+
+void HostControls::heedSignals(StopSignals& signals) {
+  if (signals.count() > std::exchange(m_heeded_signals, signals.count())) {
+    const double drain_time = signals.signal() == SIGTERM ? m_context.options.drain_time : 0;
+    endWhenEmpty(drain_time);
+    if (drain_time > 0) m_context.log("SIGTERM: no new players; ending when all have left");
+  }
+  if (!signals.takeHangUp()) return;
+  LineLog::reopenAll();
+  m_context.log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
+  if (!m_reload) return;
+  if (m_on_reload) m_on_reload(false, Clock::now());
+  reload([this](bool, const std::string& sentence) {
+    if (m_on_reload) m_on_reload(true, Clock::now());
+    m_context.log(sentence);
+  });
+}
+
+// ---- options ----------------------------------------------------------------------------------------------
+
+void HostControls::reload(Done done) {
+  if (!m_reload) return done(false, "this server cannot read its options again");
+  const bool began = m_reload->begin(m_context.options, [this, done](Reloaded reloaded) {
+    asio::post(m_context.home, [this, done, reloaded = std::make_shared<Reloaded>(std::move(reloaded))] {
+      adoptReloaded(std::move(*reloaded), done);
+    });
+  });
+  if (!began) done(false, "the options are being read already");
+}
+
+void HostControls::adoptReloaded(Reloaded reloaded, const Done& done) {
+  if (!reloaded.problem.empty()) return done(false, "the options stay as they were: " + reloaded.problem);
+  if (reloaded.options.password != m_context.options.password)
+    m_clients.admission().changePassword(std::move(reloaded.password));
+  const OptionChanges changes = adopt(reloaded.options);
+  if (reloaded.identity) m_endpoint.setIdentity(*std::move(reloaded.identity));
+  done(true, "the options were read again: " + changes.text());
+}
+
+OptionChanges HostControls::adopt(const HostOptions& options) {
+  OptionChanges changes = takeOver(options, m_context.options);
+  m_clients.makePlaces();
+  return changes;
+}
+
+// ---- the round --------------------------------------------------------------------------------------------
+
+// Servers that end while they execute a round are counted in its file (Journals.h).
+std::string HostControls::whyNotKept() const {
+  return m_clients.rooms().recovering() ? "it is being executed again already" : "";
+}
+
+void HostControls::keepRound(Done done) {
+  if (m_p_handover == nullptr)
+    return done(false, "No round can be kept here: that takes dfserver with --journal");
+  std::string why_not = m_p_handover->refusal();
+  if (why_not.empty()) why_not = whyNotKept();
+  if (!why_not.empty()) return done(false, kCannotBeKept + why_not);
+  m_context.log("the round is executed again by the program that is installed, beside the game");
+  m_p_handover->prove([this, done = std::move(done)](const RoundHandover::Result& result) {
+    asio::post(m_context.home, [this, done, result] {
+      if (!result.starts) return done(false, kCannotBeKept + result.problem);  // nor could it be begun later
+      finishProof(result.problem, done);
+    });
+  });
+}
+
+void HostControls::finishProof(const std::string& problem, const Done& done) {
+  if (m_is_draining) return done(false, "The server ends");
+  if (!problem.empty()) return endWithoutRound(problem, done);
+  std::string why_not = m_p_handover->changeSinceProof();
+  if (why_not.empty()) why_not = whyNotKept();
+  if (!why_not.empty()) return done(false, kCannotBeKept + why_not);
+  const std::string text = "The round goes on in the program that is installed";
+  m_context.log("restart: " + text);
+  end({.begins_again = true, .at = Clock::time_point()});
+  m_keeps_round = true;
+  done(true, text);
+}
+
+// As if players were asked to finish.
+void HostControls::endWithoutRound(const std::string& problem, const Done& done) {
+  const std::string text = "The round cannot go on in the program that is installed: " + problem;
+  m_context.log(LogEvent::warning("restart: " + text + "; the server begins again when all have left"));
+  end({.begins_again = true, .when_empty = true});
+  done(false, text + ". The server restarts when all have left (cancel calls that off)");
+}
+
+bool HostControls::keepsRound() const {
+  return m_keeps_round && m_context.ending.beginsAgain();
+}
+
+void HostControls::beginDrain() {
+  m_is_draining = true;
+  if (keepsRound()) m_p_handover->leaveOpen(m_endpoint.port());
+}
+
+}  // namespace naiad

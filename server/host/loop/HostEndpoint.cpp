@@ -1,0 +1,107 @@
+#include "host/loop/HostEndpoint.h"
+
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include "host/admission/Places.h"
+#include "host/world/Descendants.h"
+#include "shared/net/base/Limits.h"
+
+namespace naiad {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+TcpOptions channelOptions() {
+  TcpOptions options;
+  options.receive_limit = kMaxHelloFrame;
+  return options;
+}
+
+/// The key that TLS proves; nothing without encryption.
+std::optional<ServerIdentity> identityOf(const HostOptions& options) {
+  if (options.insecure) return std::nullopt;
+  if (!options.certificate.empty()) return ServerIdentity::load(options.certificate, options.key);
+  const auto directory =
+      options.identity.empty() ? ServerIdentity::defaultDirectory() : std::filesystem::path(options.identity);
+  return ServerIdentity::loadOrMake(directory, std::chrono::system_clock::now());
+}
+
+}  // namespace
+
+HostEndpoint::HostEndpoint(HostContext& context, TcpListener::OnChannel on_channel)
+    : m_context(context),
+      m_identity(identityOf(context.options)),
+      m_handshakes(PrefixRates::handshakes(context.options.max_per_address)),
+      m_refusals(context.home, context.client_log),
+      m_network(context.home, context.options.address, static_cast<std::uint16_t>(context.options.port),
+                std::move(on_channel), channelOptions(), listening(), NetworkThread::Limits(), visitors(),
+                context.options.sockets) {
+  if (m_identity && !m_identity->warning().empty()) context.log(LogEvent::warning(m_identity->warning()));
+}
+
+TlsListening HostEndpoint::listening() {
+  TlsListening listening;
+  if (!m_identity) return listening;
+  listening.context = m_identity->tls();
+  const HalfOpenPlaces half_open = halfOpenPlaces(m_context.options);
+  listening.max_half_open = half_open.in_all;
+  listening.max_half_open_known = half_open.known;
+  listening.max_half_open_per_prefix = half_open.of_a_prefix;
+  listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
+  listening.on_refused = [this](const auto& peer, StreamRefusal why) { m_refusals.note(peer, why); };
+  listening.is_banned = [this](const asio::ip::address& address) {
+    return m_is_banned && m_is_banned(address);
+  };
+  listening.take_handshake = [this](const AddressPrefix& prefix) {
+    return m_handshakes.take(prefix, Clock::now());
+  };
+  listening.has_handshake = [this](const AddressPrefix& prefix) {
+    return m_handshakes.has(prefix, Clock::now());
+  };
+  return listening;
+}
+
+// A world may have this user's rights, and so those on the socket: it would be as many visitors as it likes.
+VisitorsListening HostEndpoint::visitors() const {
+  VisitorsListening visitors;
+  visitors.path = m_context.options.visitors;
+  visitors.is_refused = [](pid_t process) { return isDescendant(process); };
+  return visitors;
+}
+
+std::optional<Fingerprint> HostEndpoint::fingerprint() const {
+  return m_identity ? std::optional(m_identity->fingerprint()) : std::nullopt;
+}
+
+bool HostEndpoint::listensOnAll() const {
+  return m_context.options.address == "::" || m_context.options.address == "0.0.0.0";
+}
+
+std::string HostEndpoint::joinArguments() const {
+  const std::string where = listensOnAll() ? "127.0.0.1:" + std::to_string(port()) : address();
+  return where + (m_identity ? " --fingerprint " + m_identity->fingerprint().text() : " --insecure");
+}
+
+std::optional<JoinLink> HostEndpoint::joinLink(bool elsewhere) const {
+  if (!m_identity) return std::nullopt;
+  const auto where = elsewhere        ? LinkHost::parse(m_context.options.link_host, port())
+                     : listensOnAll() ? LinkHost::parse("127.0.0.1", port())
+                                      : LinkHost::parse(address());
+  if (!where) return std::nullopt;
+  return JoinLink{*where, "", ShortKey::of(m_identity->fingerprint())};
+}
+
+void HostEndpoint::setIdentity(ServerIdentity identity) {
+  if (identity.fingerprint() != m_identity->fingerprint()) {
+    m_context.log(
+        LogEvent::warning("the key is another one: players who know the server are warned of it. It is " +
+                          identity.fingerprint().text()));
+  }
+  m_identity = std::move(identity);
+  m_network.setTls(m_identity->tls());
+}
+
+}  // namespace naiad

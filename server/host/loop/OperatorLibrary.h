@@ -1,0 +1,24 @@
+// The operators' features - scores, bans, commands, metrics, the list of servers, the bus of a fleet - which
+// are in libdragonfly-ops.so, with the libraries that they need.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "host/loop/HostPart.h"
+
+namespace naiad {
+
+/// The function that libdragonfly-ops.so exports.
+extern "C" using MakeOperatorParts =
+    void(const HostAccess& access, std::vector<std::unique_ptr<HostPart>>& parts);
+inline constexpr const char* kMakeOperatorParts = "naiad_makeOperatorParts";
+
+/// Returns all parts of a host, in the order in which they are called. Loads the library; without it there
+/// are none, and a line of the log says so. Throws as HostPart.
+std::vector<std::unique_ptr<HostPart>> makeOperatorParts(const HostAccess& access);
+
+/// Returns why the library cannot be loaded; empty if it can.
+std::string operatorPartsProblem();
+
+}  // namespace naiad
