@@ -121,6 +121,15 @@ bool WorldManager::isLookingBack() const {
   return World::current().isLookingBack();
 }
 
+void WorldManager::setRunsEmpty(bool runs_empty) {
+  World::current().extras().settings.runs_empty = runs_empty;
+}
+
+bool WorldManager::getRunsEmpty() const {
+  const WorldExtras* p_extras = World::current().findExtras();
+  return p_extras != nullptr && p_extras->settings.runs_empty;
+}
+
 ObjectList WorldManager::getCollisions(const Object* p_o, Vector where) const {
   return World::current().getCollisions(p_o, where);
 }

@@ -90,6 +90,11 @@ class WorldManager : public Manager {
   void setLookingBack(bool looking_back = true);
   bool isLookingBack() const;
 
+  /// A host stops the world's time once nobody has played in it for a minute, until the next player joins,
+  /// unless this is true. Call before GM.run(). Off by default; without a host it means nothing.
+  void setRunsEmpty(bool runs_empty = true);
+  bool getRunsEmpty() const;
+
   // How they move.
 
   /// The active solid Objects whose boxes touch p_o's box if p_o were at `where`, in creation order,

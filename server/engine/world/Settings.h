@@ -34,6 +34,7 @@ struct ConfigSettings {
   std::string logfile = LOGFILE_DEFAULT;
   int random_seed = -1;  ///< 0: from the time; -1: not set
   bool networking = false;
+  bool runs_empty = false;  ///< a host ticks the world without players, too (WorldManager::setRunsEmpty)
   int quadtree_threshold = 10;
   int quadtree_depth = 5;
   int grid_width = 1;

@@ -35,6 +35,7 @@ constexpr int kMinHandlers = 16;                     ///< the same; one handler 
 constexpr std::chrono::seconds kDrainTime{1};
 constexpr std::chrono::milliseconds kDrainStep{10};   ///< between two looks at worlds that end
 constexpr std::chrono::seconds kFirstPlayerTime{60};  ///< --exit-when-empty before the first player joins
+constexpr std::chrono::milliseconds kRestTime{400};   ///< between two ticks while no world ticks
 constexpr int kLongestFrameMillis = 1000;             ///< as --frame-time
 constexpr int kExitHung = 1;                          ///< as for a game that fails
 constexpr const char* kShuttingDown = "The server is shutting down.";  // as Ending says it
@@ -85,6 +86,7 @@ void Host::run(df::World& world) {
     serveUntil(schedule.deadline());
     m_controls->heedSignals(signals);
     if (isDue(schedule)) tick(watchdog);
+    if (rests()) schedule = rest();
   }
   drain();
   endGame(world);
@@ -146,6 +148,19 @@ void Host::serveUntil(Clock::time_point deadline) {
   }
   home.run_until(deadline);
   sweep();
+}
+
+bool Host::rests() const {
+  return m_clients->sessions().isEmpty() && m_clients->rooms().rest();
+}
+
+// Ticks are for the heartbeat alone. The next one is due when somebody connects.
+TickClock Host::rest() {
+  const auto end = Clock::now() + kRestTime;
+  do {
+    m_context->home.restart();
+  } while (m_context->home.run_one_until(end) > 0 && rests());
+  return TickClock(Clock::now(), TickLength::fromMicros(m_context->options.frame_micros));
 }
 
 bool Host::isDue(TickClock& schedule) {

@@ -65,6 +65,8 @@ class Host : public df::Runner {
   void adoptSettings(df::World& world);
   void serveUntil(Clock::time_point deadline);
   bool isDue(TickClock& schedule);
+  bool rests() const;
+  TickClock rest();
   void tick(Watchdog& watchdog);
   void tickWorlds(Watchdog& watchdog);
   [[noreturn]] void endProcess(const ForcedEnd& end, SideLog& log);

@@ -114,6 +114,7 @@ void setUp(df::World& world, const naiad::WorldReady& ready) {
   world.setCompat(ready.compat);
   world.setHelp(ready.help);
   world.extras().settings.frame_time = ready.frame_millis;
+  world.extras().settings.runs_empty = ready.runs_empty;
 }
 
 ExitCode failGame(const std::string& how) {

@@ -11,8 +11,6 @@ namespace naiad {
 
 namespace {
 
-using Time = RoomSleep::Time;
-
 /// A game that fails as soon as it begins is not begun again before.
 constexpr std::chrono::seconds kClosedTime{30};
 
@@ -26,7 +24,7 @@ df::GameRoom gameRoomOf(const Room& room) {
           .is_asleep = room.isAsleep()};
 }
 
-Time presentTime() {
+RoomSleep::Time presentTime() {
   return std::chrono::steady_clock::now();
 }
 
@@ -112,7 +110,7 @@ void Rooms::publishRooms() {
     if (present == m_game_rooms[i]) continue;
     m_game_rooms[i] = present;
     for (const auto& room : m_rooms) {
-      if (room->isAsleep() || room->port().recovering()) continue;
+      if (room->rests()) continue;
       present.is_this_one = room == m_rooms[i];
       room->port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = present});
     }
@@ -140,19 +138,12 @@ void Rooms::putToSleep(Room& room) {
   room.countShortRounds(false);
 }
 
-void Rooms::checkSleep() {
-  const Time now = presentTime();
+void Rooms::checkSleep(Time now) {
   const std::chrono::duration<double> patience(m_options.room_sleep);
   for (const auto& room : m_rooms) {
-    RoomSleep& sleep = room->sleep();
-    if (sleep.asleep || room->port().recovering()) continue;
-    if (!room->isEmpty()) {
-      sleep.empty_since.reset();
-    } else if (!sleep.empty_since) {
-      sleep.empty_since = now;
-    } else if (now - *sleep.empty_since >= patience) {
-      putToSleep(*room);
-    }
+    const RoomSleep& sleep = room->sleep();
+    if (sleep.asleep || !sleep.empty_since || room->port().recovering()) continue;
+    if (now - *sleep.empty_since >= patience) putToSleep(*room);
   }
   checkEnding();
 }

@@ -42,6 +42,8 @@ class Room {
   RoomSleep& sleep() { return m_sleep; }
   const RoomSleep& sleep() const { return m_sleep; }
   bool isAsleep() const { return m_sleep.asleep; }
+  /// Its world is not to tick: it sleeps, stands still, or its round is being executed again.
+  bool rests() const { return m_sleep.asleep || m_sleep.still || m_p_port->recovering(); }
 
   // Players.
 

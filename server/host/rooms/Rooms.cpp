@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
 #include "host/process/Ending.h"
 #include "host/rooms/NewsEvent.h"
 #include "host/world/BuildId.h"
@@ -61,6 +63,7 @@ Rooms::Rooms(HostContext& context, const SessionTable& sessions, std::function<v
 
 void Rooms::open(df::World& world) {
   const bool first_only = m_options.players == "first";
+  m_p_world = &world;
   if (isNamed()) {
     openNamed();
   } else if (!m_new_world) {
@@ -185,12 +188,19 @@ void Rooms::beginTicks() {
   if (isNamed()) publishRooms();
   m_in_begin = true;
   for (const auto& room : m_rooms) {
-    if (room->port().recovering() || room->isAsleep()) continue;
+    if (room->rests()) continue;
     if (room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) continue;
     ++m_counters.late_worlds;
     room->noteLate();
   }
   m_in_begin = false;
+}
+
+bool Rooms::rest() const {
+  return m_ending.empty() && std::all_of(m_rooms.begin(), m_rooms.end(), [](const auto& room) {
+           return (room->isAsleep() || room->sleep().still) && !room->isTicking() &&
+                  !room->port().recovering();
+         });
 }
 
 bool Rooms::isTicking() const {
@@ -231,7 +241,8 @@ void Rooms::dismissLeavers(Room& room) {
 
 // ---- rounds -----------------------------------------------------------------------------------------------
 
-void Rooms::checkWorlds() {
+void Rooms::checkWorlds(Time now) {
+  checkPlayers(now);
   if (!hasWorlds()) return;
   for (const auto& room : m_rooms) {
     room->port().checkProcess(tickNumber());
@@ -244,9 +255,31 @@ void Rooms::checkWorlds() {
     const auto end = room->port().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
-  if (isNamed()) checkSleep();
+  if (isNamed()) checkSleep(now);
   if (!isPrivate()) return;
   std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
+}
+
+// A number of ticks (--ticks) and a round that is the last one are played to their end.
+bool Rooms::runsEmpty(const Room& room) const {
+  if (m_options.ticks > 0 || m_last_round) return true;
+  if (room.plan() != nullptr) return room.plan()->ready.runs_empty;
+  const df::WorldExtras* const p_extras = m_p_world->findExtras();
+  return p_extras != nullptr && p_extras->settings.runs_empty;
+}
+
+void Rooms::checkPlayers(Time now) {
+  for (const auto& room : m_rooms) {
+    RoomSleep& sleep = room->sleep();
+    if (!room->isEmpty()) {
+      sleep.empty_since.reset();
+    } else if (!sleep.empty_since) {
+      sleep.empty_since = now;
+    }
+    const bool was_still = sleep.still;
+    sleep.still = sleep.empty_since && now - *sleep.empty_since >= kEmptyTime && !runsEmpty(*room);
+    if (was_still && !sleep.still && isNamed()) passRooms(*room);
+  }
 }
 
 void Rooms::noteTakeOver(const Room& room, const TakeOver& done) {

@@ -2,6 +2,7 @@
 // played in them (docs/rounds.md).
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -114,9 +115,15 @@ class Rooms {
   void setLastRound(bool last) { m_last_round = last; }
   /// The first room; with worlds of their own each player opens one.
   void open(df::World& world);
-  /// Begin another round where a world has ended. Once a tick.
-  void checkWorlds();
+  using Time = RoomSleep::Time;
+  /// A world in which nobody has played for so long stands still, unless its game wants to go on.
+  static constexpr std::chrono::seconds kEmptyTime{60};
+  /// Begin another round where a world has ended; stop worlds without players, and let those with players go
+  /// on. Once a tick.
+  void checkWorlds(Time now = std::chrono::steady_clock::now());
   void beginTicks();
+  /// All worlds stand still or sleep, and none is beginning or ending.
+  bool rest() const;
   /// A room's tick has begun and not ended.
   bool isTicking() const;
 
@@ -148,7 +155,9 @@ class Rooms {
   Room& openRoom(std::unique_ptr<WorldPort> port, bool first_only);
   void openNamed();
   std::unique_ptr<WorldPort> newWorld(const Room& room) const;
-  void checkSleep();
+  bool runsEmpty(const Room& room) const;
+  void checkPlayers(Time now);
+  void checkSleep(Time now);
   void checkEnding();
   void putToSleep(Room& room);
   void publishRooms();
@@ -175,7 +184,8 @@ class Rooms {
   const LogLine& m_log;
   std::function<void()> m_on_late_tick;
   StageClock& m_stages;
-  NewWorld m_new_world;  ///< empty: the world of this process, or m_plans
+  const df::World* m_p_world = nullptr;  ///< that open() was given
+  NewWorld m_new_world;                  ///< empty: the world of this process, or m_plans
   std::vector<RoomPlan> m_plans;
   std::vector<df::GameRoom> m_game_rooms;            ///< what worlds were passed last, by room
   std::vector<std::unique_ptr<WorldPort>> m_ending;  ///< worlds of rooms that were put to sleep

@@ -29,10 +29,11 @@ struct RoomPlan {
   std::uint32_t highest_player = 0;  ///< id that a player of that round ever had
 };
 
-/// When a room sleeps: it has no world then.
+/// When a room sleeps, without a world, or stands still: its world is there and does not tick.
 struct RoomSleep {
   using Time = std::chrono::steady_clock::time_point;
   bool asleep = false;
+  bool still = false;
   std::optional<Time> empty_since;  ///< nothing: there are players
   Time closed_until{};              ///< its game failed again and again: it is not woken before
 };

@@ -43,6 +43,7 @@ void visitReady(F& f, T& ready) {
   f.number(ready.frame_millis, 1, kMaxFrameMillis);
   f.flag(ready.compat);
   f.flag(ready.fixed_addresses);
+  f.flag(ready.runs_empty);
   f.list(ready.help, kMaxHelpLines, [](F& in, auto& line) { in.text(line, kMaxHelpLength); });
   f.list(ready.files, kMaxReadFiles, [](F& in, auto& file) { visitFile(in, file); });
 }

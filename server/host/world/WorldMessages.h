@@ -33,6 +33,7 @@ struct WorldReady {
   std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
   std::vector<ReadFile> files;    ///< that the game has read so far, if it is to be repeatable
   bool fixed_addresses = false;   ///< of this process (FixedStart.h)
+  bool runs_empty = false;        ///< it ticks without players, too
 };
 inline constexpr int kMaxFrameMillis = 1000;
 

@@ -30,8 +30,10 @@ WorldReady readyOf(const df::World& world) {
   WorldReady ready;
   ready.window_width = world.getWindowWidth();
   ready.window_height = world.getWindowHeight();
-  if (const df::WorldExtras* p_extras = world.findExtras())
+  if (const df::WorldExtras* p_extras = world.findExtras()) {
     ready.frame_millis = p_extras->settings.frame_time;
+    ready.runs_empty = p_extras->settings.runs_empty;
+  }
   ready.compat = world.compat();
   ready.help = world.getHelp();
   ready.files = takeReadFiles();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "Clients.h"
+#include "engine/managers/WorldManager.h"
 #include "engine/world/World.h"
 #include "host/admission/Admission.h"
 #include "host/rooms/PlayerNews.h"
@@ -19,6 +20,7 @@
 namespace naiad {
 namespace {
 
+using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
 
@@ -60,11 +62,11 @@ df::PlayerFacts factsOf(std::uint32_t id, const std::string& name, int score) {
   return facts;
 }
 
-/// Players in worlds of their own.
+/// Players in worlds of their own, unless said otherwise.
 class RoomsTest : public testing::Test {
  protected:
-  RoomsTest() {
-    options.players = "private";
+  explicit RoomsTest(const std::string& players = "private") {
+    options.players = players;
     rooms.setWorlds([this](asio::io_context&) {
       auto port = std::make_unique<ScriptedPort>();
       ports.push_back(port.get());
@@ -123,6 +125,65 @@ class RoomsTest : public testing::Test {
   Admission admission{
       {context, sessions, rooms, news, prefixes, [](const ReliableChannel&, AeadId) { return nullptr; }}};
 };
+
+// ---- worlds without players -------------------------------------------------------------------------------
+
+class EmptyWorldTest : public RoomsTest {
+ protected:
+  EmptyWorldTest() : RoomsTest("together") {}
+
+  /// Does the world tick in a tick of the host, so long after `now`?
+  bool ticks(std::chrono::seconds after) {
+    const std::size_t before = ports[0]->pictured.size();
+    rooms.checkWorlds(now + after);
+    rooms.beginTicks();
+    return ports[0]->pictured.size() > before;
+  }
+};
+
+TEST_F(EmptyWorldTest, StandsStillAfterAMinuteUntilSomebodyJoins) {
+  options.grace = 0;
+  EXPECT_TRUE(ticks(0s));
+  EXPECT_TRUE(ticks(59s));
+  EXPECT_FALSE(rooms.rest());
+  EXPECT_FALSE(ticks(60s));
+  EXPECT_TRUE(rooms.rest());
+  Client& ann = join("ann");
+  EXPECT_TRUE(ticks(3600s));
+  EXPECT_FALSE(rooms.rest());
+  EXPECT_TRUE(ticks(7200s)) << "ann is there";
+  ann.drop();
+  ASSERT_EQ(sessions.playing(), 0u);
+  EXPECT_TRUE(ticks(7201s)) << "the minute begins when she has left";
+  EXPECT_TRUE(ticks(7260s));
+  EXPECT_FALSE(ticks(7261s));
+}
+
+TEST_F(EmptyWorldTest, APlayerWhoseConnectionBrokeIsThere) {
+  options.grace = 1000;
+  join("ann").drop();
+  ASSERT_EQ(sessions.playing(), 1u);
+  EXPECT_TRUE(ticks(0s));
+  EXPECT_TRUE(ticks(900s));
+}
+
+TEST_F(EmptyWorldTest, GoesOnIfItsGameWantsThat) {
+  WM.setRunsEmpty();
+  EXPECT_TRUE(ticks(0s));
+  EXPECT_TRUE(ticks(3600s));
+  WM.setRunsEmpty(false);
+  EXPECT_FALSE(ticks(3601s));
+}
+
+TEST_F(EmptyWorldTest, TicksThatWereAskedForArePlayed) {
+  EXPECT_TRUE(ticks(0s));
+  options.ticks = 10'000;
+  EXPECT_TRUE(ticks(3600s));
+  options.ticks = 0;
+  EXPECT_FALSE(ticks(3601s));
+  rooms.setLastRound(true);
+  EXPECT_TRUE(ticks(3602s)) << "the server ends with the round";
+}
 
 // ---- the audit of pictures --------------------------------------------------------------------------------
 

@@ -192,6 +192,7 @@ TEST(WorldMessages, TicksOfALaterWorldAreLater) {
 
 TEST(WorldMessages, WhatAGameHasSetUpCrossesWholeAndInItsRange) {
   WorldReady sent{100, 30, 50, true, {"left and right", std::string(kMaxHelpLength + 5, 'x')}};
+  sent.runs_empty = true;
   std::string frame;
   writeReady(sent, frame);
   const auto ready = readReady(fieldsOf(frame));
@@ -199,7 +200,7 @@ TEST(WorldMessages, WhatAGameHasSetUpCrossesWholeAndInItsRange) {
   EXPECT_EQ(ready->window_width, 100);
   EXPECT_EQ(ready->window_height, 30);
   EXPECT_EQ(ready->frame_millis, 50);
-  EXPECT_TRUE(ready->compat);
+  EXPECT_TRUE(ready->compat && ready->runs_empty);
   EXPECT_EQ(ready->help, (std::vector<std::string>{"left and right", std::string(kMaxHelpLength, 'x')}));
   for (std::size_t length = 0; length < frame.size() - kWorldFrameHead; ++length) {
     EXPECT_FALSE(readReady(fieldsOf(frame).substr(0, length))) << length;
