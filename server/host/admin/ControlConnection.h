@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/admin/AdminConsole.h"
+#include "host/admin/AdminCaller.h"
 #include "host/process/WatchFeed.h"
 #include "shared/admin/AdminJson.h"
 

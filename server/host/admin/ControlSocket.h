@@ -10,8 +10,9 @@
 #include <functional>
 #include <memory>
 
-#include "host/admin/AdminConsole.h"
+#include "host/admin/AdminCaller.h"
 #include "host/process/WatchFeed.h"
+#include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminRequest.h"
 #include "shared/program/LineLog.h"
 

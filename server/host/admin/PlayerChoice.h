@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/admin/AdminTarget.h"
+#include "host/admin/AdminPlayer.h"
 #include "shared/admin/AdminAnswer.h"
 
 namespace naiad {

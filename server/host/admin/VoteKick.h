@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/admin/AdminTarget.h"
+#include "host/admin/AdminPlayer.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/PerAddress.h"
 

@@ -25,9 +25,8 @@ Level levelOf(const Session& session) {
 
 }  // namespace
 
-ChatCommands::ChatCommands(const HostAccess& access, AdminTarget& target, AdminConsole& console,
-                           BanList& bans)
-    : m_access(access), m_target(target), m_console(console), m_bans(bans) {
+ChatCommands::ChatCommands(const HostAccess& access, HostAdmin& admin, AdminConsole& console, BanList& bans)
+    : m_access(access), m_admin(admin), m_console(console), m_bans(bans) {
   const std::string& password = access.context.options.admin_password;
   if (!password.empty())
     m_password =
@@ -122,7 +121,7 @@ void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordC
 
 void ChatCommands::vote(Session& session, const AdminRequest& request) {
   if (!m_access.context.options.vote_kick) return reply(session, {"This server has no votes."});
-  const std::vector<AdminPlayer> players = m_target.players();
+  const std::vector<AdminPlayer> players = m_admin.players();
   const PlayerChoice choice = choosePlayer(players, request.of("player"));
   if (!choice.player) return reply(session, answerText(choice.problem));
   const std::string& name = choice.player->name;
@@ -132,10 +131,10 @@ void ChatCommands::vote(Session& session, const AdminRequest& request) {
   switch (outcome) {
     case VoteKick::Outcome::kBegun:
       logNews(session, inQuotes(session.name()) + " begins a vote to throw out " + inQuotes(name));
-      return m_target.say(session.name() + " wants " + name + " out. /vote kick " + name +
-                          " agrees, within 30 seconds" + voices + ".");
+      return m_admin.say(session.name() + " wants " + name + " out. /vote kick " + name +
+                         " agrees, within 30 seconds" + voices + ".");
     case VoteKick::Outcome::kAgreed:
-      return m_target.say(session.name() + " agrees that " + name + " goes" + voices + ".");
+      return m_admin.say(session.name() + " agrees that " + name + " goes" + voices + ".");
     case VoteKick::Outcome::kPassed:
       return throwOut(*choice.player);
     case VoteKick::Outcome::kAlready:
@@ -153,7 +152,7 @@ void ChatCommands::vote(Session& session, const AdminRequest& request) {
 void ChatCommands::throwOut(const AdminPlayer& player) {
   if (const Session* const p_session = m_access.clients.sessions().find(player.session))
     logNews(*p_session, inQuotes(player.name) + " is thrown out by a vote");
-  m_target.say("The players have voted: " + player.name + " goes for five minutes.");
+  m_admin.say("The players have voted: " + player.name + " goes for five minutes.");
   Ban ban;
   ban.name = player.name;
   ban.reason = "the players voted you out";
@@ -163,7 +162,7 @@ void ChatCommands::throwOut(const AdminPlayer& player) {
   ban.lasting = false;
   const auto ignored = [](const std::string&) {};
   m_bans.add(ban, ignored);
-  const std::vector<AdminPlayer> players = m_target.players();
+  const std::vector<AdminPlayer> players = m_admin.players();
   const auto prefix = AddressPrefix::ofEndpoint(player.address);
   const bool alone = std::none_of(players.begin(), players.end(), [&](const AdminPlayer& other) {
     return other.session != player.session && AddressPrefix::ofEndpoint(other.address) == prefix;
@@ -174,11 +173,11 @@ void ChatCommands::throwOut(const AdminPlayer& player) {
     ban.range = AddressRange::around(*address);
     m_bans.add(ban, ignored);
   }
-  m_target.endPlayer(player.session, banSentence(ban));
+  m_admin.endPlayer(player.session, banSentence(ban));
 }
 
 void ChatCommands::update(Session::Clock::time_point now) {
-  if (m_vote.takeFailed(now)) m_target.say("The vote is over: too few agreed.");
+  if (m_vote.takeFailed(now)) m_admin.say("The vote is over: too few agreed.");
 }
 
 }  // namespace naiad

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "host/admin/AdminConsole.h"
 #include "host/admin/VoteKick.h"
 #include "host/auth/PasswordCheck.h"
 #include "host/loop/HostPart.h"
+#include "host/ops/AdminConsole.h"
 #include "host/session/Session.h"
 #include "shared/admin/AdminRequest.h"
 
@@ -21,7 +21,7 @@ class ChatCommands {
   static constexpr std::size_t kMaxLines = 30;
 
   /// What it works with outlives it. Throws PasswordError.
-  ChatCommands(const HostAccess& access, AdminTarget& target, AdminConsole& console, BanList& bans);
+  ChatCommands(const HostAccess& access, HostAdmin& admin, AdminConsole& console, BanList& bans);
 
   void serve(Session& session, const std::string& line);
   /// Votes that failed. Once a tick.
@@ -40,7 +40,7 @@ class ChatCommands {
   void refuse(Session& session, const std::string& sentence);
 
   HostAccess m_access;
-  AdminTarget& m_target;
+  HostAdmin& m_admin;
   AdminConsole& m_console;
   BanList& m_bans;
   std::unique_ptr<PasswordCheck> m_password;  ///< null: there are no admins in the chat

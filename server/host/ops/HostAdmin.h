@@ -1,42 +1,75 @@
-// A host as commands see it (AdminTarget.h).
+// A host as commands see it.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/admin/AdminTarget.h"
+#include "host/admin/AdminPlayer.h"
+#include "host/auth/PasswordHash.h"
 #include "host/loop/HostPart.h"
 #include "host/ops/HostScores.h"
 #include "host/session/Session.h"
+#include "shared/admin/AdminAnswer.h"
 
 namespace naiad {
 
-/// On the host's thread.
-class HostAdmin : public AdminTarget {
+/// When a server begins again.
+struct AdminRestart {
+  enum class When { kNow, kAtRoundEnd, kIn } when = When::kNow;
+  std::chrono::seconds in{0};  ///< for kIn
+};
+
+/// Which scores.
+struct AdminScores {
+  std::string table;      ///< empty: of all tables of the game
+  std::size_t count = 0;  ///< of each table
+  std::string room;       ///< that of its game; empty: not said
+  std::string game;       ///< the same
+};
+
+/// All of it on the host's thread, between two ticks; nothing of it waits.
+class HostAdmin {
  public:
   /// What it works with outlives it.
   HostAdmin(const HostAccess& access, HostScores& scores);
 
-  std::vector<AdminPlayer> players() const override;
-  AdminRow status() const override;
-  std::vector<AdminRow> rooms() const override;
-  void endPlayer(std::uint64_t session, const std::string& sentence) override;
-  void say(const std::string& text) override;
-  void tell(std::uint64_t session, const std::string& text) override;
-  void setMuted(std::uint64_t session, bool muted) override;
-  AdminAnswer stop(const std::string& sentence) override;
-  AdminAnswer restart(const AdminRestart& restart) override;
-  void keepRound(std::function<void(AdminAnswer)> done) override;
-  AdminAnswer drain(std::optional<std::chrono::seconds> most) override;
-  AdminAnswer cancel() override;
-  void reload(std::function<void(AdminAnswer)> done) override;
-  AdminAnswer changePassword(std::optional<PasswordHash> hash) override;
-  void scores(const AdminScores& which, std::function<void(AdminAnswer)> done) override;
-  AdminAnswer set(const std::string& option, const std::string& value) override;
-  AdminRow settings() const override;
+  /// By id.
+  std::vector<AdminPlayer> players() const;
+  AdminRow status() const;
+  /// One of each room that has a name.
+  std::vector<AdminRow> rooms() const;
+
+  /// Sends them the sentence, and ends their session: its token is void. Sessions that are gone are left out.
+  void endPlayer(std::uint64_t session, const std::string& sentence);
+  /// A line from the server to all players, or to one. It is cut to the length of a line of chat.
+  void say(const std::string& text);
+  void tell(std::uint64_t session, const std::string& text);
+  void setMuted(std::uint64_t session, bool muted);
+
+  // These say what became of them, in one sentence: it is done, or why it is not. `done` is called once, on
+  // the host's thread: now, or when files have been read.
+
+  AdminAnswer stop(const std::string& sentence);
+  AdminAnswer restart(const AdminRestart& restart);
+  /// HostControls::keepRound().
+  void keepRound(std::function<void(AdminAnswer)> done);
+  /// Nothing: as long as the server's own option says.
+  AdminAnswer drain(std::optional<std::chrono::seconds> most);
+  AdminAnswer cancel();
+  void reload(std::function<void(AdminAnswer)> done);
+  /// Nothing: none is needed any more.
+  AdminAnswer changePassword(std::optional<PasswordHash> hash);
+  /// Rows of the file of scores, best first.
+  void scores(const AdminScores& which, std::function<void(AdminAnswer)> done);
+  /// `option` without dashes.
+  AdminAnswer set(const std::string& option, const std::string& value);
+  /// Those that set() knows, with their values.
+  AdminRow settings() const;
 
  private:
   /// The tables of a game, and the rooms that play it; without rooms those of the one game.

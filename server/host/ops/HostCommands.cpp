@@ -17,9 +17,7 @@ HostCommands::HostCommands(const HostAccess& access, HostScores& scores)
     : m_access(access),
       m_bans(m_worker, access.context.options.state),
       m_admin(access, scores),
-      m_console(
-          {m_admin, m_worker, m_bans, access.context.log,
-           [&home = access.context.home](std::function<void()> job) { asio::post(home, std::move(job)); }}),
+      m_console(access.context, m_admin, m_worker, m_bans),
       m_chat(access, m_admin, m_console, m_bans) {
   access.endpoint.setBans([this](const asio::ip::address& address) { return m_bans.isBanned(address); });
   access.clients.admission().setBans([this](const asio::ip::address& address, const std::string& name) {
@@ -68,7 +66,7 @@ ControlListening HostCommands::listening(bool by_default) const {
 }
 
 ControlSocket::Execute HostCommands::executor() {
-  return [this](AdminRequest request, AdminCaller caller, AdminConsole::Done done) {
+  return [this](AdminRequest request, AdminCaller caller, std::function<void(AdminAnswer)> done) {
     asio::post(m_access.context.home, [this, request = std::move(request), caller = std::move(caller),
                                        done = std::move(done)] { m_console.execute(request, caller, done); });
   };

@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "host/admin/AdminConsole.h"
 #include "host/admin/AdminWorker.h"
 #include "host/admin/BanList.h"
 #include "host/admin/ControlSocket.h"
 #include "host/loop/HostPart.h"
+#include "host/ops/AdminConsole.h"
 #include "host/ops/ChatCommands.h"
 #include "host/ops/HostAdmin.h"
 

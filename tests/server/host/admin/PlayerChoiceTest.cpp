@@ -1,18 +1,18 @@
 #include <gtest/gtest.h>
 
-#include "FakeTarget.h"
+#include "Players.h"
 #include "host/admin/PlayerChoice.h"
 
 namespace naiad {
 namespace {
 
-std::uint32_t chosen(const test::FakeTarget& target, const std::string& typed) {
-  const PlayerChoice choice = choosePlayer(target.players(), typed);
+std::uint32_t chosen(const test::Players& target, const std::string& typed) {
+  const PlayerChoice choice = choosePlayer(target.all, typed);
   return choice.player ? choice.player->id : 0;
 }
 
 TEST(PlayerChoice, TheWholeNameGoesBeforeOneThatBeginsSo) {
-  test::FakeTarget target;
+  test::Players target;
   target.add("Anna");
   target.add("Ann");
   EXPECT_EQ(chosen(target, "Ann"), 2u);
@@ -21,11 +21,11 @@ TEST(PlayerChoice, TheWholeNameGoesBeforeOneThatBeginsSo) {
 }
 
 TEST(PlayerChoice, SeveralThatFitAreAnErrorThatListsThem) {
-  test::FakeTarget target;
+  test::Players target;
   target.add("Anna");
   target.add("Annika");
   target.add("Bob");
-  const PlayerChoice choice = choosePlayer(target.players(), "an");
+  const PlayerChoice choice = choosePlayer(target.all, "an");
   EXPECT_FALSE(choice.player);
   EXPECT_FALSE(choice.problem.ok);
   EXPECT_EQ(choice.problem.candidates, (std::vector<std::string>{"#1 Anna", "#2 Annika"}));
@@ -33,7 +33,7 @@ TEST(PlayerChoice, SeveralThatFitAreAnErrorThatListsThem) {
 }
 
 TEST(PlayerChoice, AnIdIsNeverAName) {
-  test::FakeTarget target;
+  test::Players target;
   target.add("#2");
   target.add("Bob");
   EXPECT_EQ(chosen(target, "#2"), 2u);
@@ -42,8 +42,8 @@ TEST(PlayerChoice, AnIdIsNeverAName) {
 }
 
 TEST(PlayerChoice, NobodyIsNobody) {
-  test::FakeTarget target;
-  const PlayerChoice choice = choosePlayer(target.players(), "Ann");
+  test::Players target;
+  const PlayerChoice choice = choosePlayer(target.all, "Ann");
   EXPECT_FALSE(choice.player);
   EXPECT_EQ(choice.problem.text, "There is no player \"Ann\".");
 }

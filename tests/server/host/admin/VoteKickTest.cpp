@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "FakeTarget.h"
+#include "Players.h"
 #include "host/admin/VoteKick.h"
 
 namespace naiad {
@@ -19,7 +19,7 @@ class VoteKickTest : public testing::Test {
     return votes.vote(target.all, target.all[voter].session, target.all[on].session, now);
   }
 
-  test::FakeTarget target;
+  test::Players target;
   VoteKick votes;
   VoteKick::Time now = VoteKick::Time() + std::chrono::hours(1);
 };

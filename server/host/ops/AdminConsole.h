@@ -1,42 +1,26 @@
 // Carries out commands, wherever they come from: the control socket, or the chat of an admin.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string>
-#include <utility>
 
-#include "host/admin/AdminTarget.h"
+#include "host/admin/AdminCaller.h"
 #include "host/admin/AdminWorker.h"
 #include "host/admin/BanList.h"
+#include "host/ops/HostAdmin.h"
+#include "host/rooms/HostContext.h"
 #include "shared/admin/AdminRequest.h"
-#include "shared/program/LineLog.h"
 
 namespace naiad {
-
-/// Who gives a command.
-struct AdminCaller {
-  AdminCommand::Level level = AdminCommand::Level::kPlayer;
-  AdminCommand::Place place = AdminCommand::Place::kChat;
-  std::string name;           ///< for the log: `user 1000, process 4711`, `player "Ann" at 192.0.2.7:50312`
-  std::string player{};       ///< of the chat: their name; empty: the server's console
-  std::uint64_t session = 0;  ///< of the chat
-};
 
 /// On the host's thread. Each command of an admin is logged with who gave it, passwords as "***".
 class AdminConsole {
  public:
   using Done = std::function<void(AdminAnswer)>;
 
-  /// All of these outlive it. `post` runs a job on the host's thread, from any.
-  struct Setup {
-    AdminTarget& target;
-    AdminWorker& worker;
-    BanList& bans;
-    LogLine log;
-    std::function<void(std::function<void()> job)> post;
-  };
-  explicit AdminConsole(Setup setup) : m_setup(std::move(setup)) {}
+  /// All of these outlive it.
+  AdminConsole(HostContext& context, HostAdmin& admin, AdminWorker& worker, BanList& bans)
+      : m_context(context), m_admin(admin), m_worker(worker), m_bans(bans) {}
 
   /// `done` is called once, on the host's thread: now, or later for what takes long.
   void execute(const AdminRequest& request, const AdminCaller& caller, Done done);
@@ -59,7 +43,12 @@ class AdminConsole {
   AdminAnswer listBans() const;
   void endBanned();
 
-  Setup m_setup;
+  void post(std::function<void()> job);
+
+  HostContext& m_context;
+  HostAdmin& m_admin;
+  AdminWorker& m_worker;
+  BanList& m_bans;
 };
 
 }  // namespace naiad

@@ -1,6 +1,7 @@
-#include "host/admin/AdminConsole.h"
+#include "host/ops/AdminConsole.h"
 
 #include <algorithm>
+#include <asio/post.hpp>
 #include <charconv>
 #include <cstddef>
 #include <optional>
@@ -18,9 +19,9 @@ namespace {
 
 using Level = AdminCommand::Level;
 
-/// A range that is wider takes in whole providers, and is a slip of the finger.
 constexpr std::size_t kScoresOfATable = 10;
 constexpr std::size_t kMaxScoresOfATable = 10'000;
+/// A range that is wider takes in whole providers, and is a slip of the finger.
 constexpr int kMinBitsIPv4 = 8;
 constexpr int kMinBitsIPv6 = 16;
 
@@ -120,42 +121,46 @@ BanPlan planBan(const Ban& ban, const std::vector<AdminPlayer>& players, const s
 
 }  // namespace
 
+// From any thread; the job runs on the host's.
+void AdminConsole::post(std::function<void()> job) {
+  asio::post(m_context.home, std::move(job));
+}
+
 void AdminConsole::execute(const AdminRequest& request, const AdminCaller& caller, Done done) {
   const AdminCommand& command = *request.command;
   if (!command.isFor(caller.level, caller.place)) {
-    m_setup.log("admin: " + caller.name + ": refused: " + request.redacted());
+    m_context.log("admin: " + caller.name + ": refused: " + request.redacted());
     return done(AdminAnswer::refused("You may not give the command \"" + command.name + "\" here."));
   }
   const bool by_admin = command.level == Level::kAdmin || caller.place == AdminCommand::Place::kSocket;
-  if (by_admin && !command.only_reads) m_setup.log("admin: " + caller.name + ": " + request.redacted());
+  if (by_admin && !command.only_reads) m_context.log("admin: " + caller.name + ": " + request.redacted());
   if (command.name == "ban" || command.name == "allow") return ban(request, caller, done);
   if (command.name == "unban") return unban(request, done);
   if (command.name == "password") return changePassword(request, std::move(done));
   if (command.name == "reload") return reload(std::move(done));
   if (command.name == "restart" && request.of("when") == "keep" && !request.has("span"))
-    return m_setup.target.keepRound(std::move(done));
+    return m_admin.keepRound(std::move(done));
   if (command.name == "scores") return scores(request, std::move(done));
   done(answerNow(request, caller));
 }
 
 AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCaller& caller) {
-  AdminTarget& target = m_setup.target;
   const std::string& name = request.command->name;
   if (name == "ping") return AdminAnswer::done("The server answers.");
   if (name == "who") return listPlayers(caller);
-  if (name == "status") return {true, "", {}, target.status(), false, {}};
+  if (name == "status") return {true, "", {}, m_admin.status(), false, {}};
   if (name == "rooms") return listRooms();
   if (name == "tell") return tell(request, caller);
   if (name == "kick") return kick(request);
   if (name == "mute" || name == "unmute") return mute(request, name == "mute");
   if (name == "bans") return listBans();
   if (name == "restart") return restart(request);
-  if (name == "drain") return target.drain(readTimeSpan(request.of("span")));
-  if (name == "cancel") return target.cancel();
+  if (name == "drain") return m_admin.drain(readTimeSpan(request.of("span")));
+  if (name == "cancel") return m_admin.cancel();
   if (name == "set") return set(request);
-  if (name == "stop") return target.stop(request.of("reason"));
+  if (name == "stop") return m_admin.stop(request.of("reason"));
   if (name == "say") {
-    target.say(request.of("text"));
+    m_admin.say(request.of("text"));
     return AdminAnswer::done("All players were sent it.");
   }
   return AdminAnswer::refused("\"" + name + "\" is not available here.");
@@ -166,13 +171,13 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
 AdminAnswer AdminConsole::listRooms() const {
   AdminAnswer answer = AdminAnswer::done("");
   answer.is_list = true;
-  answer.rows = m_setup.target.rooms();
+  answer.rows = m_admin.rooms();
   if (answer.rows.empty()) answer.text = "This server has no rooms.";
   return answer;
 }
 
 AdminAnswer AdminConsole::listPlayers(const AdminCaller& caller) const {
-  const std::vector<AdminPlayer> players = m_setup.target.players();
+  const std::vector<AdminPlayer> players = m_admin.players();
   AdminAnswer answer = AdminAnswer::done("");
   answer.is_list = true;
   for (const AdminPlayer& player : players) answer.rows.push_back(rowOf(player, caller.level));
@@ -182,7 +187,7 @@ AdminAnswer AdminConsole::listPlayers(const AdminCaller& caller) const {
 
 // A muted player's lines reach nobody, so none of theirs is passed on here either.
 AdminAnswer AdminConsole::tell(const AdminRequest& request, const AdminCaller& caller) {
-  const std::vector<AdminPlayer> players = m_setup.target.players();
+  const std::vector<AdminPlayer> players = m_admin.players();
   const auto sender = std::find_if(players.begin(), players.end(), [&caller](const AdminPlayer& player) {
     return caller.session != 0 && player.session == caller.session;
   });
@@ -190,22 +195,22 @@ AdminAnswer AdminConsole::tell(const AdminRequest& request, const AdminCaller& c
   const PlayerChoice choice = choosePlayer(players, request.of("player"));
   if (!choice.player) return choice.problem;
   const std::string from = caller.player.empty() ? "The server" : caller.player;
-  m_setup.target.tell(choice.player->session, from + " tells you: " + request.of("text"));
+  m_admin.tell(choice.player->session, from + " tells you: " + request.of("text"));
   return AdminAnswer::done("You told " + choice.player->name + ": " + request.of("text"));
 }
 
 AdminAnswer AdminConsole::kick(const AdminRequest& request) {
-  const PlayerChoice choice = choosePlayer(m_setup.target.players(), request.of("player"));
+  const PlayerChoice choice = choosePlayer(m_admin.players(), request.of("player"));
   if (!choice.player) return choice.problem;
-  m_setup.target.endPlayer(choice.player->session,
-                           withReason("You were removed from the game", request.of("reason")));
+  m_admin.endPlayer(choice.player->session,
+                    withReason("You were removed from the game", request.of("reason")));
   return AdminAnswer::done(choice.player->name + " was removed.");
 }
 
 AdminAnswer AdminConsole::mute(const AdminRequest& request, bool muted) {
-  const PlayerChoice choice = choosePlayer(m_setup.target.players(), request.of("player"));
+  const PlayerChoice choice = choosePlayer(m_admin.players(), request.of("player"));
   if (!choice.player) return choice.problem;
-  m_setup.target.setMuted(choice.player->session, muted);
+  m_admin.setMuted(choice.player->session, muted);
   return AdminAnswer::done(choice.player->name + (muted ? " is muted." : " may talk."));
 }
 
@@ -216,9 +221,9 @@ void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, c
   model.kind = request.command->name == "allow" ? Ban::Kind::kException : Ban::Kind::kRange;
   model.reason = request.of("reason");
   model.by = caller.name;
-  model.made = m_setup.bans.time();
+  model.made = m_bans.time();
   if (const auto span = readTimeSpan(request.of("for"))) model.until = model.made + *span;
-  const BanPlan plan = planBan(model, m_setup.target.players(), request.of("who"));
+  const BanPlan plan = planBan(model, m_admin.players(), request.of("who"));
   if (plan.bans.empty()) return done(plan.problem);
   std::string text;
   for (const Ban& one : plan.bans) text += (text.empty() ? "" : " and ") + one.target();
@@ -231,7 +236,7 @@ void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, c
     const auto saved = [this, text, is_last, done](const std::string& problem) {
       if (is_last) answerSaved(text, problem, done);
     };
-    if (!m_setup.bans.add(plan.bans[i], saved))
+    if (!m_bans.add(plan.bans[i], saved))
       return done(AdminAnswer::refused("There are " + std::to_string(BanList::kMaxBans) + " bans already."));
   }
   endBanned();
@@ -242,32 +247,32 @@ void AdminConsole::unban(const AdminRequest& request, const Done& done) {
   const auto saved = [this, done, who](const std::string& problem) {
     answerSaved(oneLine(who) + " is no longer in the list.", problem, done);
   };
-  if (m_setup.bans.remove(who, saved) == 0)
+  if (m_bans.remove(who, saved) == 0)
     done(AdminAnswer::refused("No ban is listed as \"" + who + "\"; see bans."));
 }
 
 // On the worker's thread, or the host's where there is no file.
 void AdminConsole::answerSaved(const std::string& text, const std::string& problem, const Done& done) {
-  m_setup.post([this, text, problem, done] {
-    if (!problem.empty()) m_setup.log("bans: " + problem);
+  post([this, text, problem, done] {
+    if (!problem.empty()) m_context.log("bans: " + problem);
     done(AdminAnswer::done(problem.empty() ? text : text + " For now: " + problem));
   });
 }
 
 void AdminConsole::endBanned() {
-  for (const AdminPlayer& player : m_setup.target.players()) {
+  for (const AdminPlayer& player : m_admin.players()) {
     const auto address = endpointAddress(player.address);
-    const std::string sentence = m_setup.bans.refusal(address.value_or(asio::ip::address()), player.name);
-    if (!sentence.empty()) m_setup.target.endPlayer(player.session, sentence);
+    const std::string sentence = m_bans.refusal(address.value_or(asio::ip::address()), player.name);
+    if (!sentence.empty()) m_admin.endPlayer(player.session, sentence);
   }
 }
 
 AdminAnswer AdminConsole::listBans() const {
   AdminAnswer answer = AdminAnswer::done("");
   answer.is_list = true;
-  const auto set = m_setup.bans.now();
+  const auto set = m_bans.now();
   for (const Ban& ban : set->all()) {
-    if (ban.isOver(m_setup.bans.time())) continue;
+    if (ban.isOver(m_bans.time())) continue;
     answer.rows.push_back({{"number", static_cast<std::int64_t>(ban.number)},
                            {"who", ban.target()},
                            {"kind", std::string(ban.kind == Ban::Kind::kException ? "allowed" : "banned")},
@@ -287,15 +292,15 @@ AdminAnswer AdminConsole::restart(const AdminRequest& request) {
   const auto span = readTimeSpan(request.of("span"));
   if ((when == "in") != span.has_value())
     return AdminAnswer::refused("Usage: " + adminUsage(*request.command));
-  if (when == "at-round-end") return m_setup.target.restart({AdminRestart::When::kAtRoundEnd});
-  if (span) return m_setup.target.restart({AdminRestart::When::kIn, *span});
-  return m_setup.target.restart({});
+  if (when == "at-round-end") return m_admin.restart({AdminRestart::When::kAtRoundEnd});
+  if (span) return m_admin.restart({AdminRestart::When::kIn, *span});
+  return m_admin.restart({});
 }
 
 AdminAnswer AdminConsole::set(const AdminRequest& request) {
-  if (!request.has("option")) return {true, "", {}, m_setup.target.settings(), false, {}};
-  if (request.has("value")) return m_setup.target.set(request.of("option"), request.of("value"));
-  for (const auto& [name, value] : m_setup.target.settings()) {
+  if (!request.has("option")) return {true, "", {}, m_admin.settings(), false, {}};
+  if (request.has("value")) return m_admin.set(request.of("option"), request.of("value"));
+  for (const auto& [name, value] : m_admin.settings()) {
     if (name == request.of("option")) return {true, "", {}, {{name, value}}, false, {}};
   }
   return AdminAnswer::refused("\"" + request.of("option") + "\" is no option that can be changed; see set.");
@@ -313,20 +318,19 @@ void AdminConsole::scores(const AdminRequest& request, Done done) {
       return done(AdminAnswer::refused("\"" + text + "\" is no number from 1 to " +
                                        std::to_string(kMaxScoresOfATable) + "."));
   }
-  m_setup.target.scores({request.of("table"), count, request.of("room"), request.of("game")},
-                        std::move(done));
+  m_admin.scores({request.of("table"), count, request.of("room"), request.of("game")}, std::move(done));
 }
 
 // A hash takes as long as a guess.
 void AdminConsole::changePassword(const AdminRequest& request, Done done) {
   const std::string password = request.of("password");
-  if (password.empty()) return done(m_setup.target.changePassword(std::nullopt));
+  if (password.empty()) return done(m_admin.changePassword(std::nullopt));
   const auto finish = [this, done](std::optional<PasswordHash> hash, const std::string& problem) {
-    m_setup.post([this, done, hash = std::move(hash), problem] {
-      done(problem.empty() ? m_setup.target.changePassword(hash) : AdminAnswer::refused(problem));
+    post([this, done, hash = std::move(hash), problem] {
+      done(problem.empty() ? m_admin.changePassword(hash) : AdminAnswer::refused(problem));
     });
   };
-  const bool given = m_setup.worker.give([password, finish] {
+  const bool given = m_worker.give([password, finish] {
     try {
       finish(PasswordHash::fromText(password), "");
     } catch (const PasswordError& error) {
@@ -339,18 +343,18 @@ void AdminConsole::changePassword(const AdminRequest& request, Done done) {
 // The file of bans first: what is wrong with it is told, and the rest is loaded all the same.
 void AdminConsole::reload(Done done) {
   const auto loaded = [this, done](std::vector<Ban> bans, const std::string& problem) {
-    m_setup.post([this, done, bans = std::move(bans), problem] {
+    post([this, done, bans = std::move(bans), problem] {
       if (problem.empty()) {
-        m_setup.bans.take(bans);
+        m_bans.take(bans);
         endBanned();
       }
-      m_setup.target.reload([done, problem](AdminAnswer answer) {
+      m_admin.reload([done, problem](AdminAnswer answer) {
         if (!problem.empty()) answer = AdminAnswer::refused(problem + " " + answer.text);
         done(std::move(answer));
       });
     });
   };
-  if (!m_setup.bans.reload(loaded)) m_setup.target.reload(std::move(done));
+  if (!m_bans.reload(loaded)) m_admin.reload(std::move(done));
 }
 
 }  // namespace naiad
