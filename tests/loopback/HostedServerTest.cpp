@@ -487,10 +487,11 @@ class Repeated {
 
 // With the thread sanitizer the server ends with another code if it finds a race.
 TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) {
-  start({{"NAIAD_METRICS", "127.0.0.1:0"}, {"NAIAD_METRICS_PORT_FILE", home.identity("metrics-port")}},
-        "max-players = 3\n");
-  std::uint16_t metrics = 0;
-  std::ifstream(home.identity("metrics-port")) >> metrics;
+  start({{"NAIAD_METRICS", "127.0.0.1:0"}}, "max-players = 3\n");
+  const std::string log = server->log();
+  const std::string where = "metrics are at http://127.0.0.1:";
+  ASSERT_NE(log.find(where), std::string::npos) << log;
+  const auto metrics = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(where) + where.size())));
   TestClient& ann = join("ann");
   std::atomic<int> bad = 0;
   {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -16,7 +15,6 @@
 #include "host/metrics/ProcessFacts.h"
 #include "host/process/TickClock.h"
 #include "host/settings/MetricsAddress.h"
-#include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 
@@ -28,15 +26,6 @@ std::chrono::nanoseconds cpuOf(clockid_t clock) {
   timespec spent{};
   clock_gettime(clock, &spent);
   return std::chrono::seconds(spent.tv_sec) + std::chrono::nanoseconds(spent.tv_nsec);
-}
-
-void writePortFile(const std::string& path, const std::string& port) {
-  if (path.empty()) return;
-  try {
-    publishFile(path, port + "\n");
-  } catch (const std::system_error& error) {
-    throw std::runtime_error("The metrics' port file " + path + " cannot be written: " + error.what());
-  }
 }
 
 MetricsServer::Answer answerOf(const HostPulse::Verdict& verdict) {
@@ -55,9 +44,8 @@ HostMetrics::HostMetrics(const HostAccess& access) : m_access(access), m_pulse(a
   } catch (const MetricsError& error) {  // an error as for the players' port
     throw ListenError(error.what(), std::make_error_code(std::errc::address_in_use));
   }
-  const std::string port = std::to_string(m_server->port());
-  access.context.log("metrics are at http://" + address.hostText() + ":" + port + "/metrics");
-  writePortFile(options.metrics_port_file, port);
+  access.context.log("metrics are at http://" + address.hostText() + ":" + std::to_string(m_server->port()) +
+                     "/metrics");
 }
 
 HostMetrics::~HostMetrics() = default;

@@ -20,8 +20,7 @@ namespace naiad {
 /// All calls are for the thread that ticks.
 class HostMetrics : public HostPart {
  public:
-  /// Listens on HostOptions::metrics, and writes HostOptions::metrics_port_file. Throws ListenError for a
-  /// port that is taken, and std::runtime_error for a file that cannot be written.
+  /// Listens on HostOptions::metrics, and logs the port. Throws ListenError for one that is taken.
   explicit HostMetrics(const HostAccess& access);
   ~HostMetrics() override;
   HostMetrics(const HostMetrics&) = delete;

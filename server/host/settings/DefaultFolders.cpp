@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// Rounds of worlds for single players are not gone on with, so they are written down when asked for alone.
 void useDefaultJournal(HostOptions& options) {
   if (options.journal == kOffWord) return options.journal.clear();
-  const bool has_none = options.no_journal || options.in_process || options.players == "private";
+  const bool has_none = options.in_process || options.players == "private";
   if (has_none || !options.journal.empty() || options.state.empty()) return;
   options.journal = options.state + "/rounds";
   options.default_journal = true;

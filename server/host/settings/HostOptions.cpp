@@ -120,8 +120,6 @@ std::vector<Row> tableOf(HostOptions& o) {
         "repeated. off: none. Default: rounds in the folder of --state; none with --players private, "
         "--in-process, and for games that are programs themselves",
         "NAIAD_JOURNAL"}},
-      {{"--no-journal", &o.no_journal, "Write no round down, whatever environment or file say",
-        "NAIAD_NO_JOURNAL"}},
       {{"--recover",
         &o.recover,
         "When this server was killed in a round that --journal has: on = the round is executed again, and "
@@ -182,8 +180,6 @@ std::vector<Row> tableOf(HostOptions& o) {
         "Names of this machine, with commas between, by which --metrics may be asked, beside localhost and "
         "addresses",
         "NAIAD_METRICS_HOSTS"}},
-      {{"--metrics-port-file", &o.metrics_port_file,
-        "Write the port number of --metrics to this file once listening", "NAIAD_METRICS_PORT_FILE"}},
       {{"--metrics-public", &o.metrics_public,
         "--metrics may be an address that the internet can reach; everybody can read them then",
         "NAIAD_METRICS_PUBLIC"}},

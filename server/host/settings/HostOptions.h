@@ -37,7 +37,6 @@ struct HostOptions {
   int world_memory = 4096;     ///< MiB of addresses for each of them; 0: no limit
   bool in_process = false;     ///< dfserver's game plays in the server's own process
   std::string journal;         ///< directory where each round is written down; empty: none is
-  bool no_journal = false;     ///< not even so
   bool default_journal = false;  ///< not an option: `journal` is where dfserver writes by itself
   std::string recover = "on";    ///< go on with the round of a server that was killed: "on" or "off"
   double hang_time = 1;  ///< seconds of one tick of a world in a process of its own; then the game hangs
@@ -60,7 +59,6 @@ struct HostOptions {
   std::string truth_file;           ///< write what each player should see, tick by tick
   std::string metrics;              ///< ADDR:PORT for metrics and health; empty: none
   std::string metrics_hosts;        ///< names by which they may be asked for, with commas between
-  std::string metrics_port_file;    ///< write their port number here once listening
   bool metrics_public = false;      ///< `metrics` may be an address of the internet
   std::string audit = "on";         ///< of pictures, where there are metrics: "on" or "off"
   std::string status_file;          ///< write what plays here, as JSON, every few seconds
@@ -93,7 +91,7 @@ struct HostOptions {
 
 /// Is each round to be written down?
 inline bool wantsJournal(const HostOptions& options) {
-  return !options.journal.empty() && options.journal != "off" && !options.no_journal;
+  return !options.journal.empty() && options.journal != "off";
 }
 
 /// Has a game that is a program itself worlds in processes of their own? Another round, or another world

@@ -47,8 +47,6 @@ TEST_F(DefaultFoldersTest, RoundsAreWrittenDownUnlessAnOptionSaysOtherwise) {
   EXPECT_EQ(parse({"--journal", "elsewhere"}).journal, "elsewhere");
   EXPECT_FALSE(parse({"--journal", "elsewhere"}).default_journal);
   EXPECT_FALSE(journals({"--journal", "off"}));
-  EXPECT_FALSE(journals({"--no-journal"}));
-  EXPECT_FALSE(journals({"--journal", "elsewhere", "--no-journal"}));
   EXPECT_FALSE(journals({"--in-process"}));
   EXPECT_FALSE(journals({"--players", "private"})) << "such rounds are not gone on with";
   EXPECT_TRUE(journals({"--players", "private", "--journal", "elsewhere"}));
