@@ -91,8 +91,8 @@ class Host : public df::Runner {
   /// Ticks skipped for this player (Session::skippedTicks); 0 if there is none.
   std::uint64_t skippedTicks(std::uint32_t player) const { return m_sessions.skippedTicks(player); }
 
-  /// Makes a world that was not there before; throws std::system_error where that cannot be.
-  using NewWorld = std::function<std::unique_ptr<WorldPort>(asio::io_context& home)>;
+  /// Begins a round in a world that was not there before; throws std::system_error where that cannot be.
+  using NewWorld = std::function<std::unique_ptr<Round>(asio::io_context& home)>;
   /// run() hosts such worlds instead of the one that it is given: one after the other, or one for each player
   /// (HostOptions::players). From the one it is given it takes only what welcomes say. New players get ids
   /// above `highest_player`, which the first world may have seen. Before run().

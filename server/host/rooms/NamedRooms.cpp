@@ -27,6 +27,10 @@ df::GameRoom gameRoomOf(const Room& room) {
           .is_asleep = room.isAsleep()};
 }
 
+std::unique_ptr<Round> sleepingRound() {
+  return std::make_unique<Round>(std::make_unique<SleepingWorld>());
+}
+
 Time presentTime() {
   return std::chrono::steady_clock::now();
 }
@@ -44,11 +48,10 @@ void Rooms::setNamed(std::vector<RoomPlan> plans) {
 
 void Rooms::openNamed() {
   for (const RoomPlan& plan : m_plans) {
-    Room& room = *m_rooms.emplace_back(
-        std::make_unique<Room>(std::make_unique<SleepingWorld>(), plan.first_only, m_stages));
+    Room& room = *m_rooms.emplace_back(std::make_unique<Room>(sleepingRound(), plan.first_only, m_stages));
     room.setPlan(plan);
     room.sleep().asleep = true;
-    room.port().checkProcess(tickNumber());
+    room.round().checkProcess(tickNumber());
     m_game_rooms.push_back(gameRoomOf(room));
   }
   for (const auto& room : m_rooms) {
@@ -77,7 +80,7 @@ std::vector<std::string> Rooms::roomNames() const {
   return names;
 }
 
-std::unique_ptr<WorldPort> Rooms::newWorld(const Room& room) const {
+std::unique_ptr<Round> Rooms::newRound(const Room& room) const {
   return room.plan() != nullptr ? room.plan()->new_world() : m_new_world();
 }
 
@@ -85,7 +88,7 @@ bool Rooms::wake(Room& room, std::string& problem) {
   if (!room.isAsleep()) return true;
   if (m_closing || m_upgraded) return false;
   try {
-    room.changeWorld(newWorld(room));
+    room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
     problem = error.what();
     return false;
@@ -104,12 +107,12 @@ void Rooms::leaveRoom(const Session& session) {
 // ---- what games know of rooms -----------------------------------------------------------------------------
 
 void Rooms::passRooms(Room& room) const {
-  if (room.port().recovering())
+  if (room.round().recovering())
     return;  // the inputs of then are in its journal; those of now come behind them
   for (std::size_t i = 0; i < m_game_rooms.size(); ++i) {
     df::GameRoom known = m_game_rooms[i];
     known.is_this_one = m_rooms[i].get() == &room;
-    room.port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = std::move(known)});
+    room.round().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = std::move(known)});
   }
 }
 
@@ -122,16 +125,16 @@ void Rooms::publishRooms() {
     if (present == m_game_rooms[i]) continue;
     m_game_rooms[i] = present;
     for (const auto& room : m_rooms) {
-      if (room->isAsleep() || room->port().recovering()) continue;
+      if (room->isAsleep() || room->round().recovering()) continue;
       present.is_this_one = room == m_rooms[i];
-      room->port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = present});
+      room->round().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = present});
     }
   }
 }
 
 // A world may be a stranger's program: it sends its own players alone.
 void Rooms::passSent(Room& room) {
-  for (const df::SentPlayer& sent : room.port().takeSent()) {
+  for (const df::SentPlayer& sent : room.round().takeSent()) {
     Session* const p_session = room.find(sent.player);
     if (p_session != nullptr && m_on_sent) m_on_sent(*p_session, sent.room);
   }
@@ -141,11 +144,11 @@ void Rooms::passSent(Room& room) {
 
 // A world that ends takes time, which the room does not wait for.
 void Rooms::putToSleep(Room& room) {
-  auto port = room.changeWorld(std::make_unique<SleepingWorld>());
-  room.port().checkProcess(tickNumber());
-  port->setOnTick({});
-  port->close();
-  m_ending.push_back(std::move(port));
+  auto round = room.changeRound(sleepingRound());
+  room.round().checkProcess(tickNumber());
+  round->setOnTick({});
+  round->close();
+  m_ending.push_back(std::move(round));
   room.sleep() = {.asleep = true, .empty_since = {}};
   room.countShortRounds(false);
 }
@@ -155,7 +158,7 @@ void Rooms::checkSleep() {
   const std::chrono::duration<double> patience(m_options.room_sleep);
   for (const auto& room : m_rooms) {
     RoomSleep& sleep = room->sleep();
-    if (sleep.asleep || room->port().recovering()) continue;
+    if (sleep.asleep || room->round().recovering()) continue;
     if (!room->isEmpty()) {
       sleep.empty_since.reset();
     } else if (!sleep.empty_since) {
@@ -168,8 +171,8 @@ void Rooms::checkSleep() {
 }
 
 void Rooms::checkEnding() {
-  for (const auto& port : m_ending) port->checkProcess(tickNumber());
-  std::erase_if(m_ending, [](const auto& port) { return port->end().has_value(); });
+  for (const auto& round : m_ending) round->checkProcess(tickNumber());
+  std::erase_if(m_ending, [](const auto& round) { return round->end().has_value(); });
 }
 
 // The other rooms go on. Its players are led away in the next tick.

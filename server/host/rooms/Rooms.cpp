@@ -50,21 +50,21 @@ void Rooms::open(df::World& world) {
   if (isNamed()) {
     openNamed();
   } else if (!m_new_world) {
-    openRoom(std::make_unique<WorldInProcess>(world), first_only);
+    openRoom(std::make_unique<Round>(std::make_unique<WorldInProcess>(world)), first_only);
   } else if (!isPrivate()) {
     openRoom(m_new_world(), first_only);
   }
 }
 
-Room& Rooms::openRoom(std::unique_ptr<WorldPort> port, bool first_only) {
-  Room& room = *m_rooms.emplace_back(std::make_unique<Room>(std::move(port), first_only, m_stages));
+Room& Rooms::openRoom(std::unique_ptr<Round> round, bool first_only) {
+  Room& room = *m_rooms.emplace_back(std::make_unique<Room>(std::move(round), first_only, m_stages));
   watchWorld(room);
   return room;
 }
 
 void Rooms::watchWorld(Room& room) {
-  room.port().setOnTick([this, &room] { endTick(room); });
-  room.port().checkProcess(tickNumber());
+  room.round().setOnTick([this, &room] { endTick(room); });
+  room.round().checkProcess(tickNumber());
   passScores(room);
   if (isNamed()) passRooms(room);
 }
@@ -73,23 +73,22 @@ void Rooms::watchWorld(Room& room) {
 void Rooms::passScores(Room& room) const {
   ScoreKeeper* const p_scores = scoresOf(room);
   if (p_scores == nullptr) return;
-  RoundName round = room.port().roundName();
-  if (round.id.empty()) round.id = ScoreKeeper::beginRound();
-  room.setRound(std::move(round));
-  if (room.port().recovering()) return;  // they are in its journal
+  if (room.round().name().id.empty()) room.round().setId(ScoreKeeper::beginRound());
+  if (room.round().recovering()) return;  // they are in its journal
   for (const auto& [table, rows] : p_scores->tables()) {
     for (const df::HighScore& row : rows)
-      room.port().addInput({.kind = df::InputQueue::kScore,
-                            .player = 0,
-                            .name = row.name,
-                            .table = table,
-                            .points = row.points});
+      room.round().addInput({.kind = df::InputQueue::kScore,
+                             .player = 0,
+                             .name = row.name,
+                             .table = table,
+                             .points = row.points});
   }
 }
 
 void Rooms::keepScores(Room& room) {
-  const std::vector<df::AddedScore> added = room.port().takeScores();
-  if (ScoreKeeper* const p_scores = scoresOf(room)) p_scores->add(room.round().id, added, room.round().file);
+  const std::vector<df::AddedScore> added = room.round().takeScores();
+  const RoundName& round = room.round().name();
+  if (ScoreKeeper* const p_scores = scoresOf(room)) p_scores->add(round.id, added, round.file);
 }
 
 void Rooms::noteScores() {
@@ -149,7 +148,7 @@ Session* Rooms::findPlayer(std::uint32_t player) const {
 
 void Rooms::leave(const Session& session) {
   if (Room* p_room = roomOf(session)) {
-    isPrivate() ? p_room->port().close() : p_room->leave(session.player());
+    isPrivate() ? p_room->round().close() : p_room->leave(session.player());
   }
 }
 
@@ -165,7 +164,7 @@ void Rooms::removeSession(const Session& session) {
 
 std::optional<int> Rooms::recovering() const {
   for (const auto& room : m_rooms) {
-    if (const auto percent = room->port().recovering()) return percent;
+    if (const auto percent = room->round().recovering()) return percent;
   }
   return std::nullopt;
 }
@@ -196,7 +195,7 @@ void Rooms::beginTicks() {
   if (isNamed()) publishRooms();
   m_in_begin = true;
   for (const auto& room : m_rooms) {
-    if (room->port().recovering() || room->isAsleep()) continue;
+    if (room->round().recovering() || room->isAsleep()) continue;
     if (room->beginTick(m_truth.has_value(), m_audit.pictured(tickNumber()))) continue;
     ++m_counters.late_worlds;
     room->noteLate();
@@ -230,9 +229,9 @@ void Rooms::publish(Room& room) {
 
 // The game is over for players who pressed the key that ends it; the others play on.
 void Rooms::dismissLeavers(Room& room) {
-  for (const std::uint32_t leaver : room.port().takeLeavers()) {
+  for (const std::uint32_t leaver : room.round().takeLeavers()) {
     if (hasLastPlayer()) {
-      room.port().endGame();
+      room.round().endGame();
     } else if (Session* p_session = room.find(leaver)) {
       p_session->goodbye("For you, the game is over.");
     }
@@ -244,19 +243,19 @@ void Rooms::dismissLeavers(Room& room) {
 void Rooms::checkWorlds() {
   if (!hasWorlds()) return;
   for (const auto& room : m_rooms) {
-    room->port().checkProcess(tickNumber());
-    if (const auto sessions = room->port().takeSessions()) endRecovery(*room, *sessions);
-    if (const auto warning = room->port().takeWarning()) {
+    room->round().checkProcess(tickNumber());
+    if (const auto sessions = room->round().takeSessions()) endRecovery(*room, *sessions);
+    if (const auto warning = room->round().takeWarning()) {
       m_log({LogEvent::Level::kWarning, *warning});
       room->say("The game takes long over something: everything stands still.");
     }
-    if (const auto taken_over = room->port().takeTakeOver()) noteTakeOver(*room, *taken_over);
-    const auto end = room->port().end();
+    if (const auto taken_over = room->round().takeTakeOver()) noteTakeOver(*room, *taken_over);
+    const auto end = room->round().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
   if (isNamed()) checkSleep();
   if (!isPrivate()) return;
-  std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
+  std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->round().end(); });
 }
 
 void Rooms::noteTakeOver(const Room& room, const TakeOver& done) {
@@ -336,7 +335,7 @@ bool Rooms::beginRound(Room& room) {
   const std::uint64_t sent = room.sounds().sent();
   m_audit.noteRound(room, tickNumber());
   try {
-    room.changeWorld(newWorld(room));
+    room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
     m_log(std::string("there is no next round: ") + error.what());
     return false;
@@ -350,17 +349,17 @@ bool Rooms::beginRound(Room& room) {
 // ---- the end ----------------------------------------------------------------------------------------------
 
 bool Rooms::isOver() const {
-  return hasWorlds() ? m_over : m_rooms.front()->port().isGameOver();
+  return hasWorlds() ? m_over : m_rooms.front()->round().isGameOver();
 }
 
 void Rooms::closeWorlds() {
   m_closing = true;
   for (const auto& room : m_rooms) {
-    room->port().close();
-    room->port().checkProcess(tickNumber());
+    room->round().close();
+    room->round().checkProcess(tickNumber());
   }
   std::erase_if(m_rooms,
-                [this](const auto& room) { return !hasWorlds() || room->isAsleep() || room->port().end(); });
+                [this](const auto& room) { return !hasWorlds() || room->isAsleep() || room->round().end(); });
   checkEnding();
 }
 

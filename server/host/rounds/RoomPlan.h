@@ -9,10 +9,10 @@
 #include <string>
 
 #include "host/world/WorldMessages.h"
-#include "host/world/WorldPort.h"
 
 namespace naiad {
 
+class Round;
 class ScoreKeeper;
 
 struct RoomPlan {
@@ -22,7 +22,7 @@ struct RoomPlan {
   bool first_only = false;  ///< of several players, only the first one's input is heard
   WorldReady ready;         ///< what the game sets up for those who join
   /// Makes its world; throws std::system_error if it cannot.
-  std::function<std::unique_ptr<WorldPort>()> new_world;
+  std::function<std::unique_ptr<Round>()> new_world;
   ScoreKeeper* p_scores = nullptr;  ///< of the game; null: nothing is kept
   /// Its first world goes on with the round of a server that was killed: it does not wait for players.
   bool goes_on = false;
