@@ -38,11 +38,11 @@ ReplayWorld::~ReplayWorld() {
 
 std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {
   if (!m_failure.empty()) return std::nullopt;
-  if (!writeTurn(turn, m_frame)) {
-    m_failure = "was asked too much";
-    return std::nullopt;
-  }
-  if (!send(m_frame) || !receiveFrame()) return std::nullopt;
+  std::string record;
+  std::string message;
+  m_turns.write(turn, record);  // one of a file, which is not too long
+  appendTurnMessage(record, false, message);
+  if (!send(message) || !receiveFrame()) return std::nullopt;
   return m_answer;
 }
 

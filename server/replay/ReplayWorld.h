@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "host/world/TurnRecord.h"
 #include "host/world/WorldLauncher.h"
-#include "host/world/WorldMessages.h"
 
 namespace naiad {
 
@@ -53,7 +53,7 @@ class ReplayWorld {
   int m_process = -1;
   int m_also = -1;
   std::optional<WorldReady> m_ready;
-  std::string m_frame;
+  TurnRecordWriter m_turns;
   std::string m_answer;
   std::string m_failure;
   std::string m_printed;

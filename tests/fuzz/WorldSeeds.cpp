@@ -4,8 +4,8 @@
 
 #include "ScriptedWorld.h"
 #include "host/journal/DfrWriter.h"
-#include "host/journal/TurnRecord.h"
 #include "host/world/BuildId.h"
+#include "host/world/TurnRecord.h"
 #include "host/world/WorldMessages.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Bytes.h"
@@ -108,9 +108,11 @@ void worlds(Folder folder) {
   turn.inputs.push_back({.kind = Queue::kLeave, .player = 4});
   turn.inputs.push_back(
       {.kind = Queue::kRoom, .player = 0, .room = {.name = "arcade", .game = "tron", .max_players = 8}});
-  std::string frame;
-  writeTurn(turn, frame);
-  folder.add('\0' + frame.substr(kWorldFrameHead));
+  std::string record;
+  std::string message;
+  TurnRecordWriter().write(turn, record);
+  appendTurnMessage(record, false, message);
+  folder.add('\0' + message.substr(kWorldFrameHead));
   tooMany(folder);
 }
 

@@ -28,9 +28,11 @@ TEST(EmptyServer, UnwatchedTicksCount) {
   const df::World::Scope scope(world);
   WorldInProcess port(world);
   EXPECT_EQ(port.nextTick(), 1u);
-  for (int i = 0; i < 5; ++i) port.tick(false, false);
+  SentTurn turn;
+  for (int i = 0; i < 5; ++i) port.tick(turn);
   EXPECT_EQ(port.nextTick(), 6u);
-  port.tick(true, false);
+  turn.turn.watched = true;
+  port.tick(turn);
   EXPECT_EQ(port.view().tick, 6u);
   EXPECT_EQ(port.nextTick(), 7u);
 }

@@ -173,7 +173,7 @@ PasswordCheck::Counters Admission::passwordCounters() const {
 
 void Admission::forgetSession(const Session& session) {
   if (Room* p_room = m_setup.rooms.roomOf(session); p_room != nullptr && session.player() != 0)
-    p_room->port().noteSession({.player = session.player(), .over = true});
+    p_room->round().noteSession({.player = session.player(), .over = true});
   m_tokens.forget(session.id());
   m_setup.prefixes.forget(session.id());
 }
@@ -309,7 +309,7 @@ void Admission::takeOverSession(Session& before, Session& session, const wire::H
   m_setup.prefixes.forget(before.id());
   m_setup.prefixes.note(session.id(), prefixOf(session));
   if (p_room != nullptr)
-    p_room->port().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), before.standing().isMuted()));
+    p_room->round().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), before.standing().isMuted()));
   session.setGrace(graceTime());
   session.welcome(welcome, std::move(datagrams));
   session.takeOver(before);
@@ -330,7 +330,7 @@ void Admission::confirmToken(Session& session) {
 
 void Admission::noteSession(const Session& session) const {
   Room* p_room = m_setup.rooms.roomOf(session);
-  if (p_room != nullptr) p_room->port().noteSession(keptSession(session));
+  if (p_room != nullptr) p_room->round().noteSession(keptSession(session));
 }
 
 void Admission::noteSessions(const Room& room) const {
@@ -359,7 +359,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   session.setGrace(graceTime());
   if (m_options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
   m_setup.prefixes.note(session.id(), prefixOf(session));
-  p_room->port().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), false));
+  p_room->round().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), false));
   session.welcome(welcome, std::move(datagrams));
   m_setup.rooms.add(*p_room, session);
   m_setup.news.repeat();
@@ -466,7 +466,7 @@ std::string Admission::moveSession(Session& session, const std::string& room, bo
     return "Too many have changed rooms. Try again in a moment.";
   if (const auto closed = m_door.open(*p_to, prefix, session.now())) return closed->sentence;
   if (Room* const p_from = m_setup.rooms.roomOf(session))
-    p_from->port().noteSession({.player = session.player(), .over = true});
+    p_from->round().noteSession({.player = session.player(), .over = true});
   m_setup.rooms.leaveRoom(session);
   const auto color = static_cast<df::Color>(session.welcomed().color());
   wire::Welcome welcome = session.welcomed();

@@ -52,7 +52,7 @@ std::optional<RoomDoor::Refusal> RoomDoor::open(Room& room, const AddressPrefix&
         named(room) + " is full (" + std::to_string(room.plan()->max_players) + " players). Try again later.",
         ""};
   }
-  if (const auto percent = room.port().recovering()) {
+  if (const auto percent = room.round().recovering()) {
     return Refusal{
         Why::kForNow,
         "The server was down; " + named(room) + " is being restored: " + std::to_string(*percent) + " %.",

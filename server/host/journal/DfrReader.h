@@ -11,7 +11,7 @@
 #include "host/journal/Dfr.h"
 #include "host/journal/DfrWriter.h"
 #include "host/journal/RecordCoder.h"
-#include "host/journal/TurnRecord.h"
+#include "host/world/TurnRecord.h"
 
 namespace naiad {
 

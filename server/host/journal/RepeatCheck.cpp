@@ -56,10 +56,10 @@ RepeatCheck::RepeatCheck(NewWorld new_world, std::function<void(const std::strin
 
 RepeatCheck::~RepeatCheck() = default;
 
-void RepeatCheck::add(const WorldTurn& turn, std::uint64_t answer_hash, const df::WorldView& view) {
+void RepeatCheck::add(const SentTurn& turn, std::uint64_t answer_hash, const df::WorldView& view) {
   if (m_over || m_added >= kTicks) return;
   ++m_added;
-  m_waiting.push_back({turn, answer_hash, turn.watched ? view : df::WorldView()});
+  m_waiting.push_back({turn, answer_hash, turn.turn.watched ? view : df::WorldView()});
 }
 
 bool RepeatCheck::update() {
@@ -91,23 +91,17 @@ void RepeatCheck::start() {
 void RepeatCheck::sendNext() {
   if (m_over || m_allowed <= 0 || m_waiting.empty() || !m_world->isReady()) return;
   --m_allowed;
-  const WorldTurn& turn = m_waiting.front().turn;
-  for (const df::InputQueue::Input& input : turn.inputs) m_world->addInput(input);
-  m_world->setHeard(turn.heard_player);
-  if (turn.ends_game) m_world->endGame();
-  m_world->setPictured(turn.pictured);
-  m_world->setChecked(turn.checked);
-  m_world->tick(turn.watched, turn.wants_truth);
+  m_world->tick(m_waiting.front().sent);
 }
 
 void RepeatCheck::compare() {
   const Tick tick = std::move(m_waiting.front());
   m_waiting.pop_front();
   ++m_compared;
-  m_over = m_compared >= kTicks || m_world->isGameOver();
-  if (m_world->answerHash() == tick.answer_hash) return;
+  m_over = m_compared >= kTicks || m_world->answer().game_over;
+  if (m_world->answer().hash == tick.answer_hash) return;
   m_over = true;
-  std::string what = tick.turn.watched ? describeDifference(tick.view, m_world->view()) : std::string();
+  std::string what = tick.sent.turn.watched ? describeDifference(tick.view, m_world->view()) : std::string();
   if (what.empty()) what = "it answers otherwise";
   m_on_difference("the game is not repeatable: executed again, in tick " + std::to_string(m_compared) + " " +
                   what);

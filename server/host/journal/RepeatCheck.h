@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 
-#include "host/world/WorldMessages.h"
 #include "host/world/WorldPort.h"
 
 namespace naiad {
@@ -34,13 +33,13 @@ class RepeatCheck {
   RepeatCheck& operator=(const RepeatCheck&) = delete;
 
   /// The first world has answered this turn.
-  void add(const WorldTurn& turn, std::uint64_t answer_hash, const df::WorldView& view);
+  void add(const SentTurn& turn, std::uint64_t answer_hash, const df::WorldView& view);
   /// Once in each tick of the host. False: all has been compared.
   bool update();
 
  private:
   struct Tick {
-    WorldTurn turn;
+    SentTurn sent;
     std::uint64_t answer_hash = 0;
     df::WorldView view;
   };

@@ -6,6 +6,7 @@ namespace naiad {
 
 RoundRecovery::RoundRecovery(std::shared_ptr<const OpenRound> round) : m_round(std::move(round)) {
   m_records.add(m_round->records());
+  m_writer.repeatFlags();  // a copy of a world has had other turns before
 }
 
 int RoundRecovery::percent() const {
@@ -22,7 +23,7 @@ std::optional<TurnRecord> RoundRecovery::nextRecord() {
   return std::nullopt;
 }
 
-std::optional<WorldTurn> RoundRecovery::nextTurn() {
+std::optional<SentTurn> RoundRecovery::nextTurn() {
   while (auto record = nextRecord()) {
     auto* p_turn = std::get_if<WorldTurn>(&*record);
     if (p_turn == nullptr) continue;
@@ -37,27 +38,29 @@ std::optional<WorldTurn> RoundRecovery::nextTurn() {
       result = std::get<TickResult>(*m_ahead);
       m_ahead.reset();
     }
-    return std::move(*p_turn);
+    SentTurn turn{std::move(*p_turn), {}};
+    m_writer.write(turn.turn, turn.record);
+    return turn;
   }
   return std::nullopt;
 }
 
-std::string RoundRecovery::compareResult(const WorldPort& world) {
+std::string RoundRecovery::compareResult(const WorldAnswer& answer) {
   ++m_turns;
   const std::optional<TickResult> result = m_results.front();
   m_results.pop_front();
   m_result_missing = !result;
-  std::string difference = result ? findDifference(*result, world) : std::string();
+  std::string difference = result ? findDifference(*result, answer) : std::string();
   m_differs = m_differs || !difference.empty();
   return difference;
 }
 
-std::string RoundRecovery::findDifference(const TickResult& result, const WorldPort& world) {
-  if (result.game_over != world.isGameOver())
-    return world.isGameOver() ? "the game is over, and was not" : "the game goes on, and was over";
-  if (result.state_hash && result.state_hash != world.stateHash())
+std::string RoundRecovery::findDifference(const TickResult& result, const WorldAnswer& answer) {
+  if (result.game_over != answer.game_over)
+    return answer.game_over ? "the game is over, and was not" : "the game goes on, and was over";
+  if (result.state_hash && result.state_hash != answer.state_hash)
     return "the state of the world is another one";
-  if (result.has_check && result.check != checkOf(world.answerHash()))
+  if (result.has_check && result.check != checkOf(answer.hash))
     return "what the world answers is other than it was";
   return {};
 }

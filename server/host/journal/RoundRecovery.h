@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "host/journal/OpenRound.h"
-#include "host/journal/TurnRecord.h"
-#include "host/world/WorldPort.h"
+#include "host/world/TurnRecord.h"
 
 namespace naiad {
 
@@ -31,10 +30,12 @@ class RoundRecovery {
   int percent() const;
 
   /// The next turn of the file; nothing: there is none. Several may be taken before the first is answered.
-  std::optional<WorldTurn> nextTurn();
+  std::optional<SentTurn> nextTurn();
+  /// Those that were taken and not answered.
+  std::uint32_t unanswered() const { return static_cast<std::uint32_t>(m_results.size()); }
   /// Hold what came of the oldest turn that was not answered against the file. Return what is other, as
   /// words; empty: nothing is.
-  std::string compareResult(const WorldPort& world);
+  std::string compareResult(const WorldAnswer& answer);
   /// The file does not say what came of that turn: the server was killed before it knew.
   bool isResultMissing() const { return m_result_missing; }
   /// Turns that the world has answered.
@@ -47,12 +48,13 @@ class RoundRecovery {
   std::vector<KeptSession> sessions() const;
 
  private:
-  static std::string findDifference(const TickResult& result, const WorldPort& world);
+  static std::string findDifference(const TickResult& result, const WorldAnswer& answer);
   /// The next record that says something of a turn.
   std::optional<TurnRecord> nextRecord();
 
   std::shared_ptr<const OpenRound> m_round;
   TurnRecordReader m_records;
+  TurnRecordWriter m_writer;          ///< for the world, which is sent nothing else of the file
   std::optional<TurnRecord> m_ahead;  ///< read while a result was looked for
   /// Of the turns that are not answered; nothing: the file does not say it.
   std::deque<std::optional<TickResult>> m_results;

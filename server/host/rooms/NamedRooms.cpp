@@ -24,6 +24,10 @@ df::GameRoom gameRoomOf(const Room& room) {
           .is_asleep = room.isAsleep()};
 }
 
+std::unique_ptr<Round> sleepingRound() {
+  return std::make_unique<Round>(std::make_unique<SleepingWorld>());
+}
+
 RoomSleep::Time presentTime() {
   return std::chrono::steady_clock::now();
 }
@@ -32,11 +36,10 @@ RoomSleep::Time presentTime() {
 
 void Rooms::openNamed() {
   for (const RoomPlan& plan : m_plans) {
-    Room& room = *m_rooms.emplace_back(
-        std::make_unique<Room>(std::make_unique<SleepingWorld>(), plan.first_only, m_stages));
+    Room& room = *m_rooms.emplace_back(std::make_unique<Room>(sleepingRound(), plan.first_only, m_stages));
     room.setPlan(plan);
     room.sleep().asleep = true;
-    room.port().checkProcess(tickNumber());
+    room.round().checkProcess(tickNumber());
     m_game_rooms.push_back(gameRoomOf(room));
   }
   for (const auto& room : m_rooms) {
@@ -65,7 +68,7 @@ std::vector<std::string> Rooms::roomNames() const {
   return names;
 }
 
-std::unique_ptr<WorldPort> Rooms::newWorld(const Room& room) const {
+std::unique_ptr<Round> Rooms::newRound(const Room& room) const {
   return room.plan() != nullptr ? room.plan()->new_world(m_context.home) : m_new_world(m_context.home);
 }
 
@@ -73,7 +76,7 @@ bool Rooms::wake(Room& room, std::string& problem) {
   if (!room.isAsleep()) return true;
   if (m_closing || m_upgraded) return false;
   try {
-    room.changeWorld(newWorld(room));
+    room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
     problem = error.what();
     return false;
@@ -92,12 +95,12 @@ void Rooms::leaveRoom(const Session& session) {
 // ---- what games know of rooms -----------------------------------------------------------------------------
 
 void Rooms::passRooms(Room& room) const {
-  if (room.port().recovering())
+  if (room.round().recovering())
     return;  // the inputs of then are in its journal; those of now come behind them
   for (std::size_t i = 0; i < m_game_rooms.size(); ++i) {
     df::GameRoom known = m_game_rooms[i];
     known.is_this_one = m_rooms[i].get() == &room;
-    room.port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = std::move(known)});
+    room.round().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = std::move(known)});
   }
 }
 
@@ -112,14 +115,14 @@ void Rooms::publishRooms() {
     for (const auto& room : m_rooms) {
       if (room->rests()) continue;
       present.is_this_one = room == m_rooms[i];
-      room->port().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = present});
+      room->round().addInput({.kind = df::InputQueue::kRoom, .player = 0, .room = present});
     }
   }
 }
 
 // A world may be a stranger's program: it sends its own players alone.
 void Rooms::passSent(Room& room) {
-  for (const df::SentPlayer& sent : room.port().takeSent()) {
+  for (const df::SentPlayer& sent : room.round().takeSent()) {
     Session* const p_session = room.find(sent.player);
     if (p_session != nullptr && m_on_sent) m_on_sent(*p_session, sent.room);
   }
@@ -129,11 +132,11 @@ void Rooms::passSent(Room& room) {
 
 // A world that ends takes time, which the room does not wait for.
 void Rooms::putToSleep(Room& room) {
-  auto port = room.changeWorld(std::make_unique<SleepingWorld>());
-  room.port().checkProcess(tickNumber());
-  port->setOnTick({});
-  port->close();
-  m_ending.push_back(std::move(port));
+  auto round = room.changeRound(sleepingRound());
+  room.round().checkProcess(tickNumber());
+  round->setOnTick({});
+  round->close();
+  m_ending.push_back(std::move(round));
   room.sleep() = {.asleep = true, .empty_since = {}};
   room.countShortRounds(false);
 }
@@ -142,15 +145,15 @@ void Rooms::checkSleep(Time now) {
   const std::chrono::duration<double> patience(m_options.room_sleep);
   for (const auto& room : m_rooms) {
     const RoomSleep& sleep = room->sleep();
-    if (sleep.asleep || !sleep.empty_since || room->port().recovering()) continue;
+    if (sleep.asleep || !sleep.empty_since || room->round().recovering()) continue;
     if (now - *sleep.empty_since >= patience) putToSleep(*room);
   }
   checkEnding();
 }
 
 void Rooms::checkEnding() {
-  for (const auto& port : m_ending) port->checkProcess(tickNumber());
-  std::erase_if(m_ending, [](const auto& port) { return port->end().has_value(); });
+  for (const auto& round : m_ending) round->checkProcess(tickNumber());
+  std::erase_if(m_ending, [](const auto& round) { return round->end().has_value(); });
 }
 
 // The other rooms go on. Its players are led away in the next tick.

@@ -39,8 +39,8 @@ bool isBefore(const Session* p_session, std::uint32_t player) {
 
 }  // namespace
 
-Room::Room(std::unique_ptr<WorldPort> port, bool first_only, StageClock& stages)
-    : m_p_port(std::move(port)), m_stages(stages), m_turn(first_only) {}
+Room::Room(std::unique_ptr<Round> round, bool first_only, StageClock& stages)
+    : m_p_round(std::move(round)), m_stages(stages), m_turn(first_only) {}
 
 void Room::add(Session& session) {
   m_members.insert(std::lower_bound(m_members.begin(), m_members.end(), session.player(), isBefore),
@@ -90,23 +90,22 @@ bool Room::beginTick(bool truth, std::uint32_t pictured) {
   m_stages.enter(Stage::kInputs);
   passTurn();
   applyInputs();
-  if (!m_p_port->isReady()) return false;
+  if (!m_p_round->isReady()) return false;
   const bool watched = !isEmpty();
   if (watched && !m_watched) m_publisher = Publisher();
   m_watched = watched;
   m_ticking = true;
   m_stages.enter(Stage::kWorld);
   m_pictured = watched && pictured != 0 && find(pictured) != nullptr ? pictured : 0;
-  m_p_port->setPictured(truth ? 0 : m_pictured);
-  m_p_port->tick(watched, truth || m_pictured != 0);
+  m_p_round->tick(watched, truth || m_pictured != 0, truth ? 0 : m_pictured);
   return true;
 }
 
 void Room::applyInputs() {
-  const std::uint32_t next = m_p_port->nextTick();
+  const std::uint32_t next = m_p_round->nextTick();
   forEachPlaying([this, next](Session& session) {
     session.takeInputs(next, [&](const Input& input) {
-      if (m_turn.isHeard(session.player(), input)) m_p_port->addInput(inputOf(session, input));
+      if (m_turn.isHeard(session.player(), input)) m_p_round->addInput(inputOf(session, input));
     });
   });
 }
@@ -116,12 +115,12 @@ void Room::publish(TruthWriter* p_truth) {
   ++m_ticks;
   if (!m_watched) return;
   const Stage before = m_stages.enter(Stage::kPublish);
-  m_publisher.update(m_p_port->view());
-  m_p_port->notePublished(m_publisher);
+  m_publisher.update(m_p_round->view());
+  m_p_round->notePublished(m_publisher);
   m_stages.enter(Stage::kSnapshots);
   sendSnapshots(p_truth);
   m_stages.enter(Stage::kNews);
-  m_sound_news.tick(m_p_port->view(), soundSender());
+  m_sound_news.tick(m_p_round->view(), soundSender());
   sendNotes();
   m_stages.enter(before);
 }
@@ -129,9 +128,9 @@ void Room::publish(TruthWriter* p_truth) {
 void Room::sendSnapshots(TruthWriter* p_truth) {
   forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
     // The truth first: a test that compares must find it once the snapshot has arrived.
-    if (p_truth != nullptr) p_truth->write(m_publisher.tick(), facts.id, m_p_port->renderPlayer(facts.id));
+    if (p_truth != nullptr) p_truth->write(m_publisher.tick(), facts.id, m_p_round->renderPlayer(facts.id));
     if (facts.id == m_pictured && session.isAudited())
-      session.recordTruth(m_publisher.tick(), m_p_port->renderPlayer(facts.id));
+      session.recordTruth(m_publisher.tick(), m_p_round->renderPlayer(facts.id));
     session.setControls(facts.steering.p_table);
     session.sendTick(m_publisher, facts);
   });
@@ -149,11 +148,11 @@ SoundNews::Send Room::soundSender() const {
 
 // Lines of the engine's own for the players.
 void Room::sendNotes() const {
-  for (const std::string& note : m_p_port->view().notes) say(safeText(note, kMaxChatLength));
+  for (const std::string& note : m_p_round->view().notes) say(safeText(note, kMaxChatLength));
 }
 
-std::unique_ptr<WorldPort> Room::changeWorld(std::unique_ptr<WorldPort> port) {
-  std::swap(m_p_port, port);
+std::unique_ptr<Round> Room::changeRound(std::unique_ptr<Round> round) {
+  std::swap(m_p_round, round);
   m_publisher = Publisher();
   m_sound_news.changeWorld(soundSender());
   m_watched = m_ticking = false;
@@ -162,7 +161,7 @@ std::unique_ptr<WorldPort> Room::changeWorld(std::unique_ptr<WorldPort> port) {
     session.beginWorld();
     join(session.player(), session.name(), static_cast<df::Color>(session.welcomed().color()));
   });
-  return port;
+  return round;
 }
 
 // ---- whose turn it is -------------------------------------------------------------------------------------
@@ -175,7 +174,7 @@ void Room::passTurn() {
     if (p_first == nullptr && !session.isDetached()) p_first = &session;
   });
   const std::uint32_t turn = p_first != nullptr ? p_first->player() : 0;
-  m_p_port->setHeard(turn);
+  m_p_round->setHeard(turn);
   if (m_turn.passTo(turn)) say(p_first->name() + " plays now.");
 }
 

@@ -16,9 +16,9 @@
 #include "host/rooms/InputTurn.h"
 #include "host/rooms/SoundNews.h"
 #include "host/rounds/RoomPlan.h"
+#include "host/rounds/Round.h"
 #include "host/session/Session.h"
 #include "host/snapshot/Publisher.h"
-#include "host/world/WorldPort.h"
 #include "shared/replica/TruthFile.h"
 
 namespace naiad {
@@ -27,12 +27,13 @@ class Room {
  public:
   /// `first_only`: of several players, only the first one's input is heard. `stages`: measures what a tick
   /// does; outlives the room.
-  Room(std::unique_ptr<WorldPort> port, bool first_only, StageClock& stages);
+  Room(std::unique_ptr<Round> round, bool first_only, StageClock& stages);
   Room(const Room&) = delete;
   Room& operator=(const Room&) = delete;
 
-  WorldPort& port() { return *m_p_port; }
-  const WorldPort& port() const { return *m_p_port; }
+  /// What is played: a room that sleeps has a SleepingWorld.
+  Round& round() { return *m_p_round; }
+  const Round& round() const { return *m_p_round; }
 
   // Its name.
 
@@ -43,18 +44,20 @@ class Room {
   const RoomSleep& sleep() const { return m_sleep; }
   bool isAsleep() const { return m_sleep.asleep; }
   /// Its world is not to tick: it sleeps, stands still, or its round is being executed again.
-  bool rests() const { return m_sleep.asleep || m_sleep.still || m_p_port->recovering(); }
+  bool rests() const { return m_sleep.asleep || m_sleep.still || m_p_round->recovering(); }
 
   // Players.
 
   /// The world's next tick makes a player of this name; add() makes their session one of the room's. Return
   /// the player's id.
   std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) {
-    return m_p_port->addInput(
+    return m_p_round->addInput(
         {.kind = df::InputQueue::kJoin, .player = player, .name = name, .color = color});
   }
   /// The player leaves the world in its next tick.
-  void leave(std::uint32_t player) { m_p_port->addInput({.kind = df::InputQueue::kLeave, .player = player}); }
+  void leave(std::uint32_t player) {
+    m_p_round->addInput({.kind = df::InputQueue::kLeave, .player = player});
+  }
   /// The session was welcomed. Sessions are added in the order of their players' ids.
   void add(Session& session);
   /// The session, if it is one of this room's, is about to be destroyed.
@@ -78,7 +81,7 @@ class Room {
   /// the world reports are left out.
   template <class Visit>
   void forEachInWorld(Visit visit) const {
-    const std::vector<df::PlayerFacts>& players = m_p_port->view().players;
+    const std::vector<df::PlayerFacts>& players = m_p_round->view().players;
     auto found = players.begin();
     forEachPlaying([&](Session& session) {
       while (found != players.end() && found->id < session.player()) ++found;  // both are in order
@@ -104,12 +107,9 @@ class Room {
   /// A tick has begun and not ended.
   bool isTicking() const { return m_ticking; }
   /// The newest tick that was begun.
-  std::uint32_t tick() const { return m_p_port->nextTick() - 1; }
+  std::uint32_t tick() const { return m_p_round->nextTick() - 1; }
   /// Objects that are published; 0 without players.
   std::size_t objects() const { return m_watched ? m_publisher.liveCount() : 0; }
-  /// Names the round in the file of scores.
-  const RoundName& round() const { return m_round; }
-  void setRound(RoundName round) { m_round = std::move(round); }
   /// A tick of the host began, and the world was not ready for one.
   void noteLate() { ++m_late_ticks; }
   std::uint64_t lateTicks() const { return m_late_ticks; }
@@ -118,9 +118,9 @@ class Room {
 
   /// The world has ended. Return how many short rounds there have been in a row.
   int countShortRounds(bool is_short) { return m_short_rounds = is_short ? m_short_rounds + 1 : 0; }
-  /// Go on with another world: all players join it, and are sent it from the beginning. Return the one
+  /// Go on with another round: all players join its world, and are sent it from the beginning. Return the one
   /// before.
-  std::unique_ptr<WorldPort> changeWorld(std::unique_ptr<WorldPort> port);
+  std::unique_ptr<Round> changeRound(std::unique_ptr<Round> round);
 
  private:
   void passTurn();
@@ -130,7 +130,7 @@ class Room {
   SoundNews::Send soundSender() const;
   void sendNotes() const;
 
-  std::unique_ptr<WorldPort> m_p_port;
+  std::unique_ptr<Round> m_p_round;
   StageClock& m_stages;
   Publisher m_publisher;
   SoundNews m_sound_news;
@@ -141,7 +141,6 @@ class Room {
   bool m_ticking = false;
   std::uint64_t m_ticks = 0;
   std::uint64_t m_late_ticks = 0;
-  RoundName m_round;
   std::optional<RoomPlan> m_plan;
   RoomSleep m_sleep;
   int m_short_rounds = 0;

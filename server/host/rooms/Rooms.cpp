@@ -67,38 +67,36 @@ void Rooms::open(df::World& world) {
   if (isNamed()) {
     openNamed();
   } else if (!m_new_world) {
-    openRoom(std::make_unique<WorldInProcess>(world), first_only);
+    openRoom(std::make_unique<Round>(std::make_unique<WorldInProcess>(world)), first_only);
   } else if (!isPrivate()) {
     openRoom(m_new_world(m_context.home), first_only);
   }
 }
 
-Room& Rooms::openRoom(std::unique_ptr<WorldPort> port, bool first_only) {
-  Room& room = *m_rooms.emplace_back(std::make_unique<Room>(std::move(port), first_only, m_stages));
+Room& Rooms::openRoom(std::unique_ptr<Round> round, bool first_only) {
+  Room& room = *m_rooms.emplace_back(std::make_unique<Room>(std::move(round), first_only, m_stages));
   watchWorld(room);
   return room;
 }
 
 void Rooms::watchWorld(Room& room) {
-  room.port().setOnTick([this, &room] { endTick(room); });
-  room.port().checkProcess(tickNumber());
+  room.round().setOnTick([this, &room] { endTick(room); });
+  room.round().checkProcess(tickNumber());
   passScores(room);
   if (isNamed()) passRooms(room);
 }
 
 // Inputs like any other: before all others of its first tick. A round that goes on has had them.
 void Rooms::passScores(Room& room) const {
-  RoundName round = room.port().roundName();
-  if (round.id.empty()) round.id = newRoundId();
-  room.setRound(std::move(round));
-  if (m_p_scores == nullptr || room.port().recovering()) return;  // they are in its journal
+  if (room.round().name().id.empty()) room.round().setId(newRoundId());
+  if (m_p_scores == nullptr || room.round().recovering()) return;  // they are in its journal
   for (const auto& [table, rows] : m_p_scores->tables(gameOf(room))) {
     for (const df::HighScore& row : rows)
-      room.port().addInput({.kind = df::InputQueue::kScore,
-                            .player = 0,
-                            .name = row.name,
-                            .table = table,
-                            .points = row.points});
+      room.round().addInput({.kind = df::InputQueue::kScore,
+                             .player = 0,
+                             .name = row.name,
+                             .table = table,
+                             .points = row.points});
   }
 }
 
@@ -142,7 +140,7 @@ Session* Rooms::findPlayer(std::uint32_t player) const {
 
 void Rooms::leave(const Session& session) {
   if (Room* p_room = roomOf(session)) {
-    isPrivate() ? p_room->port().close() : p_room->leave(session.player());
+    isPrivate() ? p_room->round().close() : p_room->leave(session.player());
   }
 }
 
@@ -158,7 +156,7 @@ void Rooms::removeSession(const Session& session) {
 
 std::optional<int> Rooms::recovering() const {
   for (const auto& room : m_rooms) {
-    if (const auto percent = room->port().recovering()) return percent;
+    if (const auto percent = room->round().recovering()) return percent;
   }
   return std::nullopt;
 }
@@ -199,7 +197,7 @@ void Rooms::beginTicks() {
 bool Rooms::rest() const {
   return m_ending.empty() && std::all_of(m_rooms.begin(), m_rooms.end(), [](const auto& room) {
            return (room->isAsleep() || room->sleep().still) && !room->isTicking() &&
-                  !room->port().recovering();
+                  !room->round().recovering();
          });
 }
 
@@ -210,8 +208,8 @@ bool Rooms::isTicking() const {
 void Rooms::endTick(Room& room) {
   dismissLeavers(room);
   publish(room);
-  const std::vector<df::AddedScore> added = room.port().takeScores();
-  if (m_p_scores != nullptr) m_p_scores->add(gameOf(room), room.round(), added);
+  const std::vector<df::AddedScore> added = room.round().takeScores();
+  if (m_p_scores != nullptr) m_p_scores->add(gameOf(room), room.round().name(), added);
   if (isNamed()) passSent(room);
   if (!m_in_begin) m_on_late_tick();
 }
@@ -230,9 +228,9 @@ void Rooms::publish(Room& room) {
 
 // The game is over for players who pressed the key that ends it; the others play on.
 void Rooms::dismissLeavers(Room& room) {
-  for (const std::uint32_t leaver : room.port().takeLeavers()) {
+  for (const std::uint32_t leaver : room.round().takeLeavers()) {
     if (hasLastPlayer()) {
-      room.port().endGame();
+      room.round().endGame();
     } else if (Session* p_session = room.find(leaver)) {
       p_session->goodbye("For you, the game is over.");
     }
@@ -245,19 +243,19 @@ void Rooms::checkWorlds(Time now) {
   checkPlayers(now);
   if (!hasWorlds()) return;
   for (const auto& room : m_rooms) {
-    room->port().checkProcess(tickNumber());
-    if (const auto sessions = room->port().takeSessions()) endRecovery(*room, *sessions);
-    if (const auto warning = room->port().takeWarning()) {
+    room->round().checkProcess(tickNumber());
+    if (const auto sessions = room->round().takeSessions()) endRecovery(*room, *sessions);
+    if (const auto warning = room->round().takeWarning()) {
       m_log({LogEvent::Level::kWarning, *warning});
       room->say("The game takes long over something: everything stands still.");
     }
-    if (const auto taken_over = room->port().takeTakeOver()) noteTakeOver(*room, *taken_over);
-    const auto end = room->port().end();
+    if (const auto taken_over = room->round().takeTakeOver()) noteTakeOver(*room, *taken_over);
+    const auto end = room->round().end();
     if (end && !(isPrivate() && room->isEmpty())) endRound(*room, *end);
   }
   if (isNamed()) checkSleep(now);
   if (!isPrivate()) return;
-  std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->port().end(); });
+  std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->round().end(); });
 }
 
 // A number of ticks (--ticks) and a round that is the last one are played to their end.
@@ -359,7 +357,7 @@ bool Rooms::beginRound(Room& room) {
   const std::uint64_t sent = room.sounds().sent();
   m_audit.noteRound(room, tickNumber());
   try {
-    room.changeWorld(newWorld(room));
+    room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
     m_log(std::string("there is no next round: ") + error.what());
     return false;
@@ -373,17 +371,17 @@ bool Rooms::beginRound(Room& room) {
 // ---- the end ----------------------------------------------------------------------------------------------
 
 bool Rooms::isOver() const {
-  return hasWorlds() ? m_over : m_rooms.front()->port().isGameOver();
+  return hasWorlds() ? m_over : m_rooms.front()->round().isGameOver();
 }
 
 void Rooms::closeWorlds() {
   m_closing = true;
   for (const auto& room : m_rooms) {
-    room->port().close();
-    room->port().checkProcess(tickNumber());
+    room->round().close();
+    room->round().checkProcess(tickNumber());
   }
   std::erase_if(m_rooms,
-                [this](const auto& room) { return !hasWorlds() || room->isAsleep() || room->port().end(); });
+                [this](const auto& room) { return !hasWorlds() || room->isAsleep() || room->round().end(); });
   checkEnding();
 }
 

@@ -101,7 +101,7 @@ class Rooms {
   std::size_t count() const { return m_rooms.size(); }
   /// Without those that sleep.
   std::size_t countAwake() const;
-  /// Percent of a round that is being executed again (WorldPort::recovering); nothing: none is.
+  /// Percent of a round that is being executed again (Round::recovering); nothing: none is.
   std::optional<int> recovering() const;
   /// Objects that are published, in all rooms.
   std::size_t objects() const;
@@ -152,9 +152,9 @@ class Rooms {
   std::uint32_t tickNumber() const { return static_cast<std::uint32_t>(m_counters.ticks); }
   bool hasLastPlayer() const { return m_ends_with_last && m_sessions.connected() <= 1; }
   bool hasWorlds() const { return m_new_world || isNamed(); }
-  Room& openRoom(std::unique_ptr<WorldPort> port, bool first_only);
+  Room& openRoom(std::unique_ptr<Round> round, bool first_only);
   void openNamed();
-  std::unique_ptr<WorldPort> newWorld(const Room& room) const;
+  std::unique_ptr<Round> newRound(const Room& room) const;
   bool runsEmpty(const Room& room) const;
   void checkPlayers(Time now);
   void checkSleep(Time now);
@@ -187,8 +187,8 @@ class Rooms {
   const df::World* m_p_world = nullptr;  ///< that open() was given
   NewWorld m_new_world;                  ///< empty: the world of this process, or m_plans
   std::vector<RoomPlan> m_plans;
-  std::vector<df::GameRoom> m_game_rooms;            ///< what worlds were passed last, by room
-  std::vector<std::unique_ptr<WorldPort>> m_ending;  ///< worlds of rooms that were put to sleep
+  std::vector<df::GameRoom> m_game_rooms;        ///< what worlds were passed last, by room
+  std::vector<std::unique_ptr<Round>> m_ending;  ///< of rooms that were put to sleep
   std::function<void(Room&, const std::string&)> m_on_closed;
   std::function<void(Session&, const std::string&)> m_on_sent;
   std::function<void(Room&)> m_on_round;

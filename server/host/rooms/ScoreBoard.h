@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/world/ScoreTables.h"
-#include "host/world/WorldPort.h"
+#include "host/rounds/Round.h"
 
 namespace naiad {
 

@@ -19,6 +19,7 @@
 
 #include "host/auth/Seed.h"
 #include "host/journal/DfrWriter.h"
+#include "host/journal/RoundRecovery.h"
 #include "host/journal/Salvage.h"
 #include "host/process/TickClock.h"
 #include "host/rounds/DebugCommand.h"
@@ -309,11 +310,10 @@ std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
                                    round.takePlace(), ringFolder(m_folder));
 }
 
-std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
-                                          std::function<void()> on_recovered, NewWorld another) {
+std::unique_ptr<Round> Journals::goOn(std::unique_ptr<WorldProcess> world, NewWorld another) {
   const auto round = std::shared_ptr<OpenRound>(std::move(m_open));
   const std::string path = round->path();
-  JournaledWorld::Book book = makeBook(path, *world);
+  Round::Book book = makeBook(path, *world);
   try {
     book.journal = goOnWriting(*round);
   } catch (const std::system_error& error) {
@@ -331,10 +331,8 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
       }
       return std::string();
     };
-  book.on_recovered = [log = m_log, path, began = std::chrono::steady_clock::now(),
-                       on_recovered = std::move(on_recovered)](std::uint32_t ticks,
-                                                               const std::string& problem) {
-    on_recovered();
+  book.on_recovered = [log = m_log, path, began = std::chrono::steady_clock::now()](
+                          std::uint32_t ticks, const std::string& problem) {
     if (!problem.empty()) {
       log({LogEvent::Level::kError, "the round cannot go on, and is kept in " + path + ": " + problem});
       return;
@@ -354,11 +352,11 @@ std::unique_ptr<WorldPort> Journals::goOn(std::unique_ptr<WorldProcess> world,
   book.recovery = std::make_unique<RoundRecovery>(round);
   m_shared->writer->add(book.journal);
   noteCurrent(book.journal, path);
-  return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
+  return std::make_unique<Round>(std::move(world), std::move(book));
 }
 
-JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProcess& world) const {
-  JournaledWorld::Book book;
+Round::Book Journals::makeBook(const std::string& path, const WorldProcess& world) const {
+  Round::Book book;
   book.writer = m_shared->writer;
   const fs::path file(path);
   book.recording = (m_of_room ? file.parent_path().filename() / file.filename() : file.filename()).string();
@@ -384,8 +382,8 @@ JournaledWorld::Book Journals::makeBook(const std::string& path, const WorldProc
   return book;
 }
 
-std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
-                                          RepeatCheck::NewWorld again, NewWorld another) {
+std::unique_ptr<Round> Journals::keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
+                                      RepeatCheck::NewWorld again, NewWorld another) {
   DfrHeader header;
   std::random_device device;
   for (std::uint8_t& byte : header.uuid) byte = static_cast<std::uint8_t>(device());
@@ -393,13 +391,13 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
   header.start_nanos = order.start_nanos;
   header.frame_nanos = order.frame_nanos;
   const std::string path = pathOf(header);
-  JournaledWorld::Book book = makeBook(path, *world);
+  Round::Book book = makeBook(path, *world);
   try {
     book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring,
                                              true, std::nullopt, ringFolder(m_folder), book.recording);
   } catch (const std::system_error& error) {
     m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
-    return world;
+    return std::make_unique<Round>(std::move(world));
   }
   book.new_world = std::move(another);
   if (again && m_shared->checked.insert(m_game).second) {
@@ -414,7 +412,7 @@ std::unique_ptr<WorldPort> Journals::keep(std::unique_ptr<WorldProcess> world, c
   m_shared->writer->add(book.journal);
   noteCurrent(book.journal, path);
   m_shared->writer->wake();  // a server that is killed within the first second leaves a file, too
-  return std::make_unique<JournaledWorld>(std::move(world), std::move(book));
+  return std::make_unique<Round>(std::move(world), std::move(book));
 }
 
 // ---- a program that goes on in this one's place -----------------------------------------------------------

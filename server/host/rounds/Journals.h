@@ -10,8 +10,10 @@
 #include <set>
 #include <string>
 
-#include "host/journal/JournaledWorld.h"
+#include "host/journal/JournalWriter.h"
 #include "host/journal/OpenRound.h"
+#include "host/journal/RepeatCheck.h"
+#include "host/rounds/Round.h"
 #include "host/settings/HostOptions.h"
 #include "host/world/WorldOrder.h"
 #include "host/world/WorldProcess.h"
@@ -39,7 +41,7 @@ class Journals {
   static std::shared_ptr<Journals> open(const HostOptions& options, const std::string& game,
                                         const std::string& module, const LogLine& log);
 
-  using NewWorld = std::function<JournaledWorld::AnotherWorld()>;
+  using NewWorld = std::function<std::unique_ptr<WorldProcess>()>;
 
   /// `p_shared`: with the journals of other rooms; null: there are none.
   Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log,
@@ -53,14 +55,13 @@ class Journals {
   /// The highest id that a player of that round ever had (OpenRound::highestPlayer()); 0: there is no such
   /// round.
   std::uint32_t highestPlayer() const;
-  /// That world, which first gets the turns of its round. `on_recovered`: it has had them.
-  std::unique_ptr<WorldPort> goOn(std::unique_ptr<WorldProcess> world, std::function<void()> on_recovered,
-                                  NewWorld another);
-  /// That world, its turns written down. If they cannot be, the log says so, and it plays without. `again`
+  /// The round of that world, which first gets the turns of the one before; null: it cannot be written down.
+  std::unique_ptr<Round> goOn(std::unique_ptr<WorldProcess> world, NewWorld another);
+  /// The round of that world, written down. If they cannot be, the log says so, and it plays without. `again`
   /// starts another one from the same order: the first round of this server is held against it. `another`
   /// starts one that takes over from a world that crashed or hangs.
-  std::unique_ptr<WorldPort> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
-                                  RepeatCheck::NewWorld again = {}, NewWorld another = {});
+  std::unique_ptr<Round> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
+                              RepeatCheck::NewWorld again = {}, NewWorld another = {});
 
   // For a program that goes on with the round in this one's place (RoundHandover.h).
 
@@ -90,7 +91,7 @@ class Journals {
   void findRound(const HostOptions& options);
   std::string pathOf(const DfrHeader& header) const;
   std::shared_ptr<Journal> goOnWriting(OpenRound& round) const;
-  JournaledWorld::Book makeBook(const std::string& path, const WorldProcess& world) const;
+  Round::Book makeBook(const std::string& path, const WorldProcess& world) const;
 
   const std::string m_folder;
   const bool m_of_room;  ///< the folder is a room's, in that of --journal

@@ -9,13 +9,14 @@
 #include <string>
 
 #include "host/world/WorldMessages.h"
-#include "host/world/WorldPort.h"
 
 namespace naiad {
 
-/// Makes a world that was not there before. `home` runs the handlers of the host's thread, and outlives it.
+class Round;
+
+/// Begins a round in a world that was not there before. `home` runs the handlers of the host's thread, and outlives it.
 /// Throws std::system_error if there can be none.
-using NewWorld = std::function<std::unique_ptr<WorldPort>(asio::io_context& home)>;
+using NewWorld = std::function<std::unique_ptr<Round>(asio::io_context& home)>;
 
 struct RoomPlan {
   std::string name;         ///< isRoomName()
@@ -23,6 +24,8 @@ struct RoomPlan {
   int max_players = 0;      ///< at a time
   bool first_only = false;  ///< of several players, only the first one's input is heard
   WorldReady ready;         ///< what the game sets up for those who join
+class Round;
+
   NewWorld new_world;
   /// Its first world goes on with the round of a server that was killed: it does not wait for players.
   bool goes_on = false;

@@ -68,37 +68,21 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
   return launcher;
 }
 
-struct RepeatingWorld {
-  std::unique_ptr<WorldProcess> world;
-  std::function<void()> on_repeated;  ///< what it prints from then on is news
-};
-
-RepeatingWorld startRepeating(const WorldLauncher& launcher, const WorldOrder& order, const LogLine& print,
-                              asio::io_context& home) {
-  const auto repeats = std::make_shared<bool>(true);
-  const auto print_news = [print, repeats](const std::string& line) {
-    if (!*repeats) print(line);
-  };
-  return {std::make_unique<WorldProcess>(home, launcher.start(order), print_news),
-          [repeats] { *repeats = false; }};
-}
-
 Journals::NewWorld repeatLater(const std::shared_ptr<const WorldLauncher>& launcher, WorldOrder order,
                                const LogLine& print, asio::io_context& home) {
   order.again = true;  // or a game that sleeps would take as long as the round
   return [launcher, order, print, &home] {
-    RepeatingWorld another = startRepeating(*launcher, order, print, home);
-    return JournaledWorld::AnotherWorld{std::move(another.world), std::move(another.on_repeated)};
+    return std::make_unique<WorldProcess>(home, launcher->start(order), print);
   };
 }
 
 /// Null: there is no round to go on with.
-std::unique_ptr<WorldPort> goOnWithRound(const std::shared_ptr<const WorldLauncher>& launcher,
-                                         const LogLine& print, Journals& journals, asio::io_context& home) {
+std::unique_ptr<Round> goOnWithRound(const std::shared_ptr<const WorldLauncher>& launcher,
+                                     const LogLine& print, Journals& journals, asio::io_context& home) {
   const auto order = journals.orderOfOpenRound();
   if (!order) return nullptr;
-  auto [world, on_repeated] = startRepeating(*launcher, *order, print, home);
-  return journals.goOn(std::move(world), std::move(on_repeated), repeatLater(launcher, *order, print, home));
+  const Journals::NewWorld start = repeatLater(launcher, *order, print, home);
+  return journals.goOn(start(), start);
 }
 
 }  // namespace
@@ -133,13 +117,13 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
   return launch(options, place, ownArguments(), log);
 }
 
-std::function<std::unique_ptr<WorldPort>(asio::io_context& home)> startWorlds(
+std::function<std::unique_ptr<Round>(asio::io_context& home)> startWorlds(
     std::shared_ptr<const WorldLauncher> launcher, LogLine print, std::shared_ptr<Journals> journals) {
-  using NewPort = std::unique_ptr<WorldPort>;
   return [launcher = std::move(launcher), print = std::move(print),
-          journals = std::move(journals)](asio::io_context& home) -> NewPort {
-    if (journals == nullptr) return std::make_unique<WorldProcess>(home, launcher->start(), print);
-    if (auto world = goOnWithRound(launcher, print, *journals, home)) return world;
+          journals = std::move(journals)](asio::io_context& home) -> std::unique_ptr<Round> {
+    if (journals == nullptr)
+      return std::make_unique<Round>(std::make_unique<WorldProcess>(home, launcher->start(), print));
+    if (auto round = goOnWithRound(launcher, print, *journals, home)) return round;
     const WorldOrder order = journals->makeOrder();
     auto world = std::make_unique<WorldProcess>(home, launcher->start(order), print);
     WorldOrder again = order;

@@ -10,7 +10,6 @@
 #include "host/settings/HostOptions.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
-#include "host/world/WorldPort.h"
 
 namespace naiad {
 
@@ -31,7 +30,7 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
 /// For Host::setWorlds(). `print`: gets the lines that worlds print. They may have any bytes, and read as a
 /// line of the server's own.
 /// `journals`: write their rounds down; null: do not.
-std::function<std::unique_ptr<WorldPort>(asio::io_context& home)> startWorlds(
+std::function<std::unique_ptr<Round>(asio::io_context& home)> startWorlds(
     std::shared_ptr<const WorldLauncher> launcher, LogLine print,
     std::shared_ptr<Journals> journals = nullptr);
 

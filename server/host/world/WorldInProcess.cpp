@@ -1,34 +1,47 @@
 #include "host/world/WorldInProcess.h"
 
-#include <utility>
-
 #include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 
 namespace naiad {
 
+void applyTurn(const WorldTurn& turn, df::World& world) {
+  for (const df::InputQueue::Input& input : turn.inputs) world.inputs().push(input);
+  if (turn.heard_player != 0 || world.findExtras() != nullptr) {
+    world.extras().heard_player = turn.heard_player;
+  }
+  if (turn.ends_game) world.setGameOver();
+  world.setWatched(turn.watched);
+}
+
+WorldAnswer takeAnswer(const WorldTurn& turn, df::World& world) {
+  WorldAnswer answer;
+  answer.game_over = world.isGameOver();
+  answer.leavers = world.takeLeavers();
+  answer.has_view = turn.watched;
+  if (df::WorldExtras* p_extras = world.findExtras()) {
+    answer.scores = p_extras->scores.takeAdded();
+    answer.sent = p_extras->rooms.takeSent();
+  }
+  if (turn.checked) answer.state_hash = df::hashState(world);
+  if (turn.watched && turn.wants_truth) {
+    for (const df::PlayerFacts& player : world.view().players) {
+      if (turn.pictured != 0 && turn.pictured != player.id) continue;
+      answer.pictures.push_back({player.id, world.renderPlayer(player.id)});
+    }
+  }
+  return answer;
+}
+
 WorldInProcess::~WorldInProcess() {
   m_world.setLagCompensation(nullptr);
 }
 
-std::uint32_t WorldInProcess::addInput(df::InputQueue::Input input) {
-  return m_world.inputs().push(std::move(input));
-}
-
-void WorldInProcess::setHeard(std::uint32_t player) {
-  m_world.extras().heard_player = player;
-}
-
-void WorldInProcess::endGame() {
-  m_world.setGameOver();
-}
-
-void WorldInProcess::tick(bool watched, bool /*truth*/) {
-  m_world.setWatched(watched);
+void WorldInProcess::tick(const SentTurn& turn) {
+  applyTurn(turn.turn, m_world);
   m_world.tick();
-  m_state_hash.reset();
-  if (std::exchange(m_checked, false)) m_state_hash = df::hashState(m_world);
+  m_answer = takeAnswer(turn.turn, m_world);
   reportTick();
 }
 
@@ -50,21 +63,13 @@ void WorldInProcess::notePublished(const Publisher& publisher) {
   if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.view());
 }
 
-std::vector<std::uint32_t> WorldInProcess::takeLeavers() {
-  return m_world.takeLeavers();
+std::optional<std::uint32_t> WorldInProcess::takeInput(const df::InputQueue::Input& input) {
+  return m_world.inputs().push(input);
 }
 
-std::vector<df::AddedScore> WorldInProcess::takeScores() {
-  df::WorldExtras* p_extras = m_world.findExtras();
-  return p_extras != nullptr ? p_extras->scores.takeAdded() : std::vector<df::AddedScore>();
-}
-
-bool WorldInProcess::isGameOver() const {
-  return m_world.isGameOver();
-}
-
-df::Canvas WorldInProcess::renderPlayer(std::uint32_t player) const {
-  return m_world.renderPlayer(player);
+void WorldInProcess::endGame() {
+  m_world.setGameOver();
+  m_answer.game_over = true;
 }
 
 }  // namespace naiad

@@ -126,6 +126,8 @@ StartedWorld WorldLauncher::start(const WorldOrder& order) const {
   StartedWorld started{our_world.release(), our_keeper.release(), our_output.release(), page.release()};
   started.copies = copies.first.release();
   started.hang_time = m_hang_time;
+  started.hashes = order.repeatable;
+  started.repeats = order.again;
   return started;
 }
 

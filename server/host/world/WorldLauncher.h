@@ -45,6 +45,8 @@ struct StartedWorld {
   int page = -1;    ///< memory that it shares with us, an ActivityPage; the caller's to close
   int copies = -1;  ///< for orders of copies (WorldCopies.h), if it is to make any; the caller's to close
   std::chrono::milliseconds hang_time{1000};  ///< as its WorldProgram has it
+  bool hashes = false;   ///< its answers are to be hashed: the order is of a world that can be repeated
+  bool repeats = false;  ///< it is executed again: what it prints was printed
 };
 
 /// The world's program is executed, or cannot be.

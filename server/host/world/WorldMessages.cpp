@@ -4,14 +4,11 @@
 #include <utility>
 
 #include "host/world/BuildId.h"
-#include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 
 namespace naiad {
 
 namespace {
-
-using Input = df::InputQueue::Input;
 
 void visitHash(FieldWriter& out, std::uint64_t hash) {
   out.number(static_cast<std::uint32_t>(hash));
@@ -48,56 +45,6 @@ void visitReady(F& f, T& ready) {
   f.list(ready.files, kMaxReadFiles, [](F& in, auto& file) { visitFile(in, file); });
 }
 
-template <class F, class T>
-void visitSeen(F& f, T& seen) {
-  f.flag(seen.known);
-  f.number(seen.base);
-  f.number(seen.drawn);
-}
-
-template <class F, class Text, class Number>
-void visitScore(F& f, Text& table, Text& name, Number& points) {
-  f.text(table, df::HighScores::kMaxTableName);
-  f.text(name, kMaxNameBytes);
-  f.number(points, -df::HighScores::kMaxPoints, df::HighScores::kMaxPoints);
-}
-
-template <class F, class T>
-void visitRoom(F& f, T& room) {
-  f.text(room.name, df::GameRooms::kMaxName);
-  f.text(room.game, df::GameRooms::kMaxGame);
-  f.number(room.players, 0, df::GameRooms::kMaxPlayers);
-  f.number(room.max_players, 0, df::GameRooms::kMaxPlayers);
-  f.flag(room.is_asleep);
-  f.flag(room.is_this_one);
-}
-
-template <class F, class T>
-void visitInput(F& f, T& input) {
-  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kRoom);
-  f.number(input.player);
-  switch (input.kind) {
-    case df::InputQueue::kJoin:
-      f.text(input.name, kMaxNameBytes);
-      return f.number(input.color, df::BLACK, df::WHITE);
-    case df::InputQueue::kLeave:
-      return;
-    case df::InputQueue::kKey:
-      f.number(input.key, 0, df::Keyboard::kKeyCount - 1);
-      return f.number(input.key_action, df::KEY_PRESSED, df::KEY_DOWN);
-    case df::InputQueue::kMouse:
-      f.number(input.mouse_action, df::CLICKED, df::MOVED);
-      f.number(input.button, df::Mouse::UNDEFINED_MOUSE_BUTTON, df::Mouse::MIDDLE);
-      f.number(input.x, 0, kMaxViewWidth - 1);
-      f.number(input.y, 0, kMaxViewHeight - 1);
-      return visitSeen(f, input.seen);
-    case df::InputQueue::kScore:
-      return visitScore(f, input.table, input.name, input.points);
-    case df::InputQueue::kRoom:
-      return visitRoom(f, input.room);
-  }
-}
-
 /// Flags in one number, the first lowest.
 template <class... Flags>
 void visitFlags(FieldWriter& out, const Flags&... flags) {
@@ -113,14 +60,6 @@ void visitFlags(FieldReader& in, Flags&... flags) {
   int at = 0;
   in.number(bits, 0, (1 << sizeof...(flags)) - 1);
   ((flags = (bits >> at++ & 1) != 0), ...);
-}
-
-template <class F, class T>
-void visitTurn(F& f, T& turn) {
-  visitFlags(f, turn.watched, turn.wants_truth, turn.ends_game, turn.checked, turn.copied);
-  f.number(turn.heard_player);
-  f.number(turn.pictured);
-  f.list(turn.inputs, kMaxTurnInputs, [](F& in, auto& input) { visitInput(in, input); });
 }
 
 void visitCanvas(FieldWriter& out, const df::Canvas& canvas) {
@@ -178,14 +117,6 @@ void visitAnswer(F& f, T& answer) {
 
 }  // namespace
 
-void visitTurnInput(FieldWriter& out, const Input& input) {
-  visitInput(out, input);
-}
-
-void visitTurnInput(FieldReader& in, Input& input) {
-  visitInput(in, input);
-}
-
 void visitPicture(FieldWriter& out, const df::Canvas& canvas) {
   visitCanvas(out, canvas);
 }
@@ -217,20 +148,6 @@ std::optional<WorldReady> readReady(std::string_view fields) {
   WorldReady ready;
   visitReady(in, ready);
   return in.isWhole() ? std::optional(std::move(ready)) : std::nullopt;
-}
-
-bool writeTurn(const WorldTurn& turn, std::string& frame) {
-  if (turn.inputs.size() > kMaxTurnInputs) return false;
-  FieldWriter out(frame);
-  visitTurn(out, turn);
-  return out.finish();
-}
-
-std::optional<WorldTurn> readTurn(std::string_view fields) {
-  FieldReader in(fields);
-  WorldTurn turn;
-  visitTurn(in, turn);
-  return in.isWhole() ? std::optional(std::move(turn)) : std::nullopt;
 }
 
 bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWriter& views,

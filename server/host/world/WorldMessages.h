@@ -1,8 +1,8 @@
 // The messages between a host and a world in a process of its own, as frames (WorldFrame.h).
 //
 //   world → host   ready: what the game has set up      once, when it has come to GM.run()
-//   host → world   turn: inputs, and tick
-//   world → host   answer: how the tick ended; a turn has one answer, and no turn is sent before it
+//   host → world   turn: its record, and tick (TurnRecord.h)
+//   world → host   answer: how the tick ended; a turn has one answer
 //
 // When the game is over, the world's process closes its end and exits; so it does when the host closes its
 // own.
@@ -14,12 +14,13 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/world/InputQueue.h"
+#include "engine/world/HighScores.h"
 #include "engine/world/RoomTable.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
 #include "host/world/Repeatable.h"
 #include "host/world/ViewCodec.h"
+#include "shared/net/base/Limits.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {
@@ -37,21 +38,6 @@ struct WorldReady {
 };
 inline constexpr int kMaxFrameMillis = 1000;
 
-/// Inputs, and a tick.
-struct WorldTurn {
-  std::vector<df::InputQueue::Input> inputs;  ///< in the order they came
-  bool watched = false;                       ///< the answer is to have a view
-  bool wants_truth = false;                   ///< and pictures
-  bool ends_game = false;
-  bool checked = false;            ///< the answer is to have a hash of the state
-  bool copied = false;             ///< behind it a copy is to be made (WorldCopies.h)
-  std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
-  std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
-};
-
-/// The keys and clicks that wait for a world (WorldProcess::kMaxInputs), joins, leaves and scores.
-inline constexpr std::size_t kMaxTurnInputs = std::size_t{1} << 16;
-
 /// What one player sees.
 struct WorldPicture {
   std::uint32_t player = 0;
@@ -67,14 +53,19 @@ struct WorldAnswer {
   std::vector<WorldPicture> pictures;       ///< by player
   std::vector<df::AddedScore> scores = {};  ///< at most HighScores::kMaxAddedInTick
   std::vector<df::SentPlayer> sent = {};    ///< at most GameRooms::kMaxSentInTick
+  std::uint64_t hash = 0;                   ///< of its bytes, for who has read them; 0: there is none
 };
 
 // Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is
 // missing, out of range or left over.
 
-// Parts of a turn, for those who keep it in another form.
-void visitTurnInput(FieldWriter& out, const df::InputQueue::Input& input);
-void visitTurnInput(FieldReader& in, df::InputQueue::Input& input);
+// Parts of records (TurnRecord.h), too.
+template <class F, class Text, class Number>
+void visitScore(F& f, Text& table, Text& name, Number& points) {
+  f.text(table, df::HighScores::kMaxTableName);
+  f.text(name, kMaxNameBytes);
+  f.number(points, -df::HighScores::kMaxPoints, df::HighScores::kMaxPoints);
+}
 void visitPicture(FieldWriter& out, const df::Canvas& canvas);
 void visitPicture(FieldReader& in, df::Canvas& canvas);
 
@@ -84,9 +75,6 @@ void writeReady(const WorldReady& ready, std::string& frame);
 /// follows in its frames may be anything.
 std::optional<std::string> readBuild(std::string_view fields);
 std::optional<WorldReady> readReady(std::string_view fields);
-
-bool writeTurn(const WorldTurn& turn, std::string& frame);
-std::optional<WorldTurn> readTurn(std::string_view fields);
 
 /// `p_view` if the answer has one.
 bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWriter& views,

@@ -18,6 +18,7 @@
 
 #include "host/world/ActivityReader.h"
 #include "host/world/BuildId.h"
+#include "host/world/TurnRecord.h"
 #include "shared/values/FastHash.h"
 
 namespace naiad {
@@ -72,7 +73,9 @@ WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, 
       m_p_page(mapPage(started.page)),
       m_hang_time(started.hang_time),
       m_checked_at(Clock::now()),
-      m_copies(started.copies) {
+      m_hashes(started.hashes),
+      m_copies(started.copies),
+      m_repeats(started.repeats) {
   readHead();
 }
 
@@ -126,31 +129,16 @@ void WorldProcess::waitForKeeper() {
 
 // ---- down -------------------------------------------------------------------------------------------------
 
-// Players who join a world that has ended join the next one (Room::changeWorld).
-std::uint32_t WorldProcess::addInput(df::InputQueue::Input input) {
-  const std::uint32_t player = input.player;
-  const bool lasts = input.kind != df::InputQueue::kKey && input.kind != df::InputQueue::kMouse;
-  if (m_state >= State::kEnding || (!lasts && m_turn.inputs.size() >= kMaxInputs)) return player;
-  input.seen.base -= m_later;
-  input.seen.drawn -= m_later;
-  m_turn.inputs.push_back(std::move(input));
-  return player;
-}
-
-void WorldProcess::tick(bool watched, bool truth) {
+void WorldProcess::tick(const SentTurn& turn) {
   if (m_state >= State::kEnding) return;  // one of those sent ahead has failed
   if (!std::exchange(m_began, true)) {
     m_later = m_next_tick - 1;
     m_views.emplace(m_later);
   }
   ++m_next_tick;
-  m_turn.watched = watched;
-  m_turn.wants_truth = truth;
-  m_turn.pictured = m_pictured;
-  if (!writeTurn(std::exchange(m_turn, {}), m_frame)) return fail(WorldEnd::kBroken, "was asked too much");
-  m_sent.push_back({std::exchange(m_hashes, false), std::exchange(m_copies_now, false)});
-  if (m_sent.size() == 1) beginTick();
-  m_unsent += m_frame;
+  if (turn.record.empty()) return fail(WorldEnd::kBroken, "was asked too much");
+  appendTurnMessage(turn.record, m_copied && m_unanswered == 0, m_unsent);
+  if (m_unanswered++ == 0) beginTick();
   sendTurns();
 }
 
@@ -176,7 +164,7 @@ void WorldProcess::sendTurns() {
 }
 
 std::uint32_t WorldProcess::currentTick() const {
-  return m_next_tick - std::max<std::uint32_t>(static_cast<std::uint32_t>(m_sent.size()), 1);
+  return m_next_tick - std::max(m_unanswered, 1u);
 }
 
 // ---- up ---------------------------------------------------------------------------------------------------
@@ -213,32 +201,21 @@ void WorldProcess::onFrame() {
   } else {
     auto answer = readAnswer(m_in, *m_views, m_view);
     if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
-    answer->leavers.insert(answer->leavers.begin(), m_answer.leavers.begin(), m_answer.leavers.end());
     m_answer = *std::move(answer);
-    const SentTurn sent = m_sent.front();
-    const std::uint32_t next_tick = currentTick() + 1;
-    m_sent.pop_front();
-    m_answer_hash = sent.hashed ? hashAnswer(m_in) : 0;
-    if (sent.copied) m_copies.add({next_tick, *m_views, m_view});
+    m_answer.hash = m_hashes ? hashAnswer(m_in) : 0;
+    if (std::exchange(m_copied, false)) m_copies.add({currentTick() + 1, *m_views, m_view});
+    --m_unanswered;
   }
   m_state = State::kReady;
   m_waited = {};
   m_was_slow = m_warned;
-  if (!m_sent.empty()) beginTick();
+  if (m_unanswered > 0) beginTick();
   readHead();
   if (m_answer.game_over) {
     m_state = State::kEnding;
     m_expected = true;
   }
   if (!starts) reportTick();
-}
-
-std::vector<df::AddedScore> WorldProcess::takeScores() {
-  return std::exchange(m_answer.scores, {});
-}
-
-std::vector<df::SentPlayer> WorldProcess::takeSent() {
-  return std::exchange(m_answer.sent, {});
 }
 
 // An upgrade has replaced files from which this process's worlds are started, but not what this process is.
@@ -248,16 +225,6 @@ void WorldProcess::takeReady() {
     return fail(WorldEnd::kForeign, "is of another build (" + build->substr(0, kShownBuildId) + ")");
   m_ready = readReady(m_in);
   if (!m_ready) fail(WorldEnd::kBroken, "sent what no world sends");
-}
-
-std::vector<std::uint32_t> WorldProcess::takeLeavers() {
-  return std::exchange(m_answer.leavers, {});
-}
-
-df::Canvas WorldProcess::renderPlayer(std::uint32_t player) const {
-  const auto found = std::find_if(m_answer.pictures.begin(), m_answer.pictures.end(),
-                                  [player](const WorldPicture& picture) { return picture.player == player; });
-  return found != m_answer.pictures.end() ? found->canvas : df::Canvas(m_view.view_width, m_view.view_height);
 }
 
 // ---- its end ----------------------------------------------------------------------------------------------
@@ -366,17 +333,13 @@ void WorldProcess::finish(int status) {
 // ---- copies -----------------------------------------------------------------------------------------------
 
 bool WorldProcess::keepCopy() {
-  m_turn.copied = m_copies_now = m_state == State::kReady && m_process > 0 && m_copies.order(m_process);
-  return m_copies_now;
+  m_copied = m_state == State::kReady && m_process > 0 && m_copies.order(m_process);
+  return m_copied;
 }
 
 std::chrono::nanoseconds WorldProcess::cpuTime() const {
   const auto look = lookAtProcess(m_process);
   return look ? look->cpu : std::chrono::nanoseconds(0);
-}
-
-std::optional<std::string> WorldProcess::takeCopyProblem() {
-  return m_copies.takeProblem();
 }
 
 // The keeper waits a second for this, so the host is not to sleep meanwhile.
@@ -412,13 +375,12 @@ void WorldProcess::become(WorldCopy copy) {
   m_views = std::move(copy.state.views);
   m_view = std::move(copy.state.view);
   m_answer = {};
-  m_turn = {};
   m_status.reset();
   m_failure.reset();
   m_end.reset();
   m_warning.reset();
-  m_expected = m_copies_now = m_hashes = m_sending = m_impatient = false;
-  m_sent.clear();
+  m_expected = m_copied = m_sending = m_impatient = false;
+  m_unanswered = 0;
   m_unsent.clear();
   m_repeats = true;
   m_waited = {};
@@ -437,14 +399,14 @@ WorldEnd WorldProcess::endOf(int status) const {
   if (WIFEXITED(status) && WEXITSTATUS(status) != 0)
     return {WorldEnd::kCrashed, "ended with code " + std::to_string(WEXITSTATUS(status)),
             WEXITSTATUS(status)};
-  return {WorldEnd::kGameOver, !m_sent.empty() && !m_expected && WIFEXITED(status) ? kExited : "is over"};
+  return {WorldEnd::kGameOver, m_unanswered > 0 && !m_expected && WIFEXITED(status) ? kExited : "is over"};
 }
 
 // By the host's numbers, as the log's other lines have them.
 std::string WorldProcess::when() const {
   if (!m_began) return {};
   const std::string number = std::to_string(currentTick());
-  return !m_sent.empty() ? "in tick " + number + activity("handled") : "after tick " + number;
+  return m_unanswered > 0 ? "in tick " + number + activity("handled") : "after tick " + number;
 }
 
 std::string WorldProcess::activity(std::string_view verb) const {

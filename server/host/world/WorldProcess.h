@@ -8,7 +8,6 @@
 #include <asio/io_context.hpp>
 #include <asio/local/stream_protocol.hpp>
 #include <chrono>
-#include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -25,7 +24,7 @@
 
 namespace naiad {
 
-/// WorldPort::answerHash() of an answer's fields.
+/// WorldAnswer::hash of an answer's fields.
 std::uint64_t hashAnswer(std::string_view fields);
 
 class WorldProcess : public WorldPort {
@@ -40,8 +39,6 @@ class WorldProcess : public WorldPort {
   static constexpr std::chrono::seconds kStartTime{30};
   /// From the end of the game to that of its process: what main() does after GM.run().
   static constexpr std::chrono::seconds kEndTime{1};
-  /// Keys and clicks that wait for a world, at most; those beyond are dropped.
-  static constexpr std::size_t kMaxInputs = 16'384;
   /// Of turnsAhead(): some milliseconds of most games.
   static constexpr std::uint32_t kTurnsAhead = 32;
 
@@ -53,41 +50,39 @@ class WorldProcess : public WorldPort {
   WorldProcess(const WorldProcess&) = delete;
   WorldProcess& operator=(const WorldProcess&) = delete;
 
-  std::uint32_t addInput(df::InputQueue::Input input) override;
-  void setHeard(std::uint32_t player) override { m_turn.heard_player = player; }
-  void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return m_state == State::kReady; }
-  void setPictured(std::uint32_t player) override { m_pictured = player; }
-  void setChecked(bool state) override {
-    m_hashes = true;
-    m_turn.checked = state;
-  }
-  std::uint64_t answerHash() const override { return m_answer_hash; }
-  std::optional<std::uint64_t> stateHash() const override { return m_answer.state_hash; }
-  std::uint32_t turnsAhead() const override { return kTurnsAhead; }
-  void tick(bool watched, bool truth) override;
+  void tick(const SentTurn& turn) override;
   /// Before the first tick: that of the host's. From there on it counts its own.
   std::uint32_t nextTick() const override { return m_next_tick; }
+  std::uint32_t turnsAhead() const override { return kTurnsAhead; }
   const df::WorldView& view() const override { return m_view; }
-  /// Lag compensation is done in the world's own process.
-  void notePublished(const Publisher& /*publisher*/) override {}
-  std::vector<std::uint32_t> takeLeavers() override;
-  std::vector<df::AddedScore> takeScores() override;
-  std::vector<df::SentPlayer> takeSent() override;
-  bool isGameOver() const override { return m_answer.game_over; }
-  df::Canvas renderPlayer(std::uint32_t player) const override;
   void checkProcess(std::uint32_t tick) override;
   std::optional<WorldEnd> end() const override { return m_end; }
-  std::optional<std::string> takeWarning() override { return std::exchange(m_warning, std::nullopt); }
   void close() override;
-  void setImpatient(bool impatient) override { m_impatient = impatient; }
-  bool wasSlow() const override { return m_was_slow; }
-  bool keepCopy() override;
-  std::chrono::nanoseconds cpuTime() const override;
-  std::optional<std::string> takeCopyProblem() override;
-  std::optional<std::uint32_t> goOnWithCopy() override;
-  void endRepetition() override;
-  void giveUp(const std::string& why) override { fail(WorldEnd::kCrashed, why); }
+
+  /// A line for the log, once: the tick does not end.
+  std::optional<std::string> takeWarning() { return std::exchange(m_warning, std::nullopt); }
+  /// Where a copy is ready to go on, a tick that seems to hang is not waited for.
+  void setImpatient(bool impatient) { m_impatient = impatient; }
+  /// Did the last tick seem to hang, and came to its end?
+  bool wasSlow() const { return m_was_slow; }
+  /// That its process has taken, of all processors; 0: unknown.
+  std::chrono::nanoseconds cpuTime() const;
+  /// What it prints from now on was not printed before.
+  void endRepetition();
+  /// It is not to go on: it ends as one that crashed.
+  void giveUp(const std::string& why) { fail(WorldEnd::kCrashed, why); }
+
+  // Copies of its process: one goes on where the world has crashed or hangs.
+
+  /// Keep a copy of the world as it is after the next tick, beside the one before. False: there will be none.
+  bool keepCopy();
+  /// Why there are none any more, once, in words.
+  std::optional<std::string> takeCopyProblem() { return m_copies.takeProblem(); }
+  /// After end(): the newest copy is the world from now on, as it was after its tick: return how many it has
+  /// had since the world's first. What it prints is dropped until endRepetition(). Nothing: there is none
+  /// left, and no process of the world is.
+  std::optional<std::uint32_t> goOnWithCopy();
 
   /// What the game has set up by GM.run(); nothing before.
   const std::optional<WorldReady>& ready() const { return m_ready; }
@@ -148,7 +143,6 @@ class WorldProcess : public WorldPort {
   std::chrono::nanoseconds m_waited{0};  ///< in this state; time between two checks counts up to a limit
   TickEffort m_effort;                   ///< of the tick that is under way
   std::uint32_t m_next_tick = 1;
-  std::uint32_t m_pictured = 0;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
   bool m_impatient = false;
@@ -156,27 +150,18 @@ class WorldProcess : public WorldPort {
   bool m_was_slow = false;    ///< m_warned of the tick before
   bool m_stop_noted = false;  ///< of this tick, that it is stopped
   std::optional<std::string> m_warning;
-  bool m_expected = false;  ///< to end: the game is over, or the host closed it
-  bool m_hashes = false;    ///< the next turn's answer is to be hashed
-  std::uint64_t m_answer_hash = 0;
-  WorldTurn m_turn;  ///< the next one
-  /// Of a turn that was sent and not answered.
-  struct SentTurn {
-    bool hashed = false;
-    bool copied = false;
-  };
-  std::deque<SentTurn> m_sent;
-  std::string m_frame;
+  bool m_expected = false;         ///< to end: the game is over, or the host closed it
+  const bool m_hashes;             ///< its answers
+  std::uint32_t m_unanswered = 0;  ///< turns that were sent
   std::string m_unsent;
   std::string m_out;  ///< that is being sent
   bool m_sending = false;
   std::string m_in;
   std::optional<ViewReader> m_views;
   df::WorldView m_view;
-  WorldAnswer m_answer;
   WorldCopies m_copies;
-  bool m_copies_now = false;  ///< behind the next turn
-  bool m_repeats = false;     ///< what it prints was printed
+  bool m_copied = false;  ///< behind the next turn, or the one under way
+  bool m_repeats;         ///< what it prints was printed
   std::shared_ptr<WorldProcess*> m_self = std::make_shared<WorldProcess*>(this);  ///< handlers may come later
 };
 

@@ -5,11 +5,11 @@
 
 #include <cerrno>
 
-#include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/world/FixedStart.h"
 #include "host/world/Repeatable.h"
+#include "host/world/WorldInProcess.h"
 
 namespace naiad {
 
@@ -76,7 +76,8 @@ void WorldServer::run(df::World& world) {
   writeReady(readyOf(world), m_frame);
   bool goes_on = send(m_frame);
   for (std::string fields; goes_on && receive(fields);) {
-    const auto turn = readTurn(fields);
+    bool copied = false;
+    const auto turn = readTurnMessage(fields, m_turns, copied);
     if (!turn) {
       world.log("The host sent a malformed turn; the game is over.");
       break;
@@ -86,7 +87,7 @@ void WorldServer::run(df::World& world) {
     applyTurn(*turn, world);
     world.tick();
     goes_on = sendAnswer(*turn, world) && !world.isGameOver();
-    if (goes_on && turn->copied) makeCopy();
+    if (goes_on && copied) makeCopy();
   }
   world.setGameOver();
   world.setLagCompensation(nullptr);
@@ -96,15 +97,6 @@ void WorldServer::run(df::World& world) {
 // The copy comes here when it is to go on: in the same place, with another socket.
 void WorldServer::makeCopy() {
   if (const auto socket = m_copies.makeCopy(m_socket)) m_socket = *socket;
-}
-
-void WorldServer::applyTurn(const WorldTurn& turn, df::World& world) {
-  for (const df::InputQueue::Input& input : turn.inputs) world.inputs().push(input);
-  if (turn.heard_player != 0 || world.findExtras() != nullptr) {
-    world.extras().heard_player = turn.heard_player;
-  }
-  if (turn.ends_game) world.setGameOver();
-  world.setWatched(turn.watched);
 }
 
 void WorldServer::updateLagCompensation(const WorldTurn& turn, df::World& world) {
@@ -121,22 +113,7 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
     m_publisher->update(world.view());
     m_lag_compensator.recordTick(*m_publisher, world.view());
   }
-  WorldAnswer answer;
-  answer.game_over = world.isGameOver();
-  answer.leavers = world.takeLeavers();
-  answer.has_view = turn.watched;
-  if (df::WorldExtras* p_extras = world.findExtras()) {
-    answer.scores = p_extras->scores.takeAdded();
-    answer.sent = p_extras->rooms.takeSent();
-  }
-  if (turn.checked) answer.state_hash = df::hashState(world);
-  if (turn.watched && turn.wants_truth) {
-    for (const df::PlayerFacts& player : world.view().players) {
-      if (turn.pictured != 0 && turn.pictured != player.id) continue;
-      answer.pictures.push_back({player.id, world.renderPlayer(player.id)});
-    }
-  }
-  if (!writeAnswer(answer, turn.watched ? &world.view() : nullptr, m_views, m_frame)) {
+  if (!writeAnswer(takeAnswer(turn, world), turn.watched ? &world.view() : nullptr, m_views, m_frame)) {
     world.log("The world does not fit in a frame of " + std::to_string(kMaxWorldFrame) +
               " bytes; the game is over. dfserver --in-process has no such bound.");
     return false;

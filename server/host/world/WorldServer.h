@@ -8,7 +8,7 @@
 #include "host/snapshot/LagCompensator.h"
 #include "host/snapshot/Publisher.h"
 #include "host/world/CopyMaker.h"
-#include "host/world/WorldMessages.h"
+#include "host/world/TurnRecord.h"
 
 namespace naiad {
 
@@ -27,7 +27,6 @@ class WorldServer : public df::Runner {
  private:
   bool receive(std::string& fields) const;
   bool send(const std::string& frame) const;
-  void applyTurn(const WorldTurn& turn, df::World& world);
   void updateLagCompensation(const WorldTurn& turn, df::World& world);
   bool sendAnswer(const WorldTurn& turn, df::World& world);
   void makeCopy();
@@ -35,6 +34,7 @@ class WorldServer : public df::Runner {
 
   int m_socket;
   bool m_leaves;
+  TurnRecordReader m_turns;
   CopyMaker m_copies;
   ViewWriter m_views;
   std::string m_frame;

@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "host/journal/JournaledWorld.h"
+#include "host/journal/JournalWriter.h"
+#include "host/journal/RepeatCheck.h"
+#include "host/journal/RoundRecovery.h"
+#include "host/rounds/Round.h"
 #include "host/world/WorldProcess.h"
 #include "shared/values/SplitMix64.h"
 
@@ -16,7 +19,7 @@ namespace bench {
 namespace {
 
 using naiad::Journal;
-using naiad::JournaledWorld;
+using naiad::Round;
 
 constexpr int kTicks = 20'000;
 constexpr int kRuns = 5;
@@ -32,34 +35,19 @@ struct Nowhere : naiad::JournalSink {
 class StubWorld : public naiad::WorldPort {
  public:
   explicit StubWorld(bool hashes) : m_hashes(hashes) {}
-  std::uint32_t addInput(df::InputQueue::Input input) override {
-    m_inputs.push_back(std::move(input));
-    return m_inputs.back().player;
-  }
-  void setHeard(std::uint32_t /*player*/) override {}
-  void endGame() override {}
   bool isReady() const override { return true; }
-  std::uint64_t answerHash() const override { return m_hash; }
-  void tick(bool /*watched*/, bool /*truth*/) override {
+  void tick(const naiad::SentTurn& /*turn*/) override {
     ++m_ticks;
-    m_inputs.clear();
-    if (m_hashes) m_hash = naiad::hashAnswer(m_answer);
+    if (m_hashes) m_answer.hash = naiad::hashAnswer(m_fields);
     reportTick();
   }
   std::uint32_t nextTick() const override { return m_ticks + 1; }
   const df::WorldView& view() const override { return m_view; }
-  void notePublished(const naiad::Publisher& /*publisher*/) override {}
-  std::vector<std::uint32_t> takeLeavers() override { return {}; }
-  std::vector<df::AddedScore> takeScores() override { return {}; }
-  bool isGameOver() const override { return false; }
-  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {80, 24}; }
 
  private:
   const bool m_hashes;
   std::uint32_t m_ticks = 0;
-  std::uint64_t m_hash = 0;
-  std::string m_answer = std::string(kAnswer, 'x');
-  std::vector<df::InputQueue::Input> m_inputs;
+  std::string m_fields = std::string(kAnswer, 'x');
   df::WorldView m_view;
 };
 
@@ -69,7 +57,7 @@ double threadNanos() {
   return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
 }
 
-double nanosPerTick(naiad::WorldPort& world, int players) {
+double nanosPerTick(Round& round, int players) {
   naiad::SplitMix64 random(3);
   const double began = threadNanos();
   for (int tick = 0; tick < kTicks; ++tick) {
@@ -78,26 +66,26 @@ double nanosPerTick(naiad::WorldPort& world, int players) {
       df::InputQueue::Input key{.kind = df::InputQueue::kKey, .player = static_cast<std::uint32_t>(player)};
       key.key = static_cast<df::Keyboard::Key>(random.below(12));
       key.key_action = static_cast<df::EventKeyboardAction>(random.below(3));
-      world.addInput(key);
+      round.addInput(key);
     }
-    world.tick(true, false);
+    round.tick(true, false);
   }
   return (threadNanos() - began) / kTicks;
 }
 
 double plain(int players) {
-  StubWorld world(false);
-  return nanosPerTick(world, players);
+  Round round(std::make_unique<StubWorld>(false));
+  return nanosPerTick(round, players);
 }
 
 double journaled(int players) {
-  JournaledWorld::Book book;
+  Round::Book book;
   book.writer = std::make_shared<naiad::JournalWriter>();
   book.journal = std::make_shared<Journal>(std::make_unique<Nowhere>(), naiad::DfrHeader(), naiad::DfrFacts(),
                                            std::size_t{4} << 20, false);
   book.writer->add(book.journal);
-  JournaledWorld world(std::make_unique<StubWorld>(true), std::move(book));
-  return nanosPerTick(world, players);
+  Round round(std::make_unique<StubWorld>(true), std::move(book));
+  return nanosPerTick(round, players);
 }
 
 }  // namespace

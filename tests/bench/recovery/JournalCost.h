@@ -3,8 +3,8 @@
 
 namespace bench {
 
-/// Nanoseconds of a tick that a JournaledWorld adds, with so many players who press nine keys a second each:
-/// with hashing an answer of a usual size, without the world.
+/// Nanoseconds of a tick that a journal adds to a Round, with so many players who press nine keys a second
+/// each: with hashing an answer of a usual size, without the world.
 double journalNanos(int players);
 
 }  // namespace bench

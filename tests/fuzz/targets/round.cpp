@@ -17,17 +17,12 @@ namespace {
 void tryAgain(const WorldTurn& turn) {
   std::string first;
   std::string second;
-  REQUIRE(writeTurn(turn, first));
-  const auto same = readTurn(std::string_view(first).substr(kWorldFrameHead));
-  REQUIRE(same && writeTurn(*same, second));
-  REQUIRE(first == second);
-  std::string records;
-  REQUIRE(TurnRecordWriter().write(turn, records));
+  REQUIRE(TurnRecordWriter().write(turn, first));
   TurnRecordReader reader;
-  reader.add(records);
+  reader.add(first);
   const auto record = reader.next();
   REQUIRE(record && std::holds_alternative<WorldTurn>(*record) && reader.atEnd());
-  REQUIRE(writeTurn(std::get<WorldTurn>(*record), second));
+  REQUIRE(TurnRecordWriter().write(std::get<WorldTurn>(*record), second));
   REQUIRE(first == second);
 }
 

@@ -1,7 +1,7 @@
 // What a world in a process of its own sends its host, and what it is sent: a stranger's game may be at the
 // other end.
 //
-//   input   0 turn, 1 answers (1) | turn: its fields; answers: each length (2) | fields
+//   input   0 turn, 1 answers (1) | turn: the fields of its message; answers: each length (2) | fields
 //
 // The fields of a turn are read as what a game has set up, too.
 #include "Require.h"
@@ -10,7 +10,7 @@
 #include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
 #include "host/world/BuildId.h"
-#include "host/world/WorldMessages.h"
+#include "host/world/TurnRecord.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 
@@ -22,15 +22,20 @@ std::string_view fieldsOf(const std::string& frame) {
 }
 
 void tryTurn(std::string_view bytes) {
-  const auto turn = readTurn(bytes);
+  TurnRecordReader records;
+  bool copied = false;
+  const auto turn = readTurnMessage(bytes, records, copied);
   if (!turn) return;
-  std::string frame;
+  std::string record;
+  std::string message;
   std::string again;
-  REQUIRE(writeTurn(*turn, frame));
-  const auto same = readTurn(fieldsOf(frame));
+  REQUIRE(TurnRecordWriter().write(*turn, record));
+  appendTurnMessage(record, copied, message);
+  TurnRecordReader others;
+  const auto same = readTurnMessage(fieldsOf(message), others, copied);
   REQUIRE(same && same->inputs.size() == turn->inputs.size());
-  REQUIRE(writeTurn(*same, again));
-  REQUIRE(again == frame);
+  REQUIRE(TurnRecordWriter().write(*same, again));
+  REQUIRE(again == record);
 }
 
 /// The id of this build, with which no input could begin by chance.

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/journal/CopyMarks.h"
+#include "host/journal/RoundHistory.h"
 #include "host/world/Descendants.h"
 #include "host/world/WorldCopies.h"
 #include "tests/server/replay/FrailRound.h"
@@ -178,7 +178,7 @@ TEST_F(CopiesTest, AHangIsFollowedToo) {
 
 TEST_F(CopiesTest, EachDeathIsFollowedByANewerCopy) {
   for (int death = 0; death < 3; ++death) {
-    play(static_cast<int>(JournaledWorld::kSameDeath) + 10);
+    play(static_cast<int>(Round::kSameDeath) + 10);
     survive(df::Keyboard::Q);
   }
   EXPECT_EQ(count(kByCopy), 3u) << log;
@@ -199,7 +199,7 @@ TEST_F(CopiesTest, ASecondDeathAtTheSamePlaceEndsTheRoundAndAllProcesses) {
 }
 
 TEST_F(CopiesTest, TheOlderOneGoesOnWhereTheNewerIsGone) {
-  play(static_cast<int>(CopyMarks::kTicks + CopyMarks::kFirst) + 50);
+  play(static_cast<int>(RoundHistory::kTicks + RoundHistory::kFirst) + 50);
   const std::vector<pid_t> copies = find(kCopy);
   ASSERT_EQ(copies.size(), WorldCopies::kKept);
   kill(copies.back(), SIGKILL);
@@ -221,7 +221,7 @@ TEST_F(CopiesTest, WithoutThemTheRoundIsExecutedFromItsBeginning) {
 
 // It is killed when the world has been: the one that goes on is gone while it has the turns again.
 TEST_F(CopiesTest, ACopyThatEndsWhileItHasTheTurnsAgainIsFollowedByTheNext) {
-  play(static_cast<int>(CopyMarks::kTicks + CopyMarks::kFirst) + 50);
+  play(static_cast<int>(RoundHistory::kTicks + RoundHistory::kFirst) + 50);
   const std::vector<pid_t> copies = find(kCopy);
   ASSERT_EQ(copies.size(), WorldCopies::kKept);
   kill(copies.back(), SIGSTOP);
@@ -252,7 +252,7 @@ TEST_F(CopiesTest, ACopyThatAnswersOtherwiseIsNotGoneOnWith) {
 }
 
 TEST_F(CopiesTest, AtMostTwoAreKept) {
-  play(static_cast<int>(CopyMarks::kFirst + 2 * CopyMarks::kTicks));
+  play(static_cast<int>(RoundHistory::kFirst + 2 * RoundHistory::kTicks));
   EXPECT_LE(find(kCopy).size(), WorldCopies::kKept + 1);
   // One that is not kept ends by itself, when a busy machine lets it.
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -267,7 +267,7 @@ TEST_F(CopiesTest, OfAGameWithThreadsThereAreNone) {
   play(60);
   EXPECT_EQ(find(kCopy).size(), 1u);
   press(df::Keyboard::T);
-  play(static_cast<int>(CopyMarks::kTicks));
+  play(static_cast<int>(RoundHistory::kTicks));
   EXPECT_TRUE(find(kCopy).empty());
   EXPECT_EQ(count("no copies are kept: it has threads"), 1u) << log;
 }

@@ -90,7 +90,7 @@ class FrailRound : public testing::Test {
   asio::io_context home;
   std::shared_ptr<const WorldLauncher> launcher;
   std::shared_ptr<Journals> journals;
-  std::unique_ptr<WorldPort> world;
+  std::unique_ptr<Round> world;
   int ended = 0;
 };
 

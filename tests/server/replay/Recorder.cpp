@@ -14,7 +14,6 @@
 #include "host/rounds/Journals.h"
 #include "host/rounds/Worlds.h"
 #include "host/settings/GameModule.h"
-#include "host/world/WorldProcess.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {
@@ -29,7 +28,7 @@ class RandomInputs {
  public:
   RandomInputs(std::uint64_t seed, std::size_t most) : m_random(seed), m_most(most) {}
 
-  void play(WorldPort& world) {
+  void play(Round& world) {
     if (m_players.empty() || (m_players.size() < m_most && m_random.below(60) == 0)) {
       m_players.push_back(world.addInput({.kind = df::InputQueue::kJoin,
                                           .player = ++m_last,
@@ -44,7 +43,7 @@ class RandomInputs {
   bool isEmpty() const { return m_players.empty(); }
 
  private:
-  void press(WorldPort& world, std::uint32_t player) {
+  void press(Round& world, std::uint32_t player) {
     static constexpr df::Keyboard::Key kKeys[] = {
         df::Keyboard::SPACE,   df::Keyboard::W,      df::Keyboard::A,         df::Keyboard::S,
         df::Keyboard::D,       df::Keyboard::P,      df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW,
@@ -71,7 +70,7 @@ class RandomInputs {
   std::vector<std::uint32_t> m_players;
 };
 
-void waitFor(asio::io_context& home, WorldPort& world, const bool& done) {
+void waitFor(asio::io_context& home, Round& world, const bool& done) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!done && !world.end() && std::chrono::steady_clock::now() < end) {
     home.restart();

@@ -15,6 +15,9 @@
 #include "engine/world/World.h"
 #include "host/admission/Admission.h"
 #include "host/auth/PasswordHash.h"
+#include "host/journal/JournalWriter.h"
+#include "host/journal/RepeatCheck.h"
+#include "host/journal/RoundRecovery.h"
 #include "naiad.pb.h"
 #include "tests/server/host/rooms/Clients.h"
 
@@ -25,6 +28,14 @@ using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
 
+constexpr int kTurns = 100;  ///< of a round that is executed again
+
+struct Nowhere : JournalSink {
+  void write(std::string_view) override {}
+  void sync() override {}
+  void setFlags(std::uint16_t) override {}
+};
+
 /// A world that is closed at once, or not before the test says so.
 class FakeWorld : public WorldPort {
  public:
@@ -33,25 +44,19 @@ class FakeWorld : public WorldPort {
   FakeWorld(const FakeWorld&) = delete;
   FakeWorld& operator=(const FakeWorld&) = delete;
 
-  std::uint32_t addInput(df::InputQueue::Input input) override { return input.player; }
-  void setHeard(std::uint32_t) override {}
-  void endGame() override {}
-  bool isReady() const override { return false; }
-  void tick(bool, bool) override {}
+  bool isReady() const override { return ready; }
+  void tick(const SentTurn&) override {}
   std::uint32_t nextTick() const override { return 1; }
   const df::WorldView& view() const override { return m_view; }
-  void notePublished(const Publisher&) override {}
-  std::vector<std::uint32_t> takeLeavers() override { return {}; }
-  std::vector<df::AddedScore> takeScores() override { return {}; }
-  bool isGameOver() const override { return false; }
-  df::Canvas renderPlayer(std::uint32_t) const override { return {}; }
   std::optional<WorldEnd> end() const override {
     return m_closed && m_ends ? std::optional(WorldEnd()) : std::nullopt;
   }
   void close() override { m_closed = true; }
-  std::optional<int> recovering() const override { return percent; }
+  void answer(int ticks) {
+    while (ticks-- > 0) reportTick();
+  }
 
-  std::optional<int> percent;
+  bool ready = false;
 
  private:
   int& m_worlds;
@@ -123,12 +128,28 @@ class AdmissionTest : public testing::Test {
   }
   /// A round of a server that was killed is executed again.
   FakeWorld& recover(int percent) {
-    auto room = std::make_unique<FakeWorld>(worlds, worlds_end);
-    FakeWorld& recovering = *room;
-    recovering.percent = percent;
-    rooms.setWorlds([made = std::make_shared<std::unique_ptr<FakeWorld>>(std::move(room))](
-                        asio::io_context&) { return std::move(*made); });
-    return recovering;
+    FakeWorld* p_fake = nullptr;
+    rooms.setWorlds([this, &p_fake](asio::io_context&) {
+      auto fake = std::make_unique<FakeWorld>(worlds, worlds_end);
+      p_fake = fake.get();
+      p_fake->ready = true;
+      std::string records;
+      TurnRecordWriter writer;
+      for (int i = 0; i < kTurns; ++i) writer.write(WorldTurn(), records);
+      Round::Book book;
+      book.writer = std::make_shared<JournalWriter>();
+      book.journal =
+          std::make_shared<Journal>(std::make_unique<Nowhere>(), DfrHeader(), DfrFacts(), 1 << 16, false);
+      book.recovery = std::make_unique<RoundRecovery>(std::make_shared<OpenRound>(DfrHeader(), records));
+      return std::make_unique<Round>(std::move(fake), std::move(book));
+    });
+    admission();
+    p_fake->answer(percent);
+    return *p_fake;
+  }
+  void endRecovery(FakeWorld& fake, int percent) {
+    fake.answer(kTurns - percent + 1);  // that of the closing turn, too
+    rooms.checkWorlds();
   }
   bool waitsAfter(const Client& client, std::chrono::milliseconds time) {
     now += time;
@@ -145,7 +166,8 @@ class AdmissionTest : public testing::Test {
   }
   void playInPrivate() {
     options.players = "private";
-    rooms.setWorlds([this](asio::io_context&) { return std::make_unique<FakeWorld>(worlds, worlds_end); });
+    rooms.setWorlds(
+        [this](asio::io_context&) { return std::make_unique<Round>(std::make_unique<FakeWorld>(worlds, worlds_end)); });
   }
 
   std::vector<std::string> log;
@@ -209,7 +231,7 @@ TEST_F(AdmissionTest, AHelloWaitsASecondForARoundThatIsExecutedAgain) {
   EXPECT_TRUE(waitsAfter(client, 999ms));
   EXPECT_FALSE(waitsAfter(client, 1ms));
   EXPECT_EQ(client.refusal(), wire::Refused::BUSY);
-  room.percent.reset();
+  endRecovery(room, 50);
   EXPECT_TRUE(greet(helloOf("Ann")).isWelcome());
 }
 
@@ -217,9 +239,9 @@ TEST_F(AdmissionTest, AHelloWaitsForTheRestOfARoundThatIsMoreThanHalfDone) {
   FakeWorld& room = recover(40);
   const Client& client = greet(helloOf("Ann"));
   EXPECT_TRUE(waitsAfter(client, 999ms));
-  room.percent = 51;
+  room.answer(11);
   EXPECT_TRUE(waitsAfter(client, 2000ms));
-  room.percent.reset();
+  endRecovery(room, 51);
   EXPECT_FALSE(waitsAfter(client, 0ms));
   EXPECT_TRUE(client.isWelcome());
 }
@@ -524,7 +546,7 @@ TEST_F(AdmissionTest, WorldsThatDoNotEndArePlacesTaken) {
 
 TEST_F(AdmissionTest, AWorldThatCannotBeginIsALineOfItsClient) {
   options.players = "private";
-  rooms.setWorlds([](asio::io_context&) -> std::unique_ptr<WorldPort> {
+  rooms.setWorlds([](asio::io_context&) -> std::unique_ptr<Round> {
     throw std::system_error(std::make_error_code(std::errc::too_many_files_open), "a new world");
   });
   EXPECT_EQ(greet(helloOf("Ann")).refusal(), wire::Refused::BUSY);

@@ -27,26 +27,18 @@ using test::helloOf;
 /// Notes what it is given, and sends players where the test says.
 class DoorPort : public WorldPort {
  public:
-  std::uint32_t addInput(df::InputQueue::Input input) override {
-    const std::uint32_t player = input.player;
-    inputs.push_back(std::move(input));
-    return player;
+  std::optional<std::uint32_t> takeInput(const df::InputQueue::Input& input) override {
+    inputs.push_back(input);
+    return input.player;
   }
-  void setHeard(std::uint32_t /*player*/) override {}
-  void endGame() override {}
   bool isReady() const override { return true; }
-  void tick(bool /*watched*/, bool /*truth*/) override {
+  void tick(const SentTurn& /*turn*/) override {
     ++m_view.tick;
+    m_answer.sent = std::exchange(sent, {});
     reportTick();
   }
   std::uint32_t nextTick() const override { return m_view.tick + 1; }
   const df::WorldView& view() const override { return m_view; }
-  void notePublished(const Publisher& /*publisher*/) override {}
-  std::vector<std::uint32_t> takeLeavers() override { return {}; }
-  std::vector<df::AddedScore> takeScores() override { return {}; }
-  std::vector<df::SentPlayer> takeSent() override { return std::exchange(sent, {}); }
-  bool isGameOver() const override { return false; }
-  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
   std::optional<WorldEnd> end() const override { return ended; }
   void close() override { ended = WorldEnd(); }
 
@@ -83,7 +75,7 @@ class RoomMovesTest : public testing::Test {
               auto port = std::make_unique<DoorPort>();
               ports[name] = port.get();
               ++begun[name];
-              return port;
+              return std::make_unique<Round>(std::move(port));
             }};
   }
   Client& connect(const wire::Hello& hello) {

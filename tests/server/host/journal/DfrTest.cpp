@@ -103,8 +103,8 @@ TEST(DfrTest, WhatIsWrittenIsRead) {
     ASSERT_TRUE(turn && std::holds_alternative<WorldTurn>(*turn)) << i;
     std::string a;
     std::string b;
-    writeTurn(wanted, a);
-    writeTurn(std::get<WorldTurn>(*turn), b);
+    TurnRecordWriter().write(wanted, a);
+    TurnRecordWriter().write(std::get<WorldTurn>(*turn), b);
     EXPECT_EQ(a, b) << i;
     const auto result = reader.next();
     ASSERT_TRUE(result && std::holds_alternative<TickResult>(*result)) << i;

@@ -23,36 +23,21 @@ class QuickWorld : public WorldPort {
  public:
   QuickWorld(std::vector<WorldTurn>& turns, std::uint32_t strays_at)
       : m_turns(turns), m_strays_at(strays_at) {}
-  std::uint32_t addInput(df::InputQueue::Input input) override {
-    m_turn.inputs.push_back(input);
-    return input.player;
-  }
-  void setHeard(std::uint32_t player) override { m_turn.heard_player = player; }
-  void endGame() override { m_turn.ends_game = true; }
   bool isReady() const override { return true; }
-  void setChecked(bool state) override { m_turn.checked = state; }
-  std::uint64_t answerHash() const override { return m_tick < m_strays_at ? 7 : 8; }
-  void tick(bool watched, bool truth) override {
-    m_turn.watched = watched;
-    m_turn.wants_truth = truth;
-    m_turns.push_back(std::exchange(m_turn, {}));
+  void tick(const SentTurn& turn) override {
+    m_turns.push_back(turn.turn);
     ++m_tick;
+    m_answer.hash = m_tick < m_strays_at ? 7 : 8;
     m_view = viewOf(m_tick < m_strays_at ? 1 : 2.5);
     reportTick();
   }
   std::uint32_t nextTick() const override { return m_tick + 1; }
   const df::WorldView& view() const override { return m_view; }
-  void notePublished(const Publisher& /*publisher*/) override {}
-  std::vector<std::uint32_t> takeLeavers() override { return {}; }
-  std::vector<df::AddedScore> takeScores() override { return {}; }
-  bool isGameOver() const override { return false; }
-  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
 
  private:
   std::vector<WorldTurn>& m_turns;
   std::uint32_t m_strays_at;
   std::uint32_t m_tick = 0;
-  WorldTurn m_turn;
   df::WorldView m_view;
 };
 
@@ -69,7 +54,7 @@ struct Checked {
       turn.watched = true;
       turn.heard_player = updates + 1;
       if (updates == 4) turn.inputs.push_back({.kind = df::InputQueue::kLeave, .player = 5});
-      check.add(turn, 7, viewOf(1));
+      check.add({turn, {}}, 7, viewOf(1));
       if (!check.update()) break;
     }
   }

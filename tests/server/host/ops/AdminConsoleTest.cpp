@@ -59,7 +59,7 @@ class AdminConsoleTest : public testing::Test {
   void addRoom(const std::string& name, const std::string& game) {
     plans.push_back(
         {.name = name, .game = game, .max_players = 8, .ready = {}, .new_world = [this](asio::io_context&) {
-           return std::make_unique<WorldInProcess>(world);
+           return std::make_unique<Round>(std::make_unique<WorldInProcess>(world));
          }});
   }
   void open() {

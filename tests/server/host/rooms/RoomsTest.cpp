@@ -27,30 +27,20 @@ using test::helloOf;
 /// Reports whatever the test says.
 class ScriptedPort : public WorldPort {
  public:
-  std::uint32_t addInput(df::InputQueue::Input input) override { return input.player; }
-  void setHeard(std::uint32_t /*player*/) override {}
-  void endGame() override {}
   bool isReady() const override { return true; }
-  void setPictured(std::uint32_t player) override { m_pictured = player; }
-  void tick(bool /*watched*/, bool truth) override {
-    pictured.push_back(truth ? m_pictured : 0);
+  void tick(const SentTurn& turn) override {
+    pictured.push_back(turn.turn.wants_truth ? turn.turn.pictured : 0);
     ++m_view.tick;
     m_view.players = players;
     reportTick();
   }
   std::uint32_t nextTick() const override { return m_view.tick + 1; }
   const df::WorldView& view() const override { return m_view; }
-  void notePublished(const Publisher& /*publisher*/) override {}
-  std::vector<std::uint32_t> takeLeavers() override { return {}; }
-  std::vector<df::AddedScore> takeScores() override { return {}; }
-  bool isGameOver() const override { return false; }
-  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {}; }
 
   std::vector<df::PlayerFacts> players;
   std::vector<std::uint32_t> pictured;  ///< by tick: whose picture was wanted; 0: none
 
  private:
-  std::uint32_t m_pictured = 0;
   df::WorldView m_view;
 };
 
@@ -70,7 +60,7 @@ class RoomsTest : public testing::Test {
     rooms.setWorlds([this](asio::io_context&) {
       auto port = std::make_unique<ScriptedPort>();
       ports.push_back(port.get());
-      return port;
+      return std::make_unique<Round>(std::move(port));
     });
     rooms.open(world);
     admission.setWorld(world);

@@ -10,7 +10,7 @@
 
 #include "host/snapshot/Publisher.h"
 #include "host/world/BuildId.h"
-#include "host/world/WorldMessages.h"
+#include "host/world/TurnRecord.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 #include "shared/values/SplitMix64.h"
@@ -266,7 +266,6 @@ TEST(WorldMessages, AnswersCrossWhole) {
 WorldTurn fullTurn() {
   using Queue = df::InputQueue;
   WorldTurn turn{{}, true, true, true};
-  turn.copied = true;
   turn.pictured = 5;
   turn.inputs.push_back({.kind = Queue::kJoin, .player = 4, .name = "bob", .color = df::GREEN});
   turn.inputs.push_back(
@@ -287,13 +286,30 @@ WorldTurn fullTurn() {
   return turn;
 }
 
+std::string messageOf(const WorldTurn& turn, bool copied = false) {
+  std::string record;
+  std::string message;
+  EXPECT_TRUE(TurnRecordWriter().write(turn, record));
+  appendTurnMessage(record, copied, message);
+  EXPECT_EQ(loadLittleEndian<std::uint32_t>(message.data()), message.size() - kWorldFrameHead);
+  return message;
+}
+
+std::optional<WorldTurn> readTurn(std::string_view fields, bool* p_copied = nullptr) {
+  TurnRecordReader records;
+  bool copied = false;
+  const auto turn = readTurnMessage(fields, records, copied);
+  if (p_copied != nullptr) *p_copied = copied;
+  return turn;
+}
+
 TEST(WorldMessages, TurnsCrossWhole) {
   const WorldTurn sent = fullTurn();
-  std::string frame;
-  ASSERT_TRUE(writeTurn(sent, frame));
-  const auto turn = readTurn(fieldsOf(frame));
+  bool copied = false;
+  const std::string message = messageOf(sent, true);
+  const auto turn = readTurn(fieldsOf(message), &copied);
   ASSERT_TRUE(turn);
-  EXPECT_TRUE(turn->watched && turn->wants_truth && turn->ends_game && turn->copied && !turn->checked);
+  EXPECT_TRUE(turn->watched && turn->wants_truth && turn->ends_game && copied && !turn->checked);
   EXPECT_EQ(turn->pictured, 5u);
   ASSERT_EQ(turn->inputs.size(), sent.inputs.size());
   for (std::size_t i = 0; i < sent.inputs.size(); ++i) {
@@ -308,11 +324,25 @@ TEST(WorldMessages, TurnsCrossWhole) {
   }
 }
 
+TEST(WorldMessages, AMessageHasOneTurnAndNothingElse) {
+  std::string records;
+  TurnRecordWriter writer;
+  writer.write(TickResult(), records);
+  std::string message;
+  appendTurnMessage(records, false, message);
+  EXPECT_FALSE(readTurn(fieldsOf(message))) << "no turn";
+  records.clear();
+  writer.write(WorldTurn(), records);
+  writer.write(WorldTurn(), records);
+  message.clear();
+  appendTurnMessage(records, false, message);
+  EXPECT_FALSE(readTurn(fieldsOf(message))) << "two of them";
+}
+
 TEST(WorldMessages, EveryTruncationIsRefused) {
   ViewWriter writer;
   const std::string frame = frameOf(fullView(), writer);
-  std::string turn;
-  writeTurn(fullTurn(), turn);
+  const std::string turn = messageOf(fullTurn());
   for (std::size_t size = 0; size < frame.size() - kWorldFrameHead; ++size) {
     ViewReader reader;
     df::WorldView view;
@@ -361,10 +391,7 @@ TEST(WorldMessages, RandomBytesAreRefusedOrLegal) {
     ViewReader reader;
     df::WorldView view;
     if (readAnswer(bytes, reader, view)) Publisher().update(view);
-    if (const auto turn = readTurn(bytes)) {
-      std::string frame;
-      EXPECT_TRUE(writeTurn(*turn, frame));
-    }
+    if (const auto turn = readTurn(bytes)) messageOf(*turn);
   }
 }
 

@@ -54,12 +54,12 @@ class WorldProcessTest : public testing::Test {
       m_io.run_one_for(std::chrono::milliseconds(5));
       world.checkProcess(1);
       if (auto warning = world.takeWarning()) warnings.push_back(*std::move(warning));
-      for (int i = 0; i < ahead && (i > 0 || world.isReady()); ++i) world.tick(true, false);
+      for (int i = 0; i < ahead && (i > 0 || world.isReady()); ++i) world.tick({WorldTurn(), "abc"});
     }
     return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there", 0, {}, {}});
   }
 
-  /// For a script: it is ready; it takes a turn, of 4 + 4 bytes (watched, no truth, no end, no inputs).
+  /// For a script: it is ready; it takes a turn, of 4 + 1 + 3 bytes.
   static std::string isReady() { return "printf '" + escape(readyFrame()) + "' >&3; "; }
   /// It answers, with nothing to tell but that the game is over, if so.
   static std::string answers(bool is_over = false) {

@@ -89,9 +89,11 @@ class WorldServerTest : public testing::Test {
                : "end";
   }
   WorldAnswer turn(std::vector<df::InputQueue::Input> inputs = {}, bool watched = true) {
-    std::string frame;
-    EXPECT_TRUE(writeTurn({std::move(inputs), watched, false, false}, frame));
-    send(frame);
+    std::string record;
+    std::string message;
+    EXPECT_TRUE(m_turns.write({std::move(inputs), watched}, record));
+    appendTurnMessage(record, false, message);
+    send(message);
     const auto answer = readAnswer(receive(), m_views, view);
     EXPECT_TRUE(answer);
     return answer.value_or(WorldAnswer());
@@ -107,6 +109,7 @@ class WorldServerTest : public testing::Test {
 
  private:
   int m_socket = -1;
+  TurnRecordWriter m_turns;
   ViewReader m_views;
   std::thread m_thread;
 };

@@ -1,4 +1,5 @@
-// What a journal keeps of a world's ticks: a stream of records, each a length and its fields.
+// What goes into a world and what comes of it, as its process gets it and its journal keeps it: a stream of
+// records, each a length and its fields.
 //
 //   record  size of the rest (varint) | kind (1) | fields
 //
@@ -11,15 +12,38 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
+#include "engine/world/InputQueue.h"
 #include "host/world/KeptSession.h"
 #include "host/world/WorldMessages.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad {
 
+/// Inputs, and a tick.
+struct WorldTurn {
+  std::vector<df::InputQueue::Input> inputs;  ///< in the order they came
+  bool watched = false;                       ///< the answer is to have a view
+  bool wants_truth = false;                   ///< and pictures
+  bool ends_game = false;
+  bool checked = false;            ///< the answer is to have a hash of the state
+  std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
+  std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
+};
+
+/// A turn as a world is sent it.
+struct SentTurn {
+  WorldTurn turn;
+  std::string record;  ///< the same bytes that the journal stores; empty: the turn is too long for a record
+};
+
+/// The keys and clicks that wait for a world (Round::kMaxInputs), joins, leaves and scores.
+inline constexpr std::size_t kMaxTurnInputs = std::size_t{1} << 16;
+
 /// How the tick of the last turn ended.
 struct TickResult {
-  std::uint8_t check = 0;  ///< eight bits of WorldPort::answerHash(); 0 if there is none
+  std::uint8_t check = 0;  ///< eight bits of WorldAnswer::hash; 0 if there is none
   bool has_check = false;
   bool game_over = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState()
@@ -88,5 +112,11 @@ class TurnRecordReader {
   WorldTurn m_last;
   bool m_bad = false;
 };
+
+/// A message to a world's process, appended to `out`: a turn's record, whether a copy is to be made behind it
+/// (WorldCopies.h), and tick.
+void appendTurnMessage(std::string_view record, bool copied, std::string& out);
+/// Its fields, by the reader that has had those of all turns before. Nothing: it is malformed.
+std::optional<WorldTurn> readTurnMessage(std::string_view fields, TurnRecordReader& records, bool& copied);
 
 }  // namespace naiad

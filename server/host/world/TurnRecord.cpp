@@ -1,6 +1,9 @@
-#include "host/journal/TurnRecord.h"
+#include "host/world/TurnRecord.h"
 
 #include <utility>
+
+#include "shared/net/base/Limits.h"
+#include "shared/replica/Limits.h"
 
 namespace naiad {
 
@@ -16,6 +19,49 @@ enum RecordKind : std::uint8_t {
 };
 
 template <class F, class T>
+void visitSeen(F& f, T& seen) {
+  f.flag(seen.known);
+  f.number(seen.base);
+  f.number(seen.drawn);
+}
+
+template <class F, class T>
+void visitRoom(F& f, T& room) {
+  f.text(room.name, df::GameRooms::kMaxName);
+  f.text(room.game, df::GameRooms::kMaxGame);
+  f.number(room.players, 0, df::GameRooms::kMaxPlayers);
+  f.number(room.max_players, 0, df::GameRooms::kMaxPlayers);
+  f.flag(room.is_asleep);
+  f.flag(room.is_this_one);
+}
+
+template <class F, class T>
+void visitInput(F& f, T& input) {
+  f.number(input.kind, df::InputQueue::kJoin, df::InputQueue::kRoom);
+  f.number(input.player);
+  switch (input.kind) {
+    case df::InputQueue::kJoin:
+      f.text(input.name, kMaxNameBytes);
+      return f.number(input.color, df::BLACK, df::WHITE);
+    case df::InputQueue::kLeave:
+      return;
+    case df::InputQueue::kKey:
+      f.number(input.key, 0, df::Keyboard::kKeyCount - 1);
+      return f.number(input.key_action, df::KEY_PRESSED, df::KEY_DOWN);
+    case df::InputQueue::kMouse:
+      f.number(input.mouse_action, df::CLICKED, df::MOVED);
+      f.number(input.button, df::Mouse::UNDEFINED_MOUSE_BUTTON, df::Mouse::MIDDLE);
+      f.number(input.x, 0, kMaxViewWidth - 1);
+      f.number(input.y, 0, kMaxViewHeight - 1);
+      return visitSeen(f, input.seen);
+    case df::InputQueue::kScore:
+      return visitScore(f, input.table, input.name, input.points);
+    case df::InputQueue::kRoom:
+      return visitRoom(f, input.room);
+  }
+}
+
+template <class F, class T>
 void visitHead(F& f, T& turn) {
   f.flag(turn.watched);
   f.flag(turn.wants_truth);
@@ -27,7 +73,7 @@ void visitHead(F& f, T& turn) {
 
 template <class F, class T>
 void visitInputs(F& f, T& inputs) {
-  f.list(inputs, kMaxTurnInputs, [](F& in, auto& input) { visitTurnInput(in, input); });
+  f.list(inputs, kMaxTurnInputs, [](F& in, auto& input) { visitInput(in, input); });
 }
 
 template <class F, class T>
@@ -204,6 +250,22 @@ std::optional<TurnRecord> TurnRecordReader::read(std::string_view record) {
   if (in.isWhole()) return found;
   m_bad = true;
   return std::nullopt;
+}
+
+void appendTurnMessage(std::string_view record, bool copied, std::string& out) {
+  char head[kWorldFrameHead];
+  storeLittleEndian(static_cast<std::uint32_t>(record.size() + 1), head);
+  out.append(head, sizeof head).push_back(copied ? 1 : 0);
+  out.append(record);
+}
+
+std::optional<WorldTurn> readTurnMessage(std::string_view fields, TurnRecordReader& records, bool& copied) {
+  if (fields.empty() || static_cast<unsigned char>(fields[0]) > 1) return std::nullopt;
+  copied = fields[0] != 0;
+  records.add(fields.substr(1));
+  auto record = records.next();
+  auto* p_turn = record ? std::get_if<WorldTurn>(&*record) : nullptr;
+  return p_turn != nullptr && records.atEnd() ? std::optional(std::move(*p_turn)) : std::nullopt;
 }
 
 }  // namespace naiad

@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "host/journal/JournaledWorld.h"
-#include "host/journal/OpenRound.h"
+#include "host/journal/JournalWriter.h"
+#include "host/journal/RepeatCheck.h"
+#include "host/journal/RoundRecovery.h"
 #include "host/journal/TurnRing.h"
+#include "host/rounds/Round.h"
 
 namespace naiad {
 namespace {
@@ -46,18 +48,12 @@ KeptSession sessionOf(std::uint32_t player) {
 /// Answers each turn as it did when the round was recorded.
 class EchoWorld : public WorldPort {
  public:
-  std::uint32_t addInput(Input input) override {
-    m_inputs.push_back(input);
-    return input.player;
-  }
-  void setHeard(std::uint32_t player) override { heard = player; }
-  void endGame() override {}
   bool isReady() const override { return ready && !ended; }
-  std::uint64_t answerHash() const override { return std::uint64_t{answered % 200 + 1} << 56; }
   std::uint32_t turnsAhead() const override { return ahead; }
-  void tick(bool is_watched, bool /*truth*/) override {
-    watched.push_back(is_watched);
-    turns.push_back(std::exchange(m_inputs, {}));
+  void tick(const SentTurn& turn) override {
+    watched.push_back(turn.turn.watched);
+    turns.push_back(turn.turn.inputs);
+    sent += turn.record;
     most_ahead = std::max(most_ahead, turns.size() - answered);
   }
   /// What a world in another process does: the tick ends later.
@@ -68,17 +64,13 @@ class EchoWorld : public WorldPort {
         return;
       }
       ++answered;
-      m_scores = {{"arcade", {"ann", 5}, static_cast<std::uint32_t>(answered), 0}};
+      m_answer.hash = std::uint64_t{answered % 200 + 1} << 56;
+      m_answer.scores = {{"arcade", {"ann", 5}, static_cast<std::uint32_t>(answered), 0}};
       reportTick();
     }
   }
   std::uint32_t nextTick() const override { return 11 + static_cast<std::uint32_t>(turns.size()); }
   const df::WorldView& view() const override { return m_view; }
-  void notePublished(const Publisher& /*publisher*/) override {}
-  std::vector<std::uint32_t> takeLeavers() override { return {}; }
-  std::vector<df::AddedScore> takeScores() override { return std::exchange(m_scores, {}); }
-  bool isGameOver() const override { return false; }
-  df::Canvas renderPlayer(std::uint32_t /*player*/) const override { return {20, 10}; }
   std::optional<WorldEnd> end() const override { return ended; }
 
   bool ready = false;
@@ -86,14 +78,12 @@ class EchoWorld : public WorldPort {
   std::size_t answered = 0;
   std::size_t most_ahead = 0;  ///< turns that were not answered at a time
   std::size_t dies_at = 0;
-  std::uint32_t heard = 0;
   std::optional<WorldEnd> ended;
   std::vector<std::vector<Input>> turns;
   std::vector<bool> watched;
+  std::string sent;  ///< the records
 
  private:
-  std::vector<Input> m_inputs;
-  std::vector<df::AddedScore> m_scores;  ///< of the last tick
   df::WorldView m_view;
 };
 
@@ -145,7 +135,7 @@ class RecoveryTest : public testing::Test {
     open();
     auto echo = std::make_unique<EchoWorld>();
     p_echo = echo.get();
-    JournaledWorld::Book book;
+    Round::Book book;
     book.writer = std::make_shared<JournalWriter>();
     book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path, round->wholeBytes()),
                                              round->header(), DfrFacts(), 1 << 20, false, round->takePlace());
@@ -156,7 +146,7 @@ class RecoveryTest : public testing::Test {
     };
     book.writer->add(book.journal);
     disk = book.writer;
-    world = std::make_unique<JournaledWorld>(std::move(echo), std::move(book));
+    world = std::make_unique<Round>(std::move(echo), std::move(book));
     world->setOnTick([this] { ++reported; });
   }
 
@@ -184,7 +174,7 @@ class RecoveryTest : public testing::Test {
   std::shared_ptr<OpenRound> round;
   EchoWorld* p_echo = nullptr;
   std::shared_ptr<JournalWriter> disk;
-  std::unique_ptr<JournaledWorld> world;
+  std::unique_ptr<Round> world;
   std::optional<std::uint32_t> recovered;
   std::string said;
   int reported = 0;
@@ -250,7 +240,7 @@ TEST_F(RecoveryTest, AFileThatIsTornAnywhereGoesOn) {
 TEST_F(RecoveryTest, TheScoresOfAllRepeatedTurnsAreGivenOutSinceTheLastMayNotBeWritten) {
   play();
   goOn();
-  EXPECT_EQ(world->roundName().id, uuidText(round->header().uuid));
+  EXPECT_EQ(world->name().id, uuidText(round->header().uuid));
   p_echo->ready = true;
   world->checkProcess(1);
   p_echo->answer();
@@ -298,6 +288,10 @@ TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
   world->tick(true, false);
   p_echo->answer();
   EXPECT_EQ(reported, 1);
+  TurnRecordReader sent;
+  sent.add(p_echo->sent);
+  for (int i = 0; i < 55; ++i) ASSERT_TRUE(sent.next()) << i;
+  EXPECT_TRUE(sent.atEnd()) << "the world can read it as one stream";
   ASSERT_TRUE(disk->drain(std::chrono::seconds(60)));
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};

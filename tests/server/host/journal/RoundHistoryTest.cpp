@@ -1,0 +1,80 @@
+// When copies of a world are due, and where in the round they are.
+#include <gtest/gtest.h>
+
+#include "host/journal/RoundHistory.h"
+
+namespace naiad {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kRecord = 10;  ///< bytes of each tick
+
+/// A tick in which a copy is kept if one is due. True: one was. Each tick takes `time`.
+bool play(RoundHistory& round, std::uint32_t tick, milliseconds time = milliseconds(0)) {
+  const bool due = round.isCopyDue(tick, [&] { return tick * time; });
+  if (due) round.beginCopy(tick, {tick}, true);
+  EXPECT_TRUE(round.add(std::string(kRecord, 'x')));
+  EXPECT_EQ(round.endTick(), due);
+  return due;
+}
+
+TEST(RoundHistory, TheFirstIsDueSoonAndOthersFollowInTime) {
+  RoundHistory round;
+  std::vector<std::uint32_t> due;
+  for (std::uint32_t tick = 1; tick <= 700; ++tick) {
+    if (play(round, tick)) due.push_back(tick);
+  }
+  EXPECT_EQ(due, (std::vector<std::uint32_t>{30, 330, 630}));
+}
+
+TEST(RoundHistory, WhereTicksTakeLongTheyAreDueMoreOften) {
+  RoundHistory round;
+  std::vector<std::uint32_t> due;
+  for (std::uint32_t tick = 1; tick <= 300; ++tick) {
+    if (play(round, tick, milliseconds(1))) due.push_back(tick);
+  }
+  EXPECT_EQ(due, (std::vector<std::uint32_t>{30, 150, 270}));
+}
+
+TEST(RoundHistory, OneThatGoesOnLeavesThoseBeforeIt) {
+  RoundHistory round;
+  for (std::uint32_t tick = 1; tick <= 700; ++tick) play(round, tick);
+  const auto mark = round.takeCopy(330);
+  ASSERT_TRUE(mark);
+  EXPECT_EQ(mark->records, 3300u);
+  EXPECT_EQ(mark->players, std::vector<std::uint32_t>{330});
+  EXPECT_FALSE(round.takeCopy(630)) << "what was after it has not been";
+  EXPECT_TRUE(round.takeCopy(30));
+  EXPECT_FALSE(round.takeCopy(30));
+}
+
+TEST(RoundHistory, OfALongRoundTheRecordsSinceTheOldestCopyAreKept) {
+  RoundHistory round("0123456789");
+  for (std::uint32_t tick = 1; tick <= 700; ++tick) play(round, tick);
+  EXPECT_TRUE(round.hasBeginning());
+  EXPECT_TRUE(round.add(std::string(RoundHistory::kMaxBytes - 7000, 'y')));
+  EXPECT_FALSE(round.hasBeginning());
+  EXPECT_EQ(round.records().size(), RoundHistory::kMaxBytes + 10 - 310);
+  EXPECT_EQ(round.takeCopy(630)->records, 6000u);
+  EXPECT_EQ(round.takeCopy(30)->records, 0u);
+}
+
+TEST(RoundHistory, OfALongRoundWithoutACopyNothingIsKept) {
+  RoundHistory round;
+  EXPECT_TRUE(round.add(std::string(RoundHistory::kMaxBytes, 'x')));
+  EXPECT_FALSE(round.add("y"));
+  EXPECT_TRUE(round.records().empty());
+}
+
+TEST(RoundHistory, OfATickWithoutAResultThereIsNone) {
+  RoundHistory round;
+  round.beginCopy(30, {}, true);
+  EXPECT_FALSE(round.takeCopy(30));
+  round.beginCopy(60, {}, false);
+  EXPECT_FALSE(round.endTick());
+  EXPECT_FALSE(round.takeCopy(60));
+}
+
+}  // namespace
+}  // namespace naiad
