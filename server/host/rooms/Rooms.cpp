@@ -276,6 +276,7 @@ void Rooms::checkPlayers(Time now) {
     }
     const bool was_still = sleep.still;
     sleep.still = sleep.empty_since && now - *sleep.empty_since >= kEmptyTime && !runsEmpty(*room);
+    if (!was_still && sleep.still) room->round().dropCopies();
     if (was_still && !sleep.still && isNamed()) passRooms(*room);
   }
 }

@@ -412,6 +412,12 @@ void Round::endTakeOver(const std::string& problem) {
 
 // ---- copies -----------------------------------------------------------------------------------------------
 
+void Round::dropCopies() {
+  if (m_p_process == nullptr || !m_history.hasBeginning()) return;
+  m_p_process->dropCopies();
+  m_history.dropCopies();
+}
+
 void Round::orderCopy() {
   if (!m_book.new_world || !m_history.isCopyDue(m_ticks, [this] { return m_p_process->cpuTime(); })) return;
   m_history.beginCopy(m_ticks, m_players, m_p_process->keepCopy());

@@ -140,6 +140,10 @@ class Round {
   /// What this player sees, as the engine drew it in the last tick.
   df::Canvas renderPlayer(std::uint32_t player) const;
 
+  /// The world is to stand still for long: its copies end, unless only they could go on with the round. The
+  /// next tick makes one.
+  void dropCopies();
+
   // A round of a server that was killed, which is executed again until it is where it was.
 
   /// How far that is, in percent; nothing: there is no such round, or its sessions have been taken.

@@ -27,9 +27,13 @@ WorldCopies::~WorldCopies() {
   stop();
 }
 
-void WorldCopies::stop() {
+void WorldCopies::clear() {
   dropOrdered();
   while (!m_copies.empty()) drop(m_copies.size() - 1);
+}
+
+void WorldCopies::stop() {
+  clear();
   if (m_orders >= 0) ::close(std::exchange(m_orders, -1));
 }
 

@@ -64,6 +64,8 @@ class WorldCopies {
   std::optional<WorldCopy> takeNewest();
   /// Is there one that could go on?
   bool hasCopy() const { return !processes().empty(); }
+  /// All copies end; more can be ordered.
+  void clear();
   /// Those that are kept.
   std::vector<pid_t> processes() const;
 

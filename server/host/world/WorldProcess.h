@@ -77,6 +77,8 @@ class WorldProcess : public WorldPort {
 
   /// Keep a copy of the world as it is after the next tick, beside the one before. False: there will be none.
   bool keepCopy();
+  /// Those that are kept end.
+  void dropCopies() { m_copies.clear(); }
   /// Why there are none any more, once, in words.
   std::optional<std::string> takeCopyProblem() { return m_copies.takeProblem(); }
   /// After end(): the newest copy is the world from now on, as it was after its tick: return how many it has

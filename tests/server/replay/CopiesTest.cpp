@@ -263,6 +263,27 @@ TEST_F(CopiesTest, AtMostTwoAreKept) {
   EXPECT_EQ(find(kCopy).size(), WorldCopies::kKept);
 }
 
+TEST_F(CopiesTest, OfAWorldThatStandsStillThereAreNoneUntilItsNextTick) {
+  play(400);
+  const std::vector<pid_t> copies = find(kCopy);
+  ASSERT_EQ(copies.size(), 2u);
+  world->dropCopies();
+  waitUntilGone(copies);
+  play(1);
+  EXPECT_EQ(find(kCopy).size(), 1u);
+  survive(df::Keyboard::Q);
+  EXPECT_EQ(count(kByCopy), 1u) << log;
+  EXPECT_EQ(verify(), "");
+}
+
+TEST_F(CopiesTest, AWorldThatStoodStillAndCrashesAtOnceIsExecutedFromItsBeginning) {
+  play(400);
+  world->dropCopies();
+  survive(df::Keyboard::Q);
+  EXPECT_EQ(count(kByAnother), 1u) << log;
+  EXPECT_EQ(verify(), "");
+}
+
 TEST_F(CopiesTest, OfAGameWithThreadsThereAreNone) {
   play(60);
   EXPECT_EQ(find(kCopy).size(), 1u);
