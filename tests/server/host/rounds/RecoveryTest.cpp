@@ -307,6 +307,40 @@ TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
   EXPECT_EQ(results, 55u) << "also that of the tick that the server was killed in";
 }
 
+TEST_F(RecoveryTest, WhatComesMeanwhileIsInTheFirstTickThatFollows) {
+  play();
+  goOn();
+  p_echo->ready = true;
+  world->checkProcess(1);
+  world->addInput({.kind = df::InputQueue::kLeave, .player = 2});
+  p_echo->answer();
+  ASSERT_EQ(recovered, 53u);
+  for (const auto& inputs : p_echo->turns) {
+    for (const Input& input : inputs) EXPECT_NE(input.kind, df::InputQueue::kLeave);
+  }
+  world->tick(true, false);
+  ASSERT_EQ(p_echo->turns.back().size(), 1u);
+  EXPECT_EQ(p_echo->turns.back()[0].kind, df::InputQueue::kLeave);
+}
+
+// A copy of a world has read other turns before those that it gets again.
+TEST_F(RecoveryTest, TheFirstTurnThatIsRepeatedSaysAllItsFlags) {
+  WorldTurn watched;
+  watched.watched = true;
+  std::string before;
+  TurnRecordWriter().write(watched, before);
+  TurnRecordWriter().write(WorldTurn(), records);
+  RoundRecovery recovery(std::make_shared<OpenRound>(DfrHeader(), records));
+  const auto turn = recovery.nextTurn();
+  ASSERT_TRUE(turn);
+  TurnRecordReader reader;
+  reader.add(before + turn->record);
+  ASSERT_TRUE(reader.next());
+  const auto record = reader.next();
+  ASSERT_TRUE(record && std::holds_alternative<WorldTurn>(*record));
+  EXPECT_FALSE(std::get<WorldTurn>(*record).watched);
+}
+
 TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedHasOneResult) {
   crashInSecondTurn(2);
   EXPECT_EQ(said, "");
