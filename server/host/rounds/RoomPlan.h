@@ -1,6 +1,7 @@
 // What a room is that has a name (--room), whether there is a world in it or not.
 #pragma once
 
+#include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -14,8 +15,8 @@ namespace naiad {
 
 class Round;
 
-/// Begins a round in a world that was not there before. `home` runs the handlers of the host's thread, and outlives it.
-/// Throws std::system_error if there can be none.
+/// Begins a round in a world that was not there before. `home` runs the handlers of the host's thread, and
+/// outlives it. Throws std::system_error if there can be none.
 using NewWorld = std::function<std::unique_ptr<Round>(asio::io_context& home)>;
 
 struct RoomPlan {
@@ -24,8 +25,6 @@ struct RoomPlan {
   int max_players = 0;      ///< at a time
   bool first_only = false;  ///< of several players, only the first one's input is heard
   WorldReady ready;         ///< what the game sets up for those who join
-class Round;
-
   NewWorld new_world;
   /// Its first world goes on with the round of a server that was killed: it does not wait for players.
   bool goes_on = false;
