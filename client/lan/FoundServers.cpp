@@ -27,15 +27,7 @@ std::string FoundServer::link() const {
 }
 
 bool FoundServers::addAnswer(const asio::ip::udp::endpoint& source, const LanAnswer& answer) {
-  FoundServer server;
-  server.name = answer.name;
-  server.game = answer.game;
-  server.where = {source.address().to_string(), answer.port};
-  server.key = answer.key;
-  server.protocol = answer.protocol;
-  server.players = answer.players;
-  server.max_players = answer.max_players;
-  server.asks_password = answer.asks_password;
+  const FoundServer server{answer, {source.address().to_string(), answer.port}, answer.key};
   return addEntry(server, rankOf(source.address()));
 }
 

@@ -15,15 +15,9 @@
 namespace naiad {
 
 /// What a server says of itself, or who lists it says of it: all of it may be wrong. Texts are safe to draw.
-struct FoundServer {
-  std::string name;
-  std::string game;
+struct FoundServer : ServerFacts {
   ServerAddress where;
   ShortKey key = ShortKey::ofBytes({});  ///< that the server must prove when it is joined
-  std::uint32_t protocol = 0;
-  std::uint16_t players = 0;
-  std::uint16_t max_players = 0;
-  bool asks_password = false;
 
   /// Does it speak this program's protocol?
   bool isPlayable() const;

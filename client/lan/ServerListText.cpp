@@ -19,15 +19,11 @@ Row rowOf(const FoundServer& server) {
 }
 
 Json jsonOf(const FoundServer& server) {
-  return {{"name", server.name},
-          {"game", server.game},
-          {"players", server.players},
-          {"max_players", server.max_players},
-          {"password", server.asks_password},
-          {"protocol", server.protocol},
-          {"address", server.where.text()},
-          {"key", server.key.text()},
-          {"link", server.link().empty() ? Json() : server.link()}};
+  Json json = jsonOf(static_cast<const ServerFacts&>(server));
+  json.set("address", server.where.text());
+  json.set("key", server.key.text());
+  json.set("link", server.link().empty() ? Json() : server.link());
+  return json;
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "shared/json/Json.h"
-#include "shared/net/base/SafeText.h"
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/JoinLink.h"
 
@@ -18,13 +17,10 @@ std::uint32_t freePlaces(const Presence& server) {
 }
 
 std::string rowOf(const Presence& server, bool with_rooms) {
-  Json row{{"name", safeText(server.name.empty() ? server.id : server.name, Presence::kMaxName)},
-           {"game", safeText(server.game, Presence::kMaxName)},
-           {"players", server.players},
-           {"max_players", server.max_players},
-           {"password", server.asks_password},
-           {"protocol", server.protocol},
-           {"link", linkOf(server)}};
+  ServerFacts facts = server;
+  if (facts.name.empty()) facts.name = server.id;
+  Json row = jsonOf(facts);
+  row.set("link", linkOf(server));
   Json::Array rooms;
   for (const auto& [name, game, players, max_players] : server.rooms)
     rooms.push_back({{"name", name}, {"game", game}, {"players", players}, {"max_players", max_players}});

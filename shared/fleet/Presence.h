@@ -13,28 +13,22 @@
 #include <vector>
 
 #include "shared/fleet/PresenceRooms.h"
+#include "shared/fleet/ServerFacts.h"
 
 namespace naiad {
 
-struct Presence {
+struct Presence : ServerFacts {
   /// Between two, unless --bus-interval says another; a server that is silent for three of them is gone.
   static constexpr std::chrono::milliseconds kInterval{2000};
   static constexpr std::chrono::milliseconds kLeastInterval{50};  ///< so much each server costs the directory
   /// Players are sent to a dead server for three of them.
   static constexpr std::chrono::milliseconds kMaxInterval{60'000};
-  static constexpr std::size_t kMaxName = 64;  ///< characters of name and game
 
-  std::string id;  ///< ServerId.h
-  std::string name;
-  std::string game;        ///< of several that of the first room
+  std::string id;          ///< ServerId.h
   std::string host;        ///< name or numeric address for players; empty: it does not know
   std::uint16_t port = 0;  ///< 1 to 65535
   std::string key;         ///< Fingerprint::text(); empty: without encryption
-  std::uint32_t protocol = 0;
-  std::uint32_t players = 0;
-  std::uint32_t max_players = 0;
-  bool asks_password = false;
-  bool is_open = true;  ///< lets players in: it neither drains nor ends
+  bool is_open = true;     ///< lets players in: it neither drains nor ends
   /// Those that have names, in the server's order, as many as fit (kMaxRoomsText). A server without them has
   /// none, and says nothing of rooms.
   std::vector<PresenceRoom> rooms = {};

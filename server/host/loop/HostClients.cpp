@@ -6,6 +6,7 @@
 #include "host/rooms/ServerLine.h"
 #include "host/session/LookAlikes.h"
 #include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
 #include "shared/program/LogText.h"
 #include "shared/program/OpenFiles.h"
 
@@ -59,6 +60,16 @@ void HostClients::setWorlds(NewWorld new_world, std::uint32_t highest_player) {
 void HostClients::setRooms(std::vector<RoomPlan> plans) {
   for (const RoomPlan& plan : plans) m_admission.reservePlayers(plan.highest_player);
   m_rooms.setNamed(std::move(plans));
+}
+
+ServerFacts HostClients::facts() const {
+  const HostOptions& options = m_context.options;
+  return {.name = options.name,
+          .game = m_context.game,
+          .protocol = kProtocolVersion,
+          .players = static_cast<std::uint32_t>(m_sessions.playing()),
+          .max_players = static_cast<std::uint32_t>(options.max_players),
+          .asks_password = !options.password.empty()};
 }
 
 void HostClients::add(std::unique_ptr<ReliableChannel> channel) {

@@ -17,6 +17,7 @@
 #include "host/rooms/PlayerNews.h"
 #include "host/rooms/Rooms.h"
 #include "host/rooms/SessionTable.h"
+#include "shared/fleet/ServerFacts.h"
 #include "shared/net/base/PrefixAllowance.h"
 
 namespace naiad {
@@ -47,6 +48,9 @@ class HostClients {
   void setCommands(std::function<void(Session& session, const std::string& line)> serve_command) {
     m_serve_command = std::move(serve_command);
   }
+
+  /// What the server says of itself where players look for one.
+  ServerFacts facts() const;
 
   /// A connection was accepted.
   void add(std::unique_ptr<ReliableChannel> channel);

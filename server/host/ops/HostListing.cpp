@@ -5,27 +5,10 @@
 
 #include "host/loop/HostClients.h"
 #include "host/loop/HostEndpoint.h"
-#include "shared/net/base/Limits.h"
 #include "shared/net/lan/LanMessage.h"
 #include "shared/net/stream/TcpListener.h"
 
 namespace naiad {
-
-namespace {
-
-LanAnswer lanAnswer(const HostContext& context, const HostEndpoint& endpoint) {
-  LanAnswer facts;
-  facts.protocol = kProtocolVersion;
-  facts.port = endpoint.port();
-  facts.asks_password = !context.options.password.empty();
-  facts.max_players = static_cast<std::uint16_t>(context.options.max_players);
-  facts.key = ShortKey::of(*endpoint.fingerprint());
-  facts.name = context.options.name;
-  facts.game = context.game;
-  return facts;
-}
-
-}  // namespace
 
 HostListing::HostListing(const HostAccess& access)
     : m_access(access), m_lan(openLan()), m_status(openStatus()) {}
@@ -36,10 +19,11 @@ std::unique_ptr<LanResponder> HostListing::openLan() const {
   const HostOptions& options = m_access.context.options;
   const bool automatic = options.lan == "auto";
   const bool loopback = asio::ip::make_address(options.address).is_loopback();
-  if (!m_access.endpoint.fingerprint() || options.lan == "off" || (automatic && loopback)) return nullptr;
+  const auto key = m_access.endpoint.fingerprint();
+  if (!key || options.lan == "off" || (automatic && loopback)) return nullptr;
   try {
-    return std::make_unique<LanResponder>(lanAnswer(m_access.context, m_access.endpoint), options.address,
-                                          automatic ? LanMode::kAuto : LanMode::kOn);
+    const LanAnswer answer{m_access.clients.facts(), {}, m_access.endpoint.port(), ShortKey::of(*key)};
+    return std::make_unique<LanResponder>(answer, options.address, automatic ? LanMode::kAuto : LanMode::kOn);
   } catch (const std::system_error& error) {
     const std::string wrong = std::string("cannot be found in the local network: ") + error.what();
     if (!automatic) throw ListenError("--lan on: the server " + wrong + ".", error.code());
@@ -51,15 +35,9 @@ std::unique_ptr<LanResponder> HostListing::openLan() const {
 std::unique_ptr<StatusFile> HostListing::openStatus() const {
   const HostOptions& options = m_access.context.options;
   if (options.status_file.empty()) return nullptr;
-  StatusFacts facts;
-  facts.name = options.name;
-  facts.game = m_access.context.game;
-  facts.max_players = static_cast<std::size_t>(options.max_players);
-  facts.asks_password = !options.password.empty();
-  if (!options.link_host.empty()) {
-    if (const auto link = m_access.endpoint.joinLink(true)) facts.link = link->text();
-  }
-  return std::make_unique<StatusFile>(options.status_file, facts);
+  const auto link = options.link_host.empty() ? std::nullopt : m_access.endpoint.joinLink(true);
+  return std::make_unique<StatusFile>(options.status_file, m_access.clients.facts(),
+                                      link ? link->text() : std::string());
 }
 
 void HostListing::begin() {
@@ -70,7 +48,7 @@ void HostListing::tick(Clock::time_point) {
   const std::size_t playing = m_access.clients.sessions().playing();
   if (m_lan) m_lan->setPlayers(playing);
   if (!m_status) return;
-  m_status->setPlayers(playing);
+  m_status->setPlayers(static_cast<std::uint32_t>(playing));
   if (const std::string news = m_status->takeNews(); !news.empty()) m_access.context.log(news);
 }
 

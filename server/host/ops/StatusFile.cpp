@@ -7,29 +7,22 @@
 #include <utility>
 
 #include "shared/json/Json.h"
-#include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeFile.h"
-#include "shared/net/base/SafeText.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
 
-std::string statusText(const StatusFacts& facts, std::size_t players) {
-  Json status{{"name", safeText(facts.name, kMaxProgramLength)},
-              {"game", safeText(facts.game, kMaxProgramLength)},
-              {"players", players},
-              {"max_players", facts.max_players},
-              {"password", facts.asks_password},
-              {"protocol", kProtocolVersion},
-              {"version", kVersion}};
-  if (!facts.link.empty()) status.set("link", facts.link);
+std::string statusText(const ServerFacts& facts, const std::string& link) {
+  Json status = jsonOf(facts);
+  status.set("version", kVersion);
+  if (!link.empty()) status.set("link", link);
   return status.toString(Json::Style::kAscii) + "\n";
 }
 
-StatusFile::StatusFile(std::string path, StatusFacts facts)
-    : m_path(std::move(path)), m_facts(std::move(facts)) {
+StatusFile::StatusFile(std::string path, ServerFacts facts, std::string link)
+    : m_path(std::move(path)), m_link(std::move(link)), m_facts(std::move(facts)) {
   try {
-    publishFile(m_path, statusText(m_facts, 0));
+    publishFile(m_path, statusText(m_facts, m_link));
   } catch (const std::system_error& error) {
     throw std::runtime_error("The status file " + m_path + " cannot be written: " + error.what());
   }
@@ -46,9 +39,9 @@ StatusFile::~StatusFile() {
   ::unlink(m_path.c_str());
 }
 
-void StatusFile::setPlayers(std::size_t players) {
+void StatusFile::setPlayers(std::uint32_t players) {
   const std::lock_guard lock(m_mutex);
-  m_players = players;
+  m_facts.players = players;
 }
 
 std::string StatusFile::takeNews() {
@@ -59,18 +52,18 @@ std::string StatusFile::takeNews() {
 void StatusFile::run() {
   std::unique_lock lock(m_mutex);
   while (!m_stop.wait_for(lock, kInterval, [this] { return m_stopping; })) {
-    const std::size_t players = m_players;
+    const ServerFacts facts = m_facts;
     lock.unlock();
-    write(players);
+    write(facts);
     lock.lock();
   }
 }
 
 // A full disk is said once, and once more when it is over.
-void StatusFile::write(std::size_t players) {
+void StatusFile::write(const ServerFacts& facts) {
   std::string problem;
   try {
-    publishFile(m_path, statusText(m_facts, players));
+    publishFile(m_path, statusText(facts, m_link));
   } catch (const std::system_error& error) {
     problem = error.what();
   }

@@ -7,53 +7,44 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <thread>
 
-#include "shared/program/LineLog.h"
+#include "shared/fleet/ServerFacts.h"
 
 namespace naiad {
 
-/// What does not change while the server runs.
-struct StatusFacts {
-  std::string name;
-  std::string game;
-  std::size_t max_players = 0;
-  bool asks_password = false;
-  std::string link;  ///< for players elsewhere; empty: unknown, and left out
-};
-
 /// One line of JSON: name, game, players, max_players, password, protocol, version, and link if there is one.
-/// ASCII, with the texts cleaned as those of players.
-std::string statusText(const StatusFacts& facts, std::size_t players);
+/// `link`: for players elsewhere; empty: unknown, and left out. ASCII.
+std::string statusText(const ServerFacts& facts, const std::string& link);
 
 class StatusFile {
  public:
   static constexpr std::chrono::seconds kInterval{5};
 
   /// Writes the file for the first time. Throws std::runtime_error if it cannot be written.
-  StatusFile(std::string path, StatusFacts facts);
+  StatusFile(std::string path, ServerFacts facts, std::string link);
   /// Removes the file: no server, no status.
   ~StatusFile();
   StatusFile(const StatusFile&) = delete;
   StatusFile& operator=(const StatusFile&) = delete;
 
   /// How many play. Does not wait for the disk. Any thread.
-  void setPlayers(std::size_t players);
+  void setPlayers(std::uint32_t players);
   /// What is new about writing, as a line of the log: that it fails, or works again; else empty. Any thread.
   std::string takeNews();
 
  private:
   void run();
-  void write(std::size_t players);
+  void write(const ServerFacts& facts);
 
   std::string m_path;
-  StatusFacts m_facts;
+  std::string m_link;
   std::mutex m_mutex;
   std::condition_variable m_stop;
-  std::size_t m_players = 0;
+  ServerFacts m_facts;
   std::string m_news;
   bool m_failing = false;
   bool m_stopping = false;

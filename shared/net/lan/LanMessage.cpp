@@ -21,9 +21,10 @@ constexpr std::size_t kLonger = 1;  // bytes of a text's length
 static_assert(kTexts + 2 * (kLonger + kMaxLanTextBytes) <= kLanQuerySize,
               "an answer is no longer than a query");
 
-void appendNumber(std::string& out, std::uint16_t number) {
+/// The highest there is, where it is higher.
+void appendNumber(std::string& out, std::uint32_t number) {
   char bytes[2];
-  storeLittleEndian(number, bytes);
+  storeLittleEndian(static_cast<std::uint16_t>(std::min(number, 0xffffU)), bytes);
   out.append(bytes, sizeof bytes);
 }
 
@@ -85,7 +86,7 @@ std::string writeLanAnswer(const LanAnswer& answer) {
   assert(answer.port != 0);
   std::string bytes(kMagic);
   bytes += {kFormat, kAnswer};
-  appendNumber(bytes, static_cast<std::uint16_t>(answer.protocol));
+  appendNumber(bytes, answer.protocol);
   appendBytes(bytes, answer.nonce);
   appendNumber(bytes, answer.port);
   bytes += {answer.asks_password ? kPasswordFlag : '\0', '\0'};

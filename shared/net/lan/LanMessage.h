@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 
+#include "shared/fleet/ServerFacts.h"
 #include "shared/net/stream/ShortKey.h"
 
 namespace naiad {
@@ -38,16 +39,12 @@ inline constexpr std::size_t kMaxLanTextBytes = 4 * kMaxLanText;
 using LanNonce = std::array<std::uint8_t, 16>;
 
 /// What a server says of itself. Nothing of it is proved.
-struct LanAnswer {
-  std::uint32_t protocol = 0;  ///< kProtocolVersion of the server; 16 bits on the wire
+/// Numbers have 16 bits on the wire. Name and game are drawable (SafeText.h), and have kMaxLanText characters
+/// at most.
+struct LanAnswer : ServerFacts {
   LanNonce nonce{};
   std::uint16_t port = 0;  ///< that it is played on, TCP and UDP; never 0
-  bool asks_password = false;
-  std::uint16_t players = 0;
-  std::uint16_t max_players = 0;
   ShortKey key = ShortKey::ofBytes({});
-  std::string name;  ///< drawable (SafeText.h), at most kMaxLanText characters, as `game`
-  std::string game;
 
   friend bool operator==(const LanAnswer&, const LanAnswer&) = default;
 };
