@@ -121,7 +121,9 @@ set(naiad_detail_headers
   server/engine/prelude/SfmlValues.h
   server/engine/published/EventNetworks.h
   server/engine/world/ColorMix.h
+  server/engine/world/GameRoom.h
   server/engine/world/Geometry.h
+  server/engine/world/HighScore.h
   server/engine/world/LagCompensation.h
   server/engine/world/ObjectProfile.h
   server/engine/world/Settings.h

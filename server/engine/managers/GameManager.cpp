@@ -26,9 +26,9 @@ int GameManager::startUp() {
   WM.startUp();
   RM.startUp();
   World& world = World::current();
-  running::beginCompat(world);
+  world.setCompat(running::beginCompat(world.compat(), world.program() != nullptr));
   Config::getInstance().loadConfig();
-  running::endCompat(world);
+  world.setCompat(running::endCompat(world.compat()));
   world.setGameOver(false);
   world.setStarted(kGameStarted, true);
   if (running::Program* p_program = world.program()) p_program->startUp(world);

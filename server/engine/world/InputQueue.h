@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/GameRooms.h"
+#include "engine/world/GameRoom.h"
 #include "engine/world/LagCompensation.h"
 #include "shared/values/Color.h"
 #include "shared/values/Keyboard.h"

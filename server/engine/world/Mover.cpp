@@ -143,15 +143,19 @@ void Mover::endTurn(ObjectKey key, FixedVector velocity, bool blocked) {
 int Mover::move(ObjectKey mover, FixedVector where) {
   if (m_depth >= kMaxDepth) return -1;
   const int depth = m_depth++;
-  bool free = true;
+  using End = SweptMove::End;
+  End end = End::kTarget;
   const WorldStore& store = m_world.store();
   if (store.collides(mover.slot)) {
-    free = store.isSwept(mover.slot) ? m_swept[depth].run(*this, m_world, mover, where)
-                                     : collideAt(mover, where, m_lists[depth]);
+    if (store.isSwept(mover.slot)) {
+      end = m_swept[depth].run(m_world, mover, where);
+    } else if (!collideAt(mover, where, m_lists[depth])) {
+      end = End::kNone;
+    }
   }
-  if (free) place(mover, where);
+  if (end != End::kNone) place(mover, where);
   --m_depth;
-  return free ? 0 : -1;
+  return end == End::kTarget ? 0 : -1;
 }
 
 // Return whether the mover may move. Only the target is tested.

@@ -316,7 +316,7 @@ class Object {
   friend class Capture;
   friend class Walkers;
   friend class World;
-  friend class WorldStore;
+  friend const Mask* spriteMaskOf(const Object& object);
   friend class Interests;
   friend class ObjectList;
   friend class ObjectLookAccess;
@@ -331,10 +331,8 @@ class Object {
   void dropExtras();
   void animate();
   void fitBox();
-  const Mask* spriteMask() const;
   std::shared_ptr<const naiad::Look> publishedLook(std::uint32_t tick);
   ObjectAttributes attributes() const;
-  void stepPath();
 
   // Few members, so that a game's own, which its handlers use, lie in the same cache line with these.
   WorldStore* m_p_store;  // never null: a store lives as long as its last Object

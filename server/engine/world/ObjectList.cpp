@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "engine/world/Object.h"
-#include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
@@ -95,6 +94,24 @@ ObjectList& ObjectList::operator+=(const ObjectList& other) {
   const int count = other.m_count;  // `other` may be this list
   for (int i = 0; i < count; ++i) append(other.m_p_store, other.keys()[i]);
   return *this;
+}
+
+int ObjectListIterator::firstLiving() const {
+  int i = m_index;
+  while (m_p_list != nullptr && i < m_p_list->getCount() && (*m_p_list)[i] == nullptr) ++i;
+  return i;
+}
+
+// Asking does not move: if the loop's body has just deleted the current Object, next() must still go to
+// the entry behind it and not one further.
+bool ObjectListIterator::isDone() const {
+  return m_p_list == nullptr || firstLiving() >= m_p_list->getCount();
+}
+
+Object* ObjectListIterator::currentObject() const {
+  if (isDone()) return nullptr;
+  m_index = firstLiving();
+  return (*m_p_list)[m_index];
 }
 
 }  // namespace df

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/world/GameRooms.h"
+#include "engine/world/GameRoom.h"
 
 namespace df {
 

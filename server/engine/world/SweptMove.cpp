@@ -3,13 +3,12 @@
 #include "engine/world/CollisionRule.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/InterestDispatch.h"
-#include "engine/world/Mover.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
 
-bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector where) {
+SweptMove::End SweptMove::run(World& world, ObjectKey mover, FixedVector& where) {
   const WorldStore& store = world.store();
   const FixedVector from = store.position(mover.slot);
   m_met.clear();
@@ -18,21 +17,22 @@ bool SweptMove::run(Mover& moves, World& world, ObjectKey mover, FixedVector whe
     const SweepPath path(store.box(mover.slot), from, where);
     ++(stage == 1 ? world.store().moverStats().swept : world.store().moverStats().swept_again);
     m_list.fill(store, mover.slot, path, HitList::kBlock, since, &m_met);
-    if (m_list.hits().empty()) return true;
+    if (m_list.hits().empty()) return End::kTarget;
 
     const Verdict verdict = sendHits(world, mover, path);
-    if (verdict.outcome == Outcome::kGone) return false;
+    if (verdict.outcome == Outcome::kGone) return End::kNone;
     const bool is_blocked = verdict.outcome == Outcome::kBlocked;
-    if (!is_blocked && !m_list.end()) return true;
+    if (!is_blocked && !m_list.end()) return End::kTarget;
     if (is_blocked || stage == kMaxStages) {
       const FixedVector stop = path.sweep().before(is_blocked ? verdict.moment : *m_list.end());
-      if (stop != from && store.position(mover.slot) == from) moves.place(mover, stop);
-      return false;
+      if (stop == from || store.position(mover.slot) != from) return End::kNone;
+      where = stop;
+      return End::kContact;
     }
     since = *m_list.end();
     for (const Hit& hit : m_list.hits()) m_met.insert(hit.key);
   }
-  return true;
+  return End::kTarget;
 }
 
 // A handler may begin moves of its own, but those have lists of their own.

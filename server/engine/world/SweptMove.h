@@ -13,7 +13,6 @@
 
 namespace df {
 
-class Mover;
 class World;
 
 /// Its memory is kept for the next move.
@@ -22,10 +21,13 @@ class SweptMove {
   /// A handler may make a new obstacle for each that it deletes: a move with so many stages is blocked.
   static constexpr int kMaxStages = 1000;
 
+  /// How a move ended: at its target, just before a contact, or nowhere else than where handlers put the
+  /// mover.
+  enum class End { kTarget, kContact, kNone };
   /// Send the events of what `mover`, in the world and solid, hits on its path to `where`. If a pair blocks
-  /// it, place it just before the contact, unless a handler has moved it. Return whether it may move on to
-  /// `where`.
-  bool run(Mover& moves, World& world, ObjectKey mover, FixedVector where);
+  /// it and no handler has moved it, set `where` to its place just before the contact. The mover is not
+  /// placed.
+  End run(World& world, ObjectKey mover, FixedVector& where);
 
  private:
   enum class Outcome { kFree, kBlocked, kGone };

@@ -21,6 +21,8 @@ class Walkers {
   void step();
 
  private:
+  static void turn(Object& object);
+
   std::vector<Object*> m_objects;
 };
 

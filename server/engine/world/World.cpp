@@ -159,6 +159,10 @@ void World::run() {
   while (!m_game_over) tick();
 }
 
+running::Program* World::program() const {
+  return m_p_runner == nullptr && m_is_default ? running::program() : nullptr;
+}
+
 void World::setGameOver(bool game_over) {
   if (game_over && m_game_over_leaves && m_input_player != 0) {
     m_leavers.push_back(m_input_player);

@@ -4,8 +4,6 @@
 #include <cassert>
 #include <utility>
 
-#include "engine/world/Object.h"
-
 namespace df {
 
 namespace {
@@ -236,7 +234,7 @@ const std::shared_ptr<const naiad::Look>& WorldStore::frames(Slot s) const {
 }
 
 const Mask* WorldStore::spriteMask(Slot s) const {
-  return m_cards[s].p_object->spriteMask();
+  return spriteMaskOf(*m_cards[s].p_object);
 }
 
 void WorldStore::settleChanged(Slot s, FixedVector velocity, bool blocked) {

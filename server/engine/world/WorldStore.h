@@ -36,6 +36,10 @@ namespace df {
 class Object;
 class World;
 
+/// The mask of the sprite's frame that shows, if it is drawn where the Object's box is; else null. Defined
+/// with Object, of which the store knows pointers only.
+const Mask* spriteMaskOf(const Object& object);
+
 class WorldStore : public ObjectFlags {
  public:
   using Slot = std::uint32_t;

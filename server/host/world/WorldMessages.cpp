@@ -56,17 +56,17 @@ void visitSeen(F& f, T& seen) {
 
 template <class F, class Text, class Number>
 void visitScore(F& f, Text& table, Text& name, Number& points) {
-  f.text(table, df::HighScores::kMaxTableName);
+  f.text(table, df::HighScoreLimits::kMaxTableName);
   f.text(name, kMaxNameBytes);
-  f.number(points, -df::HighScores::kMaxPoints, df::HighScores::kMaxPoints);
+  f.number(points, -df::HighScoreLimits::kMaxPoints, df::HighScoreLimits::kMaxPoints);
 }
 
 template <class F, class T>
 void visitRoom(F& f, T& room) {
-  f.text(room.name, df::GameRooms::kMaxName);
-  f.text(room.game, df::GameRooms::kMaxGame);
-  f.number(room.players, 0, df::GameRooms::kMaxPlayers);
-  f.number(room.max_players, 0, df::GameRooms::kMaxPlayers);
+  f.text(room.name, df::GameRoomLimits::kMaxName);
+  f.text(room.game, df::GameRoomLimits::kMaxGame);
+  f.number(room.players, 0, df::GameRoomLimits::kMaxPlayers);
+  f.number(room.max_players, 0, df::GameRoomLimits::kMaxPlayers);
   f.flag(room.is_asleep);
   f.flag(room.is_this_one);
 }
@@ -155,14 +155,14 @@ template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
   f.list(answer.leavers, kMaxViewPlayers, [](F& in, auto& leaver) { in.number(leaver); });
-  f.list(answer.scores, df::HighScores::kMaxAddedInTick, [](F& in, auto& added) {
+  f.list(answer.scores, df::HighScoreLimits::kMaxAddedInTick, [](F& in, auto& added) {
     visitScore(in, added.table, added.score.name, added.score.points);
     in.number(added.tick);
     in.number(added.number, 0, df::ScoreTables::kMaxNumber);
   });
-  f.list(answer.sent, df::GameRooms::kMaxSentInTick, [](F& in, auto& sent) {
+  f.list(answer.sent, df::GameRoomLimits::kMaxSentInTick, [](F& in, auto& sent) {
     in.number(sent.player);
-    in.text(sent.room, df::GameRooms::kMaxName);
+    in.text(sent.room, df::GameRoomLimits::kMaxName);
   });
   f.list(answer.pictures, kMaxViewPlayers, [](F& in, auto& picture) {
     in.number(picture.player);

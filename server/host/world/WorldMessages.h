@@ -64,8 +64,8 @@ struct WorldAnswer {
   bool has_view = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
   std::vector<WorldPicture> pictures;       ///< by player
-  std::vector<df::AddedScore> scores = {};  ///< at most HighScores::kMaxAddedInTick
-  std::vector<df::SentPlayer> sent = {};    ///< at most GameRooms::kMaxSentInTick
+  std::vector<df::AddedScore> scores = {};  ///< at most HighScoreLimits::kMaxAddedInTick
+  std::vector<df::SentPlayer> sent = {};    ///< at most GameRoomLimits::kMaxSentInTick
 };
 
 // Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is

@@ -1,11 +1,8 @@
-// The part of Object that is about frames, and the access to it (ObjectLookAccess.h).
+#include "engine/world/ObjectLookAccess.h"
 
-#include <cstdint>
 #include <memory>
 
 #include "engine/world/Object.h"
-#include "engine/world/ObjectLookAccess.h"
-#include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/LookCodec.h"
@@ -35,19 +32,6 @@ int ObjectLookAccess::setSelector(Object& object, const naiad::Selector& selecto
   store.setFrames(object.m_slot,
                   std::make_shared<const naiad::Look>(naiad::Look{p_look->sequence, 0, selector}));
   return 0;
-}
-
-int Object::getFrameCount() const {
-  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
-  return p_look != nullptr ? static_cast<int>(p_look->sequence.size()) : 0;
-}
-
-int Object::getFrame() const {
-  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
-  const World* p_world = getWorld();
-  if (p_look == nullptr || p_world == nullptr) return 0;
-  const auto tick = static_cast<std::uint32_t>(p_world->getStepCount());
-  return static_cast<int>(p_look->selector.at(tick, p_look->sequence.size()));
 }
 
 }  // namespace df
