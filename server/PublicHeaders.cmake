@@ -128,6 +128,7 @@ set(naiad_detail_headers
   server/engine/world/ObjectProfile.h
   server/engine/world/Settings.h
   server/engine/world/WorldScope.h
+  server/engine/world/WorldState.h
   server/engine/world/WorldView.h
   shared/values/Dialect.h)
 

@@ -14,6 +14,8 @@
 
 namespace df {
 
+GameManager::GameManager() : Manager("GameManager", kGameStarted) {}
+
 GameManager& GameManager::getInstance() {
   static GameManager* p_instance = new GameManager;
   return *p_instance;
@@ -37,10 +39,6 @@ int GameManager::startUp() {
 
 void GameManager::shutDown() {
   World::current().shutDown();
-}
-
-bool GameManager::isStarted() const {
-  return World::current().isStarted(kGameStarted);
 }
 
 void GameManager::run() {

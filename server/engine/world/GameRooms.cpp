@@ -1,7 +1,9 @@
 #include "engine/world/GameRooms.h"
 
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 
 namespace df {
 
@@ -13,9 +15,8 @@ const std::vector<GameRoom>& GameRooms::getRooms() const {
 
 int GameRooms::send(std::uint32_t player, const std::string& room) const {
   World& world = World::current();
-  if (world.getPlayer(player) != nullptr && world.extras().rooms.send(player, room)) return 0;
-  world.refuse("GameRooms", "send");
-  return -1;
+  if (world.views().player(player) != nullptr && world.extras().rooms.send(player, room)) return 0;
+  return world.log().refuse("GameRooms", "send");
 }
 
 }  // namespace df

@@ -17,6 +17,7 @@
 #include "engine/world/ObjectExtras.h"
 #include "engine/world/PendingBlocks.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
@@ -132,12 +133,12 @@ Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
   }
   // Here it is still nothing but an Object.
   if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);
-  world.insertObject(this);
+  m_p_store->enter(m_slot);
 }
 
 Object::~Object() {
   if (m_p_extras != nullptr) dropExtras();
-  if (World* p_world = getWorld()) p_world->forget(this);
+  leaveWorld();
   m_p_store->giveBackSlot(m_slot);
   // Calls on the deleted Object (DelayedFree.h) must find no extras, so the compiler must not drop this
   // store.
@@ -145,12 +146,19 @@ Object::~Object() {
   std::atomic_signal_fence(std::memory_order_seq_cst);
 }
 
+void Object::leaveWorld() {
+  World* p_world = getWorld();
+  if (p_world == nullptr) return;
+  p_world->interests().dropAll(*m_p_profile);
+  m_p_store->leave(m_slot);
+}
+
 bool Object::isDeaf() const {
   return g_p_base_handler != nullptr && handlerOf(*this) == g_p_base_handler;
 }
 
 Object::Object(const Object& other) : Object() {
-  if (World* p_world = getWorld()) p_world->removeObject(this);
+  leaveWorld();
   resemble(other);
 }
 
@@ -205,8 +213,8 @@ World* Object::getWorld() const {
 }
 
 int Object::refuse(const char* what) const {
-  if (World* p_world = getWorld()) p_world->refuse(nameOf(*this), what);
-  return -1;
+  World* p_world = getWorld();
+  return p_world != nullptr ? p_world->log().refuse(nameOf(*this), what) : -1;
 }
 
 void Object::setType(std::string new_type) {
@@ -334,16 +342,16 @@ int Object::registerInterest(const std::string& event_type) {
   World* p_world = getWorld();
   if (p_world == nullptr) return -1;
   if (const char* p_meant = engineEventFor(event_type)) {
-    p_world->logOnce("registerInterest(\"" + event_type +
-                     "\"): the engine sends no such event; it sends df::" + p_meant);
+    p_world->log().writeOnce("registerInterest(\"" + event_type +
+                             "\"): the engine sends no such event; it sends df::" + p_meant);
   }
-  return p_world->interests().add(*this, event_type);
+  return p_world->interests().add(key(), *m_p_profile, event_type);
 }
 
 int Object::unregisterInterest(const std::string& event_type) {
   World* p_world = getWorld();
   if (p_world == nullptr) return -1;
-  const int result = p_world->interests().remove(*this, event_type);
+  const int result = p_world->interests().remove(key(), *m_p_profile, event_type);
   return p_world->compat() ? 0 : result;
 }
 

@@ -21,12 +21,7 @@ ObjectList::ObjectList(ObjectList&& other) noexcept
   other.m_many.clear();
 }
 
-ObjectList& ObjectList::operator=(const ObjectList& other) {
-  if (this != &other) *this = ObjectList(other);
-  return *this;
-}
-
-ObjectList& ObjectList::operator=(ObjectList&& other) noexcept {
+ObjectList& ObjectList::operator=(ObjectList other) noexcept {
   std::swap(m_p_store, other.m_p_store);
   std::swap(m_count, other.m_count);
   std::swap(m_few, other.m_few);
@@ -94,24 +89,6 @@ ObjectList& ObjectList::operator+=(const ObjectList& other) {
   const int count = other.m_count;  // `other` may be this list
   for (int i = 0; i < count; ++i) append(other.m_p_store, other.keys()[i]);
   return *this;
-}
-
-int ObjectListIterator::firstLiving() const {
-  int i = m_index;
-  while (m_p_list != nullptr && i < m_p_list->getCount() && (*m_p_list)[i] == nullptr) ++i;
-  return i;
-}
-
-// Asking does not move: if the loop's body has just deleted the current Object, next() must still go to
-// the entry behind it and not one further.
-bool ObjectListIterator::isDone() const {
-  return m_p_list == nullptr || firstLiving() >= m_p_list->getCount();
-}
-
-Object* ObjectListIterator::currentObject() const {
-  if (isDone()) return nullptr;
-  m_index = firstLiving();
-  return (*m_p_list)[m_index];
 }
 
 }  // namespace df

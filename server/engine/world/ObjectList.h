@@ -26,8 +26,7 @@ class ObjectList {
   /// Copies and moves like a value.
   ObjectList(const ObjectList& other);
   ObjectList(ObjectList&& other) noexcept;
-  ObjectList& operator=(const ObjectList& other);
-  ObjectList& operator=(ObjectList&& other) noexcept;
+  ObjectList& operator=(ObjectList other) noexcept;
   ~ObjectList();
 
   /// Append. An Object may be in the list more than once. Return 0, or -1 for null and for an Object of
@@ -57,7 +56,7 @@ class ObjectList {
   friend ObjectList operator+(ObjectList a, const ObjectList& b) { return a += b; }
 
  private:
-  friend class World;
+  friend class ObjectRegistry;
   const ObjectKey* keys() const { return m_count <= kInline ? m_few.data() : m_many.data(); }
   ObjectKey* keys() { return m_count <= kInline ? m_few.data() : m_many.data(); }
   void append(WorldStore* p_store, ObjectKey key);
@@ -91,12 +90,16 @@ class ObjectListIterator {
   /// On to the next entry.
   void next() { ++m_index; }
   /// True if no living Object is left at or after the current entry.
-  bool isDone() const;
+  bool isDone() const { return m_p_list == nullptr || firstLiving() >= m_p_list->getCount(); }
   /// The current Object: the first living one at or after the current entry. Null if done.
-  Object* currentObject() const;
+  Object* currentObject() const { return isDone() ? nullptr : (*m_p_list)[m_index = firstLiving()]; }
 
  private:
-  int firstLiving() const;
+  int firstLiving() const {
+    int i = m_index;
+    while (i < m_p_list->getCount() && (*m_p_list)[i] == nullptr) ++i;
+    return i;
+  }
 
   const ObjectList* m_p_list;
   mutable int m_index = 0;  // currentObject() moves it over dead entries

@@ -1,5 +1,6 @@
 // The part of Object that others see of it: looks, paths, and its attributes as text.
 
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -7,13 +8,16 @@
 #include "engine/sprites/AnimationLook.h"
 #include "engine/world/ClassName.h"
 #include "engine/world/ConfigText.h"
-#include "engine/world/InterestDispatch.h"
 #include "engine/world/Object.h"
 #include "engine/world/ObjectExtras.h"
+#include "engine/world/ObjectLookAccess.h"
 #include "engine/world/PathFind.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/LookCodec.h"
 
 namespace df {
 
@@ -49,12 +53,16 @@ void Object::hearWhilePaused() {
   extras().hears_while_paused = true;
 }
 
+bool Object::hearsWhilePaused() const {
+  return m_p_extras != nullptr && m_p_extras->hears_while_paused;
+}
+
 // The world's lists must not go on with it.
 void Object::dropExtras() {
   World* p_world = getWorld();
   if (p_world == nullptr) return;
-  if (m_p_extras->animated != ObjectExtras::kNowhere) p_world->extras().animations.remove(*this);
-  if (m_p_extras->follows_path) p_world->extras().walkers.remove(*this);
+  if (m_p_extras->animated != ObjectExtras::kNowhere) p_world->extras().animations.remove(*m_p_extras);
+  if (m_p_extras->follows_path) p_world->setWalking(*this, false);
 }
 
 // The sprite or the shape is another one.
@@ -64,11 +72,11 @@ void Object::animate() {
   World* p_world = getWorld();
   if (p_world == nullptr) return;
   if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // one that the game has made
-  p_world->forgetLook(m_slot);
+  forgetLook();
   if (p_sprite != nullptr && p_sprite->getFrameCount() > 1) {
-    p_world->extras().animations.add(*this);
+    p_world->extras().animations.add(m_slot, *m_p_extras);
   } else if (m_p_extras->animated != ObjectExtras::kNowhere) {
-    p_world->extras().animations.remove(*this);
+    p_world->extras().animations.remove(*m_p_extras);
   }
 }
 
@@ -81,8 +89,8 @@ int Object::setSprite(const std::string& sprite_label, bool set_box) {
   if (p_world == nullptr) return -1;
   Resources& resources = p_world->extras().resources;
   if (Sprite* p_sprite = resources.sprite(sprite_label)) return setSprite(p_sprite, set_box);
-  p_world->logOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
-                   ": no sprite is loaded under this label" + resources.spriteLabels());
+  p_world->log().writeOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
+                           ": no sprite is loaded under this label" + resources.spriteLabels());
   // So that there is something to see, and getAnimation().getSprite() is no null pointer.
   if (getSprite() == nullptr && !p_world->compat()) {
     Animation animation;
@@ -135,7 +143,7 @@ Animation Object::getAnimation() const {
 
 void Object::setSpriteIndex(int new_index) {
   extras().animation.setIndex(new_index);
-  if (World* p_world = getWorld()) p_world->forgetLook(m_slot);
+  forgetLook();
 }
 
 void Object::setSpriteSlowdown(int new_slowdown) {
@@ -153,7 +161,7 @@ void Object::setSpriteSlowdownCount(int new_slowdown_count) {
 
 void Object::setTransparency(char new_transparency) {
   if (Sprite* p_sprite = getSprite()) p_sprite->setTransparency(new_transparency);
-  if (World* p_world = getWorld()) p_world->forgetLook(m_slot);
+  forgetLook();
 }
 
 char Object::getTransparency() const {
@@ -207,13 +215,43 @@ const Mask* spriteMaskOf(const Object& object) {
   return p_sprite->mask(object.m_p_extras->animation.getIndex());
 }
 
+// Draws a static look again.
+void Object::forgetLook() {
+  if (getWorld() != nullptr) m_p_store->set(m_slot, WorldStore::kLookKept, false);
+}
+
 void Object::setStaticLook(bool static_look) {
   m_p_store->set(m_slot, WorldStore::kStaticLook, static_look);
-  if (World* p_world = getWorld()) p_world->forgetLook(m_slot);
+  forgetLook();
 }
 
 bool Object::hasStaticLook() const {
   return m_p_store->has(m_slot, WorldStore::kStaticLook);
+}
+
+int ObjectLookAccess::setFrames(Object& object, const naiad::Sequence& frames,
+                                const naiad::Selector& selector) {
+  WorldStore& store = *object.m_p_store;
+  if (frames.empty()) {
+    store.setFrames(object.m_slot, nullptr);
+    return 0;
+  }
+  const bool small = frames.size() <= naiad::kMaxFrames && frames.glyphCount() <= naiad::kMaxGlyphs &&
+                     frames.reach() <= naiad::kMaxGlyphOffset;
+  if (!small || !selector.fits(frames.size()) || naiad::encodedBits(frames) > 8 * naiad::kMaxLookBytes)
+    return object.refuse("setFrames");
+  store.setFrames(object.m_slot, std::make_shared<const naiad::Look>(naiad::Look{frames, 0, selector}));
+  return 0;
+}
+
+int ObjectLookAccess::setSelector(Object& object, const naiad::Selector& selector) {
+  WorldStore& store = *object.m_p_store;
+  const std::shared_ptr<const naiad::Look>& p_look = store.frames(object.m_slot);
+  if (p_look == nullptr || !selector.fits(p_look->sequence.size())) return object.refuse("setSelector");
+  if (p_look->selector == selector) return 0;
+  store.setFrames(object.m_slot,
+                  std::make_shared<const naiad::Look>(naiad::Look{p_look->sequence, 0, selector}));
+  return 0;
 }
 
 int Object::getFrameCount() const {
@@ -241,7 +279,6 @@ void Object::pathTo(Vector position) {
   setFollowPath(false);
   setPath(std::move(path));
   if (event.getResult() == FOUND) setFollowPath();
-  p_world->nameClassOf(event);
   p_world->deliver(key(), event);  // the last thing: it may delete this
 }
 
@@ -267,13 +304,7 @@ void Object::setFollowPath(bool new_follow_path) {
   if (!new_follow_path && m_p_extras == nullptr) return;
   extras().follows_path = new_follow_path;
   if (!new_follow_path) m_p_extras->path_speed = 0;
-  World* p_world = getWorld();
-  if (p_world == nullptr) return;
-  if (new_follow_path) {
-    p_world->extras().walkers.add(*this);
-  } else {
-    p_world->extras().walkers.remove(*this);
-  }
+  if (World* p_world = getWorld()) p_world->setWalking(*this, new_follow_path);
 }
 
 bool Object::getFollowPath() const {

@@ -12,12 +12,10 @@ Walkers::~Walkers() {
   for (Object* p_o : m_objects) p_o->m_p_extras->follows_path = false;
 }
 
-void Walkers::add(Object& object) {
-  if (std::find(m_objects.begin(), m_objects.end(), &object) == m_objects.end()) m_objects.push_back(&object);
-}
-
-void Walkers::remove(Object& object) {
-  std::erase(m_objects, &object);
+void Walkers::set(Object& object, bool walks) {
+  const auto place = std::find(m_objects.begin(), m_objects.end(), &object);
+  if (walks && place == m_objects.end()) m_objects.push_back(&object);
+  if (!walks && place != m_objects.end()) m_objects.erase(place);
 }
 
 void Walkers::step() {

@@ -8,8 +8,8 @@ namespace df {
 
 namespace {
 
-constexpr std::uint32_t kWhileInWorld =
-    WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kReported | WorldStore::kFollowed;
+constexpr std::uint32_t kWhileInWorld = WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kLookKept |
+                                        WorldStore::kReported | WorldStore::kFollowed;
 // A turn with one of these has more to it than position += velocity.
 constexpr std::uint32_t kOptions =
     WorldStore::kSwept | WorldStore::kPrecise | WorldStore::kRestContacts | WorldStore::kMayMoveOut;

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "engine/managers/GameManager.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/admission/Places.h"
@@ -306,7 +308,7 @@ void Host::beginGame(df::World& world) {
 
 void Host::endGame(df::World& world) {
   m_rooms.clear();
-  world.setGameOverLeaves(false);
+  world.input().setGameOverLeaves(false);
   crash::clearWorld(world);
   m_p_world = nullptr;
 }
@@ -319,7 +321,7 @@ void Host::adoptSettings(df::World& world) {
     if (m_options.frame_micros == 0 && millis != df::FRAME_TIME_DEFAULT)
       m_options.frame_micros = millis * 1000;
   }
-  world.setGameOverLeaves(m_options.on_game_over != "exit");
+  world.input().setGameOverLeaves(m_options.on_game_over != "exit");
   if (world.compat()) m_log("compat is on: the published engine's rules where they differ from the book's");
 }
 
@@ -370,7 +372,7 @@ void Host::tick() {
 
 // The game's code runs in here alone, unless it is in processes of its own.
 void Host::tickWorlds() {
-  const std::uint64_t number = m_p_world->view().tick + 1;
+  const std::uint64_t number = m_p_world->picture().view().tick + 1;
   m_p_watchdog->beginTick(number);
   crash::noteTick(number);
   m_rooms.beginTicks();

@@ -2,18 +2,21 @@
 
 #include <utility>
 
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldStore.h"
 
 namespace naiad {
 
 WorldInProcess::~WorldInProcess() {
-  m_world.setLagCompensation(nullptr);
+  m_world.input().setLagCompensation(nullptr);
 }
 
 std::uint32_t WorldInProcess::addInput(df::InputQueue::Input input) {
-  return m_world.inputs().push(std::move(input));
+  return m_world.input().push(std::move(input));
 }
 
 void WorldInProcess::setHeard(std::uint32_t player) {
@@ -25,7 +28,7 @@ void WorldInProcess::endGame() {
 }
 
 void WorldInProcess::tick(bool watched, bool /*truth*/) {
-  m_world.setWatched(watched);
+  m_world.store().setWatched(watched);
   m_world.tick();
   m_state_hash.reset();
   if (std::exchange(m_checked, false)) m_state_hash = df::hashState(m_world);
@@ -38,20 +41,21 @@ std::uint32_t WorldInProcess::nextTick() const {
 }
 
 const df::WorldView& WorldInProcess::view() const {
-  return m_world.view();
+  return m_world.picture().view();
 }
 
 // A game that does not use lag compensation needs no memory for it.
 void WorldInProcess::notePublished(const Publisher& publisher) {
-  if (m_world.isLookingBack() != m_lag_compensator.has_value()) {
-    m_world.isLookingBack() ? static_cast<void>(m_lag_compensator.emplace()) : m_lag_compensator.reset();
-    m_world.setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);
+  if (m_world.input().isLookingBack() != m_lag_compensator.has_value()) {
+    m_world.input().isLookingBack() ? static_cast<void>(m_lag_compensator.emplace())
+                                    : m_lag_compensator.reset();
+    m_world.input().setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);
   }
-  if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.view());
+  if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.picture().view());
 }
 
 std::vector<std::uint32_t> WorldInProcess::takeLeavers() {
-  return m_world.takeLeavers();
+  return m_world.input().takeLeavers();
 }
 
 std::vector<df::AddedScore> WorldInProcess::takeScores() {
@@ -64,7 +68,7 @@ bool WorldInProcess::isGameOver() const {
 }
 
 df::Canvas WorldInProcess::renderPlayer(std::uint32_t player) const {
-  return m_world.renderPlayer(player);
+  return m_world.picture().renderPlayer(player);
 }
 
 }  // namespace naiad
