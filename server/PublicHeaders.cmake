@@ -121,11 +121,14 @@ set(naiad_detail_headers
   server/engine/prelude/SfmlValues.h
   server/engine/published/EventNetworks.h
   server/engine/world/ColorMix.h
+  server/engine/world/GameRoom.h
   server/engine/world/Geometry.h
+  server/engine/world/HighScore.h
   server/engine/world/LagCompensation.h
   server/engine/world/ObjectProfile.h
   server/engine/world/Settings.h
   server/engine/world/WorldScope.h
+  server/engine/world/WorldState.h
   server/engine/world/WorldView.h
   shared/values/Dialect.h)
 

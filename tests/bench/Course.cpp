@@ -6,6 +6,7 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
+#include "engine/world/WorldLog.h"
 
 namespace bench {
 
@@ -34,7 +35,7 @@ df::FixedVector exactly(df::Vector v) {
 }  // namespace
 
 Course::Course(const Field& field) : m_scope(m_world) {
-  m_world.setLogSink([](const std::string& /*line*/) {});
+  m_world.log().setSink([](const std::string& /*line*/) {});
   WM.setBoundary(df::Box(df::Vector(-1e5, -1e5), 1e6, 1e6));
   for (const df::FixedBox& box : field.obstacles) {
     auto* p_obstacle = new df::Object;

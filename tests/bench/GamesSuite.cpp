@@ -10,9 +10,13 @@
 #include "ElapsedTime.h"
 #include "ResultLine.h"
 #include "Suite.h"
+#include "engine/world/Capture.h"
 #include "engine/world/Player.h"
 #include "engine/world/Runner.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 #include "host/settings/GameModule.h"
 #include "net/LinkedClient.h"
 #include "tests/server/games/RandomPlayers.h"
@@ -34,9 +38,9 @@ class Stage : public df::Runner {
   Stage(const GameModule& game, Play play) : m_play(play) {
     df::World world;
     const df::World::Scope scope(world);
-    world.setLogSink([](const std::string&) {});
+    world.log().setSink([](const std::string&) {});
     world.setSeed(kSeed);
-    for (const std::string& folder : game.resourceFolders()) world.addResourceFolder(folder);
+    for (const std::string& folder : game.resourceFolders()) world.extras().resources.addFolder(folder);
     world.setRunner(this);
     if (game.main() != 0) throw std::runtime_error("the game " + game.name() + " did not run");
   }
@@ -69,7 +73,7 @@ std::uint64_t hashOf(const GameModule& game) {
     for (int t = 0; t < 1000; ++t) {
       players.play();
       world.tick();
-      for (const std::uint32_t player : players.players()) hash.add(world.renderPlayer(player));
+      for (const std::uint32_t player : players.players()) hash.add(world.picture().renderPlayer(player));
     }
   });
   return hash.value();
@@ -90,15 +94,15 @@ Cost costOfPlayers(const GameModule& game, int ticks) {
     Publisher publisher;
     RandomPlayers players(world, kSeed, kPlayers);
     std::map<std::uint32_t, std::unique_ptr<LinkedClient>> clients;
-    world.setWatched(true);
+    world.store().setWatched(true);
     for (int t = 0; t < ticks; ++t) {
       players.play();
       const double begin = cpuNanoseconds();
       world.tick();
-      publisher.update(world.view());
+      publisher.update(world.picture().view());
       cost.microseconds += (cpuNanoseconds() - begin) / 1e3;
       std::map<std::uint32_t, std::unique_ptr<LinkedClient>> here;
-      for (const df::PlayerFacts& facts : world.view().players) {
+      for (const df::PlayerFacts& facts : world.picture().view().players) {
         std::unique_ptr<LinkedClient>& p_client = here[facts.id];
         p_client = std::move(clients[facts.id]);
         if (p_client == nullptr)

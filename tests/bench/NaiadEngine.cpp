@@ -4,6 +4,7 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
+#include "engine/world/WorldLog.h"
 
 namespace bench {
 
@@ -58,7 +59,7 @@ class Ball : public df::Object {
 
 NaiadEngine::NaiadEngine(const Scene& scene) {
   const df::World::Scope scope(m_world);
-  m_world.setLogSink([](const std::string& /*line*/) {});
+  m_world.log().setSink([](const std::string& /*line*/) {});
   WM.setBoundary(df::Box(df::Vector(), scene.side, scene.side));
   m_balls.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) {

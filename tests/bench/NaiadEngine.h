@@ -7,6 +7,7 @@
 #include "Engine.h"
 #include "Scene.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
 
 namespace bench {
 
@@ -20,7 +21,7 @@ class NaiadEngine : public Engine {
   void tick() override;
   const Tally& tally() const override { return m_tally; }
   std::uint64_t stateHash() const override;
-  const df::MoverStats& moverStats() const { return m_world.moverStats(); }
+  const df::MoverStats& moverStats() const { return m_world.store().grid().moverStats(); }
 
  private:
   df::World m_world;

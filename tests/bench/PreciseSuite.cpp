@@ -21,6 +21,7 @@
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "shared/values/SplitMix64.h"
 
 namespace bench {
@@ -74,7 +75,7 @@ struct Verdict {
 class Crowd {
  public:
   explicit Crowd(int n) : m_scope(m_world) {
-    m_world.setLogSink([](const std::string& /*line*/) {});
+    m_world.log().setSink([](const std::string& /*line*/) {});
     naiad::SplitMix64 random(20240607);
     std::vector<Glyphs> looks;
     double area = 0;

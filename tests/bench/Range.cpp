@@ -4,6 +4,7 @@
 
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
+#include "engine/world/WorldLog.h"
 
 namespace bench {
 
@@ -49,7 +50,7 @@ struct Range::Turn {
 };
 
 Range::Range(const Make& older, const Make& younger) : m_scope(m_world), m_makes{older, younger} {
-  m_world.setLogSink([](const std::string& /*line*/) {});
+  m_world.log().setSink([](const std::string& /*line*/) {});
   WM.setBoundary(df::Box(df::Vector(-1e6, -1e6), 1e6, 1e6));
   for (int i : {0, 1}) m_p_shooters[i] = new Shooter(m_makes[i]);
 }

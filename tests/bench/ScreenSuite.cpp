@@ -15,6 +15,7 @@
 
 #include "ResultLine.h"
 #include "Suite.h"
+#include "engine/world/Capture.h"
 #include "net/BusyScene.h"
 #include "net/LinkedClient.h"
 #include "shared/values/SplitMix64.h"
@@ -84,8 +85,8 @@ void measure(const Case& c, bool quick) {
       for (auto& client : clients) client->resetFigures();
     }
     scene.tick();
-    publisher.update(scene.world().view());
-    const auto& facts = scene.world().view().players;
+    publisher.update(scene.world().picture().view());
+    const auto& facts = scene.world().picture().view().players;
     for (std::size_t p = 0; p < facts.size(); ++p) {
       clients[p]->tick(publisher, facts[p]);
       ideals[p]->tick(publisher, facts[p]);

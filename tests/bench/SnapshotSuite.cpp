@@ -8,6 +8,7 @@
 
 #include "ResultLine.h"
 #include "Suite.h"
+#include "engine/world/Capture.h"
 #include "net/BusyScene.h"
 #include "net/LinkedClient.h"
 
@@ -87,9 +88,9 @@ void measure(const Scene& scene, bool quick) {
     }
     world.tick();
     const auto begin = std::chrono::steady_clock::now();
-    publisher.update(world.world().view());
+    publisher.update(world.world().picture().view());
     publish += std::chrono::steady_clock::now() - begin;
-    const auto& facts = world.world().view().players;
+    const auto& facts = world.world().picture().view().players;
     for (std::size_t p = 0; p < facts.size(); ++p) {
       clients[p]->tick(publisher, facts[p], world.truth(facts[p].id));
     }

@@ -12,6 +12,9 @@
 
 #include "../server/games/HostedGame.h"
 #include "Player.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 
 /// The games' main()s, compiled into this program under other names.
 int breakout_main();
@@ -37,15 +40,15 @@ int (*mainOf(const std::string& game))() {
 }
 
 void removeAll(df::World& world, const char* type) {
-  const df::ObjectList list = world.objectsOfType(type);
-  for (int i = 0; i < list.getCount(); ++i) world.markForDelete(list[i]);
+  const df::ObjectList list = world.objects().objectsOfType(type);
+  for (int i = 0; i < list.getCount(); ++i) world.objects().markForDelete(list[i]);
 }
 
 /// Host the game and join it; `play` begins when the player's Object is there.
 void withPlayer(const std::string& game, std::uint64_t seed,
                 const std::function<void(df::World&, std::uint32_t)>& play) {
   const auto joined = [&](df::World& world) {
-    const std::uint32_t ann = world.join("ann", df::RED);
+    const std::uint32_t ann = world.input().join("ann", df::RED);
     if (game == "saucershoot") tap(world, ann, df::Keyboard::P);
     tick(world, game == "platformer" ? 40 : 3);
     play(world, ann);
@@ -54,7 +57,7 @@ void withPlayer(const std::string& game, std::uint64_t seed,
 }
 
 df::Object* objectOf(df::World& world, std::uint32_t player) {
-  return world.getPlayer(player)->getObject();
+  return world.views().player(player)->getObject();
 }
 
 // --- scripted patterns
@@ -245,7 +248,7 @@ PlayFigures playPlatformer(df::World& world, std::uint32_t ann, Typist& typist, 
       const bool flies = p_runner->getVelocity().y() != 0;
       if (!impatience.gaveUp(true, moves, hands.age(Key::RIGHTARROW))) keys.insert(Key::RIGHTARROW);
       if ((step || ((gap || sharp) && moves)) && !flies) keys.insert(Key::SPACE);
-      const int now = world.getPlayer(ann)->getScore();
+      const int now = world.views().player(ann)->getScore();
       if (now >= score + 100) {
         ++figures.good;
       } else if (at.x() < before - 10) {
@@ -267,9 +270,9 @@ PlayFigures playBreakout(df::World& world, std::uint32_t ann, Typist& typist, df
   Hands hands(typist);
   Key way = df::Keyboard::UNDEFINED_KEY;
   bool flew = false;
-  int bricks = world.objectsOfType("Brick").getCount();
+  int bricks = world.objects().objectsOfType("Brick").getCount();
   for (int t = 0; t < kMinute; ++t) {
-    const df::ObjectList balls = world.objectsOfType("Ball");
+    const df::ObjectList balls = world.objects().objectsOfType("Ball");
     const df::Object* p_paddle = objectOf(world, ann);
     Keys keys;
     if (!balls.isEmpty() && p_paddle != nullptr) {
@@ -288,7 +291,7 @@ PlayFigures playBreakout(df::World& world, std::uint32_t ann, Typist& typist, df
                                              : Key::LEFTARROW;
       if (way != df::Keyboard::UNDEFINED_KEY) keys.insert(way);
     }
-    const int now = world.objectsOfType("Brick").getCount();
+    const int now = world.objects().objectsOfType("Brick").getCount();
     figures.good += std::max(bricks - now, 0);
     bricks = now;
     hands.want(keys);
@@ -299,7 +302,7 @@ PlayFigures playBreakout(df::World& world, std::uint32_t ann, Typist& typist, df
 
 std::optional<df::Vector> nearestPad(df::World& world, double x) {
   std::optional<df::Vector> best;
-  const df::ObjectList list = world.objectsOfType("Ground");
+  const df::ObjectList list = world.objects().objectsOfType("Ground");
   std::map<int, int> tops;
   for (int i = 0; i < list.getCount(); ++i)
     tops[static_cast<int>(list[i]->getPosition().x())] = static_cast<int>(list[i]->getPosition().y());
@@ -335,7 +338,7 @@ PlayFigures playLander(df::World& world, std::uint32_t ann, Typist& typist, df::
       if (!wreck && v.x() > across + 0.02) keys.insert(Key::LEFTARROW);
       if (!wreck && v.x() < across - 0.02) keys.insert(Key::RIGHTARROW);
     }
-    const int now = world.getPlayer(ann)->getScore();
+    const int now = world.views().player(ann)->getScore();
     if (now > score) ++figures.good;
     score = now;
     hands.want(keys);
@@ -359,7 +362,7 @@ PlayFigures playSaucerShoot(df::World& world, std::uint32_t ann, Typist& typist,
       if (!p_ship->isVisible() && !lost) ++figures.bad;
       lost = !p_ship->isVisible();
       const df::Vector at = p_ship->getPosition();
-      const df::ObjectList saucers = world.objectsOfType("Saucer");
+      const df::ObjectList saucers = world.objects().objectsOfType("Saucer");
       std::optional<df::Vector> target;
       for (int i = 0; i < saucers.getCount(); ++i) {
         const df::Vector s = saucers[i]->getPosition();
@@ -370,7 +373,7 @@ PlayFigures playSaucerShoot(df::World& world, std::uint32_t ann, Typist& typist,
       const double dy = target ? target->y() - at.y() : 0;
       if (std::abs(dy) > (moves ? 0.8 : 1.8)) keys.insert(dy > 0 ? Key::DOWNARROW : Key::UPARROW);
       if (target && std::abs(dy) < 2 && t % 10 < 3) keys.insert(Key::SPACE);
-      const int now = world.getPlayer(ann)->getScore();
+      const int now = world.views().player(ann)->getScore();
       figures.good += std::max(now - score, 0);
       score = now;
     }

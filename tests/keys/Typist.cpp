@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "engine/world/InputQueue.h"
+
 namespace naiad {
 
 using df::Keyboard::Key;
@@ -73,7 +75,7 @@ bool Typist::takeGo(const KeyEvent& event) {
 }
 
 void Typist::send(const std::vector<KeyAction>& actions) {
-  for (const KeyAction& action : actions) m_world.key(m_player, action.key, action.action);
+  for (const KeyAction& action : actions) m_world.input().key(m_player, action.key, action.action);
 }
 
 }  // namespace naiad

@@ -8,6 +8,7 @@
 #include "RawClient.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/Player.h"
 
 namespace naiad::test {
@@ -19,7 +20,7 @@ using Reason = wire::Refused;
 constexpr std::uint32_t kFiveSeconds = 150;
 
 int countShips(df::World& world) {
-  return world.objectsOfType("Ship").getCount();
+  return world.objects().objectsOfType("Ship").getCount();
 }
 
 bool lists(TestClient& client, const std::string& name) {

@@ -12,6 +12,7 @@
 #include "RawClient.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "engine/world/Views.h"
 #include "shared/net/stream/Framing.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/SplitMix64.h"
@@ -140,7 +141,7 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
   // Once the last attacker is swept away, Ann plays alone and undisturbed.
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
     return ann.pictures().size() >= 100 &&
-           server.inWorld([](df::World& world) { return world.getPlayers().size(); }) == 1;
+           server.inWorld([](df::World& world) { return world.views().getPlayers().size(); }) == 1;
   }));
   expectSame(ann, server, 100);
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);

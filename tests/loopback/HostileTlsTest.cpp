@@ -14,6 +14,7 @@
 #include "TestServer.h"
 #include "Valve.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad::test {
@@ -61,7 +62,7 @@ class HostileTls : public testing::Test {
     return serveUntil(context, {&client}, [&] { return client.newestTick() >= until; });
   }
   static int scoreOf(TestServer& server, std::uint32_t player) {
-    return server.inWorld([player](df::World& world) { return world.getPlayer(player)->getScore(); });
+    return server.inWorld([player](df::World& world) { return world.views().player(player)->getScore(); });
   }
 
   Home home;

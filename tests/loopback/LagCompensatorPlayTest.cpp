@@ -14,6 +14,7 @@
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
 #include "engine/world/EventPlayer.h"
 #include "engine/world/Object.h"
 
@@ -59,7 +60,7 @@ class Target : public df::Object {
     const df::Vector cell = p_mouse->getMousePosition();
     if (std::abs(cell.getY() - getPosition().getY()) > 0.5) return 0;
     Click click;
-    click.tick = df::World::current().view().tick;
+    click.tick = df::World::current().picture().view().tick;
     click.hit_as_drawn = WM.objectsSeenAt(cell).getCount() > 0;
     click.hit_now = std::abs(getPosition().getX() - cell.getX()) <= 0.5;
     m_clicks.push_back(click);
@@ -106,7 +107,7 @@ class Watcher : public df::Object {
     const auto* p_mouse = dynamic_cast<const df::EventMouse*>(p_e);
     if (p_mouse == nullptr || p_mouse->getMouseAction() != df::CLICKED) return 0;
     Click click;
-    click.tick = df::World::current().view().tick;
+    click.tick = df::World::current().picture().view().tick;
     click.hit_as_drawn = WM.objectsSeenAt(p_mouse->getMousePosition()).getCount() > 0;
     click.corner = m_p_runner->getPosition().getX() - 80 * 2 / 3.0;  // it pushes the view before it
     m_clicks.push_back(click);

@@ -86,7 +86,7 @@ TEST_F(ManyClients, AClaimedSizeIsNoAdvantage) {
   const auto answer = client.receive();
   ASSERT_TRUE(answer && answer->has_welcome());
   const auto window =
-      server.inWorld([](df::World& w) { return std::pair(w.getWindowWidth(), w.getWindowHeight()); });
+      server.inWorld([](df::World& w) { return std::pair(w.views().width(), w.views().height()); });
   EXPECT_LE(answer->welcome().view_width(), static_cast<unsigned>(window.first));
   EXPECT_LE(answer->welcome().view_height(), static_cast<unsigned>(window.second));
 }

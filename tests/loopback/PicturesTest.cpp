@@ -11,7 +11,9 @@
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/widgets/ViewObject.h"
+#include "engine/world/Capture.h"
 #include "engine/world/EventPlayer.h"
+#include "engine/world/Views.h"
 
 namespace naiad::test {
 namespace {
@@ -88,7 +90,7 @@ TEST(Loopback, AWindowThatShakesIsSeenShaking) {
   TestClient client(context, server.port(), "ann");
   ASSERT_TRUE(serveUntil(context, {&client}, [&] {
     if (client.joined())
-      shaken += server.inWorld([](df::World& world) { return world.view().shake_x != 0 ? 1 : 0; });
+      shaken += server.inWorld([](df::World& world) { return world.picture().view().shake_x != 0 ? 1 : 0; });
     return client.pictures().size() >= 200;
   }));
   expectSame(client, server, 200);
@@ -123,7 +125,7 @@ struct Scouts : df::ViewObject {
 
 TEST(Loopback, ViewObjectsAreInEveryPlayersOwnView) {
   TestServer server([](df::World& world) {
-    world.setBoundary(df::Box(df::Vector(), 2000, 400));
+    world.views().setBoundary(df::Box(df::Vector(), 2000, 400));
     for (int i = 0; i < 60; ++i) new Scout(df::Vector(20 * i, 50 + i % 20));
     new Scouts;
   });

@@ -6,6 +6,7 @@
 #include "TestServer.h"
 #include "Valve.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
 #include "engine/world/Controls.h"
 #include "engine/world/EventPlayer.h"
 #include "engine/world/Object.h"
@@ -59,7 +60,8 @@ class PredictionPlay : public testing::Test {
     return client.session().predict(Clock::now()).position();
   }
   df::FixedVector real() {
-    return server.inWorld([](df::World& world) { return world.view().players.at(0).steering.position; });
+    return server.inWorld(
+        [](df::World& world) { return world.picture().view().players.at(0).steering.position; });
   }
   bool isPredicting(TestClient& client) {
     return serveUntil(context, {&client}, [&] {

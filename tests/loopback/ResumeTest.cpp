@@ -10,7 +10,9 @@
 #include "StreamProxy.h"
 #include "TestServer.h"
 #include "Valve.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
 
 namespace naiad::test {
 namespace {
@@ -135,7 +137,7 @@ TEST_F(Resume, DatagramsGoOnWhileThereIsNoStream) {
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 400; }));
   EXPECT_TRUE(ann.session().isDetached());
   const auto keys = [&] {
-    return server->inWorld([&](df::World& world) { return world.getPlayer(ann.player())->getScore(); });
+    return server->inWorld([&](df::World& world) { return world.views().player(ann.player())->getScore(); });
   };
   const int before = keys();
   ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
@@ -221,7 +223,8 @@ TEST_F(Resume, AClientThatDoesNotComeBackLeavesWhenTheGraceIsOver) {
   EXPECT_GT(Clock::now() - killed, std::chrono::milliseconds(400));
   EXPECT_EQ(server->counters().detached, 1u);
   EXPECT_EQ(server->counters().graces_expired, 1u);
-  EXPECT_EQ(server->inWorld([](df::World& world) { return world.objectsOfType("Ship").getCount(); }), 0);
+  EXPECT_EQ(
+      server->inWorld([](df::World& world) { return world.objects().objectsOfType("Ship").getCount(); }), 0);
 }
 
 TEST_F(Resume, AClientThatLeavesOnPurposeIsGoneAtOnce) {

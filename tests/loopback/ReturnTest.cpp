@@ -11,6 +11,7 @@
 #include "TestServer.h"
 #include "Valve.h"
 #include "engine/events/EventKeyboard.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/Player.h"
 
 namespace naiad::test {
@@ -157,7 +158,8 @@ TEST_F(Return, APlayerWhoseClientWasKilledHasTheirObjectBack) {
   }
   EXPECT_EQ(keys.pressed, 6);
   EXPECT_EQ(ann->session().counters().resets, 0u);
-  EXPECT_EQ(server->inWorld([](df::World& world) { return world.objectsOfType("Ship").getCount(); }), 1);
+  EXPECT_EQ(
+      server->inWorld([](df::World& world) { return world.objects().objectsOfType("Ship").getCount(); }), 1);
   expectNoJoinOrLeave();
 }
 

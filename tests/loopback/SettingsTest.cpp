@@ -6,6 +6,7 @@
 #include "engine/events/EventKeyboard.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/GameManager.h"
+#include "engine/world/Views.h"
 #include "engine/world/WorldExtras.h"
 
 namespace naiad::test {
@@ -71,7 +72,7 @@ TEST(Settings, TheKeyThatEndsAGameEndsItForOnePlayer) {
   EXPECT_EQ(bob.connection().sentence(), "For you, the game is over.");
   const std::uint32_t then = ann.newestTick();
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > then + 20; }));
-  EXPECT_EQ(server.inWorld([](df::World& world) { return world.getPlayers().size(); }), 1u);
+  EXPECT_EQ(server.inWorld([](df::World& world) { return world.views().getPlayers().size(); }), 1u);
   ann.session().sendKey(df::Keyboard::Q, df::KEY_PRESSED, std::chrono::steady_clock::now());
   ASSERT_TRUE(
       serveUntil(context, {&ann}, [&] { return ann.connection().state() == Connection::State::kEnded; }));

@@ -1,6 +1,9 @@
 #include "TestServer.h"
 
+#include "engine/world/Capture.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
+#include "engine/world/WorldLog.h"
 
 namespace naiad::test {
 
@@ -21,7 +24,7 @@ TestServer::TestServer(std::function<void(df::World&)> populate, HostOptions opt
   std::promise<void> populated;
   m_thread = std::thread([this, populate = std::move(populate), &populated] {
     df::World world;
-    world.setLogSink([](const std::string&) {});
+    world.log().setSink([](const std::string&) {});
     const df::World::Scope scope(world);
     populate(world);
     populated.set_value();
@@ -50,9 +53,9 @@ void TestServer::readLog(const LogEvent& event) {
 void TestServer::record(df::World& world) {
   if (!m_draws) return;
   const std::lock_guard lock(m_mutex);
-  for (const df::Player* player : world.getPlayers()) {
+  for (const df::Player* player : world.views().getPlayers()) {
     m_truth[{static_cast<std::uint32_t>(world.getStepCount()), player->getId()}] =
-        world.renderPlayer(player->getId());
+        world.picture().renderPlayer(player->getId());
   }
 }
 

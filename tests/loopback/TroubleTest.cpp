@@ -20,6 +20,7 @@
 #include "TestServer.h"
 #include "engine/events/EventStep.h"
 #include "engine/world/Object.h"
+#include "engine/world/WorldLog.h"
 #include "host/auth/PasswordHash.h"
 
 namespace naiad::test {
@@ -356,7 +357,7 @@ TEST(TroubleDeathTest, SignalsEndAGameThatHangsInTheLog) {
     HeldLog log;
     Host host(fastOptions(), "test", [&log](const std::string& line) { log(line); });
     df::World world;
-    world.setLogSink([](const std::string&) {});
+    world.log().setSink([](const std::string&) {});
     const df::World::Scope scope(world);
     new HangsWhileItLogs(log);
     host.run(world);

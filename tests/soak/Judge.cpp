@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdio>
 
+#include "engine/world/Capture.h"
+
 namespace naiad::soak {
 
 namespace {
@@ -32,10 +34,11 @@ std::string describe(const df::Canvas& seen, const df::Canvas& truth) {
 }  // namespace
 
 void Judge::keepTruths() {
-  const std::uint32_t tick = m_world.view().tick;
-  for (const df::PlayerFacts& player : m_world.view().players) {
+  const std::uint32_t tick = m_world.picture().view().tick;
+  for (const df::PlayerFacts& player : m_world.picture().view().players) {
     if (!isDue(tick, player.id)) continue;
-    m_accounts[player.id].truths[tick / m_stride % kTruths] = {tick, m_world.renderPlayer(player.id)};
+    m_accounts[player.id].truths[tick / m_stride % kTruths] = {tick,
+                                                               m_world.picture().renderPlayer(player.id)};
   }
   if (tick % 300 != 0) return;
   std::erase_if(m_accounts, [this](const auto& item) { return m_host.find(item.first) == nullptr; });

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <numeric>
 
+#include "engine/world/WorldLog.h"
+
 namespace naiad::soak {
 
 namespace {
@@ -40,7 +42,7 @@ Soak::Soak(const SoakOptions& options)
       m_scope(m_world),
       m_host(m_world, m_clock, m_network, *makeEndpoint("10.0.0.1", 9876), options.seed + 1),
       m_judge(m_world, m_host, m_tally, options.stride) {
-  m_world.setLogSink([](const std::string&) {});
+  m_world.log().setSink([](const std::string&) {});
   populateSoak(m_world, options.creatures, options.seed + 2, [this](const Heard& heard) { hear(heard); });
   SplitMix64 seeds(options.seed + 3);
   const Bot::Place place{m_clock, m_network, m_host, *makeEndpoint("10.0.0.1", 9876), m_tally};

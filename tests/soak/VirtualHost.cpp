@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
+#include "engine/world/WorldStore.h"
 #include "host/session/Names.h"
 #include "naiad.pb.h"
 
@@ -46,7 +50,7 @@ void VirtualHost::accept(std::unique_ptr<ReliableChannel> channel) {
                             [this](Session& session, const std::string& text) { chat(session, text); },
                             [this](Session& session) {
                               m_tokens.forget(session.id());
-                              if (session.player() != 0) m_world.leave(session.player());
+                              if (session.player() != 0) m_world.input().leave(session.player());
                             },
                             [this] { return timeOf(m_clock); }});
 }
@@ -84,12 +88,12 @@ void VirtualHost::admit(Session& session, const wire::Hello& hello) {
   const std::string name = uniqueName(cleanName(hello.player_name()), taken);
   const auto color = static_cast<df::Color>(1 + m_counters.joined++ % 7);
   wire::Welcome welcome;
-  welcome.set_player(m_world.join(name, color));
+  welcome.set_player(m_world.input().join(name, color));
   welcome.set_name(name);
   welcome.set_game("soak");
   welcome.set_tick_micros(33333);
-  welcome.set_view_width(static_cast<std::uint32_t>(m_world.getWindowWidth()));
-  welcome.set_view_height(static_cast<std::uint32_t>(m_world.getWindowHeight()));
+  welcome.set_view_width(static_cast<std::uint32_t>(m_world.views().width()));
+  welcome.set_view_height(static_cast<std::uint32_t>(m_world.views().height()));
   welcome.set_color(static_cast<std::uint32_t>(color));
   welcome.set_tick(m_publisher.tick());
   std::unique_ptr<DatagramService::Channel> datagrams;
@@ -116,8 +120,8 @@ void VirtualHost::chat(const Session& session, const std::string& text) {
 void VirtualHost::tick(const std::function<void()>& on_ticked) {
   std::erase_if(m_sessions, [](const auto& session) { return session->state() == Session::State::kGone; });
   const bool watched = playing() > 0;
-  if (watched && !m_world.isWatched()) m_publisher = Publisher();
-  m_world.setWatched(watched);
+  if (watched && !m_world.store().isWatched()) m_publisher = Publisher();
+  m_world.store().setWatched(watched);
   for (const auto& session : m_sessions) {
     session->checkDeadlines(timeOf(m_clock));
     if (session->takeProof()) m_tokens.confirm(session->id());
@@ -126,7 +130,7 @@ void VirtualHost::tick(const std::function<void()>& on_ticked) {
   m_world.tick();
   ++m_counters.ticks;
   if (watched) {
-    m_publisher.update(m_world.view());
+    m_publisher.update(m_world.picture().view());
     on_ticked();
     sendSnapshots();
     sendPlayers();
@@ -135,22 +139,22 @@ void VirtualHost::tick(const std::function<void()>& on_ticked) {
 }
 
 void VirtualHost::applyInputs() {
-  const std::uint32_t next = m_world.view().tick + 1;
+  const std::uint32_t next = m_world.picture().view().tick + 1;
   forEachPlaying([this, next](Session& session) {
     session.takeInputs(next, [&](const Input& input) {
       if (input.is_mouse) {
-        m_world.mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
-                      static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y);
+        m_world.input().mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
+                              static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y);
       } else {
-        m_world.key(session.player(), static_cast<df::Keyboard::Key>(input.key),
-                    static_cast<df::EventKeyboardAction>(input.action));
+        m_world.input().key(session.player(), static_cast<df::Keyboard::Key>(input.key),
+                            static_cast<df::EventKeyboardAction>(input.action));
       }
     });
   });
 }
 
 void VirtualHost::sendSnapshots() {
-  for (const df::PlayerFacts& player : m_world.view().players) {
+  for (const df::PlayerFacts& player : m_world.picture().view().players) {
     Session* session = find(player.id);
     if (session == nullptr) continue;
     session->setControls(player.steering.p_table);
@@ -161,7 +165,7 @@ void VirtualHost::sendSnapshots() {
 void VirtualHost::sendPlayers() {
   if (m_publisher.tick() % kPlayerListEvery != 0) return;
   wire::ServerMessage message;
-  for (const df::PlayerFacts& player : m_world.view().players) {
+  for (const df::PlayerFacts& player : m_world.picture().view().players) {
     wire::PlayerEntry& entry = *message.mutable_players()->add_players();
     entry.set_player(player.id);
     entry.set_name(player.name);

@@ -2,6 +2,7 @@
 
 #include "engine/events/EventOut.h"
 #include "engine/events/EventStep.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/World.h"
 
 namespace df {
@@ -44,7 +45,7 @@ void Particle::setRGB(unsigned char r, unsigned char g, unsigned char b) {
 int Particle::eventHandler(const Event* p_e) {
   const bool step = p_e->getType() == STEP_EVENT;
   if (!step && p_e->getType() != OUT_EVENT) return 0;
-  if (!step || --m_age <= 0) getWorld()->markForDelete(this);
+  if (!step || --m_age <= 0) getWorld()->objects().markForDelete(this);
   return 1;
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/events/EventOut.h"
 #include "engine/events/EventStep.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 
@@ -19,7 +20,7 @@ Precipitation::Precipitation(float size, Direction direction, unsigned char opac
 void Precipitation::enter(bool anywhere) {
   World& world = *getWorld();
   Random& random = world.extras().decoration();
-  const Box boundary = world.getBoundary();
+  const Box boundary = fromFixed(world.views().boundary());
   const double across = random.below(static_cast<int>(boundary.width()));
   const double down = random.below(static_cast<int>(boundary.height()));
   Vector place(across, down);

@@ -8,8 +8,10 @@
 
 #include "engine/sprites/SpriteFile.h"
 #include "engine/world/ConfigText.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 
 namespace df {
 
@@ -56,7 +58,8 @@ class Reader {
 
  private:
   void refuse(const char* key, const std::string& value) {
-    m_world.log("Configuration: " + std::string(key) + ":" + value + " makes no sense, and is left out");
+    m_world.log().write("Configuration: " + std::string(key) + ":" + value +
+                        " makes no sense, and is left out");
   }
 
   const std::string& m_text;
@@ -64,11 +67,11 @@ class Reader {
 };
 
 void apply(World& world, const ConfigSettings& s) {
-  const bool chars = s.window_horizontal_chars != world.getWindowWidth() ||
-                     s.window_vertical_chars != world.getWindowHeight();
-  if (chars && world.setWindow(s.window_horizontal_chars, s.window_vertical_chars) != 0) {
-    world.log("Configuration: no window can be of " + std::to_string(s.window_horizontal_chars) + " by " +
-              std::to_string(s.window_vertical_chars) + " characters");
+  const bool chars =
+      s.window_horizontal_chars != world.views().width() || s.window_vertical_chars != world.views().height();
+  if (chars && world.views().setWindow(s.window_horizontal_chars, s.window_vertical_chars) != 0) {
+    world.log().write("Configuration: no window can be of " + std::to_string(s.window_horizontal_chars) +
+                      " by " + std::to_string(s.window_vertical_chars) + " characters");
   }
   world.extras().background = s.window_background_color;
 }
@@ -94,7 +97,7 @@ std::string Config::readConfig() {
   std::error_code error;
   if (!std::filesystem::is_regular_file(name, error)) {  // to open a pipe would wait for its writer
     if (std::filesystem::is_fifo(name, error))
-      World::current().log("Configuration: " + name + " is a pipe, and is not read");
+      World::current().log().write("Configuration: " + name + " is a pipe, and is not read");
     return {};
   }
   std::ifstream file(name);
@@ -144,7 +147,7 @@ void Config::writeToLog() const {
   out << "Configuration: window " << s.window_horizontal_chars << " by " << s.window_vertical_chars
       << " characters, frame_time " << s.frame_time << ", random_seed " << s.random_seed << ", headless "
       << s.headless << ", logfile " << s.logfile;
-  World::current().log(out.str());
+  World::current().log().write(out.str());
 }
 
 }  // namespace df

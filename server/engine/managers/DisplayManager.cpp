@@ -6,28 +6,19 @@
 #include "engine/world/ColorMix.h"
 #include "engine/world/Drawing.h"
 #include "engine/world/Started.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 #include "shared/values/Canvas.h"
 
 namespace df {
 
+DisplayManager::DisplayManager() : Manager("DisplayManager", kDisplayStarted) {}
+
 DisplayManager& DisplayManager::getInstance() {
   static DisplayManager* p_instance = new DisplayManager;
   return *p_instance;
-}
-
-int DisplayManager::startUp() {
-  World::current().setStarted(kDisplayStarted, true);
-  return 0;
-}
-
-void DisplayManager::shutDown() {
-  World::current().setStarted(kDisplayStarted, false);
-}
-
-bool DisplayManager::isStarted() const {
-  return World::current().isStarted(kDisplayStarted);
 }
 
 int DisplayManager::drawCh(Vector world_pos, char ch, Color color) const {
@@ -62,8 +53,7 @@ int DisplayManager::drawString(Vector world_pos, const std::string& str, Justifi
   // Both ends in range, or nothing is drawn.
   World& world = World::current();
   if (!toFixed(Vector(x, world_pos.y())) || !toFixed(x + length) || color < BLACK || color > WHITE) {
-    world.refuse("DisplayManager", "drawString");
-    return -1;
+    return world.log().refuse("DisplayManager", "drawString");
   }
   for (const char32_t ch : characters) world.drawCh(Vector(x++, world_pos.y()), ch, color);
   return 0;
@@ -71,17 +61,16 @@ int DisplayManager::drawString(Vector world_pos, const std::string& str, Justifi
 
 int DisplayManager::setSize(int horizontal, int vertical) {
   World& world = World::current();
-  if (world.setWindow(horizontal, vertical) == 0) return 0;
-  world.refuse("DisplayManager", "setSize");
-  return -1;
+  return world.views().setWindow(horizontal, vertical) == 0 ? 0
+                                                            : world.log().refuse("DisplayManager", "setSize");
 }
 
 int DisplayManager::getHorizontal() const {
-  return World::current().getWindowWidth();
+  return World::current().views().width();
 }
 
 int DisplayManager::getVertical() const {
-  return World::current().getWindowHeight();
+  return World::current().views().height();
 }
 
 int DisplayManager::getHorizontalPixels() const {

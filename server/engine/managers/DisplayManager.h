@@ -49,10 +49,6 @@ class DisplayManager : public Manager {
   /// The one there is; DM is short for it. It acts on the current world.
   static DisplayManager& getInstance();
 
-  int startUp() override;
-  void shutDown() override;
-  bool isStarted() const override;
-
   /// One character at a world position, in the cell floor(v + 0.5). A character that terminals do not draw
   /// in exactly one cell becomes '?'. Return 0, or -1 for a position or colour out of range.
   int drawCh(Vector world_pos, char ch, Color color = COLOR_DEFAULT) const;
@@ -92,7 +88,7 @@ class DisplayManager : public Manager {
   sf::RenderWindow* getWindow() const;
 
  private:
-  DisplayManager() { setType("DisplayManager"); }
+  DisplayManager();
 };
 
 }  // namespace df

@@ -14,6 +14,8 @@
 
 namespace df {
 
+GameManager::GameManager() : Manager("GameManager", kGameStarted) {}
+
 GameManager& GameManager::getInstance() {
   static GameManager* p_instance = new GameManager;
   return *p_instance;
@@ -26,9 +28,9 @@ int GameManager::startUp() {
   WM.startUp();
   RM.startUp();
   World& world = World::current();
-  running::beginCompat(world);
+  world.setCompat(running::beginCompat(world.compat(), world.program() != nullptr));
   Config::getInstance().loadConfig();
-  running::endCompat(world);
+  world.setCompat(running::endCompat(world.compat()));
   world.setGameOver(false);
   world.setStarted(kGameStarted, true);
   if (running::Program* p_program = world.program()) p_program->startUp(world);
@@ -37,10 +39,6 @@ int GameManager::startUp() {
 
 void GameManager::shutDown() {
   World::current().shutDown();
-}
-
-bool GameManager::isStarted() const {
-  return World::current().isStarted(kGameStarted);
 }
 
 void GameManager::run() {

@@ -41,7 +41,6 @@ class GameManager : public Manager {
   int startUp() override;
   /// Stop all managers and set the world back (WorldManager::shutDown).
   void shutDown() override;
-  bool isStarted() const override;
 
   /// Run until the game is over: through the installed Runner, which may wait for clocks and players; in a
   /// program with a main() of its own as a server that terminals join (docs/bring-your-game.md), unless
@@ -51,7 +50,7 @@ class GameManager : public Manager {
   /// One full tick: step event; joins, leaves, keys and mouse; WM.update(); WM.draw().
   void tick();
   /// End run() after the present tick; `false` takes it back. While a player's input is handled, a host may
-  /// take it as the wish of that player alone (World::setGameOverLeaves).
+  /// take it as the wish of that player alone (InputQueue::setGameOverLeaves).
   void setGameOver(bool new_game_over = true);
   bool getGameOver() const;
 
@@ -69,7 +68,7 @@ class GameManager : public Manager {
   const std::vector<std::string>& getHelp() const;
 
  private:
-  GameManager() { setType("GameManager"); }
+  GameManager();
 };
 
 #if defined(DF_COMPAT)

@@ -1,5 +1,5 @@
-// Hands on what players do (book, Listing 4.91). Keys and mouse come from the host through World::key()
-// and World::mouse(); Objects get them as EventKeyboard and EventMouse.
+// Hands on what players do (book, Listing 4.91). Keys and mouse come from the host through InputQueue::key()
+// and InputQueue::mouse(); Objects get them as EventKeyboard and EventMouse.
 #pragma once
 
 #include "EventKeyboard.h"
@@ -16,15 +16,11 @@ class InputManager : public Manager {
   /// The one there is; IM is short for it. It acts on the current world.
   static InputManager& getInstance();
 
-  int startUp() override;
-  void shutDown() override;
-  bool isStarted() const override;
-
   /// Send the events of all input that waits. GM.tick() does it, after the step event.
   void getInput() const;
 
  private:
-  InputManager() { setType("InputManager"); }
+  InputManager();
 };
 
 }  // namespace df

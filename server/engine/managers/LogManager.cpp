@@ -8,6 +8,7 @@
 #include "engine/world/LogFile.h"
 #include "engine/world/Started.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 
 namespace df {
 
@@ -15,7 +16,7 @@ namespace {
 
 bool isWanted(int log_level) {
   const World& world = World::current();
-  return world.compat() ? log_level >= world.getLogLevel() : log_level <= world.getLogLevel();
+  return world.compat() ? log_level >= world.log().level() : log_level <= world.log().level();
 }
 
 // Nothing if `fmt` and `args` make no text.
@@ -40,28 +41,17 @@ int writeFormatted(const char* fmt, std::va_list args) {
   if (!line) return -1;
   const int length = static_cast<int>(line->size());
   if (length > 0 && line->back() == '\n') line->pop_back();
-  World::current().log(*line);
+  World::current().log().write(*line);
   return length;
 }
 
 }  // namespace
 
+LogManager::LogManager() : Manager("LogManager", kLogStarted) {}
+
 LogManager& LogManager::getInstance() {
   static LogManager* p_instance = new LogManager;
   return *p_instance;
-}
-
-int LogManager::startUp() {
-  World::current().setStarted(kLogStarted, true);
-  return 0;
-}
-
-void LogManager::shutDown() {
-  World::current().setStarted(kLogStarted, false);
-}
-
-bool LogManager::isStarted() const {
-  return World::current().isStarted(kLogStarted);
 }
 
 int LogManager::writeLog(const char* fmt, ...) const {
@@ -99,19 +89,19 @@ int LogManager::writeMyLog(const std::string& filename, int log_level, const cha
 }
 
 void LogManager::setLogLevel(int new_log_level) {
-  World::current().setLogLevel(new_log_level);
+  World::current().log().setLevel(new_log_level);
 }
 
 int LogManager::getLogLevel() const {
-  return World::current().getLogLevel();
+  return World::current().log().level();
 }
 
 void LogManager::setFlush(bool do_flush) {
-  World::current().setLogFlush(do_flush);
+  World::current().log().setFlush(do_flush);
 }
 
 void LogManager::setSink(std::function<void(const std::string&)> sink) {
-  World::current().setLogSink(std::move(sink));
+  World::current().log().setSink(std::move(sink));
 }
 
 }  // namespace df

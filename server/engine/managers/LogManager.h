@@ -20,10 +20,6 @@ class LogManager : public Manager {
  public:
   static LogManager& getInstance();
 
-  int startUp() override;
-  void shutDown() override;
-  bool isStarted() const override;
-
   /// Write one line, formatted as by printf; a newline at its end may be given or left out. Return the
   /// number of characters, or -1 for a bad format.
   int writeLog(const char* fmt, ...) const __attribute__((format(printf, 2, 3)));
@@ -57,7 +53,7 @@ class LogManager : public Manager {
   void setSink(std::function<void(const std::string&)> sink);
 
  private:
-  LogManager() { setType("LogManager"); }
+  LogManager();
   static const char* printable(const std::string& printed) { return printed.c_str(); }
   template <class T>
   static typename std::enable_if<!std::is_base_of<std::string, T>::value, const T&>::type printable(

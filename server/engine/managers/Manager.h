@@ -39,11 +39,11 @@ class Manager {
   /// Give up what startUp() got.
   virtual void shutDown();
   /// True between startUp() and shutDown().
-  virtual bool isStarted() const { return m_is_started; }
+  virtual bool isStarted() const;
 
   /// Send `p_event` to the Objects that registered interest in its type, in the order they registered.
-  /// Return to how many it was sent; 0 for null. See World::onEvent for what happens to Objects that come,
-  /// go or fall asleep meanwhile.
+  /// Return to how many it was sent; 0 for null. See EventDispatch::onEvent for what happens to Objects that
+  /// come, go or fall asleep meanwhile.
   int onEvent(const Event* p_event) const;
 
   /// Object::registerInterest(), seen from the other side.
@@ -54,11 +54,14 @@ class Manager {
   virtual bool isValid(std::string /*event_type*/) const { return true; }
 
  protected:
+  /// For the engine's own: `started` is the manager's bit in Started.h, which the current world keeps.
+  Manager(std::string type, unsigned started) : m_type(std::move(type)), m_started(started) {}
   /// Its name, for getType().
   void setType(std::string type) { m_type = std::move(type); }
 
  private:
   std::string m_type = "Manager";
+  unsigned m_started = 0;  // 0: not one of the engine's, m_is_started counts
   bool m_is_started = false;
 };
 

@@ -14,22 +14,11 @@ Resources& resources() {
 
 }  // namespace
 
+ResourceManager::ResourceManager() : Manager("ResourceManager", kResourcesStarted) {}
+
 ResourceManager& ResourceManager::getInstance() {
   static ResourceManager* p_instance = new ResourceManager;
   return *p_instance;
-}
-
-int ResourceManager::startUp() {
-  World::current().setStarted(kResourcesStarted, true);
-  return 0;
-}
-
-void ResourceManager::shutDown() {
-  World::current().setStarted(kResourcesStarted, false);
-}
-
-bool ResourceManager::isStarted() const {
-  return World::current().isStarted(kResourcesStarted);
 }
 
 int ResourceManager::loadSprite(const std::string& filename, const std::string& label) {
@@ -45,27 +34,27 @@ Sprite* ResourceManager::getSprite(const std::string& label) const {
 }
 
 int ResourceManager::loadSound(const std::string& filename, const std::string& label) {
-  return resources().loadSound(filename, label);
+  return resources().sounds().load(filename, label);
 }
 
 int ResourceManager::unloadSound(const std::string& label) {
-  return resources().unloadSound(label);
+  return resources().sounds().unload(label);
 }
 
 Sound* ResourceManager::getSound(const std::string& label) {
-  return resources().soundOrStandIn(label);
+  return resources().sounds().findOrStandIn(label);
 }
 
 int ResourceManager::loadMusic(const std::string& filename, const std::string& label) {
-  return resources().loadMusic(filename, label);
+  return resources().musics().load(filename, label);
 }
 
 int ResourceManager::unloadMusic(const std::string& label) {
-  return resources().unloadMusic(label);
+  return resources().musics().unload(label);
 }
 
 Music* ResourceManager::getMusic(const std::string& label) {
-  return resources().musicOrStandIn(label);
+  return resources().musics().findOrStandIn(label);
 }
 
 }  // namespace df

@@ -27,10 +27,6 @@ class ResourceManager : public Manager {
   /// The one there is; RM is short for it. It acts on the current world.
   static ResourceManager& getInstance();
 
-  int startUp() override;
-  void shutDown() override;
-  bool isStarted() const override;
-
   /// Load a sprite in one of the three formats (SpriteFile.h). Return 0, else -1.
   int loadSprite(const std::string& filename, const std::string& label);
   /// Objects that have it go on showing it. Return 0, or -1 if there is none.
@@ -54,7 +50,7 @@ class ResourceManager : public Manager {
   Music* getMusic(const std::string& label);
 
  private:
-  ResourceManager() { setType("ResourceManager"); }
+  ResourceManager();
 };
 
 }  // namespace df

@@ -1,10 +1,16 @@
 #include "engine/managers/WorldManager.h"
 
+#include "engine/world/FreeRoom.h"
 #include "engine/world/Geometry.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Mover.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/Started.h"
 #include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 
 namespace df {
 
@@ -12,44 +18,38 @@ namespace {
 
 template <class Wanted>
 ObjectList pickByBox(Wanted wanted) {
-  const ObjectList all = World::current().getAllObjects();
-  ObjectList list;
-  for (int i = 0; i < all.getCount(); ++i) {
-    if (wanted(getWorldBox(all[i]))) list.insert(all[i]);
-  }
-  return list;
+  return World::current().objects().pick(
+      [&](const Object& o) { return o.isActive() && wanted(getWorldBox(&o)); });
+}
+
+/// Whose view counts: the player whose input is being handled; null for the world's own view.
+Player* viewer(const World& world) {
+  return world.views().player(world.input().player());
 }
 
 }  // namespace
+
+WorldManager::WorldManager() : Manager("WorldManager", kWorldStarted) {}
 
 WorldManager& WorldManager::getInstance() {
   static WorldManager* p_instance = new WorldManager;  // never destroyed: static Objects may still call it
   return *p_instance;
 }
 
-int WorldManager::startUp() {
-  World::current().setStarted(kWorldStarted, true);
-  return 0;
-}
-
 void WorldManager::shutDown() {
   World::current().shutDown();
 }
 
-bool WorldManager::isStarted() const {
-  return World::current().isStarted(kWorldStarted);
-}
-
 int WorldManager::insertObject(Object* p_o) {
-  return World::current().insertObject(p_o);
+  return World::current().objects().insertObject(p_o);
 }
 
 int WorldManager::removeObject(Object* p_o) {
-  return World::current().removeObject(p_o);
+  return World::current().objects().removeObject(p_o);
 }
 
 int WorldManager::markForDelete(Object* p_o) {
-  return World::current().markForDelete(p_o);
+  return World::current().objects().markForDelete(p_o);
 }
 
 int WorldManager::markForDelete(const ObjectList& obj_list) {
@@ -82,7 +82,8 @@ SceneGraph& WorldManager::getSceneGraph() const {
 }
 
 Object* WorldManager::getViewFollowing() const {
-  return World::current().getViewFollowing();
+  const World& world = World::current();
+  return world.store().find(world.views().followed(viewer(world)));
 }
 
 void WorldManager::setViewSlack(Vector new_slack) {
@@ -94,31 +95,31 @@ Vector WorldManager::getViewSlack() const {
 }
 
 ObjectList WorldManager::getAllObjects(bool inactive) const {
-  return World::current().getAllObjects(inactive);
+  return World::current().objects().getAllObjects(inactive);
 }
 
 ObjectList WorldManager::objectsOfType(const std::string& type) const {
-  return World::current().objectsOfType(type);
+  return World::current().objects().objectsOfType(type);
 }
 
 ObjectList WorldManager::solidObjects() const {
-  return World::current().solidObjects();
+  return World::current().objects().solidObjects();
 }
 
 Object* WorldManager::objectWithId(int id) const {
-  return World::current().objectWithId(id);
+  return World::current().objects().objectWithId(id);
 }
 
 ObjectList WorldManager::objectsSeenAt(Vector cell) const {
-  return World::current().objectsSeenAt(cell);
+  return World::current().input().objectsSeenAt(cell);
 }
 
 void WorldManager::setLookingBack(bool looking_back) {
-  World::current().setLookingBack(looking_back);
+  World::current().input().setLookingBack(looking_back);
 }
 
 bool WorldManager::isLookingBack() const {
-  return World::current().isLookingBack();
+  return World::current().input().isLookingBack();
 }
 
 void WorldManager::setRunsEmpty(bool runs_empty) {
@@ -131,7 +132,7 @@ bool WorldManager::getRunsEmpty() const {
 }
 
 ObjectList WorldManager::getCollisions(const Object* p_o, Vector where) const {
-  return World::current().getCollisions(p_o, where);
+  return World::current().objects().getCollisions(p_o, where);
 }
 
 WorldManager::Collisions WorldManager::isCollision(const Object* p_o, Vector where) const {
@@ -139,23 +140,33 @@ WorldManager::Collisions WorldManager::isCollision(const Object* p_o, Vector whe
 }
 
 Contact WorldManager::firstContact(const Object* p_o, Vector where) const {
-  return World::current().firstContact(p_o, where);
+  return World::current().objects().firstContact(p_o, where);
 }
 
 std::optional<Vector> WorldManager::findFree(Box box, Vector near) const {
-  return World::current().findFree(box, near);
+  World& world = World::current();
+  const auto place = toFixed(box);
+  const auto position = toFixed(near);
+  if (!place || !position) {
+    world.log().refuse("WorldManager", "findFree");
+    return std::nullopt;
+  }
+  FreeRoom room(world.store(), world.views().boundary(), translate(*place, *position));
+  const std::optional<FixedVector> offset = room.nearest();
+  if (!offset) return std::nullopt;
+  return Vector::fromFixed(*position + *offset);
 }
 
 void WorldManager::setSweptCollisions(bool swept) {
-  World::current().setSweptCollisions(swept);
+  World::current().store().setAllSwept(swept);
 }
 
 bool WorldManager::getSweptCollisions() const {
-  return World::current().getSweptCollisions();
+  return World::current().store().isAllSwept();
 }
 
 int WorldManager::moveObject(Object* p_o, Vector where) {
-  return World::current().moveObject(p_o, where);
+  return World::current().mover().moveObject(p_o, where);
 }
 
 void WorldManager::update() {
@@ -167,11 +178,11 @@ void WorldManager::draw() {
 }
 
 int WorldManager::setBoundary(Box new_boundary) {
-  return World::current().setBoundary(new_boundary);
+  return World::current().views().setBoundary(new_boundary);
 }
 
 Box WorldManager::getBoundary() const {
-  return World::current().getBoundary();
+  return fromFixed(World::current().views().boundary());
 }
 
 Box WorldManager::getView() const {
@@ -179,23 +190,32 @@ Box WorldManager::getView() const {
 }
 
 int WorldManager::setView(Box new_view) {
-  return World::current().setView(new_view);
+  const World& world = World::current();
+  const auto corner = toFixed(new_view.getCorner());
+  if (!corner) return world.log().refuse("WorldManager", "setView");
+  world.views().setCorner(viewer(world), *corner);
+  return 0;
 }
 
 int WorldManager::setViewPosition(Vector view_pos) {
-  return World::current().setViewPosition(view_pos);
+  const World& world = World::current();
+  const auto position = toFixed(view_pos);
+  if (!position) return world.log().refuse("WorldManager", "setViewPosition");
+  world.views().centre(viewer(world), *position);
+  return 0;
 }
 
 int WorldManager::setViewFollowing(Object* p_new_view_following) {
-  return World::current().setViewFollowing(p_new_view_following);
+  const World& world = World::current();
+  return world.views().follow(viewer(world), p_new_view_following);
 }
 
 std::vector<Player*> WorldManager::getPlayers() const {
-  return World::current().getPlayers();
+  return World::current().views().getPlayers();
 }
 
 Player* WorldManager::getPlayer(std::uint32_t id) const {
-  return World::current().getPlayer(id);
+  return World::current().views().player(id);
 }
 
 int WorldManager::randomInt(int n) {

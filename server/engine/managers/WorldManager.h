@@ -41,12 +41,9 @@ class WorldManager : public Manager {
   /// The one there is; WM is short for it. It acts on the current world.
   static WorldManager& getInstance();
 
-  /// Return 0. The world works without it, too.
-  int startUp() override;
   /// Delete the Objects that are alive and were made with `new`, take out the others, and set everything
   /// back, so that the world can be started again. Inside a tick or an event handler: at its end.
   void shutDown() override;
-  bool isStarted() const override;
 
   // The Objects in the world.
 
@@ -165,9 +162,7 @@ class WorldManager : public Manager {
   int randomInt(int n);
 
  private:
-  WorldManager() {
-    setType("WorldManager");
-  }
+  WorldManager();
 };
 
 }  // namespace df

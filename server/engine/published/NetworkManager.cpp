@@ -4,6 +4,7 @@
 
 #include "engine/published/NetworkServer.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 
 namespace df {
 
@@ -17,7 +18,7 @@ Connections& connections() {
 int sayInstead(const std::string& what) {
   World& world = World::current();
   bool& said = world.extras().network_said;
-  if (!said) world.log(what);
+  if (!said) world.log().write(what);
   said = true;
   return -1;
 }
@@ -48,7 +49,7 @@ int NetworkManager::setServer(bool server, const std::string& /*port*/) {
     return 0;
   }
   if (!connections().is_server) {
-    world.log("NetworkManager::setServer: the players that join are this server's connections");
+    world.log().write("NetworkManager::setServer: the players that join are this server's connections");
   }
   NetworkServer::begin(world);
   return 0;

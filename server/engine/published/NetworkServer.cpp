@@ -2,9 +2,11 @@
 
 #include "engine/managers/Config.h"
 #include "engine/published/EventNetworks.h"
+#include "engine/world/EventDispatch.h"
 #include "engine/world/EventPlayer.h"
 #include "engine/world/Interests.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
 #include "engine/world/WorldExtras.h"
 
 namespace df {
@@ -21,10 +23,10 @@ template <class Specific>
 void send(World& world, NetworkEventLabel label, int socket) {
   Specific specific(label);
   specific.setSocket(socket);
-  world.interests().send(specific);
+  world.events().sendToAll(specific);
   EventNetwork common(label);
   common.setSocket(socket);
-  world.interests().send(common);
+  world.events().sendToAll(common);
 }
 
 EventKeyboardNetwork fromNetwork(const EventKeyboard& key) {
@@ -56,7 +58,7 @@ bool handOn(World& world, const Local& local) {
   if (socket < 0) return is_foreign;
   auto event = fromNetwork(local);
   event.setSocket(socket);
-  return world.onEvent(&event) > 0 || is_foreign;
+  return world.events().onEvent(&event) > 0 || is_foreign;
 }
 
 }  // namespace
@@ -89,7 +91,7 @@ bool NetworkServer::filter(World& world, const Event* p_event) {
 // Handlers may close connections, and end it all.
 void NetworkServer::accept(World& world) {
   Connections& c = world.extras().connections;
-  const std::vector<Player*> there = world.getPlayers();
+  const std::vector<Player*> there = world.views().getPlayers();
   std::erase_if(c.closed, [&there](std::uint32_t id) { return !isThere(there, id); });
   std::vector<std::uint32_t> newcomers;
   for (const Player* p_player : there) {

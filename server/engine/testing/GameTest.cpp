@@ -12,10 +12,15 @@
 
 #include "engine/testing/GameThread.h"
 #include "engine/testing/TestedModule.h"
+#include "engine/world/Capture.h"
 #include "engine/world/InputQueue.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 
 namespace df {
 
@@ -48,12 +53,12 @@ class GameTest::Game {
  public:
   Game(std::optional<TestedModule> module, int (*p_main)(), std::uint64_t seed)
       : m_module(std::move(module)) {
-    m_world.setLogSink([this](const std::string& line) { m_log.push_back(line); });
+    m_world.log().setSink([this](const std::string& line) { m_log.push_back(line); });
     m_world.setSeed(seed);
-    m_world.setWatched(true);
-    m_world.setGameOverLeaves(false);
+    m_world.store().setWatched(true);
+    m_world.input().setGameOverLeaves(false);
     if (m_module) {
-      for (const std::string& folder : m_module->folders()) m_world.addResourceFolder(folder);
+      for (const std::string& folder : m_module->folders()) m_world.extras().resources.addFolder(folder);
     }
     countAlive();
     m_thread.emplace(m_world, [this, p_main] { return m_module ? m_module->main() : p_main(); });
@@ -85,7 +90,7 @@ class GameTest::Game {
     if (!isRunning()) return false;
     m_world.tick();
     ++m_ticks;
-    for (const SoundPlayed& sound : m_world.view().sounds) {
+    for (const SoundPlayed& sound : m_world.picture().view().sounds) {
       if (sound.what == SoundPlayed::kPlay) ++m_played[sound.label];
     }
     if (m_world.isGameOver()) m_thread->finishRun();
@@ -120,15 +125,16 @@ GameTest::~GameTest() = default;
 
 std::uint32_t GameTest::join(const std::string& name) {
   World& world = m_p_game->world();
-  const std::size_t number = world.getPlayers().size() + 1;
+  const std::size_t number = world.views().getPlayers().size() + 1;
   const Color color = kColors[(number - 1) % std::size(kColors)];
-  const std::uint32_t player = world.join(name.empty() ? "player " + std::to_string(number) : name, color);
+  const std::uint32_t player =
+      world.input().join(name.empty() ? "player " + std::to_string(number) : name, color);
   m_p_game->tick();
   return m_p_game->joined(player);
 }
 
 void GameTest::leave(std::uint32_t player) {
-  m_p_game->world().leave(player != 0 ? player : m_p_game->first());
+  m_p_game->world().input().leave(player != 0 ? player : m_p_game->first());
   m_p_game->tick();
 }
 
@@ -155,12 +161,12 @@ bool GameTest::isOver() const {
 }
 
 void GameTest::keepScore(const std::string& table, const std::string& name, std::int64_t points) {
-  m_p_game->world().inputs().push(
+  m_p_game->world().input().push(
       {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
 }
 
 void GameTest::keepRoom(const GameRoom& room) {
-  m_p_game->world().inputs().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
+  m_p_game->world().input().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
 }
 
 std::string GameTest::sentTo(std::uint32_t player) const {
@@ -181,28 +187,28 @@ void GameTest::hold(Keyboard::Key key, int ticks, std::uint32_t player) {
   down(key, player);
   tick();
   for (int i = 1; i < ticks; ++i) {
-    m_p_game->world().key(player != 0 ? player : m_p_game->first(), key, KEY_DOWN);
+    m_p_game->world().input().key(player != 0 ? player : m_p_game->first(), key, KEY_DOWN);
     tick();
   }
   up(key, player);
 }
 
 void GameTest::down(Keyboard::Key key, std::uint32_t player) {
-  m_p_game->world().key(player != 0 ? player : m_p_game->first(), key, KEY_PRESSED);
+  m_p_game->world().input().key(player != 0 ? player : m_p_game->first(), key, KEY_PRESSED);
 }
 
 void GameTest::up(Keyboard::Key key, std::uint32_t player) {
-  m_p_game->world().key(player != 0 ? player : m_p_game->first(), key, KEY_RELEASED);
+  m_p_game->world().input().key(player != 0 ? player : m_p_game->first(), key, KEY_RELEASED);
 }
 
 void GameTest::click(int x, int y, Mouse::Button button, std::uint32_t player) {
-  m_p_game->world().mouse(player != 0 ? player : m_p_game->first(), CLICKED, button, x, y);
+  m_p_game->world().input().mouse(player != 0 ? player : m_p_game->first(), CLICKED, button, x, y);
   tick();
 }
 
 void GameTest::moveMouse(int x, int y, std::uint32_t player) {
   const std::uint32_t whose = player != 0 ? player : m_p_game->first();
-  m_p_game->world().mouse(whose, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, x, y);
+  m_p_game->world().input().mouse(whose, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, x, y);
   tick();
 }
 
@@ -211,7 +217,7 @@ std::string GameTest::picture(std::uint32_t player) const {
 }
 
 Canvas GameTest::canvas(std::uint32_t player) const {
-  return m_p_game->world().renderPlayer(player != 0 ? player : m_p_game->first());
+  return m_p_game->world().picture().renderPlayer(player != 0 ? player : m_p_game->first());
 }
 
 bool GameTest::shows(const std::string& text, std::uint32_t player) const {
@@ -236,16 +242,16 @@ Color GameTest::colorAt(int x, int y, std::uint32_t player) const {
 }
 
 int GameTest::objects(const std::string& type) const {
-  return m_p_game->world().objectsOfType(type).getCount();
+  return m_p_game->world().objects().objectsOfType(type).getCount();
 }
 
 Object* GameTest::find(const std::string& type) const {
-  const ObjectList found = m_p_game->world().objectsOfType(type);
+  const ObjectList found = m_p_game->world().objects().objectsOfType(type);
   return found.isEmpty() ? nullptr : found[0];
 }
 
 int GameTest::score(std::uint32_t player) const {
-  const Player* p_player = m_p_game->world().getPlayer(player != 0 ? player : m_p_game->first());
+  const Player* p_player = m_p_game->world().views().player(player != 0 ? player : m_p_game->first());
   return p_player != nullptr ? p_player->getScore() : 0;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/world/EventPlayer.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 
@@ -18,7 +19,7 @@ std::vector<std::uint32_t> votersOf(const World& world) {
   const WorldExtras* p_extras = world.findExtras();
   const std::uint32_t only = p_extras != nullptr ? p_extras->heard_player : 0;
   std::vector<std::uint32_t> voters;
-  for (const Player* p_player : world.getPlayers()) {
+  for (const Player* p_player : world.views().getPlayers()) {
     if (only == 0 || p_player->getId() == only) voters.push_back(p_player->getId());
   }
   return voters;
@@ -75,7 +76,7 @@ void Pause::leave(std::uint32_t player) {
   std::erase(m_votes, player);
   std::vector<std::uint32_t> voters = votersOf(world);
   std::erase(voters, player);
-  if (world.getPlayers().size() <= 1) {
+  if (world.views().getPlayers().size() <= 1) {
     m_votes.clear();
     world.setPaused(false);
   } else if (!m_votes.empty() && world.getStepCount() - m_voted_at <= kVoteTicks) {

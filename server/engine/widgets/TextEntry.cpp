@@ -6,11 +6,13 @@
 
 #include "engine/events/KeyCharacter.h"
 #include "engine/managers/GameManager.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 
 namespace df {
 
-TextEntry::TextEntry() : m_player(World::current().inputPlayer()) {
+TextEntry::TextEntry() : m_player(World::current().input().player()) {
   Object::setType("TextEntry");
   ViewObject::setDrawValue(false);
   if (World::current().compat()) {
@@ -46,7 +48,7 @@ void TextEntry::type(char ch) {
 bool TextEntry::takesKey(const EventKeyboard& key) const {
   if (m_player == 0 || key.getPlayer() == m_player) return true;
   const World* p_world = getWorld();
-  return p_world != nullptr && p_world->getPlayer(m_player) == nullptr;
+  return p_world != nullptr && p_world->views().player(m_player) == nullptr;
 }
 
 int TextEntry::eventHandler(const Event* p_e) {

@@ -6,9 +6,10 @@
 #include <utility>
 
 #include "engine/world/ActivityPage.h"
+#include "engine/world/EventDispatch.h"
 #include "engine/world/Views.h"
-#include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldState.h"
 #include "engine/world/WorldStore.h"
 #include "shared/replica/Look.h"
 
@@ -22,6 +23,10 @@ bool isNear(FixedVector a, FixedVector b) {
 }
 
 }  // namespace
+
+Capture::Capture(WorldStore& store, Views& views, EventDispatch& events, const LazyExtras& extras,
+                 const WorldState& state)
+    : m_store(store), m_views(views), m_events(events), m_extras(extras), m_state(state) {}
 
 void Capture::clearPicture() {
   m_view.drawn.clear();
@@ -38,17 +43,17 @@ void Capture::clearPicture() {
 }
 
 bool Capture::mayDraw(std::uint32_t slot) {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   if (!store.has(slot, WorldStore::kActive) || !store.has(slot, WorldStore::kVisible)) return false;
-  if (!store.has(slot, WorldStore::kTyped)) m_world.learnType(slot);
+  if (!store.has(slot, WorldStore::kTyped)) m_events.learnType(slot);
   constexpr std::uint32_t kShows = WorldStore::kFrames | WorldStore::kPainted;
   return !store.has(slot, WorldStore::kNeverDraws) || (store.flags(slot) & kShows) != 0;
 }
 
 void Capture::sortByAltitude() {
-  const WorldStore& store = m_world.store();
-  const ViewCover views = m_world.views().cover();
-  m_view.corner = m_world.views().cornerOf(nullptr);
+  const WorldStore& store = m_store;
+  const ViewCover views = m_views.cover();
+  m_view.corner = m_views.cornerOf(nullptr);
   for (auto& keys : m_by_altitude) keys.clear();
   const WorldStore::Walk walk(store);
   for (std::size_t i = 0; i < walk.size(); ++i) {
@@ -64,20 +69,20 @@ void Capture::drawAll() {
   sortByAltitude();
   for (const auto& keys : m_by_altitude) {
     for (const ObjectKey key : keys) {
-      if (m_world.store().isCurrent(key) && mayDraw(key.slot)) drawOne(key);
+      if (m_store.isCurrent(key) && mayDraw(key.slot)) drawOne(key);
     }
   }
 }
 
 void Capture::drawOne(ObjectKey key) {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   const FixedVector position = store.position(key.slot);
   const auto first = static_cast<std::uint32_t>(m_view.commands.size());
   const std::size_t entry = m_view.drawn.size();
   m_view.drawn.push_back({key, first, 0, store.has(key.slot, WorldStore::kOnView)});
 
-  if (key.slot < m_looks.size() && m_looks[key.slot] && !store.has(key.slot, WorldStore::kFrames)) {
-    const std::vector<DrawCommand>& look = *m_looks[key.slot];
+  if (store.has(key.slot, WorldStore::kLookKept) && !store.has(key.slot, WorldStore::kFrames)) {
+    const std::vector<DrawCommand>& look = m_looks[key.slot];
     for (const DrawCommand& c : look) m_view.commands.push_back({position + c.position, c.ch, c.color});
     m_view.drawn[entry].count = static_cast<std::uint32_t>(look.size());
     publishLook(entry);
@@ -87,12 +92,12 @@ void Capture::drawOne(ObjectKey key) {
   m_drawing = key;
   try {
     Object& object = *store.object(key.slot);
-    const ActivityScope running(m_world.activity(), classOf(object), Activity::kDraw);
+    const ActivityScope running(m_events.activity(), classOf(object), Activity::kDraw);
     object.draw();
   } catch (const std::exception& e) {
-    m_world.quarantine(key, e.what());
+    m_events.quarantine(key, e.what());
   } catch (...) {
-    m_world.quarantine(key, "an exception in draw()");
+    m_events.quarantine(key, "an exception in draw()");
   }
   m_drawing = {};
   const auto count = static_cast<std::uint32_t>(m_view.commands.size()) - first;
@@ -102,7 +107,9 @@ void Capture::drawOne(ObjectKey key) {
   publishLook(entry);
   if (frames || !store.has(key.slot, WorldStore::kStaticLook)) return;
   if (m_looks.size() <= key.slot) m_looks.resize(std::size_t{key.slot} + 1);
-  std::vector<DrawCommand>& relative = m_looks[key.slot].emplace();
+  store.set(key.slot, WorldStore::kLookKept, true);
+  std::vector<DrawCommand>& relative = m_looks[key.slot];
+  relative.clear();
   for (std::uint32_t i = first; i < first + count; ++i) {
     const DrawCommand& c = m_view.commands[i];
     // Far from the Object the sum might leave the number range when the Object moves.
@@ -112,11 +119,11 @@ void Capture::drawOne(ObjectKey key) {
 }
 
 void Capture::publishLook(std::size_t entry) {
-  const WorldStore& store = m_world.store();
+  const WorldStore& store = m_store;
   const std::uint32_t slot = m_view.drawn[entry].key.slot;
   constexpr std::uint32_t kShows = WorldStore::kFrames | WorldStore::kPainted;
   if (!store.isWatched() || (store.flags(slot) & kShows) == 0) return;
-  const auto tick = static_cast<std::uint32_t>(m_world.getStepCount());
+  const auto tick = static_cast<std::uint32_t>(m_state.step_count);
   auto p_look = store.object(slot)->publishedLook(tick);
   if (p_look != nullptr) m_view.looks.push_back({static_cast<std::uint32_t>(entry), std::move(p_look)});
 }
@@ -133,11 +140,11 @@ void Capture::add(FixedVector position, char32_t ch, Color color) {
 
 void Capture::addFrame(std::uint32_t slot) {
   constexpr int kShift = kFixedBits - naiad::kGlyphUnitBits;
-  const WorldStore& store = m_world.store();
+  const WorldStore& store = m_store;
   const std::shared_ptr<const naiad::Look> p_look = store.frames(slot);
   if (p_look == nullptr) return;
   const FixedVector position = store.position(slot);
-  const naiad::Appearance* appearance = p_look->select(static_cast<std::uint32_t>(m_world.getStepCount()));
+  const naiad::Appearance* appearance = p_look->select(static_cast<std::uint32_t>(m_state.step_count));
   for (const naiad::Glyph& glyph : *appearance) {
     const FixedVector offset{Fixed{glyph.dx} * (Fixed{1} << kShift), Fixed{glyph.dy} * (Fixed{1} << kShift)};
     add(position + offset, glyph.ch, glyph.color);
@@ -145,16 +152,15 @@ void Capture::addFrame(std::uint32_t slot) {
 }
 
 void Capture::finishView() {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   if (!store.isWatched()) return;
-  const Views& views = m_world.views();
-  m_view.tick = static_cast<std::uint32_t>(m_world.getStepCount());
-  m_view.boundary = views.boundary();
-  m_view.view_width = views.width();
-  m_view.view_height = views.height();
+  m_view.tick = static_cast<std::uint32_t>(m_state.step_count);
+  m_view.boundary = m_views.boundary();
+  m_view.view_width = m_views.width();
+  m_view.view_height = m_views.height();
   store.report(m_view);
-  for (const auto& [id, p_player] : views.players()) m_view.players.push_back(p_player->facts());
-  if (const WorldExtras* p_extras = m_world.findExtras()) {
+  for (const auto& [id, p_player] : m_views.players()) m_view.players.push_back(p_player->facts());
+  if (const WorldExtras* p_extras = m_extras.find()) {
     m_view.sounds = p_extras->sounds;
     m_view.sounds_lost = p_extras->sounds_lost;
     m_view.playing = p_extras->playing;
@@ -177,8 +183,7 @@ void Capture::shake() {
 }
 
 Canvas Capture::render(FixedVector corner) const {
-  const Views& views = m_world.views();
-  Canvas canvas(views.width(), views.height());
+  Canvas canvas(m_views.width(), m_views.height());
   for (const DrawnObject& drawn : m_view.drawn) {
     const std::int64_t left = drawn.on_view ? 0 : cellOf(corner.x) + m_view.shake_x;
     const std::int64_t top = drawn.on_view ? 0 : cellOf(corner.y) + m_view.shake_y;
@@ -190,6 +195,17 @@ Canvas Capture::render(FixedVector corner) const {
       if (x < 0 || y < 0 || x >= canvas.width() || y >= canvas.height()) continue;
       canvas.put(static_cast<int>(x), static_cast<int>(y), {c.ch, c.color});
     }
+  }
+  return canvas;
+}
+
+Canvas Capture::renderPlayer(std::uint32_t player) const {
+  const Player* p_player = m_views.player(player);
+  Canvas canvas = render(m_views.cornerOf(p_player));
+  if (p_player == nullptr) return canvas;
+  for (const PlayerText& text : p_player->facts().texts) {
+    int x = text.x;
+    for (const char32_t ch : decodeUtf8(text.text)) canvas.put(x++, text.y, {ch, text.color});
   }
   return canvas;
 }

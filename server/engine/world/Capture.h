@@ -1,12 +1,11 @@
 // Runs the draw() of everything in view, and keeps what it put on the screen.
 //
-// The list of characters is kept in any case: it is the picture of the tick (World::renderView). The rest
+// The list of characters is kept in any case: it is the picture of the tick (render()). The rest
 // of the WorldView is filled only while the world is watched.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "engine/world/Object.h"
@@ -15,11 +14,17 @@
 
 namespace df {
 
-class World;
+class EventDispatch;
+class LazyExtras;
+class Views;
+class WorldStore;
+struct WorldState;
 
 class Capture {
  public:
-  explicit Capture(World& world) : m_world(world) {}
+  /// All live longer than this.
+  Capture(WorldStore& store, Views& views, EventDispatch& events, const LazyExtras& extras,
+          const WorldState& state);
 
   /// Forget the last picture.
   void clearPicture();
@@ -31,17 +36,16 @@ class Capture {
   void add(FixedVector position, char32_t ch, Color color);
   /// The frame that shows now, on its behalf.
   void addFrame(std::uint32_t slot);
-  /// Complete the WorldView, if the world is watched.
+  /// Complete view(), if the world is watched.
   void finishView();
-  /// Draw the look of this slot again, if it was static.
-  void forgetLook(std::uint32_t slot) {
-    if (slot < m_looks.size()) m_looks[slot].reset();
-  }
 
+  /// What the last tick changed. Valid until the next tick begins.
   const WorldView& view() const { return m_view; }
   /// The picture in a view with this corner: cell(position) - cell(corner), shaken if the window is, but view
   /// objects where they are in every view.
   Canvas render(FixedVector corner) const;
+  /// What this player sees: the view, their texts on top. Without such a player, the world's own view.
+  Canvas renderPlayer(std::uint32_t player) const;
 
  private:
   bool mayDraw(std::uint32_t slot);
@@ -50,11 +54,15 @@ class Capture {
   void publishLook(std::size_t entry);
   void shake();
 
-  World& m_world;
+  WorldStore& m_store;
+  Views& m_views;
+  EventDispatch& m_events;
+  const LazyExtras& m_extras;
+  const WorldState& m_state;
   WorldView m_view;
   ObjectKey m_drawing;  // its draw() is running; generation 0: none is
   std::array<std::vector<ObjectKey>, MAX_ALTITUDE + 1> m_by_altitude;  // scratch of drawAll()
-  std::vector<std::optional<std::vector<DrawCommand>>> m_looks;        // static ones, relative, by slot
+  std::vector<std::vector<DrawCommand>> m_looks;  // static ones, relative, by slot; see WorldStore::kLookKept
 };
 
 }  // namespace df

@@ -6,7 +6,6 @@
 #include <memory>
 #include <string_view>
 
-#include "engine/world/Object.h"
 #include "engine/world/ObjectProfile.h"
 
 namespace df {
@@ -23,9 +22,8 @@ std::string classNameOf(const std::type_info& type) {
   return name;
 }
 
-std::string nameOf(const Object& object) {
-  const std::string type = object.getType();
-  return type == ObjectProfile().type || type == kUndefinedType ? classNameOf(typeid(object)) : type;
+std::string nameOf(const std::string& type, const std::type_info& dynamic) {
+  return type == ObjectProfile().type || type == kUndefinedType ? classNameOf(dynamic) : type;
 }
 
 }  // namespace df

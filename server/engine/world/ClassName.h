@@ -6,13 +6,15 @@
 
 namespace df {
 
-class Object;
-
 /// "Saucer", "game::Saucer"; anonymous namespaces are left out.
 std::string classNameOf(const std::type_info& type);
 
-/// The Object's type, or where setType() was forgotten the name of its class. Not in constructors, where an
-/// Object is not yet of its class.
-std::string nameOf(const Object& object);
+/// `type`, or where setType() was forgotten the name of the class.
+std::string nameOf(const std::string& type, const std::type_info& dynamic);
+/// The name of an Object. Not in constructors, where an Object is not yet of its class.
+template <class T>
+std::string nameOf(const T& object) {
+  return nameOf(object.getType(), typeid(object));
+}
 
 }  // namespace df

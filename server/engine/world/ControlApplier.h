@@ -6,11 +6,17 @@
 
 namespace df {
 
-class World;
+class Mover;
 
-/// The tick's part for all players with controls, between the step event and the first input.
-void beginControlTick(World& world);
-/// The part of one key, just before its event. Return whether the player's table handled it.
-bool handleKey(World& world, Player& player, Keyboard::Key key, EventKeyboardAction action);
+class ControlApplier {
+ public:
+  /// The tick's part for all players with controls, between the step event and the first input.
+  static void beginTick(Mover& mover);
+  /// The part of one key, just before its event. Return whether the player's table handled it.
+  static bool handleKey(Mover& mover, Player& player, Keyboard::Key key, EventKeyboardAction action);
+
+ private:
+  class Steered;
+};
 
 }  // namespace df

@@ -12,33 +12,17 @@
 // Without rooms (dfserver --room), and in tests, there are none until a test says so.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "detail/GameRoom.h"
+
 namespace df {
 
-/// What a game knows of one room of its server.
-struct GameRoom {
-  std::string name = {};     ///< for GameRooms::send()
-  std::string game = {};     ///< that is played there
-  int players = 0;           ///< that are there
-  int max_players = 0;       ///< that find place
-  bool is_asleep = false;    ///< it has had no players for a while, and begins with the next one
-  bool is_this_one = false;  ///< this world is in it
-  friend bool operator==(const GameRoom&, const GameRoom&) = default;
-};
-
 /// A name for what the current world knows of rooms. On the thread that runs the tick.
-class GameRooms {
+class GameRooms : public GameRoomLimits {
  public:
-  static constexpr std::size_t kMaxRooms = 64;
-  static constexpr std::size_t kMaxName = 32;        ///< characters of a room's name
-  static constexpr std::size_t kMaxGame = 40;        ///< characters of a game's name
-  static constexpr std::size_t kMaxSentInTick = 64;  ///< players
-  static constexpr int kMaxPlayers = 20'000;
-
   /// In the order of the server's options: players begin in the first. Empty: the server has none.
   const std::vector<GameRoom>& getRooms() const;
   /// Ask the server to lead the player there. Return 0; or −1, and nothing happens: for a room that is not

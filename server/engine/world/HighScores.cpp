@@ -5,14 +5,14 @@
 
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 
 namespace df {
 
 int HighScores::add(const std::string& name, std::int64_t points) {
   World& world = World::current();
   if (world.extras().scores.add(m_table, name, points)) return 0;
-  world.refuse("HighScores", "add");
-  return -1;
+  return world.log().refuse("HighScores", "add");
 }
 
 std::vector<HighScore> HighScores::best(int count) const {

@@ -12,33 +12,18 @@
 // round that is played again from its inputs shows the same tables.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "detail/HighScore.h"
+
 namespace df {
 
-/// A row of a table.
-struct HighScore {
-  std::string name;         ///< of the player, in UTF-8
-  std::int64_t points = 0;  ///< more are better
-  friend bool operator==(const HighScore& a, const HighScore& b) {
-    return a.name == b.name && a.points == b.points;
-  }
-};
-
 /// On the thread that runs the tick.
-class HighScores {
+class HighScores : public HighScoreLimits {
  public:
-  static constexpr std::size_t kMaxTables = 16;       ///< of a game
-  static constexpr std::size_t kMaxTableName = 32;    ///< characters
-  static constexpr std::size_t kMaxName = 16;         ///< characters of a player's name; the rest is cut off
-  static constexpr std::size_t kMaxRows = 100;        ///< that a world knows; the server's file has more
-  static constexpr std::size_t kMaxAddedInTick = 16;  ///< in all tables together
-  static constexpr std::int64_t kMaxPoints = 1'000'000'000'000'000;  ///< and as many below zero
-
   /// The game's table of this name: 1 to 32 letters, digits, '-' and '_'.
   explicit HighScores(std::string table = "scores") : m_table(std::move(table)) {}
   const std::string& getTable() const { return m_table; }

@@ -1,47 +1,57 @@
 // The registered interests: for each type of event, the Objects in the order they registered.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "engine/events/Event.h"
-#include "engine/world/WorldView.h"
+#include "engine/collision/ObjectKey.h"
 
 namespace df {
 
-class Object;
-class World;
+class WorldStore;
+struct ObjectProfile;
 
 class Interests {
  public:
-  explicit Interests(World& world) : m_world(world) {}
+  explicit Interests(const WorldStore& store) : m_store(store) {}
 
-  int add(Object& object, const std::string& type);
-  int remove(Object& object, const std::string& type);
+  /// Return 0, or -1 if the Object is not in the world.
+  int add(ObjectKey key, ObjectProfile& profile, const std::string& type);
+  /// Return 0, or -1 if it was not registered.
+  int remove(ObjectKey key, ObjectProfile& profile, const std::string& type);
   /// The Object leaves the world and gets no events any more.
-  void dropAll(Object& object);
-  /// The Objects that a send reaches.
-  enum Audience { kAll, kWhilePaused };
-  /// Deliver to all that were registered when the call began and still are at their turn; or only to those
-  /// that get events while the game is paused.
-  int send(const Event& event, Audience audience = kAll);
+  void dropAll(ObjectProfile& profile);
+
+  /// Calls visit(key) for the Objects that were registered for the type when it began, in that order.
+  /// Meanwhile others may come and go; the key of one that went names no Object.
+  template <class Visit>
+  void visit(const std::string& type, Visit visit) {
+    const auto it = m_numbers.find(type);
+    if (it == m_numbers.end()) return;
+    Table& table = m_tables[it->second];
+    const std::size_t count = table.entries.size();
+    ++table.walks;
+    for (std::size_t i = 0; i < count; ++i) visit(table.entries[i]);
+    --table.walks;
+    tidy(table);
+  }
 
  private:
   struct Table {
     std::vector<ObjectKey> entries;
     std::size_t gone = 0;  // entries of Objects that unregistered or left
-    int walks = 0;         // sends under way, during which no entry moves
+    int walks = 0;         // under way, during which no entry moves
   };
 
-  static bool hearsWhilePaused(const Object* p_object);
   void tidy(Table& table);
 
-  World& m_world;
+  const WorldStore& m_store;
   std::unordered_map<std::string, std::uint32_t> m_numbers;
-  std::deque<Table> m_tables;  // by number; a deque, because handlers may add tables during a send
+  std::deque<Table> m_tables;  // by number; a deque, because handlers may add tables during a walk
 };
 
 }  // namespace df

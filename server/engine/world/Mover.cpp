@@ -7,10 +7,12 @@
 #include "engine/world/ClassName.h"
 #include "engine/world/CollisionRule.h"
 #include "engine/world/EventCollision.h"
-#include "engine/world/InterestDispatch.h"
+#include "engine/world/EventDispatch.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/Views.h"
-#include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldState.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
@@ -32,8 +34,11 @@ namespace {
 
 }  // namespace
 
+Mover::Mover(ObjectRegistry& objects, Views& views, EventDispatch& events, const WorldState& state)
+    : m_store(objects.store()), m_objects(objects), m_views(views), m_events(events), m_state(state) {}
+
 void Mover::moveAll() {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   const WorldStore::Walk walk(store);
   for (std::size_t word = 0; word * 64 < walk.size(); ++word) {
     // Objects that enter during the update wait for the next one.
@@ -59,7 +64,7 @@ void Mover::moveAll() {
 // Move all walkers up to the next turn of another kind, or up to a walker that touches another, whose turn is
 // finished, too. Return the bit after that of the last one.
 int Mover::walkOn(std::size_t word, std::uint64_t turns) {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   const std::uint64_t others = turns & ~store.turnBits().walkers[word];
   const std::uint64_t run = turns & ((others & -others) - 1);
   const int last = 63 - std::countl_zero(run);
@@ -85,7 +90,7 @@ int Mover::walkOn(std::size_t word, std::uint64_t turns) {
 
 // A walker's turn, given what it touches at its target.
 void Mover::finishWalk(ObjectKey key, std::vector<ObjectKey>& others) {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   const FixedVector velocity = store.velocity(key.slot);
   const FixedVector where = store.position(key.slot) + velocity;
   ++m_depth;
@@ -99,7 +104,7 @@ void Mover::finishWalk(ObjectKey key, std::vector<ObjectKey>& others) {
 int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t sequels, int bit) {
   const std::uint64_t run = (fliers >> bit) & (sequels >> bit | 1);
   const int count = std::countr_one(run);
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   const auto done = static_cast<int>(store.fly(first, static_cast<std::size_t>(count), roomToFly()));
   store.moverStats().flown += static_cast<std::uint64_t>(done);
   if (done == count) return count;
@@ -109,7 +114,7 @@ int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t seq
 }
 
 void Mover::takeTurn(ObjectKey key) {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   const WorldStore::Slot s = key.slot;
   const FixedVector velocity = store.velocity(s);
   bool blocked = false;
@@ -118,7 +123,7 @@ void Mover::takeTurn(ObjectKey key) {
     if (WorldStore::isPosition(where)) {
       blocked = move(key, where) != 0;
     } else {
-      m_world.refuse(nameOf(*store.object(s)), "update, at the end of the number range");
+      m_objects.log().refuse(nameOf(*store.object(s)), "update, at the end of the number range");
       blocked = true;
     }
     if (!store.isCurrent(key)) return;
@@ -127,7 +132,7 @@ void Mover::takeTurn(ObjectKey key) {
 }
 
 void Mover::endTurn(ObjectKey key, FixedVector velocity, bool blocked) {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   const WorldStore::Slot s = key.slot;
   FixedVector next = store.velocity(s);
   // Whether a velocity that a handler has just set is blocked is not known yet.
@@ -140,23 +145,38 @@ void Mover::endTurn(ObjectKey key, FixedVector velocity, bool blocked) {
   store.settle(s, next, blocked);
 }
 
+int Mover::moveObject(Object* p_o, Vector where) {
+  if (!m_objects.owns(p_o)) {
+    m_objects.log().writeOnce(
+        "WM.moveObject() of " +
+        std::string(p_o == nullptr ? "a null pointer" : "an Object that is not in the world (any more)"));
+    return -1;
+  }
+  const auto target = toFixed(where);
+  return target ? move(p_o->key(), *target) : m_objects.log().refuse(nameOf(*p_o), "moveObject");
+}
+
 int Mover::move(ObjectKey mover, FixedVector where) {
   if (m_depth >= kMaxDepth) return -1;
   const int depth = m_depth++;
-  bool free = true;
-  const WorldStore& store = m_world.store();
+  using End = SweptMove::End;
+  End end = End::kTarget;
+  const WorldStore& store = m_store;
   if (store.collides(mover.slot)) {
-    free = store.isSwept(mover.slot) ? m_swept[depth].run(*this, m_world, mover, where)
-                                     : collideAt(mover, where, m_lists[depth]);
+    if (store.isSwept(mover.slot)) {
+      end = m_swept[depth].run(m_events, m_store, mover, where);
+    } else if (!collideAt(mover, where, m_lists[depth])) {
+      end = End::kNone;
+    }
   }
-  if (free) place(mover, where);
+  if (end != End::kNone) place(mover, where);
   --m_depth;
-  return free ? 0 : -1;
+  return end == End::kTarget ? 0 : -1;
 }
 
 // Return whether the mover may move. Only the target is tested.
 bool Mover::collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others) {
-  const WorldStore& store = m_world.store();
+  const WorldStore& store = m_store;
   const FixedBox box = store.worldBox(mover.slot, where);
   others.clear();
   if (const std::optional<bool> moves = store.touchingTarget(mover.slot, box, others)) return *moves;
@@ -165,14 +185,14 @@ bool Mover::collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>
 }
 
 bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<ObjectKey>& others) {
-  const WorldStore& store = m_world.store();
+  const WorldStore& store = m_store;
   const FixedVector from = store.position(mover.slot);
   bool free = true;
   EventCollision event(store.object(mover.slot), nullptr, Vector::fromFixed(where));
   for (const ObjectKey other : others) {
     if (!store.isStill(other)) continue;
     event.setObject2(store.object(other.slot));
-    if (!sendToBoth(m_world, mover, other, event)) return false;
+    if (!m_events.sendToBoth(mover, other, event)) return false;
     if (!store.isStill(other)) continue;
     if (CollisionRule(store, mover.slot, other.slot).blocks(from, where)) free = false;
   }
@@ -180,24 +200,23 @@ bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<Object
 }
 
 void Mover::place(ObjectKey mover, FixedVector where) {
-  WorldStore& store = m_world.store();
+  WorldStore& store = m_store;
   const bool leaves = !isInWorld(mover.slot, where) && isInWorld(mover.slot, store.position(mover.slot));
   store.setPosition(mover.slot, where);
-  if (store.has(mover.slot, WorldStore::kFollowed)) m_world.views().moved(mover, where);
-  if (leaves) m_world.deliver(mover, EventOut());
+  if (store.has(mover.slot, WorldStore::kFollowed)) m_views.moved(mover, where);
+  if (leaves) m_events.deliver(mover, EventOut());
 }
 
 // Would an Object at `where` be inside the world, as out events define it?
 bool Mover::isInWorld(std::uint32_t slot, FixedVector where) const {
-  const Views& views = m_world.views();
-  return m_world.compat() ? touchesAsFloats(m_world.store().worldBox(slot, where), views.boundary())
-                          : views.isInside(where);
+  return m_state.compat ? touchesAsFloats(m_store.worldBox(slot, where), m_views.boundary())
+                        : m_views.isInside(where);
 }
 
 // A move that ends in here does not leave the world.
 FixedBox Mover::roomToFly() const {
-  const FixedBox& boundary = m_world.views().boundary();
-  const bool anywhere = !m_world.compat() || !m_world.store().hasBoxesOffPosition();
+  const FixedBox& boundary = m_views.boundary();
+  const bool anywhere = !m_state.compat || !m_store.hasBoxesOffPosition();
   return anywhere ? boundary : FixedBox{boundary.corner, {}};
 }
 

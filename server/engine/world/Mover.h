@@ -26,23 +26,34 @@
 #include <vector>
 
 #include "engine/world/SweptMove.h"
-#include "engine/world/WorldView.h"
+#include "shared/values/Fixed.h"
+#include "shared/values/Vector.h"
 
 namespace df {
 
 class EventCollision;
-class World;
+class EventDispatch;
+class Object;
+class ObjectRegistry;
+class Views;
+class WorldStore;
+struct WorldState;
 
 class Mover {
  public:
   /// Moves inside handlers of moves inside handlers … deeper than this are refused.
   static constexpr int kMaxDepth = 32;
 
-  explicit Mover(World& world) : m_world(world) {}
+  /// All live longer than this.
+  Mover(ObjectRegistry& objects, Views& views, EventDispatch& events, const WorldState& state);
+  WorldStore& store() const { return m_store; }
+  Views& views() const { return m_views; }
 
   /// Every active Object that was in the world when this began, in creation order: move it by its velocity,
   /// then add its acceleration to the velocity. Activity is read at the Object's turn.
   void moveAll();
+  /// WM.moveObject().
+  int moveObject(Object* p_o, Vector where);
   /// Move one Object. Return 0 if it moved, else -1.
   int move(ObjectKey mover, FixedVector where);
 
@@ -62,7 +73,11 @@ class Mover {
   bool isInWorld(std::uint32_t slot, FixedVector where) const;
   FixedBox roomToFly() const;
 
-  World& m_world;
+  WorldStore& m_store;
+  ObjectRegistry& m_objects;
+  Views& m_views;
+  EventDispatch& m_events;
+  const WorldState& m_state;
   int m_depth = 0;
   std::array<std::vector<ObjectKey>, kMaxDepth> m_lists;  // one per depth, kept for their memory
   std::array<SweptMove, kMaxDepth> m_swept;               // likewise

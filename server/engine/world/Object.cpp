@@ -1,18 +1,64 @@
 #include "engine/world/Object.h"
 
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <new>
 #include <string_view>
 #include <utility>
 
 #include "engine/collision/Mask.h"
 #include "engine/world/ClassName.h"
+#include "engine/world/DelayedFree.h"
 #include "engine/world/Interests.h"
 #include "engine/world/ObjectExtras.h"
+#include "engine/world/PendingBlocks.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
 
 namespace {
+
+thread_local PendingBlocks t_pending;
+
+// The function that eventHandler() of this Object is, to find out whether its class has one of its own. By
+// the Itanium C++ ABI, which GCC and Clang follow: an Object begins with the address of its vtable, and on
+// x86-64 a pointer to a virtual member function begins with 1 + the function's offset there. Null where that
+// does not hold.
+const void* handlerOf(const Object& object) {
+#if defined(__x86_64__) && defined(__GXX_ABI_VERSION)
+  int (Object::*const p_member)(const Event*) = &Object::eventHandler;
+  std::ptrdiff_t offset = 0;
+  std::memcpy(&offset, &p_member, sizeof offset);
+  const std::byte* p_table = nullptr;
+  std::memcpy(&p_table, static_cast<const void*>(&object), sizeof p_table);
+  const void* p_function = nullptr;
+  std::memcpy(&p_function, p_table + offset - 1, sizeof p_function);
+  return p_function;
+#else
+  (void)object;
+  return nullptr;
+#endif
+}
+
+const void* g_p_base_handler = nullptr;
+
+// An Object begins with a cache line: what every event needs is in it.
+constexpr std::align_val_t kLine{64};
+
+// What an Object without a sprite collides with in the published engine: characters one apart do not touch.
+const FixedBox kCompatBox{{-kFixedOne / 2, -kFixedOne / 2}, {*toFixed(0.99), *toFixed(0.99)}};
+const FixedVector kCompatPlace{kFixedOne, kFixedOne};
+
+// Games of the published engine live on memory that happens to be zero there.
+void* cleared(void* p, std::size_t size) {
+  return World::current().compat() ? std::memset(p, 0, size) : p;
+}
 
 /// The constant that was meant by a name that lacks the engine's "df-"; null for all others.
 const char* engineEventFor(std::string_view name) {
@@ -26,7 +72,136 @@ const char* engineEventFor(std::string_view name) {
   return nullptr;
 }
 
+bool sameBits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+bool isFiniteFloat(double x) {
+  return std::isfinite(static_cast<float>(x));
+}
+
 }  // namespace
+
+// Life.
+
+void* Object::operator new(std::size_t size) {
+  void* p = cleared(::operator new(size, kLine), size);
+  t_pending.push(p, size);
+  return p;
+}
+
+void* Object::operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept {
+  void* p = ::operator new(size, kLine, nothrow);
+  if (p != nullptr) t_pending.push(cleared(p, size), size);
+  return p;
+}
+
+void* Object::operator new(std::size_t size, std::align_val_t align) {
+  void* p = cleared(::operator new(size, align), size);
+  t_pending.push(p, size);
+  return p;
+}
+
+void Object::operator delete(void* p) noexcept {
+  operator delete(p, kLine);
+}
+
+void Object::operator delete(void* p, std::align_val_t align) noexcept {
+  t_pending.cancel(p);
+  if (!World::current().compat()) {
+    ::operator delete(p, align);
+    return;
+  }
+  // Never destroyed: static Objects may delete others when the thread's own have gone.
+  thread_local auto* t_p_freed = new (std::nothrow) DelayedFree;
+  if (t_p_freed != nullptr) {
+    t_p_freed->free(p, align);
+  } else {
+    ::operator delete(p, align);
+  }
+}
+
+Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
+  World& world = World::current();
+  m_p_store = &world.store();
+  m_slot = m_p_store->takeSlot(this, t_pending.claim(this));
+  m_p_profile = &m_p_store->profile(m_slot);
+  if (world.compat()) {
+    m_p_store->setBox(m_slot, kCompatBox);
+    m_p_store->setPosition(m_slot, kCompatPlace);
+    m_p_profile->type = kUndefinedType;
+  }
+  // Here it is still nothing but an Object.
+  if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);
+  m_p_store->enter(m_slot);
+}
+
+Object::~Object() {
+  if (m_p_extras != nullptr) dropExtras();
+  leaveWorld();
+  m_p_store->giveBackSlot(m_slot);
+  // Calls on the deleted Object (DelayedFree.h) must find no extras, so the compiler must not drop this
+  // store.
+  m_p_extras.reset();
+  std::atomic_signal_fence(std::memory_order_seq_cst);
+}
+
+void Object::leaveWorld() {
+  World* p_world = getWorld();
+  if (p_world == nullptr) return;
+  p_world->interests().dropAll(*m_p_profile);
+  m_p_store->leave(m_slot);
+}
+
+bool Object::isDeaf() const {
+  return g_p_base_handler != nullptr && handlerOf(*this) == g_p_base_handler;
+}
+
+Object::Object(const Object& other) : Object() {
+  leaveWorld();
+  resemble(other);
+}
+
+Object& Object::operator=(const Object& other) {
+  if (this != &other) resemble(other);
+  return *this;
+}
+
+void Object::resemble(const Object& other) {
+  const WorldStore& from = *other.m_p_store;
+  WorldStore& to = *m_p_store;
+  const WorldStore::Slot source = other.m_slot;
+  to.setPosition(m_slot, from.position(source));
+  to.setBox(m_slot, from.box(source));
+  to.setAltitude(m_slot, from.altitude(source));
+  to.setSolidness(m_slot, from.solidness(source));
+  for (const WorldStore::Flag flag :
+       {WorldStore::kActive, WorldStore::kVisible, WorldStore::kNoSoft, WorldStore::kStaticLook,
+        WorldStore::kSwept, WorldStore::kPrecise, WorldStore::kRestContacts, WorldStore::kMayMoveOut,
+        WorldStore::kOnView}) {
+    to.set(m_slot, flag, from.has(source, flag));
+  }
+  to.setVelocity(m_slot, from.velocity(source));
+  to.setAcceleration(m_slot, from.acceleration(source));
+  to.setDerived(m_slot, from.has(source, WorldStore::kDerive));
+  to.setFrames(m_slot, from.frames(source));
+  // All but the interests, which belong to the Object that registered them.
+  const ObjectProfile& profile = *other.m_p_profile;
+  m_p_profile->type = profile.type;
+  m_p_profile->speed = profile.speed;
+  m_p_profile->direction = profile.direction;
+  m_p_profile->direction_is_velocity = profile.direction_is_velocity;
+  if (other.m_p_extras == nullptr && m_p_extras == nullptr) return;
+  const ObjectExtras plain;
+  const ObjectExtras& theirs = other.m_p_extras != nullptr ? *other.m_p_extras : plain;
+  extras().animation = theirs.animation;
+  extras().shape = theirs.shape;
+  extras().is_centered = theirs.is_centered;
+  extras().avoids_collisions = theirs.avoids_collisions;
+  animate();
+}
+
+// Identity, place and collisions.
 
 ObjectKey Object::key() const {
   return m_p_store->key(m_slot);
@@ -38,8 +213,8 @@ World* Object::getWorld() const {
 }
 
 int Object::refuse(const char* what) const {
-  if (World* p_world = getWorld()) p_world->refuse(nameOf(*this), what);
-  return -1;
+  World* p_world = getWorld();
+  return p_world != nullptr ? p_world->log().refuse(nameOf(*this), what) : -1;
 }
 
 void Object::setType(std::string new_type) {
@@ -167,16 +342,16 @@ int Object::registerInterest(const std::string& event_type) {
   World* p_world = getWorld();
   if (p_world == nullptr) return -1;
   if (const char* p_meant = engineEventFor(event_type)) {
-    p_world->logOnce("registerInterest(\"" + event_type +
-                     "\"): the engine sends no such event; it sends df::" + p_meant);
+    p_world->log().writeOnce("registerInterest(\"" + event_type +
+                             "\"): the engine sends no such event; it sends df::" + p_meant);
   }
-  return p_world->interests().add(*this, event_type);
+  return p_world->interests().add(key(), *m_p_profile, event_type);
 }
 
 int Object::unregisterInterest(const std::string& event_type) {
   World* p_world = getWorld();
   if (p_world == nullptr) return -1;
-  const int result = p_world->interests().remove(*this, event_type);
+  const int result = p_world->interests().remove(key(), *m_p_profile, event_type);
   return p_world->compat() ? 0 : result;
 }
 
@@ -184,13 +359,96 @@ int Object::eventHandler(const Event* /*p_e*/) {
   return 0;
 }
 
-void Object::setStaticLook(bool static_look) {
-  m_p_store->set(m_slot, WorldStore::kStaticLook, static_look);
-  if (World* p_world = getWorld()) p_world->forgetLook(m_slot);
+// Motion.
+
+int Object::setPosition(Vector new_pos) {
+  const auto position = toFixed(new_pos);
+  if (!position) return refuse("setPosition");
+  m_p_store->setPosition(m_slot, *position);
+  return 0;
 }
 
-bool Object::hasStaticLook() const {
-  return m_p_store->has(m_slot, WorldStore::kStaticLook);
+Vector Object::getPosition() const {
+  return Vector::fromFixed(m_p_store->position(m_slot));
+}
+
+void Object::deriveKinematics() const {
+  ObjectProfile& profile = *m_p_profile;
+  const bool follow = m_p_store->has(m_slot, WorldStore::kDerive);
+  if (!follow && !profile.direction_is_velocity) return;
+  if (follow) profile.direction = getVelocity();
+  m_p_store->setDerived(m_slot, false);
+  profile.direction_is_velocity = false;
+  profile.speed = std::sqrt(profile.direction.x() * profile.direction.x() +
+                            profile.direction.y() * profile.direction.y());
+  profile.direction.normalize();
+}
+
+int Object::applyVelocity(double speed, Vector direction) {
+  if (!isFiniteFloat(speed) || !isFiniteFloat(direction.x()) || !isFiniteFloat(direction.y())) return -1;
+  const auto velocity = toFixed(Vector(direction.x() * speed, direction.y() * speed), kMaxVelocityCells);
+  if (!velocity) return -1;
+  m_p_profile->speed = speed;
+  m_p_profile->direction = direction;
+  m_p_profile->direction_is_velocity = false;
+  m_p_store->setVelocity(m_slot, *velocity);
+  return 0;
+}
+
+int Object::setSpeed(double speed) {
+  deriveKinematics();
+  return applyVelocity(speed, m_p_profile->direction) == 0 ? 0 : refuse("setSpeed");
+}
+
+float Object::getSpeed() const {
+  deriveKinematics();
+  return static_cast<float>(m_p_profile->speed);
+}
+
+int Object::setDirection(Vector new_direction) {
+  deriveKinematics();
+  return applyVelocity(m_p_profile->speed, new_direction) == 0 ? 0 : refuse("setDirection");
+}
+
+Vector Object::getDirection() const {
+  deriveKinematics();
+  return m_p_profile->direction;
+}
+
+// The product of length and normalised vector is the vector itself, so it is rounded as it is: that way
+// what was set is what getVelocity() returns, at any size.
+int Object::setVelocity(Vector new_velocity) {
+  const auto velocity = toFixed(new_velocity, kMaxVelocityCells);
+  if (!velocity) return refuse("setVelocity");
+  // Speed and direction are derived from the velocity where it has them to the last bit (it has no -0).
+  const Vector derived = Vector::fromFixed(*velocity);
+  const bool is_derived = sameBits(derived.x(), new_velocity.x()) && sameBits(derived.y(), new_velocity.y());
+  m_p_store->setDerived(m_slot, is_derived);
+  if (!is_derived) {
+    m_p_profile->direction = new_velocity;
+    m_p_profile->direction_is_velocity = true;
+  }
+  m_p_store->setVelocity(m_slot, *velocity);
+  return 0;
+}
+
+Vector Object::getVelocity() const {
+  return Vector::fromFixed(m_p_store->velocity(m_slot));
+}
+
+int Object::setAcceleration(Vector new_acceleration) {
+  const auto acceleration = toFixed(new_acceleration, kMaxVelocityCells);
+  if (!acceleration) return refuse("setAcceleration");
+  m_p_store->setAcceleration(m_slot, *acceleration);
+  return 0;
+}
+
+Vector Object::getAcceleration() const {
+  return Vector::fromFixed(m_p_store->acceleration(m_slot));
+}
+
+Vector Object::predictPosition() const {
+  return Vector::fromFixed(m_p_store->position(m_slot) + m_p_store->velocity(m_slot));
 }
 
 }  // namespace df

@@ -8,7 +8,7 @@
 // An Object is a handle: position, velocity, box and the like live in arrays of the world's store. Lengths
 // are in cells, velocities in cells per tick; both are kept in fixed point (Fixed.h). A setter that is given
 // a number that is not finite or out of range returns -1, changes nothing, is counted by the world
-// (World::getRefusals) and logged once per type of Object.
+// (WorldLog::refusals) and logged once per type of Object.
 //
 // All calls on the thread that runs the world's tick.
 #pragma once
@@ -187,7 +187,7 @@ class Object {
   /// How many interests it has registered.
   int getEventCount() const { return static_cast<int>(m_p_profile->interests.size()); }
   /// Called for each event. Return 1 if it was handled, else 0 (as in the book; the engine ignores it). If it
-  /// throws, the Object is deleted (World::deliver) and the world goes on.
+  /// throws, the Object is deleted (EventDispatch::deliver) and the world goes on.
   virtual int eventHandler(const Event* p_e);
 
   // How it looks.
@@ -312,12 +312,11 @@ class Object {
   void hearWhilePaused();
 
  private:
-  friend class Animations;
   friend class Capture;
+  friend class EventDispatch;
+  friend class ObjectRegistry;
   friend class Walkers;
-  friend class World;
-  friend class WorldStore;
-  friend class Interests;
+  friend const Mask* spriteMaskOf(const Object& object);
   friend class ObjectList;
   friend class ObjectLookAccess;
   friend class Views;
@@ -325,16 +324,17 @@ class Object {
   int applyVelocity(double speed, Vector direction);
   void deriveKinematics() const;
   int refuse(const char* what) const;
+  bool hearsWhilePaused() const;
   bool isDeaf() const;  // does its class leave eventHandler() as it is here?
   void resemble(const Object& other);
   ObjectExtras& extras();
   void dropExtras();
+  void leaveWorld();
   void animate();
+  void forgetLook();
   void fitBox();
-  const Mask* spriteMask() const;
   std::shared_ptr<const naiad::Look> publishedLook(std::uint32_t tick);
   ObjectAttributes attributes() const;
-  void stepPath();
 
   // Few members, so that a game's own, which its handlers use, lie in the same cache line with these.
   WorldStore* m_p_store;  // never null: a store lives as long as its last Object

@@ -6,6 +6,13 @@
 namespace df {
 
 struct ObjectFlags {
+  /// An engine that is built without the options beyond the book has their setters, but nothing of what they
+  /// do.
+#if defined(NAIAD_WITHOUT_LAYERS)
+  static constexpr bool kLayers = false;
+#else
+  static constexpr bool kLayers = true;
+#endif
   enum Flag : std::uint32_t {
     kInWorld = 1 << 0,
     kActive = 1 << 1,
@@ -13,6 +20,7 @@ struct ObjectFlags {
     kNoSoft = 1 << 3,
     kHeap = 1 << 4,      ///< made with `new`: the world's to delete
     kMarked = 1 << 5,    ///< to be deleted after update
+    kLookKept = 1 << 6,  ///< its static look was drawn, and is repeated
     kDirty = 1 << 7,     ///< in the list of changes
     kReported = 1 << 8,  ///< the host has its state
     kDerive = 1 << 9,    ///< speed and direction follow from the velocity

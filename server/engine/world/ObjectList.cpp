@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "engine/world/Object.h"
-#include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
@@ -22,12 +21,7 @@ ObjectList::ObjectList(ObjectList&& other) noexcept
   other.m_many.clear();
 }
 
-ObjectList& ObjectList::operator=(const ObjectList& other) {
-  if (this != &other) *this = ObjectList(other);
-  return *this;
-}
-
-ObjectList& ObjectList::operator=(ObjectList&& other) noexcept {
+ObjectList& ObjectList::operator=(ObjectList other) noexcept {
   std::swap(m_p_store, other.m_p_store);
   std::swap(m_count, other.m_count);
   std::swap(m_few, other.m_few);

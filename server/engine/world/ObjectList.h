@@ -26,8 +26,7 @@ class ObjectList {
   /// Copies and moves like a value.
   ObjectList(const ObjectList& other);
   ObjectList(ObjectList&& other) noexcept;
-  ObjectList& operator=(const ObjectList& other);
-  ObjectList& operator=(ObjectList&& other) noexcept;
+  ObjectList& operator=(ObjectList other) noexcept;
   ~ObjectList();
 
   /// Append. An Object may be in the list more than once. Return 0, or -1 for null and for an Object of
@@ -57,7 +56,7 @@ class ObjectList {
   friend ObjectList operator+(ObjectList a, const ObjectList& b) { return a += b; }
 
  private:
-  friend class World;
+  friend class ObjectRegistry;
   const ObjectKey* keys() const { return m_count <= kInline ? m_few.data() : m_many.data(); }
   ObjectKey* keys() { return m_count <= kInline ? m_few.data() : m_many.data(); }
   void append(WorldStore* p_store, ObjectKey key);
@@ -68,6 +67,42 @@ class ObjectList {
   std::vector<ObjectKey> m_many;  // holds all entries once there are more than kInline
 };
 
-}  // namespace df
+/// Walks an ObjectList and skips Objects that are gone (book, Listing 4.43).
+///
+///     ObjectListIterator li(&list);
+///     for (li.first(); !li.isDone(); li.next()) use(li.currentObject());
+///
+/// The loop's body may delete any Object. Entries appended to the list meanwhile are visited too.
+class ObjectListIterator {
+ public:
+  /// Start at the first entry. The list must outlive the iterator; null is an empty list.
+  ObjectListIterator(const ObjectList* p_list) : m_p_list(p_list) {}
 
-#include "ObjectListIterator.h"  // IWYU pragma: keep: games expect it to come along
+  /// On to another list, from its first entry on.
+  void setList(const ObjectList* p_list) {
+    m_p_list = p_list;
+    m_index = 0;
+  }
+  /// Back to the first entry.
+  void first() { m_index = 0; }
+  /// On to the last entry.
+  void last() { m_index = m_p_list != nullptr && !m_p_list->isEmpty() ? m_p_list->getCount() - 1 : 0; }
+  /// On to the next entry.
+  void next() { ++m_index; }
+  /// True if no living Object is left at or after the current entry.
+  bool isDone() const { return m_p_list == nullptr || firstLiving() >= m_p_list->getCount(); }
+  /// The current Object: the first living one at or after the current entry. Null if done.
+  Object* currentObject() const { return isDone() ? nullptr : (*m_p_list)[m_index = firstLiving()]; }
+
+ private:
+  int firstLiving() const {
+    int i = m_index;
+    while (i < m_p_list->getCount() && (*m_p_list)[i] == nullptr) ++i;
+    return i;
+  }
+
+  const ObjectList* m_p_list;
+  mutable int m_index = 0;  // currentObject() moves it over dead entries
+};
+
+}  // namespace df

@@ -1,18 +1,48 @@
-// The part of Object that shows something of itself: sprite and shape.
+// The part of Object that others see of it: looks, paths, and its attributes as text.
 
+#include <memory>
+#include <sstream>
 #include <utility>
 
 #include "engine/collision/Mask.h"
 #include "engine/sprites/AnimationLook.h"
 #include "engine/world/ClassName.h"
-#include "engine/world/Geometry.h"
+#include "engine/world/ConfigText.h"
 #include "engine/world/Object.h"
 #include "engine/world/ObjectExtras.h"
+#include "engine/world/ObjectLookAccess.h"
+#include "engine/world/PathFind.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/LookCodec.h"
 
 namespace df {
+
+namespace {
+
+constexpr unsigned kAll = (1u << ObjectAttributeMax) - 1;
+// What serialize() calls the attributes, by the number of their bits.
+constexpr const char* kNames[ObjectAttributeMax] = {
+    "id",        "active",       "visible",  "events",    "box",         "pos",
+    "type",      "animation",    "altitude", "solidness", "no_soft",     "speed",
+    "direction", "acceleration", "shape",    "path",      "follow_path", "avoid_collisions"};
+
+unsigned maskOf(const std::string& attr) {
+  unsigned mask = 0;
+  std::istringstream names(attr);
+  for (std::string name; std::getline(names, name, ',');) {
+    if (name == "ALL") mask = kAll;
+    for (int i = 0; i < ObjectAttributeMax; ++i) {
+      if (name == kNames[i]) mask |= 1u << i;
+    }
+  }
+  return mask;
+}
+
+}  // namespace
 
 ObjectExtras& Object::extras() {
   if (m_p_extras == nullptr) m_p_extras = std::make_unique<ObjectExtras>();
@@ -23,12 +53,16 @@ void Object::hearWhilePaused() {
   extras().hears_while_paused = true;
 }
 
+bool Object::hearsWhilePaused() const {
+  return m_p_extras != nullptr && m_p_extras->hears_while_paused;
+}
+
 // The world's lists must not go on with it.
 void Object::dropExtras() {
   World* p_world = getWorld();
   if (p_world == nullptr) return;
-  if (m_p_extras->animated != ObjectExtras::kNowhere) p_world->extras().animations.remove(*this);
-  if (m_p_extras->follows_path) p_world->extras().walkers.remove(*this);
+  if (m_p_extras->animated != ObjectExtras::kNowhere) p_world->extras().animations.remove(*m_p_extras);
+  if (m_p_extras->follows_path) p_world->setWalking(*this, false);
 }
 
 // The sprite or the shape is another one.
@@ -38,11 +72,11 @@ void Object::animate() {
   World* p_world = getWorld();
   if (p_world == nullptr) return;
   if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // one that the game has made
-  p_world->forgetLook(m_slot);
+  forgetLook();
   if (p_sprite != nullptr && p_sprite->getFrameCount() > 1) {
-    p_world->extras().animations.add(*this);
+    p_world->extras().animations.add(m_slot, *m_p_extras);
   } else if (m_p_extras->animated != ObjectExtras::kNowhere) {
-    p_world->extras().animations.remove(*this);
+    p_world->extras().animations.remove(*m_p_extras);
   }
 }
 
@@ -55,8 +89,8 @@ int Object::setSprite(const std::string& sprite_label, bool set_box) {
   if (p_world == nullptr) return -1;
   Resources& resources = p_world->extras().resources;
   if (Sprite* p_sprite = resources.sprite(sprite_label)) return setSprite(p_sprite, set_box);
-  p_world->logOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
-                   ": no sprite is loaded under this label" + resources.spriteLabels());
+  p_world->log().writeOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
+                           ": no sprite is loaded under this label" + resources.spriteLabels());
   // So that there is something to see, and getAnimation().getSprite() is no null pointer.
   if (getSprite() == nullptr && !p_world->compat()) {
     Animation animation;
@@ -109,7 +143,7 @@ Animation Object::getAnimation() const {
 
 void Object::setSpriteIndex(int new_index) {
   extras().animation.setIndex(new_index);
-  if (World* p_world = getWorld()) p_world->forgetLook(m_slot);
+  forgetLook();
 }
 
 void Object::setSpriteSlowdown(int new_slowdown) {
@@ -127,7 +161,7 @@ void Object::setSpriteSlowdownCount(int new_slowdown_count) {
 
 void Object::setTransparency(char new_transparency) {
   if (Sprite* p_sprite = getSprite()) p_sprite->setTransparency(new_transparency);
-  if (World* p_world = getWorld()) p_world->forgetLook(m_slot);
+  forgetLook();
 }
 
 char Object::getTransparency() const {
@@ -153,7 +187,7 @@ int Object::draw() {
   if (p_world != nullptr && m_p_store->has(m_slot, WorldStore::kFrames)) p_world->drawFrame(m_slot);
   if (m_p_extras == nullptr) return 0;
   const bool on_view = m_p_store->has(m_slot, WorldStore::kOnView);
-  const Vector at = on_view ? viewToWorld(getPosition()) : getPosition();
+  const Vector at = on_view ? getPosition() + World::current().getView().getCorner() : getPosition();
   int result = 0;
   if (const Sprite* p_sprite = m_p_extras->animation.getSprite()) {
     const Box box = p_sprite->getBox();
@@ -173,12 +207,240 @@ std::shared_ptr<const naiad::Look> Object::publishedLook(std::uint32_t tick) {
 }
 
 // In a box that is not the sprite's own, its characters would lie elsewhere than they are drawn.
-const Mask* Object::spriteMask() const {
-  const Sprite* p_sprite = getSprite();
-  const bool as_drawn = p_sprite != nullptr && isCentered() && getBox() == p_sprite->getBox() &&
-                        m_p_extras->animation.getTransform() == Transform::NO_TRANSFORM;
+const Mask* spriteMaskOf(const Object& object) {
+  const Sprite* p_sprite = object.getSprite();
+  const bool as_drawn = p_sprite != nullptr && object.isCentered() && object.getBox() == p_sprite->getBox() &&
+                        object.m_p_extras->animation.getTransform() == Transform::NO_TRANSFORM;
   if (!as_drawn) return nullptr;
-  return p_sprite->mask(m_p_extras->animation.getIndex());
+  return p_sprite->mask(object.m_p_extras->animation.getIndex());
+}
+
+// Draws a static look again.
+void Object::forgetLook() {
+  if (getWorld() != nullptr) m_p_store->set(m_slot, WorldStore::kLookKept, false);
+}
+
+void Object::setStaticLook(bool static_look) {
+  m_p_store->set(m_slot, WorldStore::kStaticLook, static_look);
+  forgetLook();
+}
+
+bool Object::hasStaticLook() const {
+  return m_p_store->has(m_slot, WorldStore::kStaticLook);
+}
+
+int ObjectLookAccess::setFrames(Object& object, const naiad::Sequence& frames,
+                                const naiad::Selector& selector) {
+  WorldStore& store = *object.m_p_store;
+  if (frames.empty()) {
+    store.setFrames(object.m_slot, nullptr);
+    return 0;
+  }
+  const bool small = frames.size() <= naiad::kMaxFrames && frames.glyphCount() <= naiad::kMaxGlyphs &&
+                     frames.reach() <= naiad::kMaxGlyphOffset;
+  if (!small || !selector.fits(frames.size()) || naiad::encodedBits(frames) > 8 * naiad::kMaxLookBytes)
+    return object.refuse("setFrames");
+  store.setFrames(object.m_slot, std::make_shared<const naiad::Look>(naiad::Look{frames, 0, selector}));
+  return 0;
+}
+
+int ObjectLookAccess::setSelector(Object& object, const naiad::Selector& selector) {
+  WorldStore& store = *object.m_p_store;
+  const std::shared_ptr<const naiad::Look>& p_look = store.frames(object.m_slot);
+  if (p_look == nullptr || !selector.fits(p_look->sequence.size())) return object.refuse("setSelector");
+  if (p_look->selector == selector) return 0;
+  store.setFrames(object.m_slot,
+                  std::make_shared<const naiad::Look>(naiad::Look{p_look->sequence, 0, selector}));
+  return 0;
+}
+
+int Object::getFrameCount() const {
+  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
+  return p_look != nullptr ? static_cast<int>(p_look->sequence.size()) : 0;
+}
+
+int Object::getFrame() const {
+  const std::shared_ptr<const naiad::Look>& p_look = m_p_store->frames(m_slot);
+  const World* p_world = getWorld();
+  if (p_look == nullptr || p_world == nullptr) return 0;
+  const auto tick = static_cast<std::uint32_t>(p_world->getStepCount());
+  return static_cast<int>(p_look->selector.at(tick, p_look->sequence.size()));
+}
+
+// Paths.
+
+void Object::pathTo(Vector position) {
+  World* p_world = getWorld();
+  if (p_world == nullptr) return;
+  setAvoidCollisions();
+  Path path = findPath(*this, position);
+  EventPath event(path);
+  if (path.getPath().empty()) event.setResult(NOT_FOUND);
+  setFollowPath(false);
+  setPath(std::move(path));
+  if (event.getResult() == FOUND) setFollowPath();
+  p_world->deliver(key(), event);  // the last thing: it may delete this
+}
+
+void Object::pathTo(const Object* p_o_target) {
+  if (p_o_target != nullptr) pathTo(p_o_target->getPosition());
+}
+
+void Object::moveTo(Vector new_position) {
+  Vector direction = new_position - getPosition();
+  direction.normalize();
+  setDirection(direction);
+}
+
+void Object::setPath(Path new_path) {
+  extras().path = std::move(new_path);
+}
+
+Path Object::getPath() const {
+  return m_p_extras != nullptr ? m_p_extras->path : Path();
+}
+
+void Object::setFollowPath(bool new_follow_path) {
+  if (!new_follow_path && m_p_extras == nullptr) return;
+  extras().follows_path = new_follow_path;
+  if (!new_follow_path) m_p_extras->path_speed = 0;
+  if (World* p_world = getWorld()) p_world->setWalking(*this, new_follow_path);
+}
+
+bool Object::getFollowPath() const {
+  return m_p_extras != nullptr && m_p_extras->follows_path;
+}
+
+void Object::setAvoidCollisions(bool new_avoid_collisions) {
+  extras().avoids_collisions = new_avoid_collisions;
+}
+
+bool Object::getAvoidCollisions() const {
+  return m_p_extras != nullptr && m_p_extras->avoids_collisions;
+}
+
+// Text.
+
+ObjectAttributes Object::attributes() const {
+  const Box box = getBox();
+  const Animation animation = getAnimation();
+  const auto flag = [this](WorldStore::Flag f) { return m_p_store->has(m_slot, f) ? 1.0 : 0.0; };
+  return {keyValue("id", getId()),
+          keyValue("active", flag(WorldStore::kActive)),
+          keyValue("visible", flag(WorldStore::kVisible)),
+          keyValue("events", static_cast<double>(m_p_profile->interests.size())),
+          keyValue("box", box.getCorner()) + keyValue("box-horizontal", box.width()) +
+              keyValue("box-vertical", box.height()),
+          keyValue("pos", getPosition()),
+          keyValue("type", getType()),
+          keyValue("animation", animation.getName()) + keyValue("animation-index", animation.getIndex()) +
+              keyValue("animation-count", animation.getSlowdownCount()),
+          keyValue("altitude", getAltitude()),
+          keyValue("solidness", getSolidness()),
+          keyValue("no_soft", flag(WorldStore::kNoSoft)),
+          keyValue("velocity", getVelocity()),
+          keyValue("direction", getDirection()),
+          keyValue("acceleration", getAcceleration()),
+          keyValue("shape", m_p_extras != nullptr && m_p_extras->shape ? 1 : 0),
+          keyValue("path-nodes", static_cast<double>(getPath().getPath().size())),
+          keyValue("follow_path", getFollowPath() ? 1 : 0),
+          keyValue("avoid_collisions", getAvoidCollisions() ? 1 : 0)};
+}
+
+unsigned int Object::getModified() const {
+  if (m_p_extras == nullptr || !m_p_extras->serialized) return kAll;
+  const ObjectAttributes now = attributes();
+  unsigned mask = m_p_extras->modified;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i] != (*m_p_extras->serialized)[i]) mask |= 1u << i;
+  }
+  return mask;
+}
+
+void Object::setModified(unsigned int new_modified) {
+  extras().modified = new_modified & kAll;
+}
+
+bool Object::isModified(ObjectAttribute attribute) const {
+  return (getModified() & static_cast<unsigned>(attribute)) != 0;
+}
+
+std::string Object::serialize(std::string attr) {
+  std::stringstream out;
+  const unsigned mask = attr.empty() ? getModified() : maskOf(attr);
+  if (mask != 0) Object::serialize(&out, mask);
+  return out.str();
+}
+
+int Object::serialize(std::stringstream* p_ss, unsigned int attr) {
+  if (p_ss == nullptr) return -1;
+  const unsigned mask = attr != 0 ? attr : getModified();
+  const ObjectAttributes now = attributes();
+  ObjectExtras& mine = extras();
+  // What was never written remains modified.
+  if (!mine.serialized) mine.serialized.emplace();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if ((mask >> i & 1) == 0) continue;
+    *p_ss << now[i];
+    (*mine.serialized)[i] = now[i];
+  }
+  mine.modified &= ~mask;
+  return 0;
+}
+
+int Object::deserialize(std::string s) {
+  std::stringstream in(s);
+  return Object::deserialize(&in, nullptr);
+}
+
+int Object::deserialize(std::stringstream* p_ss, unsigned int* p_a) {
+  if (p_ss == nullptr) return -1;
+  const std::string text = p_ss->str();
+  unsigned mask = 0;
+  int result = 0;
+  const auto noteApplied = [&](ObjectAttribute attribute, int outcome) {
+    mask |= static_cast<unsigned>(attribute);
+    if (outcome != 0) result = -1;
+  };
+  const auto takeNumber = [&](ObjectAttribute attribute, const char* key, auto apply) {
+    if (const auto value = numberOf(text, key)) noteApplied(attribute, apply(*value));
+  };
+  const auto takeVector = [&](ObjectAttribute attribute, const char* key, auto apply) {
+    if (const auto value = vectorOf(text, key)) noteApplied(attribute, apply(*value));
+  };
+  const auto toInt = [](double value) {
+    return value >= -2e9 && value <= 2e9 ? static_cast<int>(value) : -1;
+  };
+
+  takeNumber(ObjectAttribute::ID, "id", [&](double v) { return setId(toInt(v)), 0; });
+  takeNumber(ObjectAttribute::ACTIVE, "active", [&](double v) { return setActive(v != 0); });
+  takeNumber(ObjectAttribute::VISIBLE, "visible", [&](double v) { return setVisible(v != 0); });
+  takeNumber(ObjectAttribute::NO_SOFT, "no_soft", [&](double v) { return setNoSoft(v != 0), 0; });
+  takeNumber(ObjectAttribute::ALTITUDE, "altitude", [&](double v) { return setAltitude(toInt(v)); });
+  takeNumber(ObjectAttribute::SOLIDNESS, "solidness",
+             [&](double v) { return setSolidness(static_cast<Solidness>(toInt(v) & 3)); });
+  if (const std::string type = valueOf(text, "type"); !type.empty()) {
+    setType(type);
+    noteApplied(ObjectAttribute::TYPE, 0);
+  }
+  if (const std::string sprite = valueOf(text, "animation"); !sprite.empty()) {
+    noteApplied(ObjectAttribute::ANIMATION, getAnimation().getName() == sprite ? 0 : setSprite(sprite));
+    if (const auto index = numberOf(text, "animation-index")) setSpriteIndex(toInt(*index));
+    if (const auto count = numberOf(text, "animation-count")) setSpriteSlowdownCount(toInt(*count));
+  }
+  takeVector(ObjectAttribute::BOX, "box", [&](Vector corner) {
+    return setBox(Box(corner, numberOf(text, "box-horizontal").value_or(getBox().width()),
+                      numberOf(text, "box-vertical").value_or(getBox().height())));
+  });
+  takeVector(ObjectAttribute::POSITION, "pos", [&](Vector v) { return setPosition(v); });
+  takeVector(ObjectAttribute::SPEED, "velocity", [&](Vector v) { return setVelocity(v); });
+  takeVector(ObjectAttribute::ACCELERATION, "acceleration", [&](Vector v) { return setAcceleration(v); });
+  if (p_a != nullptr) *p_a |= mask;
+  return result;
+}
+
+std::string Object::toString() const {
+  return getType() + " " + std::to_string(getId()) + " at " + getPosition().toString();
 }
 
 }  // namespace df

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 
 namespace df {
@@ -68,11 +70,11 @@ class Search {
   bool isFree(Node node) const {
     if (node == m_goal) return true;
     const Vector place = positionOf(node);
-    const Box boundary = m_world.getBoundary();
+    const Box boundary = fromFixed(m_world.views().boundary());
     const Vector inside = place - boundary.getCorner();
     if (inside.x() < 0 || inside.y() < 0 || inside.x() >= boundary.width() || inside.y() >= boundary.height())
       return false;
-    const ObjectList others = m_world.getCollisions(&m_object, place);
+    const ObjectList others = m_world.objects().getCollisions(&m_object, place);
     for (int i = 0; i < others.getCount(); ++i) {
       if (others[i] != nullptr && others[i]->getSolidness() == HARD) return false;
     }

@@ -4,7 +4,6 @@
 
 #include "engine/world/Controls.h"
 #include "engine/world/Views.h"
-#include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 #include "shared/values/Canvas.h"
 
@@ -16,40 +15,32 @@ constexpr std::uint32_t kTexts = 16;
 
 }  // namespace
 
-Player::Player(std::uint32_t id, std::string name, Color color)
-    : m_id(id), m_name(std::move(name)), m_color(color) {}
+Player::Player(Views& views, std::uint32_t id, std::string name, Color color)
+    : m_views(views), m_id(id), m_name(std::move(name)), m_color(color) {}
 
 int Player::setObject(Object* p_o) {
-  return m_p_world != nullptr ? m_p_world->views().setObject(*this, p_o) : -1;
+  return m_views.setObject(*this, p_o);
 }
 
 Object* Player::getObject() const {
-  return m_p_world != nullptr ? m_p_world->find(m_object) : nullptr;
+  return m_views.store().find(m_object);
 }
 
 int Player::setControls(const Controls& controls) {
   auto table = controls.table();
-  if (!table) {
-    if (m_p_world != nullptr) m_p_world->refuse("Player", "setControls");
-    return -1;
-  }
+  if (!table) return m_views.refuse("setControls");
   m_p_controls = table->rows.empty() ? nullptr : std::make_shared<const ControlTable>(*std::move(table));
   m_control_state = {};
   return 0;
 }
 
 int Player::setText(std::uint32_t id, Vector position, const std::string& text, Color color) {
-  if (m_p_world == nullptr) return -1;
-  const auto refuse = [this] {
-    m_p_world->refuse("Player", "setText");
-    return -1;
-  };
   const auto where = toFixed(position);
-  if (id >= kTexts || !where || color < BLACK || color > WHITE) return refuse();
+  if (id >= kTexts || !where || color < BLACK || color > WHITE) return m_views.refuse("setText");
   const int x = cellOf(where->x);
   const int y = cellOf(where->y);
-  const int width = m_p_world->getWindowWidth();
-  if (x < 0 || y < 0 || x >= width || y >= m_p_world->getWindowHeight()) return refuse();
+  const int width = m_views.width();
+  if (x < 0 || y < 0 || x >= width || y >= m_views.height()) return m_views.refuse("setText");
 
   std::string shown;
   int room = width - x;
@@ -72,7 +63,7 @@ PlayerFacts Player::facts() const {
   f.color = m_color;
   f.score = m_score;
   // A player without a view of their own shares the world's, and the Object that it follows.
-  if (m_p_world != nullptr) f.followed = m_p_world->views().followed(this);
+  f.followed = m_views.followed(this);
   f.view_corner = m_view_corner;
   for (const auto& [id, text] : m_texts) f.texts.push_back(text);
   if (m_p_controls != nullptr) f.steering = steeringFacts();
@@ -86,7 +77,7 @@ SteeringFacts Player::steeringFacts() const {
   if (p_o == nullptr) return f;
   f.object = m_object;
   f.state.steering = m_steers && p_o->isActive();
-  const WorldStore& store = m_p_world->store();
+  const WorldStore& store = m_views.store();
   f.position = store.position(m_object.slot);
   f.velocity = store.velocity(m_object.slot);
   f.acceleration = store.acceleration(m_object.slot);

@@ -17,6 +17,7 @@
 
 namespace df {
 
+class ControlApplier;
 class Controls;
 class Views;
 
@@ -25,17 +26,13 @@ class Views;
 namespace players {
 class Player;
 }
-/// For the engine: each tick, before input.
-void beginControlTick(World& world);
-/// For the engine: have the player's controls take a key. Return whether they did.
-bool handleKey(World& world, players::Player& player, Keyboard::Key key, EventKeyboardAction action);
 
 namespace players {
 
 class Player {
  public:
   /// For the engine, which makes players as they join.
-  Player(std::uint32_t id, std::string name, Color color);
+  Player(Views& views, std::uint32_t id, std::string name, Color color);
 
   /// The player's number: 1, 2, …, each once in a world.
   std::uint32_t getId() const { return m_id; }
@@ -77,15 +74,13 @@ class Player {
  private:
   SteeringFacts steeringFacts() const;
 
-  friend class df::World;
+  friend class df::ControlApplier;
   friend class df::Views;
-  friend void df::beginControlTick(World& world);
-  friend bool df::handleKey(World& world, Player& player, Keyboard::Key key, EventKeyboardAction action);
+  Views& m_views;
   std::uint32_t m_id;
   std::string m_name;
   Color m_color;
   int m_score = 0;
-  World* m_p_world = nullptr;
   ObjectKey m_object;    // steered
   ObjectKey m_followed;  // by the view, once it is the player's own
   FixedVector m_view_corner;

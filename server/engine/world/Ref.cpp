@@ -23,15 +23,9 @@ RefBase::RefBase(const RefBase& other) : m_p_store(other.m_p_store), m_key(other
 RefBase::RefBase(RefBase&& other) noexcept
     : m_p_store(std::exchange(other.m_p_store, nullptr)), m_key(std::exchange(other.m_key, {})) {}
 
-RefBase& RefBase::operator=(const RefBase& other) {
-  if (this != &other) *this = RefBase(other);
-  return *this;
-}
-
-RefBase& RefBase::operator=(RefBase&& other) noexcept {
-  RefBase moved(std::move(other));
-  std::swap(m_p_store, moved.m_p_store);
-  std::swap(m_key, moved.m_key);
+RefBase& RefBase::operator=(RefBase other) noexcept {
+  std::swap(m_p_store, other.m_p_store);
+  std::swap(m_key, other.m_key);
   return *this;
 }
 

@@ -28,8 +28,7 @@ class RefBase {
   explicit RefBase(const Object* p_o);
   RefBase(const RefBase& other);
   RefBase(RefBase&& other) noexcept;
-  RefBase& operator=(const RefBase& other);
-  RefBase& operator=(RefBase&& other) noexcept;
+  RefBase& operator=(RefBase other) noexcept;
   ~RefBase();
 
   /// Is the Object still in its world?

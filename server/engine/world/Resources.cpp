@@ -8,16 +8,12 @@
 
 #include "engine/sprites/CaseInsensitiveFile.h"
 #include "engine/sprites/SpriteFile.h"
-#include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldState.h"
 
 namespace df {
 
 namespace {
-
-template <class List>
-auto findSound(List& list, const std::string& label) {
-  return std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.getLabel() == label; });
-}
 
 /// "; loaded are: saucer, ship"
 template <class Labels>
@@ -32,15 +28,16 @@ std::string loadedAre(const Labels& labels) {
   return text.empty() ? "; none is loaded" : text;
 }
 
-template <class List>
-std::string labelsOf(const List& list) {
-  std::vector<std::string> labels;
-  for (const auto& one : list) labels.push_back(one.getLabel());
-  return loadedAre(labels);
-}
-
 std::string nothingLoaded(const char* call, const std::string& label, const std::string& loaded) {
   return "RM." + std::string(call) + "(\"" + label + "\"): nothing is loaded under this label" + loaded;
+}
+
+int loadFile(Sound& sound, const std::string& filename) {
+  return sound.loadSound(filename);
+}
+
+int loadFile(Music& music, const std::string& filename) {
+  return music.loadMusic(filename);
 }
 
 bool isFile(const std::filesystem::path& path) {
@@ -106,15 +103,15 @@ int Resources::loadSprite(const std::string& filename, const std::string& label)
 std::unique_ptr<Sprite> Resources::readSprite(const std::string& filename, const std::string& label) {
   const std::optional<std::string> text = read(filename);
   if (!text) {
-    m_world.log("Sprite " + label + ": " + filename + ": cannot be read" + lookedIn(filename));
+    m_log.write("Sprite " + label + ": " + filename + ": cannot be read" + lookedIn(filename));
     return nullptr;
   }
   std::string error;
   std::vector<std::string> oddities;
-  std::unique_ptr<Sprite> loaded = parseSprite(*text, label, error, m_world.compat() ? &oddities : nullptr);
+  std::unique_ptr<Sprite> loaded = parseSprite(*text, label, error, m_state.compat ? &oddities : nullptr);
   const std::string where = "Sprite " + label + ": " + filename + ":";
-  for (const std::string& oddity : oddities) m_world.log(where + oddity + " (compat)");
-  if (loaded == nullptr) m_world.log(where + error);
+  for (const std::string& oddity : oddities) m_log.write(where + oddity + " (compat)");
+  if (loaded == nullptr) m_log.write(where + error);
   return loaded;
 }
 
@@ -140,19 +137,13 @@ std::string Resources::spriteLabels() const {
   return loadedAre(labels);
 }
 
-// Games of the published engine ask for null pointers.
-bool Resources::standsIn(const char* call, const std::string& label, const std::string& loaded) {
-  if (!m_world.compat()) m_world.logOnce(nothingLoaded(call, label, loaded));
-  return !m_world.compat();
-}
-
 // Games ask for a sprite to see whether it is still to be loaded, so null is no fault there. If one follows
 // it, the report of the crash has the line.
 Sprite* Resources::spriteOrStandIn(const std::string& label) {
   Sprite* p_sprite = sprite(label);
-  if (p_sprite != nullptr || m_world.compat()) return p_sprite;
+  if (p_sprite != nullptr || m_state.compat) return p_sprite;
   if (m_failed_sprites.contains(label)) return &missingSprite();
-  m_world.noteOnce(nothingLoaded("getSprite", label, spriteLabels()));
+  m_log.noteOnce(nothingLoaded("getSprite", label, spriteLabels()));
   return nullptr;
 }
 
@@ -167,68 +158,49 @@ Sprite& Resources::missingSprite() {
   return *m_missing_sprite;
 }
 
-int Resources::loadSound(const std::string& filename, const std::string& label) {
-  if (sound(label) != nullptr) return 0;
-  Sound loaded;
+template <class T>
+int SoundBank<T>::load(const std::string& filename, const std::string& label) {
+  if (find(label) != nullptr) return 0;
+  T& loaded = m_all.emplace_back();
   loaded.setLabel(label);
-  if (loaded.loadSound(filename) != 0) return -1;
-  m_sounds.push_back(loaded);
-  return 0;
-}
-
-int Resources::unloadSound(const std::string& label) {
-  const auto it = findSound(m_sounds, label);
-  if (it == m_sounds.end()) return -1;
-  it->endLoop();
-  m_sounds.erase(it);
-  return 0;
-}
-
-Sound* Resources::sound(const std::string& label) {
-  const auto it = findSound(m_sounds, label);
-  return it == m_sounds.end() ? nullptr : &*it;
-}
-
-Sound* Resources::soundOrStandIn(const std::string& label) {
-  if (Sound* p_sound = sound(label)) return p_sound;
-  if (!standsIn("getSound", label, labelsOf(m_sounds))) return nullptr;
-  if (m_missing_sound == nullptr) {
-    m_missing_sound = std::make_unique<Sound>();
-    m_missing_sound->silence();
-  }
-  return m_missing_sound.get();
-}
-
-int Resources::loadMusic(const std::string& filename, const std::string& label) {
-  if (music(label) != nullptr) return 0;
-  Music& loaded = m_musics.emplace_back();
-  loaded.setLabel(label);
-  if (loaded.loadMusic(filename) == 0) return 0;
-  m_musics.pop_back();
+  if (loadFile(loaded, filename) == 0) return 0;
+  m_all.pop_back();
   return -1;
 }
 
-int Resources::unloadMusic(const std::string& label) {
-  const auto it = findSound(m_musics, label);
-  if (it == m_musics.end()) return -1;
-  it->endLoop();
-  m_musics.erase(it);
+template <class T>
+int SoundBank<T>::unload(const std::string& label) {
+  T* p_sound = find(label);
+  if (p_sound == nullptr) return -1;
+  p_sound->endLoop();
+  m_all.remove_if([p_sound](const T& one) { return &one == p_sound; });
   return 0;
 }
 
-Music* Resources::music(const std::string& label) {
-  const auto it = findSound(m_musics, label);
-  return it == m_musics.end() ? nullptr : &*it;
+template <class T>
+T* SoundBank<T>::find(const std::string& label) {
+  for (T& one : m_all) {
+    if (one.getLabel() == label) return &one;
+  }
+  return nullptr;
 }
 
-Music* Resources::musicOrStandIn(const std::string& label) {
-  if (Music* p_music = music(label)) return p_music;
-  if (!standsIn("getMusic", label, labelsOf(m_musics))) return nullptr;
-  if (m_missing_music == nullptr) {
-    m_missing_music = std::make_unique<Music>();
-    m_missing_music->silence();
+template <class T>
+T* SoundBank<T>::findOrStandIn(const std::string& label) {
+  T* p_sound = find(label);
+  // Games of the published engine ask for null pointers.
+  if (p_sound != nullptr || m_state.compat) return p_sound;
+  std::vector<std::string> labels;
+  for (const T& one : m_all) labels.push_back(one.getLabel());
+  m_log.writeOnce(nothingLoaded(m_get, label, loadedAre(labels)));
+  if (m_p_missing == nullptr) {
+    m_p_missing = std::make_unique<T>();
+    m_p_missing->silence();
   }
-  return m_missing_music.get();
+  return m_p_missing.get();
 }
+
+template class SoundBank<Sound>;
+template class SoundBank<Music>;
 
 }  // namespace df

@@ -14,11 +14,35 @@
 
 namespace df {
 
-class World;
+class WorldLog;
+struct WorldState;
+
+/// The sounds, or the pieces of music, of one world.
+template <class T>
+class SoundBank {
+ public:
+  /// `get`: the function of ResourceManager that looks one up, for lines in the log.
+  SoundBank(WorldLog& log, const WorldState& state, const char* get)
+      : m_log(log), m_state(state), m_get(get) {}
+  int load(const std::string& filename, const std::string& label);
+  int unload(const std::string& label);
+  T* find(const std::string& label);
+  /// The same; if there is none, one that plays nothing, and a line in the log. Null in compat.
+  T* findOrStandIn(const std::string& label);
+  void clear() { m_all.clear(); }
+
+ private:
+  WorldLog& m_log;
+  const WorldState& m_state;
+  const char* m_get;
+  std::list<T> m_all;              // games keep pointers
+  std::unique_ptr<T> m_p_missing;  // made at first use
+};
 
 class Resources {
  public:
-  explicit Resources(World& world) : m_world(world) {}
+  Resources(WorldLog& log, const WorldState& state)
+      : m_log(log), m_state(state), m_sounds(log, state, "getSound"), m_musics(log, state, "getMusic") {}
 
   int loadSprite(const std::string& filename, const std::string& label);
   int unloadSprite(const std::string& label);
@@ -30,19 +54,13 @@ class Resources {
   Sprite& missingSprite();
   /// For a line in the log: "; loaded are: saucer, ship".
   std::string spriteLabels() const;
-  int loadSound(const std::string& filename, const std::string& label);
-  int unloadSound(const std::string& label);
-  Sound* sound(const std::string& label);
-  /// The same; if there is none, one that plays nothing, and a line in the log. Null in compat.
-  Sound* soundOrStandIn(const std::string& label);
-  int loadMusic(const std::string& filename, const std::string& label);
-  int unloadMusic(const std::string& label);
-  Music* music(const std::string& label);
-  Music* musicOrStandIn(const std::string& label);
+  SoundBank<Sound>& sounds() { return m_sounds; }
+  SoundBank<Music>& musics() { return m_musics; }
 
   /// Labels mean nothing any more; sprites live on, for Objects may still show them.
   void clear();
-  /// Relative names are looked for in the working directory, then here, in order of the calls.
+  /// Relative names are looked for in the working directory, then here, in order of the calls. It stays
+  /// through clear().
   void addFolder(std::string folder) { m_folders.push_back(std::move(folder)); }
   /// What is in the file; nothing if it cannot be read.
   std::optional<std::string> read(const std::string& filename) const;
@@ -55,19 +73,16 @@ class Resources {
  private:
   std::string locate(const std::string& filename) const;
   std::unique_ptr<Sprite> readSprite(const std::string& filename, const std::string& label);
-  bool standsIn(const char* call, const std::string& label, const std::string& loaded);
 
-  World& m_world;
+  WorldLog& m_log;
+  const WorldState& m_state;
   std::vector<std::string> m_folders;
   std::vector<std::unique_ptr<Sprite>> m_sprites;
   std::vector<std::unique_ptr<Sprite>> m_unloaded;  // Objects may still show them
-  std::list<Sound> m_sounds;                        // games keep pointers
-  std::list<Music> m_musics;
-  std::set<std::string> m_failed_sprites;  // labels
-  // For labels of which nothing is loaded. Made at first use.
-  std::unique_ptr<Sprite> m_missing_sprite;
-  std::unique_ptr<Sound> m_missing_sound;
-  std::unique_ptr<Music> m_missing_music;
+  SoundBank<Sound> m_sounds;
+  SoundBank<Music> m_musics;
+  std::set<std::string> m_failed_sprites;    // labels
+  std::unique_ptr<Sprite> m_missing_sprite;  // made at first use
 };
 
 }  // namespace df

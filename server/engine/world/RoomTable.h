@@ -1,12 +1,13 @@
 // What a world knows of the server's rooms, and which players its game sends there (GameRooms.h).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/world/GameRooms.h"
+#include "engine/world/GameRoom.h"
 
 namespace df {
 
@@ -20,17 +21,34 @@ class RoomTable {
  public:
   /// The room is so from now on; one that was not there before is behind the others. Nothing happens if it is
   /// no room, or one too many.
-  void keep(GameRoom room);
+  void keep(GameRoom room) {
+    if (room.name.empty() || room.name.size() > GameRoomLimits::kMaxName) return;
+    if (GameRoom* p_room = find(room.name)) {
+      *p_room = std::move(room);
+    } else if (m_rooms.size() < GameRoomLimits::kMaxRooms) {
+      m_rooms.push_back(std::move(room));
+    }
+  }
   const std::vector<GameRoom>& rooms() const { return m_rooms; }
   /// False: there is no such room to send to, or too many were sent in this tick.
-  bool send(std::uint32_t player, const std::string& room);
+  bool send(std::uint32_t player, const std::string& room) {
+    const GameRoom* p_room = find(room);
+    const bool is_full = m_sent.size() >= GameRoomLimits::kMaxSentInTick;
+    if (p_room == nullptr || p_room->is_this_one || is_full) return false;
+    m_sent.push_back({player, room});
+    return true;
+  }
   /// Those who were sent in the last tick. What is not taken before the next one begins is forgotten.
   std::vector<SentPlayer> takeSent() { return std::exchange(m_sent, {}); }
   const std::vector<SentPlayer>& sent() const { return m_sent; }
   void beginTick() { m_sent.clear(); }
 
  private:
-  GameRoom* find(const std::string& name);
+  GameRoom* find(const std::string& name) {
+    const auto is_named = [&name](const GameRoom& room) { return room.name == name; };
+    const auto found = std::find_if(m_rooms.begin(), m_rooms.end(), is_named);
+    return found != m_rooms.end() ? &*found : nullptr;
+  }
 
   std::vector<GameRoom> m_rooms;
   std::vector<SentPlayer> m_sent;

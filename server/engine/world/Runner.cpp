@@ -4,8 +4,6 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/world/World.h"
-
 namespace df {
 
 namespace running {
@@ -27,26 +25,22 @@ bool declareCompat(bool compat) {
   return compat;
 }
 
-void beginCompat(World& world) {
-  if (g_declared) {
-    world.setCompat(*g_declared);
-  } else if (world.program() != nullptr) {
-    world.setCompat(true);
-  }
+Program* program() {
+  return g_p_program;
 }
 
-void endCompat(World& world) {
+bool beginCompat(bool compat, bool in_program) {
+  return g_declared.value_or(compat || in_program);
+}
+
+bool endCompat(bool compat) {
   const char* p_wanted = std::getenv("DF_COMPAT");
-  if (p_wanted == nullptr) return;
+  if (p_wanted == nullptr) return compat;
   const std::string_view wanted(p_wanted);
-  if (wanted == "0" || wanted == "false") world.setCompat(false);
-  if (wanted == "1" || wanted == "true") world.setCompat(true);
+  if (wanted == "0" || wanted == "false") return false;
+  return compat || wanted == "1" || wanted == "true";
 }
 
 }  // namespace running
-
-running::Program* World::program() const {
-  return m_p_runner == nullptr && m_is_default ? running::g_p_program : nullptr;
-}
 
 }  // namespace df

@@ -29,15 +29,16 @@ class Program : public Runner {
 /// Not owned; it lives as long as the process. Null: none. To be called before the game's main() begins, or
 /// by it before GM.startUp().
 void setProgram(Program* p_program);
+Program* program();
 
 /// The game was built with the compiler's -DDF_COMPAT=0 or 1 (GameManager.h calls it). Return `compat`.
 bool declareCompat(bool compat);
 
-/// Set World::setCompat() as far as it is decided before df-config.txt is read: by the build, else on in a
+/// World::setCompat() as far as it is decided before df-config.txt is read: by the build, else on in a
 /// Program, else as it is.
-void beginCompat(World& world);
+bool beginCompat(bool compat, bool in_program);
 /// The environment decides last: DF_COMPAT=0 or 1.
-void endCompat(World& world);
+bool endCompat(bool compat);
 
 }  // namespace running
 

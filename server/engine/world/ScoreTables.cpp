@@ -15,12 +15,12 @@ bool isLetter(char c) {
 }
 
 bool isTableName(const std::string& table) {
-  return !table.empty() && table.size() <= HighScores::kMaxTableName &&
+  return !table.empty() && table.size() <= HighScoreLimits::kMaxTableName &&
          std::all_of(table.begin(), table.end(), isLetter);
 }
 
 bool isInRange(std::int64_t points) {
-  return points >= -HighScores::kMaxPoints && points <= HighScores::kMaxPoints;
+  return points >= -HighScoreLimits::kMaxPoints && points <= HighScoreLimits::kMaxPoints;
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ std::string scoreName(const std::string& name) {
   std::string safe;
   std::size_t count = 0;
   for (const char32_t ch : decodeUtf8(name)) {
-    if (++count > HighScores::kMaxName) break;
+    if (++count > HighScoreLimits::kMaxName) break;
     appendUtf8(safe, isDrawable(ch) ? ch : U'?');
   }
   return safe;
@@ -38,14 +38,14 @@ std::string scoreName(const std::string& name) {
 // Behind those with as many points: they are older.
 bool ScoreTables::insert(const std::string& table, HighScore score) {
   if (!isTableName(table) || score.name.empty() || !isInRange(score.points)) return false;
-  if (m_tables.size() >= HighScores::kMaxTables && m_tables.count(table) == 0) return false;
+  if (m_tables.size() >= HighScoreLimits::kMaxTables && m_tables.count(table) == 0) return false;
   std::vector<HighScore>& rows = m_tables[table];
   const auto place =
       std::upper_bound(rows.begin(), rows.end(), score.points,
                        [](std::int64_t points, const HighScore& row) { return points > row.points; });
-  if (place == rows.end() && rows.size() >= HighScores::kMaxRows) return true;
+  if (place == rows.end() && rows.size() >= HighScoreLimits::kMaxRows) return true;
   rows.insert(place, std::move(score));
-  if (rows.size() > HighScores::kMaxRows) rows.pop_back();
+  if (rows.size() > HighScoreLimits::kMaxRows) rows.pop_back();
   return true;
 }
 
@@ -54,7 +54,7 @@ bool ScoreTables::keep(const std::string& table, const std::string& name, std::i
 }
 
 bool ScoreTables::add(const std::string& table, const std::string& name, std::int64_t points) {
-  if (m_added.size() - m_finished >= HighScores::kMaxAddedInTick || m_number > kMaxNumber) return false;
+  if (m_added.size() - m_finished >= HighScoreLimits::kMaxAddedInTick || m_number > kMaxNumber) return false;
   HighScore score{scoreName(name), points};
   if (!insert(table, score)) return false;
   m_added.push_back({table, std::move(score), m_tick, m_number++});

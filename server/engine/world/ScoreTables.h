@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/HighScores.h"
+#include "engine/world/HighScore.h"
 
 namespace df {
 

@@ -24,9 +24,11 @@ class Sound {
   const std::string& getLabel() const { return m_label; }
 
   /// From its beginning, or from where it paused; again and again, if `loop`.
-  void play(bool loop = false);
-  void stop();   ///< The next play() is from its beginning.
-  void pause();  ///< The next play() goes on here.
+  void play(bool loop = false) { notePlayed(SoundPlayed::kPlay, loop); }
+  /// The next play() is from its beginning.
+  void stop() { notePlayed(SoundPlayed::kStop, false); }
+  /// The next play() goes on here.
+  void pause() { notePlayed(SoundPlayed::kPause, false); }
 
   /// From now on it plays nothing: it stands in for one that is missing.
   void silence() { m_silent = true; }

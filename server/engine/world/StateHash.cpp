@@ -1,9 +1,9 @@
 #include "engine/world/StateHash.h"
 
+#include "engine/world/Capture.h"
 #include "engine/world/Object.h"
-#include "engine/world/Player.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
-#include "engine/world/WorldExtras.h"
 #include "engine/world/WorldStore.h"
 #include "shared/values/FastHash.h"
 
@@ -74,8 +74,8 @@ std::uint64_t hashState(const World& world) {
   for (std::size_t i = 0; i < walk.size(); ++i) {
     if (walk[i] != WorldStore::kNoSlot) addObject(hash, store, walk[i]);
   }
-  for (const Player* p_player : world.getPlayers()) addPlayer(hash, p_player->facts());
-  addPicture(hash, world.view());
+  for (const auto& [id, p_player] : world.views().players()) addPlayer(hash, p_player->facts());
+  addPicture(hash, world.picture().view());
   return hash.value();
 }
 

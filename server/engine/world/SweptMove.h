@@ -8,13 +8,11 @@
 
 #include "engine/collision/KeySet.h"
 #include "engine/world/HitList.h"
-#include "engine/world/WorldView.h"
 #include "shared/values/Fixed.h"
 
 namespace df {
 
-class Mover;
-class World;
+class EventDispatch;
 
 /// Its memory is kept for the next move.
 class SweptMove {
@@ -22,10 +20,13 @@ class SweptMove {
   /// A handler may make a new obstacle for each that it deletes: a move with so many stages is blocked.
   static constexpr int kMaxStages = 1000;
 
-  /// Send the events of what `mover`, in the world and solid, hits on its path to `where`. If a pair blocks
-  /// it, place it just before the contact, unless a handler has moved it. Return whether it may move on to
-  /// `where`.
-  bool run(Mover& moves, World& world, ObjectKey mover, FixedVector where);
+  /// Where a move ended: at its target, just before a contact, or where the mover is already, because a
+  /// handler put it there or it cannot move.
+  enum class End { kTarget, kContact, kNone };
+  /// Sends the events of what `mover`, in the world and solid, hits on its path to `where`. If a pair blocks
+  /// it and no handler has moved it, sets `where` to its place just before the contact. The caller places
+  /// the mover.
+  End run(EventDispatch& events, WorldStore& store, ObjectKey mover, FixedVector& where);
 
  private:
   enum class Outcome { kFree, kBlocked, kGone };
@@ -34,7 +35,7 @@ class SweptMove {
     Moment moment;  // of the block
   };
 
-  Verdict sendHits(World& world, ObjectKey mover, const SweepPath& path);
+  Verdict sendHits(EventDispatch& events, const WorldStore& store, ObjectKey mover, const SweepPath& path);
 
   HitList m_list;
   KeySet m_met;  // in the stages before this one

@@ -5,7 +5,7 @@
 
 #include "engine/world/Object.h"
 #include "engine/world/Settings.h"
-#include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "shared/replica/ViewFollow.h"
 
@@ -25,7 +25,7 @@ void Views::reset() {
 
 int Views::setBoundary(const Box& box) {
   const auto boundary = toFixed(box);
-  if (!boundary) return -1;
+  if (!boundary) return m_log.refuse("WorldManager", "setBoundary");
   m_boundary = *boundary;
   m_boundary_set = true;
   clampAll();
@@ -47,8 +47,7 @@ void Views::clampAll() {
 }
 
 Player* Views::addPlayer(std::uint32_t id, const std::string& name, Color color) {
-  auto p_player = std::make_unique<Player>(id, name, color);
-  p_player->m_p_world = &m_world;
+  auto p_player = std::make_unique<Player>(*this, id, name, color);
   p_player->m_view_corner = m_corner;
   return (m_players[id] = std::move(p_player)).get();
 }
@@ -63,8 +62,22 @@ Player* Views::player(std::uint32_t id) const {
   return it == m_players.end() ? nullptr : it->second.get();
 }
 
+std::vector<Player*> Views::getPlayers() const {
+  std::vector<Player*> players;
+  for (const auto& [id, p_player] : m_players) players.push_back(p_player.get());
+  return players;
+}
+
+int Views::refuse(const char* what) {
+  return m_log.refuse("Player", what);
+}
+
 FixedVector Views::cornerOf(const Player* p_player) const {
   return p_player != nullptr && p_player->m_has_view ? p_player->m_view_corner : m_corner;
+}
+
+Box Views::viewOf(const Player* p_player) const {
+  return {Vector::fromFixed(cornerOf(p_player)), static_cast<double>(m_width), static_cast<double>(m_height)};
 }
 
 void Views::setCorner(Player* p_player, FixedVector corner) {
@@ -86,15 +99,14 @@ void Views::centre(Player* p_player, FixedVector position) {
 int Views::follow(Player* p_player, Object* p_o) {
   ObjectKey key;
   if (p_o != nullptr) {
-    WorldStore& store = m_world.store();
-    if (p_o->m_p_store != &store || !store.has(p_o->m_slot, WorldStore::kInWorld)) return -1;
+    if (p_o->m_p_store != &m_store || !m_store.has(p_o->m_slot, WorldStore::kInWorld)) return -1;
     key = p_o->key();
-    store.set(key.slot, WorldStore::kFollowed, true);
+    m_store.set(key.slot, WorldStore::kFollowed, true);
   }
   const bool own = p_player != nullptr && p_player->m_has_view;
   (own ? p_player->m_followed : m_followed) = key;
   m_followers_known = false;
-  if (p_o != nullptr) centre(p_player, m_world.store().position(key.slot));
+  if (p_o != nullptr) centre(p_player, m_store.position(key.slot));
   return 0;
 }
 
@@ -139,7 +151,7 @@ void Views::moved(ObjectKey key, FixedVector position) {
 
 ObjectKey Views::followed(const Player* p_player) const {
   const ObjectKey key = p_player != nullptr && p_player->m_has_view ? p_player->m_followed : m_followed;
-  return m_world.find(key) != nullptr ? key : ObjectKey{};
+  return m_store.find(key) != nullptr ? key : ObjectKey{};
 }
 
 ViewCover Views::cover() const {

@@ -22,13 +22,15 @@
 namespace df {
 
 class Object;
-class World;
+class WorldLog;
+class WorldStore;
 
 class Views {
  public:
   using Players = std::map<std::uint32_t, std::unique_ptr<Player>>;
 
-  explicit Views(World& world) : m_world(world) { reset(); }
+  /// Both live longer than this.
+  Views(WorldStore& store, WorldLog& log) : m_store(store), m_log(log) { reset(); }
   /// As at the beginning: no players, window 80 by 24, boundary the window.
   void reset();
 
@@ -51,10 +53,15 @@ class Views {
   void removePlayer(std::uint32_t id);
   Player* player(std::uint32_t id) const;
   const Players& players() const { return m_players; }
+  std::vector<Player*> getPlayers() const;
+  /// Count and log a call on a Player that was refused. Return -1.
+  int refuse(const char* what);
+  const WorldStore& store() const { return m_store; }
 
   // Views. A null player, and one without a view of their own, stand for the world's view.
 
   FixedVector cornerOf(const Player* p_player) const;
+  Box viewOf(const Player* p_player) const;
   /// Put the corner there, clamped inside the boundary.
   void setCorner(Player* p_player, FixedVector corner);
   /// Centre the view on this position.
@@ -75,7 +82,8 @@ class Views {
   void clampAll();
   void indexFollowers();
 
-  World& m_world;
+  WorldStore& m_store;
+  WorldLog& m_log;
   FixedBox m_boundary;
   bool m_boundary_set = false;  // else it follows the window
   int m_width = 0;

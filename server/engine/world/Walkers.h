@@ -15,12 +15,14 @@ class Walkers {
   /// Objects may outlive their world.
   ~Walkers();
 
-  void add(Object& object);
-  void remove(Object& object);
+  /// Adds or removes the Object.
+  void set(Object& object, bool walks);
   /// A tick begins: turn each towards its next node, by the order in which they set out.
   void step();
 
  private:
+  static void turn(Object& object);
+
   std::vector<Object*> m_objects;
 };
 

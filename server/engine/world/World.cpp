@@ -1,25 +1,19 @@
 #include "engine/world/World.h"
 
-#include <typeinfo>
 #include <utility>
 
-#include "engine/events/EventOut.h"
-#include "engine/events/EventStep.h"
-#include "engine/world/ActivityPage.h"
 #include "engine/world/Capture.h"
-#include "engine/world/ClassName.h"
-#include "engine/world/ControlApplier.h"
-#include "engine/world/EventPlayer.h"
+#include "engine/world/EventDispatch.h"
 #include "engine/world/InputQueue.h"
-#include "engine/world/InterestDispatch.h"
 #include "engine/world/Interests.h"
 #include "engine/world/Mover.h"
 #include "engine/world/Object.h"
-#include "engine/world/ObjectProfile.h"
-#include "engine/world/Runner.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/Started.h"
+#include "engine/world/Tick.h"
 #include "engine/world/Views.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 
 namespace df {
@@ -28,35 +22,28 @@ namespace {
 
 thread_local World* t_p_current = nullptr;
 
-// Sets a flag while it lives.
-class During {
- public:
-  explicit During(bool& flag) : m_flag(flag) { m_flag = true; }
-  ~During() { m_flag = false; }
-  During(const During&) = delete;
-  During& operator=(const During&) = delete;
-
- private:
-  bool& m_flag;
-};
-
 }  // namespace
 
 World::World()
     : m_p_store(new WorldStore(this)),
-      m_interests(std::make_unique<Interests>(*this)),
-      m_views(std::make_unique<Views>(*this)),
-      m_capture(std::make_unique<Capture>(*this)),
-      m_input(std::make_unique<InputQueue>(*this)),
-      m_mover(std::make_unique<Mover>(*this)),
-      m_own_activity(std::make_unique<Activity>()),
-      m_p_activity(m_own_activity.get()) {}
+      m_log(std::make_unique<WorldLog>()),
+      m_extras(std::make_unique<LazyExtras>(*m_p_store, *m_log, m_state)),
+      m_interests(std::make_unique<Interests>(*m_p_store)),
+      m_objects(std::make_unique<ObjectRegistry>(*m_p_store, *m_interests, *m_log)),
+      m_events(
+          std::make_unique<EventDispatch>(*m_objects, *m_interests, m_state, [this] { finishShutDown(); })),
+      m_views(std::make_unique<Views>(*m_p_store, *m_log)),
+      m_picture(std::make_unique<Capture>(*m_p_store, *m_views, *m_events, *m_extras, m_state)),
+      m_mover(std::make_unique<Mover>(*m_objects, *m_views, *m_events, m_state)),
+      m_input(std::make_unique<InputQueue>(*m_objects, *m_views, *m_events, *m_mover, *m_extras, m_state)),
+      m_tick(std::make_unique<Tick>(*this, *m_objects, *m_events, *m_picture, *m_mover, *m_input, *m_extras,
+                                    m_state)) {}
 
 World::~World() {
   {
     const WorldStore::Walk walk(*m_p_store);
     for (std::size_t i = 0; i < walk.size(); ++i) {
-      if (walk[i] != WorldStore::kNoSlot) removeObject(m_p_store->object(walk[i]));
+      if (walk[i] != WorldStore::kNoSlot) m_objects->removeObject(m_p_store->object(walk[i]));
     }
   }
   if (t_p_current == this) t_p_current = nullptr;
@@ -68,7 +55,7 @@ World& World::current() {
   if (t_p_current != nullptr) return *t_p_current;
   static World* p_default = [] {
     auto* p_world = new World;  // for ever: static Objects of games may die later than anything of ours
-    p_world->m_is_default = true;
+    p_world->m_state.is_default = true;
     return p_world;
   }();
   return *p_default;
@@ -80,178 +67,132 @@ WorldScope::~WorldScope() {
   t_p_current = m_p_before;
 }
 
-// Time.
+bool World::isBusy() const {
+  return m_tick->isRunning() || m_events->isRunning();
+}
+
+void World::shutDown() {
+  if (isBusy()) {
+    m_events->deferShutDown();
+    m_state.game_over = true;
+    return;
+  }
+  const Scope scope(*this);
+  m_objects->clear();
+  m_views->reset();
+  m_input->clear();
+  m_log->clear();
+  if (WorldExtras* p_extras = findExtras()) p_extras->reset();
+  static_cast<RoundState&>(m_state) = RoundState();
+  m_state.random = Random(m_state.seed);
+}
+
+void World::finishShutDown() {
+  if (isBusy() || !m_events->takeShutDown()) return;
+  shutDown();
+  m_state.game_over = true;  // ends the running loop; GM.startUp() starts again
+}
 
 void World::tick() {
-  if (m_in_tick || m_in_update || m_in_draw) return;
   const Scope scope(*this);
-  m_begun = true;
-  {
-    const During during(m_in_tick);
-    ++m_step_count;
-    learnNewcomers();
-    m_capture->clearPicture();
-    if (m_p_extras != nullptr) m_p_extras->beginTick();
-    if (!isPaused()) {
-      const EventStep step(m_compat ? m_step_count - 1 : m_step_count);
-      onEvent(&step);
-      if (m_p_extras != nullptr) m_p_extras->walkers.step();
-    }
-    if (!isPaused()) beginControlTick(*this);
-    drainInput();
-    if (!isPaused()) update();
-    drawObjects();
-    m_capture->finishView();
-    if (m_p_extras != nullptr) m_p_extras->endTick();
-  }
+  m_tick->run();
   finishShutDown();
 }
 
 void World::update() {
-  if (m_in_update) return;
   const Scope scope(*this);
-  m_begun = true;
-  {
-    const During during(m_in_update);
-    learnNewcomers();
-    m_mover->moveAll();
-    for (std::size_t i = 0; i < m_layers.size(); ++i) m_layers[i]->step(*this);  // handlers may add one
-    deleteMarked();
-    m_p_store->closeGaps();
-    m_p_store->age();
-  }
+  m_tick->update();
   finishShutDown();
-}
-
-void World::place(ObjectKey key, FixedVector where) {
-  m_mover->place(key, where);
 }
 
 void World::draw() {
-  if (m_in_tick || m_in_draw) return;
   const Scope scope(*this);
-  m_capture->clearPicture();
-  drawObjects();
+  m_tick->draw();
   finishShutDown();
 }
 
-void World::drawObjects() {
-  const During during(m_in_draw);
-  m_capture->drawAll();
+bool World::isDrawing() const {
+  return m_tick->isDrawing();
 }
 
 void World::run() {
   // A handler that ran the game would wait for ticks that cannot begin before it returns.
-  if (m_in_tick || m_in_update || m_in_draw) {
-    logOnce("GM.run() inside a handler does nothing: the game is running");
+  if (m_tick->isRunning()) {
+    m_log->writeOnce("GM.run() inside a handler does nothing: the game is running");
     return;
   }
   const Scope scope(*this);
-  m_begun = true;
-  if (m_p_runner != nullptr) {
-    m_p_runner->run(*this);
+  m_state.begun = true;
+  if (m_state.p_runner != nullptr) {
+    m_state.p_runner->run(*this);
     return;
   }
   // Many games show a title in a run of its own, which ends with the game over, and then run again.
-  if (isStarted(kGameHasRun)) m_game_over = false;
+  if (isStarted(kGameHasRun)) m_state.game_over = false;
   if (isStarted(kGameStarted)) setStarted(kGameHasRun, true);
   if (running::Program* p_program = program()) return p_program->run(*this);
-  while (!m_game_over) tick();
+  while (!m_state.game_over) tick();
+}
+
+running::Program* World::program() const {
+  return m_state.p_runner == nullptr && m_state.is_default ? running::program() : nullptr;
 }
 
 void World::setGameOver(bool game_over) {
-  if (game_over && m_game_over_leaves && m_input_player != 0) {
-    m_leavers.push_back(m_input_player);
-  } else {
-    m_game_over = game_over;
-  }
+  if (!game_over || !m_input->takeGameOver()) m_state.game_over = game_over;
 }
 
-void World::setSeed(std::uint64_t seed) {
-  m_seed = seed;
-  m_random = Random(seed);
+int World::drawCh(Vector world_pos, char32_t ch, Color color) {
+  const auto position = toFixed(world_pos);
+  if (!position || color < BLACK || color > WHITE) return m_log->refuse("DisplayManager", "drawCh");
+  m_picture->add(*position, ch, color);
+  return 0;
 }
 
-void World::setStarted(unsigned manager, bool started) {
-  m_started = started ? m_started | manager : m_started & ~manager;
+void World::drawFrame(std::uint32_t slot) {
+  m_picture->addFrame(slot);
 }
 
-// Events.
-
-int World::onEvent(const Event* p_event) {
-  if (p_event == nullptr) return 0;
-  if (&p_event->getType() == &UNDEFINED_EVENT)
-    logOnce("WM.onEvent() of a " + classNameOf(typeid(*p_event)) +
-            " without a type: setType() was forgotten");
-  const Scope scope(*this);
-  // Joins and leaves during a pause count when the game goes on.
-  const EventType& type = p_event->getType();
-  const bool stays = isPaused() && type != JOIN_EVENT && type != LEAVE_EVENT;
-  return m_interests->send(*p_event, stays ? Interests::kWhilePaused : Interests::kAll);
+Box World::getView() const {
+  return m_views->viewOf(m_views->player(m_input->player()));
 }
 
-bool World::deliver(ObjectKey key, const Event& event) {
-  const WorldStore& store = *m_p_store;
-  constexpr std::uint32_t kThere = WorldStore::kInWorld | WorldStore::kActive;
-  if (!store.isCurrent(key) || (store.flags(key.slot) & kThere) != kThere) return false;
-  if (store.hears(key.slot)) runHandler(key, *store.object(key.slot), event);
-  return true;
+WorldExtras& World::extras() {
+  return m_extras->get();
 }
 
-void World::learnNewcomers() {
-  for (const ObjectKey key : m_p_store->takeNewcomers()) {
-    if (m_p_store->isCurrent(key)) learnType(key.slot);
-  }
+WorldExtras* World::findExtras() const {
+  return m_extras->find();
 }
-
-// The constructors of Object could not know what is derived from it.
-void World::learnType(std::uint32_t slot) {
-  const Object& object = *m_p_store->object(slot);
-  if (m_p_page != nullptr) nameClass(slot);
-  m_p_store->set(slot, WorldStore::kTyped, true);
-  m_p_store->set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
-  const bool deaf = object.isDeaf();
-  m_p_store->set(slot, WorldStore::kDeaf, deaf);
-  if (deaf && !object.m_p_profile->interests.empty() && typeid(object) != typeid(Object)) {
-    logOnce(nameOf(object) +
-            " registers interest in events and has no eventHandler() that gets them: it must be declared "
-            "\"int eventHandler(const df::Event*) override\"");
-  }
-}
-
-// ---- what a report on a crash needs -----------------------------------------------------------------------
 
 void World::setActivityPage(ActivityPage* p_page) {
-  m_p_page = p_page;
-  m_p_activity = p_page != nullptr ? &p_page->now : m_own_activity.get();
-  m_named_event = 0;
-  if (p_page == nullptr) return;
-  const WorldStore::Walk walk(*m_p_store);
-  for (std::size_t i = 0; i < walk.size(); ++i) {
-    if (walk[i] != WorldStore::kNoSlot && m_p_store->has(walk[i], WorldStore::kTyped)) nameClass(walk[i]);
-  }
-  // Those that are sent without onEvent().
-  nameEvent(EventCollision());
-  nameEvent(EventOut());
+  m_log->setPage(p_page);
+  m_events->setPage(p_page);
 }
 
-void World::nameClass(std::uint32_t slot) {
-  const Object& object = *m_p_store->object(slot);
-  m_p_page->addName(classOf(object), typeid(object).name());
+void World::deliver(ObjectKey key, const Event& event) {
+  m_events->nameClassOf(event);
+  m_events->deliver(key, event);
 }
 
-void World::nameEvent(const Event& event) {
-  m_named_event = classOf(event);
-  m_p_page->addName(m_named_event, typeid(event).name());
+void World::setWalking(Object& object, bool walks) {
+  m_tick->walkers().set(object, walks);
 }
 
-void World::quarantine(ObjectKey key, const std::string& why) {
-  Object* p_o = find(key);
-  log("An object" + (p_o != nullptr ? " of type " + nameOf(*p_o) : std::string()) +
-      " failed and is taken out of the game: " + why);
-  if (p_o == nullptr) return;
-  p_o->setActive(false);
-  markForDelete(p_o);
+void World::noteSound(SoundPlayed sound) {
+  sound.player = m_input->player();
+  extras().noteSound(std::move(sound));
+}
+
+bool World::isPlaying(const std::string& label, bool music) {
+  return extras().isPlaying(label, music);
+}
+
+bool World::findFile(const std::string& kind, const std::string& filename) {
+  const Resources& resources = extras().resources;
+  if (resources.open(filename)) return true;
+  m_log->write(kind + ": " + filename + ": cannot be read" + resources.lookedIn(filename));
+  return false;
 }
 
 }  // namespace df

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 
 namespace df {
 
@@ -37,58 +37,26 @@ bool WorldExtras::isPlaying(const std::string& label, bool music) const {
                      [&](const SoundPlayed& sound) { return sound.music == music && sound.label == label; });
 }
 
-void WorldExtras::beginTick() {
+void WorldExtras::beginTick(int step_count) {
   notes.clear();
   sounds.clear();
   sounds_lost = 0;
   shake.step(random);
   rooms.beginTick();
-  scores.beginTick(static_cast<std::uint32_t>(world.getStepCount()));
+  scores.beginTick(static_cast<std::uint32_t>(step_count));
 }
 
-void WorldExtras::endTick() {
+void WorldExtras::endTick(bool paused) {
   if (!paused) animations.advance();
   scores.endTick();
 }
 
-void WorldExtras::reset() {
-  resources.clear();
-  settings = {};
-  shake = {};
-  sounds.clear();
-  sounds_lost = 0;
-  playing.clear();
-  notes.clear();
-  heard_player = 0;
-  background = BLACK;
-  view_slack = Vector(1.0 / 3, 1.0 / 3);
-  paused = false;
-  network_said = false;
-  connections = {};
-  input_filter = nullptr;
-  random = Random(0xD6A60);
-  clock = 0;
-}
-
-WorldExtras& World::extras() {
-  if (m_p_extras == nullptr) m_p_extras = std::make_unique<WorldExtras>(*this);
+WorldExtras& LazyExtras::get() {
+  if (m_p_extras == nullptr) {
+    m_p_extras = std::make_unique<WorldExtras>(m_store, m_log, m_state);
+    m_log.setFile(&m_p_extras->settings.logfile);
+  }
   return *m_p_extras;
-}
-
-void World::addResourceFolder(std::string folder) {
-  extras().resources.addFolder(std::move(folder));
-}
-
-void World::setPaused(bool paused) {
-  if (paused != isPaused()) extras().paused = paused;
-}
-
-bool World::isPaused() const {
-  return m_p_extras != nullptr && m_p_extras->paused;
-}
-
-void World::noteSound(SoundPlayed sound) {
-  extras().noteSound(std::move(sound));
 }
 
 }  // namespace df

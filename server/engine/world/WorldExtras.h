@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,39 +17,16 @@
 #include "engine/world/ScoreTables.h"
 #include "engine/world/Settings.h"
 #include "engine/world/Shaking.h"
-#include "engine/world/Walkers.h"
 #include "engine/world/WorldView.h"
 
 namespace df {
 
-class World;
+class WorldLog;
+class WorldStore;
+struct WorldState;
 
-struct WorldExtras {
-  explicit WorldExtras(World& the_world) : world(the_world), resources(the_world) {}
-
-  /// The world has begun a tick.
-  void beginTick();
-  /// A sound or music began, paused or stopped.
-  void noteSound(SoundPlayed sound);
-  /// A line for all players to read.
-  void addNote(std::string line);
-  /// Does it go on again and again?
-  bool isPlaying(const std::string& label, bool music) const;
-  /// The tick is over, drawn and all.
-  void endTick();
-  /// As at the beginning. Sprites live on as long as the world, for Objects may still show them.
-  void reset();
-  /// Numbers for what is only seen, so that WM.randomInt() gives the same with it and without.
-  Random& decoration() { return random; }
-
-  static constexpr std::size_t kMaxSounds = 256;  ///< in a tick; more are only counted
-  static constexpr std::size_t kMaxNotes = 4;     ///< in a tick
-  static constexpr std::size_t kMaxPlaying = 16;  ///< repeating; the oldest makes room
-
-  World& world;
-  Resources resources;
-  Animations animations;
-  Walkers walkers;
+/// The part that World::shutDown() sets back.
+struct RoundExtras {
   ConfigSettings settings;
   Shaking shake;
   std::vector<SoundPlayed> sounds;  ///< of this tick
@@ -59,16 +37,62 @@ struct WorldExtras {
   std::uint32_t heard_player = 0;
   Color background = BLACK;
   Vector view_slack{1.0 / 3, 1.0 / 3};  ///< as asked for; it has no effect
-  bool paused = false;
-  bool network_said = false;  ///< that there are no sockets
+  bool network_said = false;            ///< that there are no sockets
   Connections connections;
-  ScoreTables scores;  ///< they stay through reset()
-  RoomTable rooms;     ///< the same
   /// Gets each key, mouse event and leave before the game does, and null before the inputs of a tick. Returns
   /// true if the game is not to get it.
   std::function<bool(const Event*)> input_filter;
   Random random{0xD6A60};
   std::int64_t clock = 0;  ///< what a Clock read last, in microseconds of game time
+};
+
+struct WorldExtras : RoundExtras {
+  WorldExtras(WorldStore& store, WorldLog& log, const WorldState& state)
+      : resources(log, state), animations(store) {}
+
+  /// The world has begun this tick.
+  void beginTick(int step_count);
+  /// A sound or music began, paused or stopped.
+  void noteSound(SoundPlayed sound);
+  /// A line for all players to read.
+  void addNote(std::string line);
+  /// Does it go on again and again?
+  bool isPlaying(const std::string& label, bool music) const;
+  /// The tick is over, drawn and all.
+  void endTick(bool paused);
+  /// As at the beginning, but for scores and rooms. Sprites live on as long as the world, for Objects may
+  /// still show them.
+  void reset() {
+    resources.clear();
+    static_cast<RoundExtras&>(*this) = RoundExtras();
+  }
+  /// Numbers for what is only seen, so that WM.randomInt() gives the same with it and without.
+  Random& decoration() { return random; }
+
+  static constexpr std::size_t kMaxSounds = 256;  ///< in a tick; more are only counted
+  static constexpr std::size_t kMaxNotes = 4;     ///< in a tick
+  static constexpr std::size_t kMaxPlaying = 16;  ///< repeating; the oldest makes room
+
+  Resources resources;
+  Animations animations;
+  ScoreTables scores;
+  RoomTable rooms;
+};
+
+/// The WorldExtras of a world, made at first use.
+class LazyExtras {
+ public:
+  LazyExtras(WorldStore& store, WorldLog& log, const WorldState& state)
+      : m_store(store), m_log(log), m_state(state) {}
+  WorldExtras& get();
+  /// Null before the first get().
+  WorldExtras* find() const { return m_p_extras.get(); }
+
+ private:
+  WorldStore& m_store;
+  WorldLog& m_log;
+  const WorldState& m_state;
+  std::unique_ptr<WorldExtras> m_p_extras;
 };
 
 }  // namespace df

@@ -1,18 +1,16 @@
-// The part of World that logs.
+#include "engine/world/WorldLog.h"
 
 #include <cstring>
 
 #include "engine/world/ActivityPage.h"
 #include "engine/world/LogFile.h"
 #include "engine/world/Settings.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldExtras.h"
 
 namespace df {
 
 namespace {
 
-/// Different lines of logOnce(). A game that makes up names by the thousand fills no memory.
+/// Different lines of writeOnce(). A game that makes up names by the thousand fills no memory.
 constexpr std::size_t kMaxLogged = 500;
 
 /// What a setter would have taken.
@@ -37,28 +35,37 @@ const char* rightFor(const char* what) {
 
 }  // namespace
 
-void World::log(const std::string& line) const {
+void WorldLog::write(const std::string& line) const {
   if (m_p_page != nullptr) m_p_page->addLine(line);
-  if (m_log_sink) {
-    m_log_sink(line);
+  if (m_sink) {
+    m_sink(line);
   } else {
-    writeToLogFile(m_p_extras != nullptr ? m_p_extras->settings.logfile : LOGFILE_DEFAULT, line, m_log_flush);
+    writeToLogFile(m_p_file != nullptr ? *m_p_file : LOGFILE_DEFAULT, line, m_flush);
   }
 }
 
-void World::logOnce(const std::string& line) const {
-  if (m_logged.size() < kMaxLogged && m_logged.insert(line).second) log(line);
+bool WorldLog::isNew(const std::string& line) {
+  return m_once.size() < kMaxLogged && m_once.insert(line).second;
 }
 
-void World::noteOnce(const std::string& line) const {
-  if (m_p_page != nullptr && m_logged.size() < kMaxLogged && m_logged.insert(line).second)
-    m_p_page->addLine(line);
+void WorldLog::writeOnce(const std::string& line) {
+  if (isNew(line)) write(line);
 }
 
-void World::refuse(const std::string& type, const char* what) {
+void WorldLog::noteOnce(const std::string& line) {
+  if (m_p_page != nullptr && isNew(line)) m_p_page->addLine(line);
+}
+
+int WorldLog::refuse(const std::string& type, const char* what) {
   ++m_refusals;
-  logOnce("Refused: " + std::string(what) + " of " + type + ": " + rightFor(what) +
-          " (further ones are only counted)");
+  writeOnce("Refused: " + std::string(what) + " of " + type + ": " + rightFor(what) +
+            " (further ones are only counted)");
+  return -1;
+}
+
+void WorldLog::clear() {
+  m_once.clear();
+  m_refusals = 0;
 }
 
 }  // namespace df

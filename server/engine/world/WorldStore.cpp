@@ -4,14 +4,12 @@
 #include <cassert>
 #include <utility>
 
-#include "engine/world/Object.h"
-
 namespace df {
 
 namespace {
 
-constexpr std::uint32_t kWhileInWorld =
-    WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kReported | WorldStore::kFollowed;
+constexpr std::uint32_t kWhileInWorld = WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kLookKept |
+                                        WorldStore::kReported | WorldStore::kFollowed;
 // A turn with one of these has more to it than position += velocity.
 constexpr std::uint32_t kOptions =
     WorldStore::kSwept | WorldStore::kPrecise | WorldStore::kRestContacts | WorldStore::kMayMoveOut;
@@ -236,7 +234,7 @@ const std::shared_ptr<const naiad::Look>& WorldStore::frames(Slot s) const {
 }
 
 const Mask* WorldStore::spriteMask(Slot s) const {
-  return m_cards[s].p_object->spriteMask();
+  return spriteMaskOf(*m_cards[s].p_object);
 }
 
 void WorldStore::settleChanged(Slot s, FixedVector velocity, bool blocked) {

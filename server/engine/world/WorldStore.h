@@ -36,6 +36,10 @@ namespace df {
 class Object;
 class World;
 
+/// The mask of the sprite's frame that shows, if it is drawn where the Object's box is; else null. Defined
+/// with Object, of which the store knows pointers only.
+const Mask* spriteMaskOf(const Object& object);
+
 class WorldStore : public ObjectFlags {
  public:
   using Slot = std::uint32_t;
@@ -179,27 +183,13 @@ class WorldStore : public ObjectFlags {
   void setAllSwept(bool all_swept);
   bool isAllSwept() const { return m_all_swept; }
 
-  // The options beyond the book, as they count: an engine that is built without them (NAIAD_WITHOUT_LAYERS)
-  // has the setters, but nothing of this.
+  // The options beyond the book, as they count (kLayers).
 
-#if defined(NAIAD_WITHOUT_LAYERS)
-  static constexpr bool kLayers = false;
-#else
-  static constexpr bool kLayers = true;
-#endif
-  bool isSwept(Slot s) const {
-    return kLayers && (m_all_swept || has(s, kSwept));
-  }
-  bool testsAtRest(Slot s) const {
-    return kLayers && has(s, kRestContacts);
-  }
-  bool mayMoveOut(Slot s) const {
-    return kLayers && has(s, kMayMoveOut);
-  }
+  bool isSwept(Slot s) const { return kLayers && (m_all_swept || has(s, kSwept)); }
+  bool testsAtRest(Slot s) const { return kLayers && has(s, kRestContacts); }
+  bool mayMoveOut(Slot s) const { return kLayers && has(s, kMayMoveOut); }
   /// Are any Objects precise?
-  bool hasPrecise() const {
-    return kLayers && m_precise > 0;
-  }
+  bool hasPrecise() const { return kLayers && m_precise > 0; }
 
   /// Move up to `count` fliers, from slot `first` on, by their velocities; stop at the first that would
   /// leave `boundary`. Return how many were moved.
@@ -220,21 +210,16 @@ class WorldStore : public ObjectFlags {
   /// The same for the target of a move. But where they are many, and neither the mover nor any of them hears
   /// of it, none is listed, and it returns whether the move happens.
   std::optional<bool> touchingTarget(Slot mover, const FixedBox& target, std::vector<ObjectKey>& out) const;
-  const Grid& grid() const {
-    return m_grid;
-  }
+  const Grid& grid() const { return m_grid; }
   /// What has been done so far.
-  MoverStats& moverStats() {
-    return m_grid.moverStats();
-  }
+  MoverStats& moverStats() { return m_grid.moverStats(); }
 
   // Changes, for hosts.
 
-  /// Note changes from now on, beginning with all Objects.
+  /// Note changes from now on, beginning with all Objects, and fill the WorldView in every tick. Unwatched,
+  /// only what was drawn is kept.
   void setWatched(bool watched);
-  bool isWatched() const {
-    return m_watched;
-  }
+  bool isWatched() const { return m_watched; }
   /// Move what has changed since the last call into `view`.
   void report(WorldView& view);
   ObjectFacts facts(Slot s) const;
@@ -257,9 +242,7 @@ class WorldStore : public ObjectFlags {
   };
   static_assert(sizeof(Card) == 32);
 
-  ~WorldStore() {
-    assert(m_p_world == nullptr);
-  }  // the world holds a reference
+  ~WorldStore() { assert(m_p_world == nullptr); }  // the world holds a reference
   static bool within(FixedVector v, double cells) {
     const auto limit = static_cast<Fixed>(cells * static_cast<double>(kFixedOne));
     return v.x >= -limit && v.x <= limit && v.y >= -limit && v.y <= limit;

@@ -1,7 +1,7 @@
 // What a tick changed, as plain data: all that a host reads of a world.
 //
-// The engine fills a WorldView at the end of every tick while the world is watched (World::setWatched) and
-// spends nothing on it otherwise. It holds no pointers into the world, so it could cross a process
+// The engine fills a WorldView at the end of every tick while the world is watched (WorldStore::setWatched)
+// and spends nothing on it otherwise. It holds no pointers into the world, so it could cross a process
 // boundary. The engine does not depend on its readers.
 #pragma once
 

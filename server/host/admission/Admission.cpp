@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/world/Views.h"
 #include "host/process/TickClock.h"
 #include "host/session/Names.h"
 #include "naiad.pb.h"
@@ -511,8 +512,8 @@ void Admission::describeRoom(const Room& room, wire::Welcome& welcome) const {
   welcome.set_tick(room.tick());
   welcome.set_game(p_plan != nullptr ? p_plan->game : m_setup.context.game);
   welcome.set_room(p_plan != nullptr ? p_plan->name : "");
-  const int width = p_plan != nullptr ? p_plan->ready.window_width : m_p_world->getWindowWidth();
-  const int height = p_plan != nullptr ? p_plan->ready.window_height : m_p_world->getWindowHeight();
+  const int width = p_plan != nullptr ? p_plan->ready.window_width : m_p_world->views().width();
+  const int height = p_plan != nullptr ? p_plan->ready.window_height : m_p_world->views().height();
   welcome.set_view_width(static_cast<std::uint32_t>(width));
   welcome.set_view_height(static_cast<std::uint32_t>(height));
   welcome.clear_help();

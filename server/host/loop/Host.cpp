@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "engine/managers/GameManager.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/loop/HostClients.h"
@@ -119,7 +121,7 @@ void Host::beginGame(df::World& world) {
 
 void Host::endGame(df::World& world) {
   m_clients->rooms().clear();
-  world.setGameOverLeaves(false);
+  world.input().setGameOverLeaves(false);
   crash::clearWorld(world);
   m_p_world = nullptr;
 }
@@ -132,7 +134,7 @@ void Host::adoptSettings(df::World& world) {
     const int millis = std::min(p_extras->settings.frame_time, kLongestFrameMillis);
     if (options.frame_micros == 0 && millis != df::FRAME_TIME_DEFAULT) options.frame_micros = millis * 1000;
   }
-  world.setGameOverLeaves(options.on_game_over != "exit");
+  world.input().setGameOverLeaves(options.on_game_over != "exit");
   if (world.compat())
     m_context->log("compat is on: the published engine's rules where they differ from the book's");
 }
@@ -195,7 +197,7 @@ void Host::tick(Watchdog& watchdog) {
 
 // The game's code runs in here alone, unless it is in processes of its own.
 void Host::tickWorlds(Watchdog& watchdog) {
-  const std::uint64_t number = m_p_world->view().tick + 1;
+  const std::uint64_t number = m_p_world->picture().view().tick + 1;
   watchdog.beginTick(number);
   crash::noteTick(number);
   m_clients->rooms().beginTicks();

@@ -17,6 +17,8 @@
 #include "engine/managers/Config.h"
 #include "engine/world/LogFile.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 #include "host/auth/Seed.h"
 #include "host/loop/Host.h"
 #include "host/loop/HostClients.h"
@@ -97,8 +99,8 @@ void addFolders(df::World& world) {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   if (error) return;
-  world.addResourceFolder(folder.string());
-  world.addResourceFolder(folder.parent_path().string());
+  world.extras().resources.addFolder(folder.string());
+  world.extras().resources.addFolder(folder.parent_path().string());
 }
 
 /// On the usual port; if that is taken and no option asked for it, on any free one.
@@ -127,7 +129,7 @@ void addToHelp(df::World& world, const std::vector<std::string>& lines) {
 class TerminalPlayer {
  public:
   TerminalPlayer(Host& host, const HostOptions& options, const std::string& log_file,
-                 const df::World::LogSink& log)
+                 const df::WorldLog::Sink& log)
       : m_host(host), m_log(log) {
     if (!options.local_client || !LocalClient::hasTerminal()) return;
     const auto program = LocalClient::findProgram();
@@ -169,7 +171,7 @@ class TerminalPlayer {
   }
 
   Host& m_host;
-  df::World::LogSink m_log;
+  df::WorldLog::Sink m_log;
   std::optional<LocalClient> m_client;
   bool m_local_left = false;
 };
@@ -179,11 +181,11 @@ class WatchedLog {
  public:
   WatchedLog(df::World& world, Host& host) : m_world(world) {
     const LogLine log = host.context().feed.watchedGame([&world](const std::string& line) {
-      df::writeToLogFile(df::Config::getInstance().getLogFile(), line, world.getLogFlush());
+      df::writeToLogFile(df::Config::getInstance().getLogFile(), line, world.log().flush());
     });
-    world.setLogSink([log](const std::string& line) { log(line); });
+    world.log().setSink([log](const std::string& line) { log(line); });
   }
-  ~WatchedLog() { m_world.setLogSink({}); }
+  ~WatchedLog() { m_world.log().setSink({}); }
   WatchedLog(const WatchedLog&) = delete;
   WatchedLog& operator=(const WatchedLog&) = delete;
 
@@ -244,8 +246,8 @@ void ProgramHost::startUp(df::World& world) {
   if (!m_options.headless) surviveBrokenPipes();
   addFolders(world);
   seed(world);
-  world.log("Naiad " + std::string(kVersion) + ", compat " + (world.compat() ? "on" : "off") +
-            (m_options.headless ? ", headless" : ""));
+  world.log().write("Naiad " + std::string(kVersion) + ", compat " + (world.compat() ? "on" : "off") +
+                    (m_options.headless ? ", headless" : ""));
 }
 
 // random_seed is for rand(): 0 takes the time, -1 leaves it alone. The engine's own random numbers differ
@@ -258,7 +260,7 @@ void ProgramHost::seed(df::World& world) const {
   if (!wanted && m_options.headless && random_seed < 0) return;
   if (!wanted) seed = newSeed();
   world.setSeed(seed);
-  world.log("seed " + std::to_string(seed));
+  world.log().write("seed " + std::to_string(seed));
   if (wanted || random_seed == 0) std::srand(static_cast<unsigned>(seed));
 }
 
@@ -292,7 +294,9 @@ void ProgramHost::serve(df::World& world) {
   std::optional<LineLog> lines;
   if (!m_options.log_file.empty() || !LocalClient::hasTerminal()) lines.emplace(m_options.log_file);
   // What the game itself logs goes to its own file, as ever.
-  const Host::Log log = [&](const LogEvent& event) { lines ? (*lines)(event) : world.log(event.text); };
+  const Host::Log log = [&](const LogEvent& event) {
+    lines ? (*lines)(event) : world.log().write(event.text);
+  };
   std::shared_ptr<const WorldLauncher> launcher;
   if (wantsWorlds(m_options))
     launcher = launchProgram(m_options, df::Config::getInstance().getLogFile(), log);

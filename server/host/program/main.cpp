@@ -12,6 +12,7 @@
 
 #include "engine/managers/GameManager.h"
 #include "engine/managers/LogManager.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/auth/Seed.h"
@@ -92,10 +93,12 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
   const auto given = naiad::takeWorldSeed();
   if (given) options.seed = static_cast<std::int64_t>(*given);
   if (options.seed == 0) options.seed = static_cast<std::int64_t>(naiad::newSeed());
-  for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
+  for (const std::string& folder : game.resourceFolders())
+    df::World::current().extras().resources.addFolder(folder);
   const Installed installed(runner, game_log);
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
-  for (const std::string& folder : game.resourceFolders()) df::World::current().addResourceFolder(folder);
+  for (const std::string& folder : game.resourceFolders())
+    df::World::current().extras().resources.addFolder(folder);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
       std::to_string(options.seed));
   return play(game);
@@ -110,7 +113,7 @@ void announce(const naiad::HostOptions& options, const naiad::Host& host) {
 
 /// The world of which players see the size and the help when they join; no game ticks in it.
 void setUp(df::World& world, const naiad::WorldReady& ready) {
-  world.setWindow(ready.window_width, ready.window_height);
+  world.views().setWindow(ready.window_width, ready.window_height);
   world.setCompat(ready.compat);
   world.setHelp(ready.help);
   world.extras().settings.frame_time = ready.frame_millis;

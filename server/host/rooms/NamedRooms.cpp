@@ -18,7 +18,7 @@ constexpr std::uint32_t kRoomsEvery = 15;  ///< ticks between two looks at what 
 
 df::GameRoom gameRoomOf(const Room& room) {
   return {.name = room.plan()->name,
-          .game = room.plan()->game.substr(0, df::GameRooms::kMaxGame),
+          .game = room.plan()->game.substr(0, df::GameRoomLimits::kMaxGame),
           .players = static_cast<int>(room.countPlaying()),
           .max_players = room.plan()->max_players,
           .is_asleep = room.isAsleep()};

@@ -21,7 +21,7 @@ ScoreKeeper::ScoreKeeper(const std::filesystem::path& folder, std::string game, 
   if (folder.empty()) return;
   m_store = std::make_unique<ScoreStore>(folder / kScoreFile, std::move(game));
   try {
-    for (const ScoreRow& row : m_store->best("", df::HighScores::kMaxRows)) {
+    for (const ScoreRow& row : m_store->best("", df::HighScoreLimits::kMaxRows)) {
       m_tables.keep(row.table, row.name, row.points);
       m_loaded.insert({row.round, row.tick, row.number});
     }

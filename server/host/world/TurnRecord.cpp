@@ -27,10 +27,10 @@ void visitSeen(F& f, T& seen) {
 
 template <class F, class T>
 void visitRoom(F& f, T& room) {
-  f.text(room.name, df::GameRooms::kMaxName);
-  f.text(room.game, df::GameRooms::kMaxGame);
-  f.number(room.players, 0, df::GameRooms::kMaxPlayers);
-  f.number(room.max_players, 0, df::GameRooms::kMaxPlayers);
+  f.text(room.name, df::GameRoomLimits::kMaxName);
+  f.text(room.game, df::GameRoomLimits::kMaxGame);
+  f.number(room.players, 0, df::GameRoomLimits::kMaxPlayers);
+  f.number(room.max_players, 0, df::GameRoomLimits::kMaxPlayers);
   f.flag(room.is_asleep);
   f.flag(room.is_this_one);
 }

@@ -1,24 +1,27 @@
 #include "host/world/WorldInProcess.h"
 
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/StateHash.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldStore.h"
 
 namespace naiad {
 
 void applyTurn(const WorldTurn& turn, df::World& world) {
-  for (const df::InputQueue::Input& input : turn.inputs) world.inputs().push(input);
+  for (const df::InputQueue::Input& input : turn.inputs) world.input().push(input);
   if (turn.heard_player != 0 || world.findExtras() != nullptr) {
     world.extras().heard_player = turn.heard_player;
   }
   if (turn.ends_game) world.setGameOver();
-  world.setWatched(turn.watched);
+  world.store().setWatched(turn.watched);
 }
 
 WorldAnswer takeAnswer(const WorldTurn& turn, df::World& world) {
   WorldAnswer answer;
   answer.game_over = world.isGameOver();
-  answer.leavers = world.takeLeavers();
+  answer.leavers = world.input().takeLeavers();
   answer.has_view = turn.watched;
   if (df::WorldExtras* p_extras = world.findExtras()) {
     answer.scores = p_extras->scores.takeAdded();
@@ -26,16 +29,16 @@ WorldAnswer takeAnswer(const WorldTurn& turn, df::World& world) {
   }
   if (turn.checked) answer.state_hash = df::hashState(world);
   if (turn.watched && turn.wants_truth) {
-    for (const df::PlayerFacts& player : world.view().players) {
+    for (const df::PlayerFacts& player : world.picture().view().players) {
       if (turn.pictured != 0 && turn.pictured != player.id) continue;
-      answer.pictures.push_back({player.id, world.renderPlayer(player.id)});
+      answer.pictures.push_back({player.id, world.picture().renderPlayer(player.id)});
     }
   }
   return answer;
 }
 
 WorldInProcess::~WorldInProcess() {
-  m_world.setLagCompensation(nullptr);
+  m_world.input().setLagCompensation(nullptr);
 }
 
 void WorldInProcess::tick(const SentTurn& turn) {
@@ -51,20 +54,21 @@ std::uint32_t WorldInProcess::nextTick() const {
 }
 
 const df::WorldView& WorldInProcess::view() const {
-  return m_world.view();
+  return m_world.picture().view();
 }
 
 // A game that does not use lag compensation needs no memory for it.
 void WorldInProcess::notePublished(const Publisher& publisher) {
-  if (m_world.isLookingBack() != m_lag_compensator.has_value()) {
-    m_world.isLookingBack() ? static_cast<void>(m_lag_compensator.emplace()) : m_lag_compensator.reset();
-    m_world.setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);
+  if (m_world.input().isLookingBack() != m_lag_compensator.has_value()) {
+    m_world.input().isLookingBack() ? static_cast<void>(m_lag_compensator.emplace())
+                                    : m_lag_compensator.reset();
+    m_world.input().setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);
   }
-  if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.view());
+  if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.picture().view());
 }
 
 std::optional<std::uint32_t> WorldInProcess::takeInput(const df::InputQueue::Input& input) {
-  return m_world.inputs().push(input);
+  return m_world.input().push(input);
 }
 
 void WorldInProcess::endGame() {

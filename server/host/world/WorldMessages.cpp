@@ -95,14 +95,14 @@ template <class F, class T>
 void visitAnswer(F& f, T& answer) {
   f.flag(answer.game_over);
   f.list(answer.leavers, kMaxViewPlayers, [](F& in, auto& leaver) { in.number(leaver); });
-  f.list(answer.scores, df::HighScores::kMaxAddedInTick, [](F& in, auto& added) {
+  f.list(answer.scores, df::HighScoreLimits::kMaxAddedInTick, [](F& in, auto& added) {
     visitScore(in, added.table, added.score.name, added.score.points);
     in.number(added.tick);
     in.number(added.number, 0, df::ScoreTables::kMaxNumber);
   });
-  f.list(answer.sent, df::GameRooms::kMaxSentInTick, [](F& in, auto& sent) {
+  f.list(answer.sent, df::GameRoomLimits::kMaxSentInTick, [](F& in, auto& sent) {
     in.number(sent.player);
-    in.text(sent.room, df::GameRooms::kMaxName);
+    in.text(sent.room, df::GameRoomLimits::kMaxName);
   });
   f.list(answer.pictures, kMaxViewPlayers, [](F& in, auto& picture) {
     in.number(picture.player);

@@ -51,8 +51,8 @@ struct WorldAnswer {
   bool has_view = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
   std::vector<WorldPicture> pictures;       ///< by player
-  std::vector<df::AddedScore> scores = {};  ///< at most HighScores::kMaxAddedInTick
-  std::vector<df::SentPlayer> sent = {};    ///< at most GameRooms::kMaxSentInTick
+  std::vector<df::AddedScore> scores = {};  ///< at most HighScoreLimits::kMaxAddedInTick
+  std::vector<df::SentPlayer> sent = {};    ///< at most GameRoomLimits::kMaxSentInTick
   std::uint64_t hash = 0;                   ///< of its bytes, for who has read them; 0: there is none
 };
 
@@ -62,9 +62,9 @@ struct WorldAnswer {
 // Parts of records (TurnRecord.h), too.
 template <class F, class Text, class Number>
 void visitScore(F& f, Text& table, Text& name, Number& points) {
-  f.text(table, df::HighScores::kMaxTableName);
+  f.text(table, df::HighScoreLimits::kMaxTableName);
   f.text(name, kMaxNameBytes);
-  f.number(points, -df::HighScores::kMaxPoints, df::HighScores::kMaxPoints);
+  f.number(points, -df::HighScoreLimits::kMaxPoints, df::HighScoreLimits::kMaxPoints);
 }
 void visitPicture(FieldWriter& out, const df::Canvas& canvas);
 void visitPicture(FieldReader& in, df::Canvas& canvas);

@@ -5,8 +5,13 @@
 
 #include <cerrno>
 
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 #include "host/world/FixedStart.h"
 #include "host/world/Repeatable.h"
 #include "host/world/WorldInProcess.h"
@@ -28,8 +33,8 @@ bool receiveAll(int socket, char* to, std::size_t count) {
 
 WorldReady readyOf(const df::World& world) {
   WorldReady ready;
-  ready.window_width = world.getWindowWidth();
-  ready.window_height = world.getWindowHeight();
+  ready.window_width = world.views().width();
+  ready.window_height = world.views().height();
   if (const df::WorldExtras* p_extras = world.findExtras()) {
     ready.frame_millis = p_extras->settings.frame_time;
     ready.runs_empty = p_extras->settings.runs_empty;
@@ -72,14 +77,14 @@ bool WorldServer::send(const std::string& frame) const {
 }
 
 void WorldServer::run(df::World& world) {
-  world.setGameOverLeaves(m_leaves);
+  world.input().setGameOverLeaves(m_leaves);
   writeReady(readyOf(world), m_frame);
   bool goes_on = send(m_frame);
   for (std::string fields; goes_on && receive(fields);) {
     bool copied = false;
     const auto turn = readTurnMessage(fields, m_turns, copied);
     if (!turn) {
-      world.log("The host sent a malformed turn; the game is over.");
+      world.log().write("The host sent a malformed turn; the game is over.");
       break;
     }
     updateLagCompensation(*turn, world);
@@ -90,7 +95,7 @@ void WorldServer::run(df::World& world) {
     if (goes_on && copied) makeCopy();
   }
   world.setGameOver();
-  world.setLagCompensation(nullptr);
+  world.input().setLagCompensation(nullptr);
   close();
 }
 
@@ -100,22 +105,23 @@ void WorldServer::makeCopy() {
 }
 
 void WorldServer::updateLagCompensation(const WorldTurn& turn, df::World& world) {
-  const bool wanted = turn.watched && world.isLookingBack();
+  const bool wanted = turn.watched && world.input().isLookingBack();
   if (wanted == m_publisher.has_value()) return;
   wanted ? static_cast<void>(m_publisher.emplace()) : m_publisher.reset();
   m_lag_compensator = LagCompensator();
-  world.setLagCompensation(wanted ? &m_lag_compensator : nullptr);
-  world.setWatched(false);  // the next view has every Object as changed
+  world.input().setLagCompensation(wanted ? &m_lag_compensator : nullptr);
+  world.store().setWatched(false);  // the next view has every Object as changed
 }
 
 bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   if (m_publisher) {
-    m_publisher->update(world.view());
-    m_lag_compensator.recordTick(*m_publisher, world.view());
+    m_publisher->update(world.picture().view());
+    m_lag_compensator.recordTick(*m_publisher, world.picture().view());
   }
-  if (!writeAnswer(takeAnswer(turn, world), turn.watched ? &world.view() : nullptr, m_views, m_frame)) {
-    world.log("The world does not fit in a frame of " + std::to_string(kMaxWorldFrame) +
-              " bytes; the game is over. dfserver --in-process has no such bound.");
+  if (!writeAnswer(takeAnswer(turn, world), turn.watched ? &world.picture().view() : nullptr, m_views,
+                   m_frame)) {
+    world.log().write("The world does not fit in a frame of " + std::to_string(kMaxWorldFrame) +
+                      " bytes; the game is over. dfserver --in-process has no such bound.");
     return false;
   }
   return send(m_frame);

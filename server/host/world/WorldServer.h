@@ -15,7 +15,7 @@ namespace naiad {
 class WorldServer : public df::Runner {
  public:
   /// `socket`: from takeWorldSocket(), closed by this; below 0: run() ends at once. `leaves`: a player whose
-  /// key ends the game leaves it (World::setGameOverLeaves).
+  /// key ends the game leaves it (InputQueue::setGameOverLeaves).
   WorldServer(int socket, bool leaves) : m_socket(socket), m_leaves(leaves) {}
   ~WorldServer() override;
   WorldServer(const WorldServer&) = delete;

@@ -5,6 +5,7 @@
 
 #include "engine/world/ClassName.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyLayer.h"
 #include "physics/body/BodyLimits.h"
@@ -41,8 +42,8 @@ BodyRow& Body::row() const {
 }
 
 int Body::refuseAs(const char* what) const {
-  if (World* p_world = getWorld()) p_world->refuse(nameOf(*this), what);
-  return -1;
+  const World* p_world = getWorld();
+  return p_world != nullptr ? p_world->log().refuse(nameOf(*this), what) : -1;
 }
 
 void Body::absorb() const {

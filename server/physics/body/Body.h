@@ -13,7 +13,7 @@
 // or a position that is set from outside is taken over in the next tick.
 //
 // Setters return 0, or -1 for numbers that are not finite or out of range: then nothing changes, and the
-// world counts it (World::getRefusals).
+// world counts it (WorldLog::refusals).
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "engine/world/EventCollision.h"
-#include "engine/world/InterestDispatch.h"
+#include "engine/world/EventDispatch.h"
+#include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/Body.h"
 #include "physics/body/EventContactEnd.h"
@@ -24,12 +25,12 @@ bool hearsEnds(const WorldStore& store, ObjectKey key) {
 void sendContactEnd(World& world, const BodyContact& contact) {
   const WorldStore& store = world.store();
   const df::EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
-  world.nameClassOf(event);
+  world.events().nameClassOf(event);
   if (hearsEnds(store, contact.first)) {
-    world.runHandler(contact.first, *event.getObject1(), event);
+    world.events().runHandler(contact.first, *event.getObject1(), event);
     if (!store.isStill(contact.first) || !store.isStill(contact.second)) return;
   }
-  if (hearsEnds(store, contact.second)) world.runHandler(contact.second, *event.getObject2(), event);
+  if (hearsEnds(store, contact.second)) world.events().runHandler(contact.second, *event.getObject2(), event);
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ void sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
     df::EventCollision event(store.object(slot), store.object(contact.second.slot),
                              Vector::fromFixed(store.position(slot)));
     event.setImpulse(contact.impulse);
-    sendToBoth(world, contact.first, contact.second, event);
+    world.events().sendToBoth(contact.first, contact.second, event);
   }
 }
 

@@ -5,8 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "engine/world/Mover.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyEvents.h"
 #include "physics/body/BodyFlight.h"
@@ -33,7 +35,7 @@ BodyLayer& BodyLayer::of(World& world) {
 
 void placeMoved(World& world, const std::vector<MovedObject>& all) {
   for (const MovedObject& moved : all) {
-    if (takesPart(world.store(), moved.key)) world.place(moved.key, moved.where);
+    if (takesPart(world.store(), moved.key)) world.mover().place(moved.key, moved.where);
   }
 }
 
@@ -325,8 +327,8 @@ void BodyLayer::limit(World& world, State& state) {
 // Once in the log.
 void BodyLayer::countLimited(World& world, const State& state) {
   if (++m_table->counters.limited > 1) return;
-  const Object* p_object = world.find(state.key);
-  world.log(
+  const Object* p_object = world.store().find(state.key);
+  world.log().write(
       "physics: a " + (p_object != nullptr ? p_object->getType() : "body") +
       " is faster or farther away than a world can hold, and is held back; further ones are only counted");
 }
@@ -374,7 +376,8 @@ void BodyLayer::logCrowd(World& world) {
       m_rigid_world.hasThinned() || m_substep_world.hasThinned() || m_heap_world.hasThinned();
   if (m_has_logged_crowd || !is_crowded) return;
   m_has_logged_crowd = true;
-  world.log("physics: too many bodies in one place: some pass through one another until there is room");
+  world.log().write(
+      "physics: too many bodies in one place: some pass through one another until there is room");
 }
 
 // It stands where it is, so that nothing of it spreads.
@@ -389,8 +392,9 @@ void BodyLayer::quarantine(World& world, State& state, const char* p_why) {
   state.acceleration = {};
   if (std::as_const(*m_table).form(state.index).spin != 0) m_table->form(state.index).spin = 0;
   publish(world, state, row, {});
-  const Object* p_object = world.find(row.key);
-  world.log("physics: a " + (p_object != nullptr ? p_object->getType() : "body") + " is frozen: " + p_why);
+  const Object* p_object = world.store().find(row.key);
+  world.log().write("physics: a " + (p_object != nullptr ? p_object->getType() : "body") +
+                    " is frozen: " + p_why);
 }
 
 }  // namespace naiad::physics

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/BodyLayer.h"
 #include "physics/body/BodyLimits.h"
 
@@ -36,8 +37,7 @@ PhysicsManager& PhysicsManager::getInstance() {
 }
 
 int PhysicsManager::refuseAs(const char* what) const {
-  World::current().refuse(getType(), what);
-  return -1;
+  return World::current().log().refuse(getType(), what);
 }
 
 int PhysicsManager::setGravity(Vector gravity) {

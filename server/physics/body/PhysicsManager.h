@@ -29,7 +29,7 @@ enum Accuracy {
 
 /// Like all managers it works on the current world and holds no state of its own. Setters return 0, or -1 for
 /// numbers that are not finite or out of range: then nothing changes, and the world counts it
-/// (World::getRefusals).
+/// (WorldLog::refusals).
 class PhysicsManager : public Manager {
  public:
   static PhysicsManager& getInstance();

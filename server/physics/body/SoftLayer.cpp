@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/world/EventDispatch.h"
 #include "engine/world/Object.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyEvents.h"
 #include "physics/body/BodyLayer.h"
@@ -128,7 +130,8 @@ void SoftLayer::collectContacts(const WorldStore& store) {
 void SoftLayer::logCrowd(World& world) {
   if (m_has_logged_crowd || m_table->world().counters().crowded == 0) return;
   m_has_logged_crowd = true;
-  world.log("physics: too many soft bodies in one place: some pass through one another until there is room");
+  world.log().write(
+      "physics: too many soft bodies in one place: some pass through one another until there is room");
 }
 
 // Decides whether it takes part, and gathers what is around it.
@@ -200,9 +203,9 @@ void SoftLayer::freeze(World& world, int id) {
   world.store().setVelocity(entry.key.slot, {});
   world.store().setAcceleration(entry.key.slot, {});
   m_table->world().setOut(id, true);
-  const Object* p_object = world.find(entry.key);
-  world.log("physics: a " + (p_object != nullptr ? p_object->getType() : "soft body") +
-            " is frozen: its motion cannot be worked out");
+  const Object* p_object = world.store().find(entry.key);
+  world.log().write("physics: a " + (p_object != nullptr ? p_object->getType() : "soft body") +
+                    " is frozen: its motion cannot be worked out");
 }
 
 void SoftLayer::publish(World& world, int id) {

@@ -6,12 +6,14 @@
 
 #include "engine/world/ClassName.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/Body.h"
 #include "physics/body/SoftDrawing.h"
 #include "physics/body/SoftLayer.h"
 #include "physics/body/SoftTable.h"
 #include "physics/geometry/Index.h"
+#include "shared/values/Canvas.h"
 
 namespace df {
 
@@ -75,8 +77,8 @@ const naiad::physics::SoftBody& SoftBody::body() const {
 }
 
 int SoftBody::refuseAs(const char* what) const {
-  if (World* p_world = getWorld()) p_world->refuse(nameOf(*this), what);
-  return -1;
+  const World* p_world = getWorld();
+  return p_world != nullptr ? p_world->log().refuse(nameOf(*this), what) : -1;
 }
 
 void SoftBody::absorb() const {

@@ -17,7 +17,7 @@
 // stiffness is given as an acceleration (widths of a cell per tick²), so that it does not depend on the mass.
 //
 // Setters return 0, or -1 for numbers that are not finite or out of range: then nothing changes, and the
-// world counts it (World::getRefusals). A constructor counts it too, and takes its default instead.
+// world counts it (WorldLog::refusals). A constructor counts it too, and takes its default instead.
 #pragma once
 
 #include <cstdint>

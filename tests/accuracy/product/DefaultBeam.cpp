@@ -6,6 +6,7 @@
 #include "Default.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/SoftObject.h"
 
@@ -16,7 +17,7 @@ namespace {
 class DefaultBeam : public Simulation {
  public:
   explicit DefaultBeam(const Scene& scene) : m_tick(scene.tick) {
-    m_world.setLogSink([](const std::string&) {});
+    m_world.log().setSink([](const std::string&) {});
     const df::World::Scope scope(m_world);
     PM.setAspect(1);
     PM.setGravity({m_tick * m_tick * scene.gravity.x, m_tick * m_tick * scene.gravity.y});

@@ -11,6 +11,7 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyLayer.h"
 #include "physics/body/Field.h"
@@ -56,7 +57,7 @@ class DefaultBodies : public Simulation {
  public:
   DefaultBodies(df::Accuracy accuracy, const Scene& scene)
       : m_origin(scene.origin), m_tick(scene.tick), m_is_hearing(scene.hearing), m_collides(scene.collides) {
-    m_world.setLogSink([](const std::string&) {});
+    m_world.log().setSink([](const std::string&) {});
     const df::World::Scope scope(m_world);
     PM.setAspect(1);
     PM.setGravity(cells(m_tick * m_tick * scene.gravity));

@@ -5,6 +5,7 @@
 #include "Default.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/SoftObject.h"
 
 namespace lab {
@@ -14,7 +15,7 @@ namespace {
 class DefaultCloth : public Simulation {
  public:
   explicit DefaultCloth(const Scene& scene) : m_corner(scene.bodies.front().position), m_tick(scene.tick) {
-    m_world.setLogSink([](const std::string&) {});
+    m_world.log().setSink([](const std::string&) {});
     const df::World::Scope scope(m_world);
     PM.setAspect(1);
     PM.setGravity({0, -m_tick * m_tick * scene.gravity.y});

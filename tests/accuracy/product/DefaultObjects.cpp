@@ -6,6 +6,7 @@
 #include "Default.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 
 namespace lab {
 
@@ -14,7 +15,7 @@ namespace {
 class DefaultObjects : public Simulation {
  public:
   explicit DefaultObjects(const Scene& scene) : m_tick(scene.tick) {
-    m_world.setLogSink([](const std::string&) {});
+    m_world.log().setSink([](const std::string&) {});
     const df::World::Scope scope(m_world);
     for (const Body& body : scene.bodies) {
       m_objects.push_back(std::make_unique<df::Object>());

@@ -7,8 +7,11 @@
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventPlayer.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/Object.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
+#include "engine/world/WorldStore.h"
 
 namespace bench {
 
@@ -133,12 +136,12 @@ void populateBusy(BusyScene::Kind kind, int objects) {
 BusyScene::BusyScene(Kind kind, int objects, int width, int height, int players, std::uint64_t seed) {
   const df::World::Scope scope(m_world);
   m_world.setSeed(seed);
-  m_world.setWatched(true);
-  m_world.setWindow(width, height);
+  m_world.store().setWatched(true);
+  m_world.views().setWindow(width, height);
   new Usher;
   populateBusy(kind, objects);
   for (int i = 0; i < players; ++i) {
-    m_players.push_back(m_world.join("bot" + std::to_string(i), df::WHITE));
+    m_players.push_back(m_world.input().join("bot" + std::to_string(i), df::WHITE));
   }
 }
 

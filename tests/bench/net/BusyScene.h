@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/world/Capture.h"
 #include "engine/world/World.h"
 
 namespace bench {
@@ -32,7 +33,7 @@ class BusyScene {
   void tick();
   const df::World& world() const { return m_world; }
   /// What a player ought to see, by the engine's own draw().
-  df::Canvas truth(std::uint32_t player) const { return m_world.renderPlayer(player); }
+  df::Canvas truth(std::uint32_t player) const { return m_world.picture().renderPlayer(player); }
   const std::vector<std::uint32_t>& players() const { return m_players; }
 
  private:

@@ -8,6 +8,7 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/Body.h"
 
 namespace bench::physics {
@@ -24,7 +25,7 @@ void demand(bool holds, const char* what) {
 class NaiadSimulation : public Simulation {
  public:
   NaiadSimulation(const Scene& scene, df::Accuracy accuracy) {
-    m_world.setLogSink([](const std::string& /*line*/) {});
+    m_world.log().setSink([](const std::string& /*line*/) {});
     const df::World::Scope scope(m_world);
     WM.setBoundary(df::Box(df::Vector(-kWorldSide / 2, -kWorldSide / 2), kWorldSide, kWorldSide));
     PM.setAspect(1);
@@ -35,7 +36,7 @@ class NaiadSimulation : public Simulation {
     m_things.reserve(scene.bodies.size());
     for (const Body& body : scene.bodies) add(body, scene.collide);
     for (const Hinge& hinge : scene.hinges) add(hinge);
-    demand(m_world.getRefusals() == 0, "something was refused");
+    demand(m_world.log().refusals() == 0, "something was refused");
   }
   ~NaiadSimulation() override { m_world.shutDown(); }
 

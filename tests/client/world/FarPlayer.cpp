@@ -4,17 +4,22 @@
 
 #include <utility>
 
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
+
 namespace naiad::test {
 
 FarPlayer::FarPlayer(const LinkDelays& delays, std::uint64_t seed) : rng(seed), m_delays(delays) {
-  world.setLogSink([](const std::string&) {});
+  world.log().setSink([](const std::string&) {});
   world.setSeed(seed);
-  world.setWatched(true);
+  world.store().setWatched(true);
   m_sender.setLookAhead(lead() + m_delays.down);
-  m_player = world.join("far", df::RED);
+  m_player = world.input().join("far", df::RED);
   world.tick();
-  m_publisher.update(world.view());
-  m_sender.applyTick(m_publisher, world.view().players[0]);
+  m_publisher.update(world.picture().view());
+  m_sender.applyTick(m_publisher, world.picture().view().players[0]);
 }
 
 void FarPlayer::step() {
@@ -46,8 +51,8 @@ void FarPlayer::takeInputs() {
   }
   for (auto next = m_waiting.find(m_applied + 1); next != m_waiting.end() && next->second.tick <= now;
        next = m_waiting.find(m_applied + 1)) {
-    world.key(m_player, static_cast<df::Keyboard::Key>(next->second.key),
-              static_cast<df::EventKeyboardAction>(next->second.action));
+    world.input().key(m_player, static_cast<df::Keyboard::Key>(next->second.key),
+                      static_cast<df::EventKeyboardAction>(next->second.action));
     late_inputs += next->second.tick < now ? 1 : 0;
     m_sender.noteInput(++m_applied, now);
     m_waiting.erase(next);
@@ -57,17 +62,17 @@ void FarPlayer::takeInputs() {
 void FarPlayer::checkFrame() {
   const auto frame = m_frames.find(tick());
   if (frame != m_frames.end()) {
-    const df::FixedVector corner = world.view().players[0].view_corner;
+    const df::FixedVector corner = world.picture().view().players[0].view_corner;
     ++compared;
-    wrong += frame->second.position != world.view().players[0].steering.position ? 1 : 0;
+    wrong += frame->second.position != world.picture().view().players[0].steering.position ? 1 : 0;
     wrong_views += frame->second.corner != CellPosition{df::cellOf(corner.x), df::cellOf(corner.y)} ? 1 : 0;
   }
   m_frames.erase(m_frames.begin(), m_frames.upper_bound(tick()));
 }
 
 void FarPlayer::serve() {
-  m_publisher.update(world.view());
-  m_sender.applyTick(m_publisher, world.view().players[0]);
+  m_publisher.update(world.picture().view());
+  m_sender.applyTick(m_publisher, world.picture().view().players[0]);
   for (SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
     if (!isLost()) m_down.push_back({tick() + m_delays.down, std::move(packet)});
   }

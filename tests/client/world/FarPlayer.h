@@ -13,6 +13,7 @@
 #include "client/world/DrawnPlacement.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "host/snapshot/Publisher.h"
 #include "host/snapshot/SnapshotSender.h"
@@ -35,7 +36,7 @@ class FarPlayer {
   FarPlayer(const LinkDelays& delays, std::uint64_t seed);
   ~FarPlayer() { world.shutDown(); }
 
-  df::Player& player() { return *world.getPlayer(m_player); }
+  df::Player& player() { return *world.views().player(m_player); }
   /// One tick and one frame.
   void step();
   /// Step until the client knows every object of interest to it.

@@ -7,6 +7,7 @@
 #include "FarPlayer.h"
 #include "engine/world/Controls.h"
 #include "engine/world/EventCollision.h"
+#include "engine/world/Views.h"
 
 namespace naiad::test {
 namespace {
@@ -84,7 +85,7 @@ LinkDelays anyDelays(SplitMix64& rng) {
 /// Everything stands still but the player.
 void playAmongWalls(FarPlayer& far, int steps) {
   WM.setBoundary(Box(Vector(), 200, 60));
-  far.world.setWindow(120, 54);  // what is out of view is not known
+  far.world.views().setWindow(120, 54);  // what is out of view is not known
   litter(far.rng, 150);
   Object* p_ship = launch(far, anyControls(far.rng));
   if (far.rng.below(3) == 0) litter(far.rng, 50);  // some come after the ship

@@ -11,9 +11,17 @@
 #include "engine/events/EventOut.h"
 #include "engine/managers/GameManager.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
 #include "engine/world/EventCollision.h"
+#include "engine/world/EventDispatch.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Mover.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 
 namespace df::test {
 
@@ -21,7 +29,7 @@ namespace df::test {
 class WorldTest : public ::testing::Test {
  protected:
   WorldTest() : scope(world) {
-    world.setLogSink([this](const std::string& line) { lines.push_back(line); });
+    world.log().setSink([this](const std::string& line) { lines.push_back(line); });
   }
   ~WorldTest() override { world.shutDown(); }
 
@@ -36,7 +44,7 @@ class WorldTest : public ::testing::Test {
     std::string all;
     for (int i = 0; i < ticks; ++i) {
       world.tick();
-      std::string text = world.renderView({}).rowText(row);
+      std::string text = world.picture().render({}).rowText(row);
       std::erase(text, ' ');
       all += text;
     }

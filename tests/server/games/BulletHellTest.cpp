@@ -6,6 +6,10 @@
 #include "Fingers.h"
 #include "HostedGame.h"
 #include "Player.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
+#include "engine/world/WorldStore.h"
 
 /// The game's main(), compiled into this test under another name.
 int bullethell_main();
@@ -18,7 +22,7 @@ using namespace df;
 /// How near bullets come to this place in the next ticks; small is near.
 double danger(const World& world, Vector ship, Vector velocity) {
   double nearest = 100;
-  const ObjectList shots = world.objectsOfType("Theirs");
+  const ObjectList shots = world.objects().objectsOfType("Theirs");
   for (int i = 0; i < shots.getCount(); ++i) {
     const Vector at = shots[i]->getPosition();
     const Vector going = shots[i]->getVelocity();
@@ -42,7 +46,7 @@ std::set<Keyboard::Key> dodge(const World& world, const Object& ship) {
                                          {{Keyboard::RIGHTARROW}, Vector(0.7, 0)},
                                          {{Keyboard::UPARROW}, Vector(0, -0.35)},
                                          {{Keyboard::DOWNARROW}, Vector(0, 0.35)}};
-  const ObjectList bosses = world.objectsOfType("Boss");
+  const ObjectList bosses = world.objects().objectsOfType("Boss");
   const double target = bosses.isEmpty() ? 40 : bosses[0]->getPosition().x();
   const Way* p_best = nullptr;
   double best = -1e9;
@@ -60,22 +64,22 @@ std::set<Keyboard::Key> dodge(const World& world, const Object& ship) {
 
 TEST(BulletHell, ABotThatDodgesBeatsTheFirstBoss) {
   hostGame(bullethell_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     world.tick();
     Fingers fingers(world, ann);
     int t = 0;
     for (; t < 6000 && !shows(world, ann, "level 2"); ++t) {
-      fingers.hold(dodge(world, *world.getPlayer(ann)->getObject()));
+      fingers.hold(dodge(world, *world.views().player(ann)->getObject()));
       world.tick();
     }
     EXPECT_TRUE(shows(world, ann, "level 2")) << "after " << t << " ticks";
-    EXPECT_GE(world.getPlayer(ann)->getScore(), 50);
+    EXPECT_GE(world.views().player(ann)->getScore(), 50);
   });
 }
 
 TEST(BulletHell, APlayerThatNeverMovesLosesThreeLivesAndThenAllBeginAgain) {
   hostGame(bullethell_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 2);
     EXPECT_TRUE(shows(world, ann, "lives 3"));
     std::string seen;
@@ -95,12 +99,12 @@ TEST(BulletHell, APlayerThatNeverMovesLosesThreeLivesAndThenAllBeginAgain) {
 
 TEST(BulletHell, HundredsOfBulletsFlyAndLeave) {
   hostGame(bullethell_main, 1, [](World& world) {
-    for (int i = 0; i < 4; ++i) world.join("bot", RED);
+    for (int i = 0; i < 4; ++i) world.input().join("bot", RED);
     int most = 0;
     for (int t = 0; t < 4000; ++t) {
       world.tick();
-      most = std::max(most, world.objectsOfType("Theirs").getCount());
-      ASSERT_LT(world.getObjectCount(), 600);
+      most = std::max(most, world.objects().objectsOfType("Theirs").getCount());
+      ASSERT_LT(world.store().countInWorld(), 600);
     }
     EXPECT_GE(most, 150);
   });

@@ -3,6 +3,9 @@
 #include "Fingers.h"
 #include "HostedGame.h"
 #include "Player.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 #include "utility.h"
 
 /// The game's main(), compiled into this test under another name.
@@ -17,7 +20,7 @@ using namespace df;
 std::set<Keyboard::Key> greedy(const World& world, const Object& hare) {
   const Vector at = hare.getPosition();
   const Object* p_best = nullptr;
-  const ObjectList gold = world.objectsOfType("Gold");
+  const ObjectList gold = world.objects().objectsOfType("Gold");
   for (int i = 0; i < gold.getCount(); ++i) {
     if (p_best == nullptr || distance(at, gold[i]->getPosition()) < distance(at, p_best->getPosition()))
       p_best = gold[i];
@@ -31,14 +34,14 @@ std::set<Keyboard::Key> greedy(const World& world, const Object& hare) {
 
 TEST(Chase, AGreedyBotGathersTenPiecesOfGold) {
   hostGame(chase_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     world.tick();
     Fingers fingers(world, ann);
     int best = 0;
     for (int t = 0; t < 3000 && best < 100; ++t) {
-      fingers.hold(greedy(world, *world.getPlayer(ann)->getObject()));
+      fingers.hold(greedy(world, *world.views().player(ann)->getObject()));
       world.tick();
-      best = std::max(best, world.getPlayer(ann)->getScore());
+      best = std::max(best, world.views().player(ann)->getScore());
     }
     EXPECT_GE(best, 100);
   });
@@ -46,27 +49,27 @@ TEST(Chase, AGreedyBotGathersTenPiecesOfGold) {
 
 TEST(Chase, HoundsCatchAPlayerThatStandsStillAndTakeHalf) {
   hostGame(chase_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     world.tick();
-    world.getPlayer(ann)->setScore(40);
-    for (int t = 0; t < 1500 && world.getPlayer(ann)->getScore() >= 40; ++t) world.tick();
-    EXPECT_LT(world.getPlayer(ann)->getScore(), 40);
-    EXPECT_GE(world.getPlayer(ann)->getScore(), 20);
+    world.views().player(ann)->setScore(40);
+    for (int t = 0; t < 1500 && world.views().player(ann)->getScore() >= 40; ++t) world.tick();
+    EXPECT_LT(world.views().player(ann)->getScore(), 40);
+    EXPECT_GE(world.views().player(ann)->getScore(), 20);
   });
 }
 
 TEST(Chase, MoreGoldMoreHounds) {
   hostGame(chase_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 2);
-    EXPECT_EQ(world.objectsOfType("Hound").getCount(), 3);
-    world.getPlayer(ann)->setScore(100);
+    EXPECT_EQ(world.objects().objectsOfType("Hound").getCount(), 3);
+    world.views().player(ann)->setScore(100);
     tick(world, 3);
-    EXPECT_EQ(world.objectsOfType("Hound").getCount(), 5);
-    world.leave(ann);
+    EXPECT_EQ(world.objects().objectsOfType("Hound").getCount(), 5);
+    world.input().leave(ann);
     tick(world, 5);
-    EXPECT_EQ(world.objectsOfType("Hound").getCount(), 3);
-    EXPECT_EQ(world.objectsOfType("Hare").getCount(), 0);
+    EXPECT_EQ(world.objects().objectsOfType("Hound").getCount(), 3);
+    EXPECT_EQ(world.objects().objectsOfType("Hare").getCount(), 0);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "World.h"
+#include "engine/world/InputQueue.h"
 
 namespace naiad {
 
@@ -15,10 +16,10 @@ class Fingers {
   /// From now on these and no others are down.
   void hold(const std::set<df::Keyboard::Key>& keys) {
     for (const df::Keyboard::Key key : m_down) {
-      if (!keys.contains(key)) m_world.key(m_player, key, df::KEY_RELEASED);
+      if (!keys.contains(key)) m_world.input().key(m_player, key, df::KEY_RELEASED);
     }
     for (const df::Keyboard::Key key : keys)
-      m_world.key(m_player, key, m_down.contains(key) ? df::KEY_DOWN : df::KEY_PRESSED);
+      m_world.input().key(m_player, key, m_down.contains(key) ? df::KEY_DOWN : df::KEY_PRESSED);
     m_down = keys;
   }
 

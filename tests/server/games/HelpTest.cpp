@@ -7,6 +7,7 @@
 
 #include "GameMains.h"
 #include "HostedGame.h"
+#include "engine/world/Views.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {
@@ -24,7 +25,7 @@ TEST(Help, OfEveryGameIsThereAndFitsItsWindowAndTheProtocol) {
           EXPECT_LE(world.getHelp().size(), kMaxHelpLines) << name;
           for (const std::string& line : world.getHelp()) {
             EXPECT_LE(line.size(), kMaxHelpLength) << name << ": " << line;
-            EXPECT_LE(static_cast<int>(line.size()), world.getWindowWidth()) << name << ": " << line;
+            EXPECT_LE(static_cast<int>(line.size()), world.views().width()) << name << ": " << line;
           }
         },
         name);

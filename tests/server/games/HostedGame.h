@@ -10,6 +10,10 @@
 #include "Runner.h"
 #include "World.h"
 #include "WorldManager.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 
 namespace naiad {
 
@@ -29,9 +33,10 @@ inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(
                      const std::string& folder = {}) {
   df::World world;
   const df::World::Scope scope(world);
-  world.setLogSink([](const std::string&) {});
+  world.log().setSink([](const std::string&) {});
   world.setSeed(seed);
-  if (!folder.empty()) world.addResourceFolder(std::string(NAIAD_SOURCE_DIR) + "/server/games/" + folder);
+  if (!folder.empty())
+    world.extras().resources.addFolder(std::string(NAIAD_SOURCE_DIR) + "/server/games/" + folder);
   TestRunner runner(std::move(play));
   world.setRunner(&runner);
   game_main();
@@ -39,7 +44,7 @@ inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(
 
 /// Does the player see this text?
 inline bool shows(const df::World& world, std::uint32_t player, const std::string& text) {
-  return world.renderPlayer(player).text().find(text) != std::string::npos;
+  return world.picture().renderPlayer(player).text().find(text) != std::string::npos;
 }
 
 inline void tick(df::World& world, int count) {
@@ -48,8 +53,8 @@ inline void tick(df::World& world, int count) {
 
 /// Down and up again before the next tick.
 inline void tap(df::World& world, std::uint32_t player, df::Keyboard::Key key) {
-  world.key(player, key, df::KEY_PRESSED);
-  world.key(player, key, df::KEY_RELEASED);
+  world.input().key(player, key, df::KEY_PRESSED);
+  world.input().key(player, key, df::KEY_RELEASED);
 }
 
 }  // namespace naiad

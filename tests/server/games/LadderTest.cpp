@@ -8,6 +8,10 @@
 #include "GameMains.h"
 #include "HostedGame.h"
 #include "RandomPlayers.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad {
@@ -34,7 +38,7 @@ TEST_P(Ladder, AThousandTicksShowTheSamePicturesEverywhere) {
         for (; ticks < 1000; ++ticks) {
           players.play();
           world.tick();
-          for (const std::uint32_t player : players.players()) hash.add(world.renderPlayer(player));
+          for (const std::uint32_t player : players.players()) hash.add(world.picture().renderPlayer(player));
         }
       },
       GetParam().name);
@@ -51,16 +55,16 @@ TEST_P(Ladder, EightPlayersThatComeAndGoBreakNothing) {
         [&](df::World& world) {
           RandomPlayers players(world, seed, 8);
           int quarantined = 0;
-          world.setLogSink(
+          world.log().setSink(
               [&](const std::string& line) { quarantined += line.find("failed") != std::string::npos; });
           for (int t = 0; t < 800; ++t) {
             players.play();
             world.tick();
-            ASSERT_LT(world.getObjectCount(), 2200);
+            ASSERT_LT(world.store().countInWorld(), 2200);
           }
           EXPECT_EQ(quarantined, 0);
-          EXPECT_EQ(world.getRefusals(), 0u);
-          for (const std::uint32_t player : players.players()) world.leave(player);
+          EXPECT_EQ(world.log().refusals(), 0u);
+          for (const std::uint32_t player : players.players()) world.input().leave(player);
           for (int t = 0; t < 100; ++t) world.tick();
         },
         GetParam().name);

@@ -4,7 +4,9 @@
 
 #include "HighScores.h"
 #include "HostedGame.h"
+#include "engine/world/Capture.h"
 #include "engine/world/InputQueue.h"
+#include "engine/world/Views.h"
 
 /// The game's main(), compiled into this test under another name.
 int lander_main();
@@ -31,7 +33,7 @@ std::optional<df::Vector> nearestPad(const df::Canvas& screen, double x) {
 /// Flies by what the instruments say: first across, then down, the slower the lower.
 void pilot(df::World& world, std::uint32_t player, df::Vector pad) {
   constexpr double kTicks = 30;
-  const df::Object& ship = *world.getPlayer(player)->getObject();
+  const df::Object& ship = *world.views().player(player)->getObject();
   const df::Vector v = ship.getVelocity();
   const double aside = pad.x() - ship.getPosition().x();
   const double height = pad.y() - 1.5 - ship.getPosition().y();
@@ -44,50 +46,51 @@ void pilot(df::World& world, std::uint32_t player, df::Vector pad) {
 
 TEST(Lander, AGentlePilotLandsAndEarnsPoints) {
   hostGame(lander_main, 3, [](df::World& world) {
-    const std::uint32_t ann = world.join("ann", df::RED);
+    const std::uint32_t ann = world.input().join("ann", df::RED);
     world.tick();
-    for (int t = 0; t < 1800 && world.getPlayer(ann)->getScore() == 0; ++t) {
-      const auto pad =
-          nearestPad(world.renderPlayer(ann), world.getPlayer(ann)->getObject()->getPosition().x());
+    for (int t = 0; t < 1800 && world.views().player(ann)->getScore() == 0; ++t) {
+      const auto pad = nearestPad(world.picture().renderPlayer(ann),
+                                  world.views().player(ann)->getObject()->getPosition().x());
       ASSERT_TRUE(pad);
       pilot(world, ann, *pad);
       world.tick();
     }
-    EXPECT_GE(world.getPlayer(ann)->getScore(), 50);
+    EXPECT_GE(world.views().player(ann)->getScore(), 50);
   });
 }
 
 TEST(Lander, TheBestLandingIsAServersToRemember) {
   hostGame(lander_main, 3, [](df::World& world) {
-    world.inputs().push(
+    world.input().push(
         {.kind = df::InputQueue::kScore, .player = 0, .name = "bob", .table = "landings", .points = 5000});
-    const std::uint32_t ann = world.join("ann", df::RED);
+    const std::uint32_t ann = world.input().join("ann", df::RED);
     world.tick();
-    for (int t = 0; t < 1800 && world.getPlayer(ann)->getScore() == 0; ++t) {
+    for (int t = 0; t < 1800 && world.views().player(ann)->getScore() == 0; ++t) {
       pilot(world, ann,
-            nearestPad(world.renderPlayer(ann), world.getPlayer(ann)->getObject()->getPosition().x())
+            nearestPad(world.picture().renderPlayer(ann),
+                       world.views().player(ann)->getObject()->getPosition().x())
                 .value_or(df::Vector()));
       world.tick();
     }
-    EXPECT_TRUE(shows(world, ann, "The best landing: bob, 5000")) << world.renderPlayer(ann).text();
+    EXPECT_TRUE(shows(world, ann, "The best landing: bob, 5000")) << world.picture().renderPlayer(ann).text();
     const auto best = df::HighScores("landings").best(2);
     ASSERT_EQ(best.size(), 2u);
-    EXPECT_EQ(best[1], (df::HighScore{"ann", world.getPlayer(ann)->getScore()}));
+    EXPECT_EQ(best[1], (df::HighScore{"ann", world.views().player(ann)->getScore()}));
   });
 }
 
 TEST(Lander, WithoutInputTheLanderCrashes) {
   hostGame(lander_main, 3, [](df::World& world) {
-    const std::uint32_t ann = world.join("ann", df::RED);
+    const std::uint32_t ann = world.input().join("ann", df::RED);
     int longest = 0;
     for (int t = 0; t < 300 && longest == 0; ++t) {
       world.tick();
-      if (world.getPlayer(ann)->getObject()->getSolidness() == df::SPECTRAL) longest = t;
+      if (world.views().player(ann)->getObject()->getSolidness() == df::SPECTRAL) longest = t;
     }
     EXPECT_GT(longest, 30) << "it fell for a while";
     tick(world, 100);
-    EXPECT_EQ(world.getPlayer(ann)->getScore(), 0);
-    EXPECT_EQ(world.getPlayer(ann)->getObject()->getSolidness(), df::HARD) << "a new ship";
+    EXPECT_EQ(world.views().player(ann)->getScore(), 0);
+    EXPECT_EQ(world.views().player(ann)->getObject()->getSolidness(), df::HARD) << "a new ship";
   });
 }
 

@@ -4,6 +4,9 @@
 
 #include "HostedGame.h"
 #include "Player.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 #include "engine/world/WorldExtras.h"
 
 /// The game's main(), compiled into this test under another name.
@@ -19,7 +22,7 @@ GameRoom room(const std::string& name, int players = 0) {
 }
 
 void keep(World& world, const GameRoom& room) {
-  world.inputs().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
+  world.input().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
 }
 
 /// Where the game has sent the player in the last tick; empty: nowhere.
@@ -32,9 +35,9 @@ std::string sentTo(World& world, std::uint32_t player) {
 
 /// Walk to the door of this number; where the game sends the player on that path.
 std::string walkTo(World& world, std::uint32_t player, int door) {
-  const Vector goal = world.objectsOfType("Door")[door]->getPosition();
+  const Vector goal = world.objects().objectsOfType("Door")[door]->getPosition();
   for (int i = 0; i < 200; ++i) {
-    const Vector at = world.getPlayer(player)->getObject()->getPosition();
+    const Vector at = world.views().player(player)->getObject()->getPosition();
     const bool is_above = at.x() == goal.x();
     tap(world, player,
         is_above            ? Keyboard::DOWNARROW
@@ -54,9 +57,9 @@ TEST(Lobby, HasADoorForEachOtherRoomAndWalkingIntoOneLeadsThere) {
     keep(world, own);
     keep(world, room("arcade", 3));
     keep(world, room("quiet"));
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 2);
-    EXPECT_EQ(world.objectsOfType("Door").getCount(), 2);
+    EXPECT_EQ(world.objects().objectsOfType("Door").getCount(), 2);
     EXPECT_TRUE(shows(world, ann, "arcade"));
     EXPECT_TRUE(shows(world, ann, "game of arcade 3/8"));
     EXPECT_FALSE(shows(world, ann, "game of lobby"));
@@ -69,11 +72,11 @@ TEST(Lobby, HasADoorForEachOtherRoomAndWalkingIntoOneLeadsThere) {
 TEST(Lobby, ShowsWhatChanges) {
   hostGame(lobby_main, 1, [](World& world) {
     keep(world, room("arcade", 3));
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 2);
     keep(world, room("arcade", 8));
     world.tick();
-    EXPECT_EQ(world.objectsOfType("Door").getCount(), 1);
+    EXPECT_EQ(world.objects().objectsOfType("Door").getCount(), 1);
     EXPECT_TRUE(shows(world, ann, "8/8"));
     EXPECT_TRUE(shows(world, ann, "[XX]"));
   });
@@ -81,7 +84,7 @@ TEST(Lobby, ShowsWhatChanges) {
 
 TEST(Lobby, SaysThatThereAreNoOtherRooms) {
   hostGame(lobby_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 2);
     EXPECT_TRUE(shows(world, ann, "This server has no other rooms."));
   });
@@ -90,9 +93,9 @@ TEST(Lobby, SaysThatThereAreNoOtherRooms) {
 TEST(Lobby, HasRoomForAllDoorsThatAServerCanHave) {
   hostGame(lobby_main, 1, [](World& world) {
     for (int i = 0; i < 64; ++i) keep(world, room("room-" + std::to_string(i)));
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 2);
-    EXPECT_EQ(world.objectsOfType("Door").getCount(), 64);
+    EXPECT_EQ(world.objects().objectsOfType("Door").getCount(), 64);
     EXPECT_EQ(walkTo(world, ann, 0), "room-0");
   });
 }

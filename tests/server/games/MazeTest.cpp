@@ -6,6 +6,10 @@
 
 #include "HostedGame.h"
 #include "Player.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 
 /// The game's main(), compiled into this test under another name.
 int maze_main();
@@ -25,7 +29,7 @@ const std::vector<Step> kSteps = {{Keyboard::RIGHTARROW, Vector(2, 0)},
                                   {Keyboard::UPARROW, Vector(0, -1)}};
 
 bool isWall(const World& world, const Object& walker, Vector at) {
-  const ObjectList there = world.getCollisions(&walker, at);
+  const ObjectList there = world.objects().getCollisions(&walker, at);
   for (int i = 0; i < there.getCount(); ++i)
     if (there[i]->getType() == "Wall") return true;
   return false;
@@ -33,7 +37,7 @@ bool isWall(const World& world, const Object& walker, Vector at) {
 
 /// The keys of a shortest way to the exit; none if there is no way.
 std::vector<Keyboard::Key> solve(const World& world, const Object& walker) {
-  const Vector exit = world.objectsOfType("Exit")[0]->getPosition();
+  const Vector exit = world.objects().objectsOfType("Exit")[0]->getPosition();
   const auto name = [](Vector v) { return std::pair(v.x(), v.y()); };
   std::map<std::pair<double, double>, std::vector<Keyboard::Key>> known = {{name(walker.getPosition()), {}}};
   std::deque<Vector> next = {walker.getPosition()};
@@ -55,63 +59,63 @@ std::vector<Keyboard::Key> solve(const World& world, const Object& walker) {
 TEST(Maze, HasSevenHundredWallsAndAPathForAnySeed) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     hostGame(maze_main, seed, [](World& world) {
-      const std::uint32_t ann = world.join("ann", RED);
+      const std::uint32_t ann = world.input().join("ann", RED);
       world.tick();
-      EXPECT_EQ(world.objectsOfType("Wall").getCount(), 700);
-      EXPECT_GE(solve(world, *world.getPlayer(ann)->getObject()).size(), 70u);
+      EXPECT_EQ(world.objects().objectsOfType("Wall").getCount(), 700);
+      EXPECT_GE(solve(world, *world.views().player(ann)->getObject()).size(), 70u);
     });
   }
 }
 
 TEST(Maze, ABotWithThePathWinsThreeMazes) {
   hostGame(maze_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
-    world.join("bob", GREEN);
+    const std::uint32_t ann = world.input().join("ann", RED);
+    world.input().join("bob", GREEN);
     world.tick();
     for (int maze = 0; maze < 3; ++maze) {
-      for (const Keyboard::Key key : solve(world, *world.getPlayer(ann)->getObject())) {
+      for (const Keyboard::Key key : solve(world, *world.views().player(ann)->getObject())) {
         tap(world, ann, key);
         tick(world, 3);
       }
       world.tick();
-      EXPECT_EQ(world.getPlayer(ann)->getScore(), maze + 1);
-      EXPECT_NE(world.renderPlayer(ann).text().find("ann has found the exit!"), std::string::npos);
+      EXPECT_EQ(world.views().player(ann)->getScore(), maze + 1);
+      EXPECT_NE(world.picture().renderPlayer(ann).text().find("ann has found the exit!"), std::string::npos);
       tick(world, 70);
-      EXPECT_EQ(world.objectsOfType("Wall").getCount(), 700);
-      EXPECT_EQ(world.objectsOfType("Walker").getCount(), 2);
+      EXPECT_EQ(world.objects().objectsOfType("Wall").getCount(), 700);
+      EXPECT_EQ(world.objects().objectsOfType("Walker").getCount(), 2);
     }
   });
 }
 
 TEST(Maze, TwoInAPassageLetEachOtherBy) {
   hostGame(maze_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
-    const std::uint32_t bob = world.join("bob", GREEN);
+    const std::uint32_t ann = world.input().join("ann", RED);
+    const std::uint32_t bob = world.input().join("bob", GREEN);
     world.tick();
-    const Keyboard::Key first = solve(world, *world.getPlayer(ann)->getObject()).front();
+    const Keyboard::Key first = solve(world, *world.views().player(ann)->getObject()).front();
     tap(world, ann, first);
     tick(world, 4);
-    const Vector of_ann = world.getPlayer(ann)->getObject()->getPosition();
-    const Vector of_bob = world.getPlayer(bob)->getObject()->getPosition();
+    const Vector of_ann = world.views().player(ann)->getObject()->getPosition();
+    const Vector of_bob = world.views().player(bob)->getObject()->getPosition();
     ASSERT_NE(of_ann, of_bob);
     tap(world, bob, first);
     tick(world, 4);
-    EXPECT_EQ(world.getPlayer(bob)->getObject()->getPosition(), of_ann);
-    EXPECT_EQ(world.getPlayer(ann)->getObject()->getPosition(), of_bob);
+    EXPECT_EQ(world.views().player(bob)->getObject()->getPosition(), of_ann);
+    EXPECT_EQ(world.views().player(ann)->getObject()->getPosition(), of_bob);
   });
 }
 
 TEST(Maze, TheViewFollows) {
   hostGame(maze_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     world.tick();
-    const Vector corner = world.getPlayer(ann)->getViewCorner();
-    for (const Keyboard::Key key : solve(world, *world.getPlayer(ann)->getObject())) {
+    const Vector corner = world.views().player(ann)->getViewCorner();
+    for (const Keyboard::Key key : solve(world, *world.views().player(ann)->getObject())) {
       tap(world, ann, key);
       tick(world, 3);
     }
-    EXPECT_GT(world.getPlayer(ann)->getViewCorner().x(), corner.x());
-    EXPECT_NE(world.renderPlayer(ann).text().find("()"), std::string::npos);
+    EXPECT_GT(world.views().player(ann)->getViewCorner().x(), corner.x());
+    EXPECT_NE(world.picture().renderPlayer(ann).text().find("()"), std::string::npos);
   });
 }
 

@@ -3,6 +3,9 @@
 #include "Fingers.h"
 #include "HostedGame.h"
 #include "Player.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Views.h"
 
 /// The game's main(), compiled into this test under another name.
 int platformer_main();
@@ -31,28 +34,28 @@ std::set<Keyboard::Key> run(const Object& runner) {
 
 TEST(Platformer, ABotThatJumpsInTimeReachesTheFlag) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 2);
     Fingers fingers(world, ann);
     int t = 0;
-    for (; t < 600 && world.getPlayer(ann)->getScore() < 100; ++t) {
-      const Object* p_runner = world.getPlayer(ann)->getObject();
+    for (; t < 600 && world.views().player(ann)->getScore() < 100; ++t) {
+      const Object* p_runner = world.views().player(ann)->getObject();
       if (p_runner != nullptr) fingers.hold(run(*p_runner));
       world.tick();
     }
-    EXPECT_GE(world.getPlayer(ann)->getScore(), 100) << world.renderPlayer(ann).text();
+    EXPECT_GE(world.views().player(ann)->getScore(), 100) << world.picture().renderPlayer(ann).text();
     world.tick();
-    EXPECT_NE(world.renderPlayer(ann).text().find("reached the flag"), std::string::npos);
+    EXPECT_NE(world.picture().renderPlayer(ann).text().find("reached the flag"), std::string::npos);
     tick(world, 2);
-    EXPECT_LT(world.getPlayer(ann)->getObject()->getPosition().x(), 10);
+    EXPECT_LT(world.views().player(ann)->getObject()->getPosition().x(), 10);
   });
 }
 
 TEST(Platformer, GravityLandsExactlyAndAJumpIsHighEnoughForFiveRows) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 40);
-    const Object* p_runner = world.getPlayer(ann)->getObject();
+    const Object* p_runner = world.views().player(ann)->getObject();
     const double ground = p_runner->getPosition().y();
     EXPECT_NEAR(ground, 19.05, 1e-6);  // 0.9 high, on ground whose upper edge is at 19.5
     EXPECT_EQ(p_runner->getVelocity(), Vector());
@@ -71,9 +74,9 @@ TEST(Platformer, GravityLandsExactlyAndAJumpIsHighEnoughForFiveRows) {
 
 TEST(Platformer, NoPlayerSticksToAWall) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 2);
-    Object* p_runner = world.getPlayer(ann)->getObject();
+    Object* p_runner = world.views().player(ann)->getObject();
     p_runner->setPosition(Vector(34.5, 19.6));  // in a gap, before the wall that its far side is
     Fingers fingers(world, ann);
     int t = 0;
@@ -90,11 +93,11 @@ TEST(Platformer, NoPlayerSticksToAWall) {
 
 TEST(Platformer, FriendsCanBeStoodOn) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
-    const std::uint32_t bob = world.join("bob", GREEN);
+    const std::uint32_t ann = world.input().join("ann", RED);
+    const std::uint32_t bob = world.input().join("bob", GREEN);
     tick(world, 40);
-    Object* p_ann = world.getPlayer(ann)->getObject();
-    Object* p_bob = world.getPlayer(bob)->getObject();
+    Object* p_ann = world.views().player(ann)->getObject();
+    Object* p_bob = world.views().player(bob)->getObject();
     p_ann->setPosition(p_bob->getPosition() + Vector(0, -3));
     tick(world, 40);
     EXPECT_NEAR(p_ann->getPosition().y(), p_bob->getPosition().y() - 0.9, 1e-6);
@@ -103,22 +106,22 @@ TEST(Platformer, FriendsCanBeStoodOn) {
 
 TEST(Platformer, CoinsAreTakenAndComeBack) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 40);
     Fingers fingers(world, ann);
     for (int t = 0; t < 15; ++t) {
       fingers.hold({Keyboard::RIGHTARROW});
       world.tick();
     }
-    EXPECT_EQ(world.getPlayer(ann)->getScore(), 10);
+    EXPECT_EQ(world.views().player(ann)->getScore(), 10);
     fingers.hold({});
     tick(world, 460);
-    EXPECT_EQ(world.getPlayer(ann)->getScore(), 10);
+    EXPECT_EQ(world.views().player(ann)->getScore(), 10);
     for (int t = 0; t < 15; ++t) {
       fingers.hold({Keyboard::LEFTARROW});
       world.tick();
     }
-    EXPECT_EQ(world.getPlayer(ann)->getScore(), 20);
+    EXPECT_EQ(world.views().player(ann)->getScore(), 20);
   });
 }
 

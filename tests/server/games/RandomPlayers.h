@@ -8,6 +8,7 @@
 #include "Canvas.h"
 #include "Random.h"
 #include "World.h"
+#include "engine/world/InputQueue.h"
 
 namespace naiad {
 
@@ -20,7 +21,7 @@ class RandomPlayers {
   void play() {
     if (m_players.empty() || (m_players.size() < m_most && m_random.below(120) == 0)) join();
     if (m_players.size() > 1 && m_random.below(200) == 0) {
-      m_world.leave(m_players.front());
+      m_world.input().leave(m_players.front());
       m_players.erase(m_players.begin());
     }
     for (const std::uint32_t player : m_players) {
@@ -33,13 +34,13 @@ class RandomPlayers {
       if (m_random.below(4) == 0) {
         const auto action = static_cast<df::EventKeyboardAction>(m_random.below(3));
         const Key key = kKeys[m_random.below(12)];
-        m_world.key(player, key, action);
+        m_world.input().key(player, key, action);
       }
       if (m_random.below(16) == 0) {
         const int y = m_random.below(24);
         const int x = m_random.below(80);
         const auto action = static_cast<df::EventMouseAction>(m_random.below(3));
-        m_world.mouse(player, action, df::Mouse::LEFT, x, y);
+        m_world.input().mouse(player, action, df::Mouse::LEFT, x, y);
       }
     }
   }
@@ -48,7 +49,7 @@ class RandomPlayers {
  private:
   void join() {
     const auto color = static_cast<df::Color>(df::RED + m_random.below(7));
-    m_players.push_back(m_world.join("bot" + std::to_string(m_players.size()), color));
+    m_players.push_back(m_world.input().join("bot" + std::to_string(m_players.size()), color));
   }
 
   df::World& m_world;

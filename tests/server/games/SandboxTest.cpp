@@ -6,6 +6,8 @@
 #include "Body.h"
 #include "HostedGame.h"
 #include "PhysicsManager.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
 
 /// The game's main(), compiled into this test under another name.
 int sandbox_main();
@@ -15,7 +17,7 @@ namespace {
 
 std::vector<df::Body*> bodies(df::World& world) {
   std::vector<df::Body*> found;
-  const df::ObjectList all = world.getAllObjects();
+  const df::ObjectList all = world.objects().getAllObjects();
   df::ObjectListIterator li(&all);
   for (li.first(); !li.isDone(); li.next()) {
     if (auto* p_body = dynamic_cast<df::Body*>(li.currentObject())) found.push_back(p_body);
@@ -31,13 +33,13 @@ df::Body* bodyAt(df::World& world, df::Vector where) {
 }
 
 void drag(df::World& world, std::uint32_t player, df::EventMouseAction action, int x, int y) {
-  world.mouse(player, action, df::Mouse::LEFT, x, y);
+  world.input().mouse(player, action, df::Mouse::LEFT, x, y);
   world.tick();
 }
 
 TEST(Sandbox, WhatStandsKeepsStandingAndNothingIsLost) {
   hostGame(sandbox_main, 1, [](df::World& world) {
-    world.join("ann", df::RED);
+    world.input().join("ann", df::RED);
     tick(world, 30);
     const std::size_t count = bodies(world).size();
     df::Body* p_top = bodyAt(world, {48.3, 15.5});
@@ -58,7 +60,7 @@ TEST(Sandbox, WhatStandsKeepsStandingAndNothingIsLost) {
 
 TEST(Sandbox, ABallIsDraggedAndStaysWhereItFalls) {
   hostGame(sandbox_main, 1, [](df::World& world) {
-    const std::uint32_t ann = world.join("ann", df::RED);
+    const std::uint32_t ann = world.input().join("ann", df::RED);
     tick(world, 60);
     df::Body* p_ball = bodyAt(world, {4, 16});
     ASSERT_NE(p_ball, nullptr);
@@ -73,8 +75,8 @@ TEST(Sandbox, ABallIsDraggedAndStaysWhereItFalls) {
 
 TEST(Sandbox, AVoteTurnsGravityAndKeysMakeThings) {
   hostGame(sandbox_main, 1, [](df::World& world) {
-    const std::uint32_t ann = world.join("ann", df::RED);
-    world.join("bob", df::GREEN);
+    const std::uint32_t ann = world.input().join("ann", df::RED);
+    world.input().join("bob", df::GREEN);
     tick(world, 10);
     const std::size_t count = bodies(world).size();
     tap(world, ann, df::Keyboard::R);

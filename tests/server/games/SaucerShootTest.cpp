@@ -8,7 +8,12 @@
 #include "Player.h"
 #include "ViewObject.h"
 #include "detail/WorldView.h"
+#include "engine/world/Capture.h"
 #include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 #include "shared/replica/SteeredCopy.h"
 
 /// The game's main(), compiled into this test under another name.
@@ -33,12 +38,12 @@ void host(std::uint64_t seed, std::function<void(df::World&)> play) {
 }
 
 int score(df::World& world, std::uint32_t player) {
-  return world.getPlayer(player)->getScore();
+  return world.views().player(player)->getScore();
 }
 
 /// Joins, begins a round, and is in it.
 std::uint32_t joinAndFly(df::World& world) {
-  const std::uint32_t player = world.join("ann", df::RED);
+  const std::uint32_t player = world.input().join("ann", df::RED);
   tap(world, player, df::Keyboard::P);
   tick(world, 1);
   return player;
@@ -54,7 +59,7 @@ std::uint32_t joinAndWait(df::World& world) {
 /// So many ticks without a saucer near the ship.
 void tickInPeace(df::World& world, int count) {
   for (int t = 0; t < count; ++t) {
-    const df::ObjectList saucers = world.objectsOfType("Saucer");
+    const df::ObjectList saucers = world.objects().objectsOfType("Saucer");
     for (int i = 0; i < saucers.getCount(); ++i) {
       const df::Vector at = saucers[i]->getPosition();
       if (at.x() < 60) saucers[i]->setPosition(df::Vector(82, at.y()));
@@ -65,8 +70,8 @@ void tickInPeace(df::World& world, int count) {
 
 /// A saucer hits the ship.
 void crash(df::World& world, std::uint32_t player) {
-  const df::Object* p_hero = world.getPlayer(player)->getObject();
-  const df::ObjectList saucers = world.objectsOfType("Saucer");
+  const df::Object* p_hero = world.views().player(player)->getObject();
+  const df::ObjectList saucers = world.objects().objectsOfType("Saucer");
   ASSERT_FALSE(saucers.isEmpty());
   saucers[0]->setPosition(p_hero->getPosition() + df::Vector(1, 0));
   world.tick();
@@ -78,11 +83,11 @@ void playAtRandom(df::World& world, df::Random& random, std::uint32_t player) {
                                   df::Keyboard::D,     df::Keyboard::N, df::Keyboard::Z};
   if (random.below(5) == 0) {
     const auto action = static_cast<df::EventKeyboardAction>(random.below(3));
-    world.key(player, kKeys[random.below(7)], action);
+    world.input().key(player, kKeys[random.below(7)], action);
   }
   if (random.below(8) == 0) {
     const int y = random.below(24);
-    world.mouse(player, df::CLICKED, df::Mouse::LEFT, random.below(80), y);
+    world.input().mouse(player, df::CLICKED, df::Mouse::LEFT, random.below(80), y);
   }
 }
 
@@ -92,11 +97,11 @@ std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
   host(seed, [&](df::World& world) {
     df::Random random(seed);
     std::vector<std::uint32_t> players;
-    for (int i = 0; i < 4; ++i) players.push_back(world.join("pilot", df::RED));
+    for (int i = 0; i < 4; ++i) players.push_back(world.input().join("pilot", df::RED));
     for (int t = 0; t < ticks; ++t) {
       for (const std::uint32_t player : players) playAtRandom(world, random, player);
       world.tick();
-      for (const char ch : world.renderPlayer(players[0]).text()) {
+      for (const char ch : world.picture().renderPlayer(players[0]).text()) {
         hash = (hash ^ static_cast<unsigned char>(ch)) * 1099511628211u;
       }
     }
@@ -107,7 +112,7 @@ std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
 TEST(SaucerShoot, SaucersKeepOffTheRowsOfTheTexts) {
   host(1, [](df::World& world) {
     const std::uint32_t first = joinAndFly(world);
-    for (int i = 0; i < 11; ++i) world.join("pilot", df::RED);  // many pilots, many saucers
+    for (int i = 0; i < 11; ++i) world.input().join("pilot", df::RED);  // many pilots, many saucers
     int outside = 0;
     for (int t = 0; t < 6000; ++t) {
       if (t % 100 == 0) tap(world, first, df::Keyboard::P);  // another round, if this one is over
@@ -125,7 +130,7 @@ TEST(SaucerShoot, SaucersKeepOffTheRowsOfTheTexts) {
 TEST(SaucerShoot, SimplestPlayHitsASaucerWithinFiveSecondsForAnySeed) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     host(seed, [&](df::World& world) {
-      const std::uint32_t player = world.join("bot", df::RED);
+      const std::uint32_t player = world.input().join("bot", df::RED);
       world.tick();
       for (int t = 0; t < 149; ++t) {
         if (t % 10 == 0) tap(world, player, df::Keyboard::SPACE);
@@ -142,7 +147,7 @@ TEST(SaucerShoot, AtLeastTwentyObjectsMoveOnTheScreen) {
     for (int t = 0; t < 600; ++t) {
       world.tick();
       int moving = 0;
-      const df::ObjectList all = world.getAllObjects();
+      const df::ObjectList all = world.objects().getAllObjects();
       for (int i = 0; i < all.getCount(); ++i) {
         moving += all[i]->getVelocity() != df::Vector() && all[i]->getPosition().x() < 79.5;
       }
@@ -160,51 +165,53 @@ TEST(SaucerShoot, ObjectsStayBoundedWhateverFourPlayersDo) {
   host(3, [](df::World& world) {
     df::Random random(3);
     std::vector<std::uint32_t> players;
-    for (int i = 0; i < 4; ++i) players.push_back(world.join("pilot", df::RED));
+    for (int i = 0; i < 4; ++i) players.push_back(world.input().join("pilot", df::RED));
     int rounds = 0;
     bool flying = false;
     for (int t = 0; t < 8000; ++t) {
       for (const std::uint32_t player : players) playAtRandom(world, random, player);
       world.tick();
-      ASSERT_LE(world.getObjectCount(), 350);
-      ASSERT_LE(world.objectsOfType("Saucer").getCount(), 32);
-      const int heroes = world.objectsOfType("Hero").getCount();
+      ASSERT_LE(world.store().countInWorld(), 350);
+      ASSERT_LE(world.objects().objectsOfType("Saucer").getCount(), 32);
+      const int heroes = world.objects().objectsOfType("Hero").getCount();
       ASSERT_TRUE(heroes == 0 || heroes == 4);
       if (std::exchange(flying, heroes == 4) != flying && flying) ++rounds;
-      ASSERT_LE(world.objectsOfType("GameStart").getCount() + world.objectsOfType("GameOver").getCount(), 1);
+      ASSERT_LE(world.objects().objectsOfType("GameStart").getCount() +
+                    world.objects().objectsOfType("GameOver").getCount(),
+                1);
     }
     EXPECT_GE(rounds, 2);
-    EXPECT_EQ(world.getRefusals(), 0u);
+    EXPECT_EQ(world.log().refusals(), 0u);
   });
 }
 
 TEST(SaucerShoot, APlayerThatLeavesTakesTheShipAlong) {
   host(1, [](df::World& world) {
     const std::uint32_t ann = joinAndFly(world);
-    const std::uint32_t bob = world.join("bob", df::GREEN);
+    const std::uint32_t bob = world.input().join("bob", df::GREEN);
     tick(world, 20);
-    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 2);
+    EXPECT_EQ(world.objects().objectsOfType("Hero").getCount(), 2);
     tap(world, ann, df::Keyboard::SPACE);  // the bullet outlives its ship
-    world.leave(ann);
+    world.input().leave(ann);
     tick(world, 100);
-    ASSERT_EQ(world.objectsOfType("Hero").getCount(), 1);
-    EXPECT_EQ(world.objectsOfType("Hero")[0], world.getPlayer(bob)->getObject());
+    ASSERT_EQ(world.objects().objectsOfType("Hero").getCount(), 1);
+    EXPECT_EQ(world.objects().objectsOfType("Hero")[0], world.views().player(bob)->getObject());
   });
 }
 
 TEST(SaucerShoot, TapMovesOneCellAndAHeldKeyMovesUntilReleased) {
   host(1, [](df::World& world) {
     const std::uint32_t player = joinAndFly(world);
-    const df::Object* p_hero = world.getPlayer(player)->getObject();
+    const df::Object* p_hero = world.views().player(player)->getObject();
     const df::Vector start = p_hero->getPosition();
     tap(world, player, df::Keyboard::RIGHTARROW);
     tap(world, player, df::Keyboard::S);
     tick(world, 5);
     EXPECT_EQ(p_hero->getPosition(), start + df::Vector(1, 1));
 
-    world.key(player, df::Keyboard::D, df::KEY_PRESSED);
+    world.input().key(player, df::Keyboard::D, df::KEY_PRESSED);
     tick(world, 10);
-    world.key(player, df::Keyboard::D, df::KEY_RELEASED);
+    world.input().key(player, df::Keyboard::D, df::KEY_RELEASED);
     tick(world, 10);
     EXPECT_GE(p_hero->getPosition().x(), start.x() + 11);
     EXPECT_EQ(p_hero->getVelocity(), df::Vector());
@@ -214,9 +221,9 @@ TEST(SaucerShoot, TapMovesOneCellAndAHeldKeyMovesUntilReleased) {
 TEST(SaucerShoot, ShipWhoseReleaseGotLostStopsByItself) {
   host(1, [](df::World& world) {
     const std::uint32_t player = joinAndFly(world);
-    world.key(player, df::Keyboard::D, df::KEY_PRESSED);
+    world.input().key(player, df::Keyboard::D, df::KEY_PRESSED);
     tick(world, 2);
-    const df::Object* p_hero = world.getPlayer(player)->getObject();
+    const df::Object* p_hero = world.views().player(player)->getObject();
     EXPECT_NE(p_hero->getVelocity(), df::Vector());
     tick(world, 48);
     EXPECT_EQ(p_hero->getVelocity(), df::Vector());
@@ -225,7 +232,7 @@ TEST(SaucerShoot, ShipWhoseReleaseGotLostStopsByItself) {
 }
 
 ControlRecord recordOf(df::World& world, std::uint32_t player) {
-  const df::SteeringFacts f = world.getPlayer(player)->facts().steering;
+  const df::SteeringFacts f = world.views().player(player)->facts().steering;
   return {static_cast<std::uint32_t>(world.getStepCount()),
           f.object.slot,
           f.object.generation,
@@ -243,7 +250,7 @@ TEST(SaucerShoot, AShipsControlsForetellItsPath) {
     host(seed, [&](df::World& world) {
       df::Random random(seed);
       const std::uint32_t player = joinAndWait(world);
-      const df::ControlTable table = *world.getPlayer(player)->facts().steering.p_table;
+      const df::ControlTable table = *world.views().player(player)->facts().steering.p_table;
       for (int t = 0; t < 500; ++t) {
         SteeredCopy copy(recordOf(world, player), table);
         copy.beginTick();
@@ -252,13 +259,13 @@ TEST(SaucerShoot, AShipsControlsForetellItsPath) {
                                           df::Keyboard::D, df::Keyboard::SPACE};
           const Key key = kKeys[random.below(5)];
           const auto action = static_cast<df::EventKeyboardAction>(random.below(3));
-          world.key(player, key, action);
+          world.input().key(player, key, action);
           copy.applyKey(key, action);
         }
         copy.finishTick();
         const bool could_steer = copy.now().state.steering;
         world.tick();
-        if (world.getPlayer(player)->getObject() == nullptr) break;  // the round is over
+        if (world.views().player(player)->getObject() == nullptr) break;  // the round is over
         const ControlRecord now = recordOf(world, player);
         if (could_steer != now.state.steering) continue;  // hit, or launched
         EXPECT_EQ(now, copy.now());
@@ -271,13 +278,13 @@ TEST(SaucerShoot, AShipsControlsForetellItsPath) {
 
 TEST(SaucerShoot, TheTitleWaitsForAKey) {
   host(1, [](df::World& world) {
-    const std::uint32_t player = world.join("ann", df::RED);
+    const std::uint32_t player = world.input().join("ann", df::RED);
     tick(world, 30);
     EXPECT_TRUE(shows(world, player, "SPACE or P: play"));
-    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 0);
+    EXPECT_EQ(world.objects().objectsOfType("Hero").getCount(), 0);
     tap(world, player, df::Keyboard::X);
     world.tick();
-    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 0);
+    EXPECT_EQ(world.objects().objectsOfType("Hero").getCount(), 0);
     tap(world, player, df::Keyboard::P);
     tap(world, player, df::Keyboard::P);  // one round, not two
     tick(world, 2);
@@ -285,11 +292,11 @@ TEST(SaucerShoot, TheTitleWaitsForAKey) {
     EXPECT_TRUE(shows(world, player, "Points 0"));
     EXPECT_TRUE(shows(world, player, "0 points  ships 3  nukes 1"));
     EXPECT_TRUE(shows(world, player, "##=>"));
-    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 1);
-    const std::uint32_t late = world.join("bob", df::GREEN);
+    EXPECT_EQ(world.objects().objectsOfType("Hero").getCount(), 1);
+    const std::uint32_t late = world.input().join("bob", df::GREEN);
     world.tick();
-    EXPECT_EQ(world.objectsOfType("Hero").getCount(), 2);
-    EXPECT_NE(world.getPlayer(late)->getObject(), nullptr);
+    EXPECT_EQ(world.objects().objectsOfType("Hero").getCount(), 2);
+    EXPECT_NE(world.views().player(late)->getObject(), nullptr);
   });
 }
 
@@ -297,7 +304,7 @@ TEST(SaucerShoot, ALostShipIsReplacedUntilTheThirdThenTheTitleComesBack) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     host(seed, [](df::World& world) {
       const std::uint32_t player = joinAndFly(world);
-      df::Object* p_hero = world.getPlayer(player)->getObject();
+      df::Object* p_hero = world.views().player(player)->getObject();
       for (int ships = 2; ships >= 0; --ships) {
         tickInPeace(world, kShieldTicks);
         ASSERT_EQ(p_hero->getSolidness(), df::SOFT);  // no shield any more
@@ -314,7 +321,7 @@ TEST(SaucerShoot, ALostShipIsReplacedUntilTheThirdThenTheTitleComesBack) {
       EXPECT_TRUE(shows(world, player, "G A M E   O V E R"));
       tick(world, 100);
       EXPECT_TRUE(shows(world, player, "SPACE or P: play"));
-      EXPECT_EQ(world.objectsOfType("Hero").getCount(), 0);
+      EXPECT_EQ(world.objects().objectsOfType("Hero").getCount(), 0);
       tap(world, player, df::Keyboard::SPACE);
       tick(world, 2);
       EXPECT_TRUE(shows(world, player, "ships 3"));
@@ -325,10 +332,10 @@ TEST(SaucerShoot, ALostShipIsReplacedUntilTheThirdThenTheTitleComesBack) {
 TEST(SaucerShoot, ARoundEndsWithItsLastPilot) {
   host(1, [](df::World& world) {
     const std::uint32_t ann = joinAndFly(world);
-    world.leave(ann);
+    world.input().leave(ann);
     tick(world, 3);
-    EXPECT_EQ(world.objectsOfType("GameStart").getCount(), 1);
-    EXPECT_EQ(world.objectsOfType("Points").getCount(), 0);
+    EXPECT_EQ(world.objects().objectsOfType("GameStart").getCount(), 1);
+    EXPECT_EQ(world.objects().objectsOfType("Points").getCount(), 0);
   });
 }
 
@@ -340,7 +347,7 @@ TEST(SaucerShoot, PointsAreTheTeamsAndTheScoresThePilots) {
       world.tick();
     }
     EXPECT_GT(score(world, player), 0);
-    const df::ObjectList points = world.objectsOfType("Points");
+    const df::ObjectList points = world.objects().objectsOfType("Points");
     ASSERT_EQ(points.getCount(), 1);
     const int team = static_cast<const df::ViewObject*>(points[0])->getValue();
     EXPECT_EQ(team, score(world, player) + 10);  // and a point for each second
@@ -350,15 +357,15 @@ TEST(SaucerShoot, PointsAreTheTeamsAndTheScoresThePilots) {
 TEST(SaucerShoot, TheBestPilotsAreShownFromTheTitleOnAndAPilotComesInWithTheLastShip) {
   host(5, [](df::World& world) {
     for (const auto& [name, points] : {std::pair{"bob", 2000}, {"bob", 1000}, {"eve", 500}})
-      world.inputs().push(
+      world.input().push(
           {.kind = df::InputQueue::kScore, .player = 0, .name = name, .table = "pilots", .points = points});
-    const std::uint32_t player = world.join("ann", df::RED);
+    const std::uint32_t player = world.input().join("ann", df::RED);
     tick(world, 2);
     EXPECT_TRUE(shows(world, player, "Best pilots: bob 2000, eve 500")) << "each once";
     tap(world, player, df::Keyboard::P);
     tick(world, 2);
     EXPECT_FALSE(shows(world, player, "Best pilots"));
-    world.getPlayer(player)->setScore(700);
+    world.views().player(player)->setScore(700);
     for (int ships = 2; ships >= 0; --ships) {
       tickInPeace(world, kShieldTicks);
       crash(world, player);
@@ -366,7 +373,8 @@ TEST(SaucerShoot, TheBestPilotsAreShownFromTheTitleOnAndAPilotComesInWithTheLast
       if (ships > 0) tickInPeace(world, kRelaunchTicks);
     }
     world.tick();
-    EXPECT_TRUE(shows(world, player, "Best pilots: bob 2000, ann 7")) << world.renderPlayer(player).text();
+    EXPECT_TRUE(shows(world, player, "Best pilots: bob 2000, ann 7"))
+        << world.picture().renderPlayer(player).text();
   });
 }
 
@@ -376,7 +384,7 @@ TEST(SaucerShoot, NukeClearsTheSkyAndEarnsNothing) {
     tick(world, 10);
     tap(world, player, df::Keyboard::RETURN);
     world.tick();
-    const df::ObjectList saucers = world.objectsOfType("Saucer");
+    const df::ObjectList saucers = world.objects().objectsOfType("Saucer");
     for (int i = 0; i < saucers.getCount(); ++i) EXPECT_GE(saucers[i]->getPosition().x(), 80);
     EXPECT_EQ(score(world, player), 0);
   });

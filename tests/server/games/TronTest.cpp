@@ -3,6 +3,10 @@
 #include "HighScores.h"
 #include "HostedGame.h"
 #include "Player.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 
 /// The game's main(), compiled into this test under another name.
 int tron_main();
@@ -27,7 +31,7 @@ class CarefulRider {
   CarefulRider(World& world, std::uint32_t player) : m_world(world), m_player(player) {}
 
   void ride() {
-    const Object* p_cycle = m_world.getPlayer(m_player)->getObject();
+    const Object* p_cycle = m_world.views().player(m_player)->getObject();
     if (p_cycle == nullptr) return;
     const Vector at = p_cycle->getPosition();
     if (at != m_before) m_way = at - m_before;
@@ -51,15 +55,15 @@ class CarefulRider {
 
 TEST(Tron, ACarefulRiderWinsARoundAgainstTheRobot) {
   hostGame(tron_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     world.tick();
     CarefulRider rider(world, ann);
-    for (int t = 0; t < 9000 && world.getPlayer(ann)->getScore() == 0; ++t) {
+    for (int t = 0; t < 9000 && world.views().player(ann)->getScore() == 0; ++t) {
       rider.ride();
       world.tick();
     }
-    EXPECT_EQ(world.getPlayer(ann)->getScore(), 1);
-    EXPECT_NE(world.renderPlayer(ann).text().find("ann wins"), std::string::npos);
+    EXPECT_EQ(world.views().player(ann)->getScore(), 1);
+    EXPECT_NE(world.picture().renderPlayer(ann).text().find("ann wins"), std::string::npos);
     const auto rides = HighScores("rides").best();
     ASSERT_EQ(rides.size(), 1u);
     EXPECT_EQ(rides[0].name, "ann");
@@ -71,34 +75,34 @@ TEST(Tron, ACarefulRiderWinsARoundAgainstTheRobot) {
 
 TEST(Tron, ARiderThatDoesNotTurnHitsTheFenceAndTheOtherWins) {
   hostGame(tron_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
-    const std::uint32_t bob = world.join("bob", GREEN);
+    const std::uint32_t ann = world.input().join("ann", RED);
+    const std::uint32_t bob = world.input().join("bob", GREEN);
     tick(world, 2);
-    ASSERT_EQ(world.objectsOfType("Cycle").getCount(), 2) << "no robot where there are two";
+    ASSERT_EQ(world.objects().objectsOfType("Cycle").getCount(), 2) << "no robot where there are two";
     CarefulRider rider(world, bob);
-    for (int t = 0; t < 1000 && world.getPlayer(bob)->getScore() == 0; ++t) {
+    for (int t = 0; t < 1000 && world.views().player(bob)->getScore() == 0; ++t) {
       rider.ride();
       world.tick();
     }
-    EXPECT_EQ(world.getPlayer(bob)->getScore(), 1);
-    EXPECT_EQ(world.getPlayer(ann)->getScore(), 0);
+    EXPECT_EQ(world.views().player(bob)->getScore(), 1);
+    EXPECT_EQ(world.views().player(ann)->getScore(), 0);
   });
 }
 
 TEST(Tron, LatePlayersRideInTheNextRoundAndThoseThatLeaveLose) {
   hostGame(tron_main, 1, [](World& world) {
-    const std::uint32_t ann = world.join("ann", RED);
+    const std::uint32_t ann = world.input().join("ann", RED);
     tick(world, 60);
-    const std::uint32_t bob = world.join("bob", GREEN);
+    const std::uint32_t bob = world.input().join("bob", GREEN);
     tick(world, 2);
-    EXPECT_NE(world.renderPlayer(bob).text().find("next round"), std::string::npos);
-    world.leave(ann);
+    EXPECT_NE(world.picture().renderPlayer(bob).text().find("next round"), std::string::npos);
+    world.input().leave(ann);
     tick(world, 5);
-    EXPECT_NE(world.renderPlayer(bob).text().find("the robot wins"), std::string::npos);
+    EXPECT_NE(world.picture().renderPlayer(bob).text().find("the robot wins"), std::string::npos);
     tick(world, 140);
-    EXPECT_EQ(world.getPlayer(bob)->getObject()->getType(), "Cycle");
-    EXPECT_GE(world.objectsOfType("Trail").getCount(), 1);
-    EXPECT_LT(world.objectsOfType("Trail").getCount(), 60) << "the field was cleaned";
+    EXPECT_EQ(world.views().player(bob)->getObject()->getType(), "Cycle");
+    EXPECT_GE(world.objects().objectsOfType("Trail").getCount(), 1);
+    EXPECT_LT(world.objects().objectsOfType("Trail").getCount(), 60) << "the field was cleaned";
   });
 }
 

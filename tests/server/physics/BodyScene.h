@@ -10,6 +10,7 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/Body.h"
 #include "physics/body/EventContactEnd.h"
 #include "physics/body/PhysicsManager.h"
@@ -20,7 +21,7 @@ namespace df::test {
 class BodyScene : public testing::Test {
  protected:
   BodyScene() : scope(world) {
-    world.setLogSink([this](const std::string& line) { log.push_back(line); });
+    world.log().setSink([this](const std::string& line) { log.push_back(line); });
     PM.setAspect(1);
   }
   ~BodyScene() override { world.shutDown(); }

@@ -19,9 +19,11 @@
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
 #include "engine/world/EventPlayer.h"
 #include "engine/world/Object.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "host/loop/Host.h"
 #include "host/loop/HostEndpoint.h"
@@ -109,10 +111,10 @@ class Measurement {
     m_pictures.clear();
   }
   void observe(const df::World& world) {
-    const auto& view = world.view();
+    const auto& view = world.picture().view();
     for (const df::PlayerFacts& player : view.players) {
       if (!isChecked(player.id, view.tick) || !player.name.starts_with(kCheckedName)) continue;
-      m_pictures.push_back({view.tick, player.id, pictureSum(world.renderPlayer(player.id))});
+      m_pictures.push_back({view.tick, player.id, pictureSum(world.picture().renderPlayer(player.id))});
     }
   }
   void end() {
@@ -169,7 +171,7 @@ int serve(const std::string& identity, int most) {
   df::World world;
   const df::World::Scope scope(world);
   world.setSeed(1);
-  world.setWindow(80, 24);
+  world.views().setWindow(80, 24);
   new Usher;
   bench::populateBusy(bench::BusyScene::Kind::kBusy, 1000);
   host.run(world);

@@ -14,7 +14,7 @@ namespace {
 class ParticleTest : public WorldTest {
  protected:
   int count() const { return WM.objectsOfType("df-particle").getCount(); }
-  char at(int x, int y) const { return static_cast<char>(world.renderView({}).at(x, y).ch); }
+  char at(int x, int y) const { return static_cast<char>(world.picture().render({}).at(x, y).ch); }
 };
 
 TEST_F(ParticleTest, LivesForItsAgeAndShowsItsShape) {
@@ -24,7 +24,7 @@ TEST_F(ParticleTest, LivesForItsAgeAndShowsItsShape) {
   world.tick();
   world.tick();
   EXPECT_EQ(at(5, 5), 'O');
-  EXPECT_EQ(world.renderView({}).at(5, 5).color, RED);
+  EXPECT_EQ(world.picture().render({}).at(5, 5).color, RED);
   world.tick();
   EXPECT_EQ(count(), 0);
 }

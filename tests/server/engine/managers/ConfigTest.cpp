@@ -63,14 +63,14 @@ TEST_F(ConfigTest, SeedMakesTheDiceTheSame) {
 }
 
 TEST_F(ConfigTest, BackgroundAndShakeAreInTheView) {
-  world.setWatched(true);
+  world.store().setWatched(true);
   EXPECT_TRUE(DM.setBackgroundColor(GREEN));
   EXPECT_FALSE(DM.setBackgroundColor(CUSTOM));
   DM.shake(20, 20, 10);
   int shaken = 0;
   for (int i = 0; i < 10; ++i) {
     world.tick();
-    const WorldView& view = world.view();
+    const WorldView& view = world.picture().view();
     EXPECT_EQ(view.background, GREEN);
     EXPECT_LE(std::abs(view.shake_x), 2);
     EXPECT_LE(std::abs(view.shake_y), 1);
@@ -78,8 +78,8 @@ TEST_F(ConfigTest, BackgroundAndShakeAreInTheView) {
   }
   EXPECT_GT(shaken, 3);
   world.tick();
-  EXPECT_EQ(world.view().shake_x, 0);
-  EXPECT_EQ(world.view().shake_y, 0);
+  EXPECT_EQ(world.picture().view().shake_x, 0);
+  EXPECT_EQ(world.picture().view().shake_y, 0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "engine/events/EventStep.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
+#include "engine/world/WorldLog.h"
 
 namespace oracle {
 
@@ -51,7 +52,7 @@ class EngineDriver::Scripted : public Numbered {
 };
 
 EngineDriver::EngineDriver(const RandomWorld& world) : m_scope(m_world), m_script(world, *this) {
-  m_world.setLogSink([](const std::string&) {});
+  m_world.log().setSink([](const std::string&) {});
   WM.setBoundary(df::fromFixed(world.boundary));
   m_script.begin();
 }

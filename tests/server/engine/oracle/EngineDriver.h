@@ -5,6 +5,8 @@
 #include "Script.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 
 namespace oracle {
 
@@ -16,7 +18,7 @@ class EngineDriver : public Actor {
 
   Script& script() { return m_script; }
   /// Calls that the engine refused for their numbers: the script makes none.
-  std::uint64_t refusals() const { return m_world.getRefusals(); }
+  std::uint64_t refusals() const { return m_world.log().refusals(); }
 
   void create(int id, const Spec& spec) override;
   void markForDelete(int id) override;
@@ -40,7 +42,7 @@ class EngineDriver : public Actor {
   bool getSweptCollisions() const override;
   Meeting firstContact(int id, FixedVector where) override;
   std::optional<FixedVector> findFree(FixedBox box, FixedVector near) override;
-  const df::MoverStats& moverStats() const { return m_world.moverStats(); }
+  const df::MoverStats& moverStats() const { return m_world.store().grid().moverStats(); }
   void tick() override;
   std::vector<Snapshot> snapshot() const override;
 

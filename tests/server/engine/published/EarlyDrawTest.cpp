@@ -7,6 +7,7 @@
 #include "GameManager.h"
 #include "ViewObject.h"
 #include "World.h"
+#include "engine/world/Capture.h"
 
 namespace df::test {
 namespace {
@@ -30,7 +31,7 @@ TEST(EarlyDraw, ShowsWhatItDraws) {
   (new Platform)->setPosition(Vector(1, 2));
   new Title;
   GM.tick();
-  const auto canvas = world.renderView(FixedVector());
+  const auto canvas = world.picture().render(FixedVector());
   EXPECT_EQ(canvas.rowText(2).substr(0, 3), " = ");
   EXPECT_EQ(canvas.rowText(3).substr(0, 6), "title ");
   world.shutDown();

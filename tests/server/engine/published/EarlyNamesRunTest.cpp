@@ -26,7 +26,7 @@ class EarlyNames : public WorldTest {
   /// Rows 10 and 11 of the picture from column 8 on.
   std::string shown() {
     world.tick();
-    const Canvas canvas = world.renderView({});
+    const Canvas canvas = world.picture().render({});
     return canvas.rowText(10).substr(8, 6) + "|" + canvas.rowText(11).substr(8, 6);
   }
 

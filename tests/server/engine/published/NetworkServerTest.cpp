@@ -42,12 +42,12 @@ class NetworkServerTest : public WorldTest {
     return result;
   }
   void point(std::uint32_t player, int x, int y) {
-    world.mouse(player, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, x, y);
+    world.input().mouse(player, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, x, y);
     world.tick();
   }
   /// Column and row of the first such character in the picture; (-1,-1) for none.
   Vector shown(char ch) const {
-    const Canvas canvas = world.renderView({});
+    const Canvas canvas = world.picture().render({});
     for (int y = 0; y < canvas.height(); ++y) {
       for (int x = 0; x < canvas.width(); ++x) {
         if (canvas.at(x, y).ch == static_cast<char32_t>(ch)) return Vector(x, y);
@@ -61,11 +61,11 @@ TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
   bool played = false;
   EXPECT_EQ(play("server", "",
                  [&] {
-                   world.setGameOverLeaves(true);
-                   const std::uint32_t ann = world.join("ann", CYAN);
+                   world.input().setGameOverLeaves(true);
+                   const std::uint32_t ann = world.input().join("ann", CYAN);
                    world.tick();
                    EXPECT_EQ(WM.objectsOfType("Hand").getCount(), 0) << "it waits for two";
-                   const std::uint32_t bob = world.join("bob", RED);
+                   const std::uint32_t bob = world.input().join("bob", RED);
                    world.tick();
                    world.tick();
                    ASSERT_EQ(WM.objectsOfType("Hand").getCount(), 2);
@@ -75,16 +75,16 @@ TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
                    EXPECT_EQ(shown('B'), Vector(50, 20));
                    point(bob, 50, 6);
                    EXPECT_EQ(WM.objectsOfType("Apple").getCount(), 6);
-                   EXPECT_NE(world.renderView({}).rowText(1).find("Player 1 10"), std::string::npos);
-                   world.key(ann, Keyboard::SPACE, KEY_PRESSED);
+                   EXPECT_NE(world.picture().render({}).rowText(1).find("Player 1 10"), std::string::npos);
+                   world.input().key(ann, Keyboard::SPACE, KEY_PRESSED);
                    world.tick();
                    EXPECT_EQ(shown('A'), Vector(40, 12));
                    EXPECT_EQ(shown('B'), Vector(50, 6));
                    // "If a client leaves, end": it has left already, and ann goes on.
-                   world.leave(bob);
+                   world.input().leave(bob);
                    world.tick();
                    EXPECT_FALSE(GM.getGameOver());
-                   const std::uint32_t cy = world.join("cy", RED);
+                   const std::uint32_t cy = world.input().join("cy", RED);
                    world.tick();
                    world.tick();
                    point(cy, 30, 15);
@@ -110,8 +110,8 @@ TEST_F(NetworkServerTest, PlayersBeyondTheLimitWatch) {
   for (const auto& type :
        {NETWORK_EVENT, NETWORK_ACCEPT_EVENT, NETWORK_CLOSE_EVENT, NETWORK_KEYBOARD_EVENT, KEYBOARD_EVENT})
     probe.registerInterest(type);
-  const std::uint32_t ann = world.join("ann", CYAN);
-  const std::uint32_t bob = world.join("bob", RED);
+  const std::uint32_t ann = world.input().join("ann", CYAN);
+  const std::uint32_t bob = world.input().join("bob", RED);
   world.tick();
   world.tick();
   EXPECT_EQ(received, (std::vector<std::string>{"probe:df-network-accept", "probe:df-network"}));
@@ -119,12 +119,12 @@ TEST_F(NetworkServerTest, PlayersBeyondTheLimitWatch) {
   EXPECT_EQ(NM.getSocket(0), 0);
   EXPECT_EQ(NM.getSocket(1), -1);
   received.clear();
-  world.key(ann, Keyboard::A, KEY_PRESSED);
-  world.key(bob, Keyboard::A, KEY_PRESSED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().key(bob, Keyboard::A, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(received, (std::vector<std::string>{"probe:df-keyboard-network", "probe:df-keyboard"}));
   received.clear();
-  world.leave(ann);
+  world.input().leave(ann);
   world.tick();
   EXPECT_EQ(received, (std::vector<std::string>{"probe:df-network-close", "probe:df-network"}));
   received.clear();
@@ -143,11 +143,11 @@ TEST_F(NetworkServerTest, AKeyThatNoObjectTakesFromTheNetworkIsALocalOne) {
   quitter.registerInterest(KEYBOARD_EVENT);
   Probe hand("hand", &received);
   hand.registerInterest(NETWORK_MSE_EVENT);
-  const std::uint32_t ann = world.join("ann", CYAN);
+  const std::uint32_t ann = world.input().join("ann", CYAN);
   world.tick();
   world.tick();
-  world.key(ann, Keyboard::Q, KEY_PRESSED);
-  world.mouse(ann, CLICKED, Mouse::LEFT, 3, 4);
+  world.input().key(ann, Keyboard::Q, KEY_PRESSED);
+  world.input().mouse(ann, CLICKED, Mouse::LEFT, 3, 4);
   world.tick();
   EXPECT_EQ(received, (std::vector<std::string>{"quitter:df-keyboard", "hand:df-mouse-network"}));
 }
@@ -158,13 +158,13 @@ TEST_F(NetworkServerTest, AServerThatPlaysHasTheFirstPlayerAsItsOwn) {
   Probe hero("hero", &received);
   hero.registerInterest(KEYBOARD_EVENT);
   hero.registerInterest(NETWORK_KEYBOARD_EVENT);
-  const std::uint32_t ann = world.join("ann", CYAN);
-  const std::uint32_t bob = world.join("bob", RED);
+  const std::uint32_t ann = world.input().join("ann", CYAN);
+  const std::uint32_t bob = world.input().join("bob", RED);
   world.tick();
   world.tick();
   EXPECT_EQ(NM.getNumConnections(), 1);
-  world.key(ann, Keyboard::A, KEY_PRESSED);
-  world.key(bob, Keyboard::A, KEY_PRESSED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().key(bob, Keyboard::A, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard", "hero:df-keyboard-network"}));
 }
@@ -176,17 +176,17 @@ TEST_F(NetworkServerTest, WhoWatchesDoesNotSteerThePlayerAtTheServer) {
   Probe hero("hero", &received);
   hero.registerInterest(KEYBOARD_EVENT);
   hero.registerInterest(MSE_EVENT);
-  const std::uint32_t ann = world.join("ann", CYAN);
-  const std::uint32_t bob = world.join("bob", RED);
-  const std::uint32_t cy = world.join("cy", GREEN);
+  const std::uint32_t ann = world.input().join("ann", CYAN);
+  const std::uint32_t bob = world.input().join("bob", RED);
+  const std::uint32_t cy = world.input().join("cy", GREEN);
   world.tick();
   world.tick();
-  world.key(bob, Keyboard::A, KEY_PRESSED);
-  world.key(cy, Keyboard::A, KEY_PRESSED);
-  world.mouse(cy, CLICKED, Mouse::LEFT, 3, 4);
+  world.input().key(bob, Keyboard::A, KEY_PRESSED);
+  world.input().key(cy, Keyboard::A, KEY_PRESSED);
+  world.input().mouse(cy, CLICKED, Mouse::LEFT, 3, 4);
   world.tick();
   EXPECT_TRUE(received.empty());
-  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard"}));
 }
@@ -197,7 +197,7 @@ TEST_F(NetworkServerTest, WhatIsSynchronisedCountsAsWritten) {
   Probe apple("apple", nullptr, Vector(3, 4));
   EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), 0) << "no player is connected";
   EXPECT_TRUE(apple.isModified(POSITION));
-  world.join("ann", CYAN);
+  world.input().join("ann", CYAN);
   world.tick();
   world.tick();
   EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), 1);

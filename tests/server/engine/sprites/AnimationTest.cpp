@@ -89,7 +89,7 @@ TEST_F(AnimationTest, SpritesAreDrawnAroundThePosition) {
   o.setPosition(Vector(10, 10));
   o.setSprite(&s);
   world.tick();
-  const Canvas canvas = world.renderView({});
+  const Canvas canvas = world.picture().render({});
   // Rows 9.5 and 10.5 lie in the cells 10 and 11.
   EXPECT_EQ(canvas.rowText(10).substr(9, 3), "abc");
   EXPECT_EQ(canvas.rowText(11).substr(9, 3), "def");
@@ -106,7 +106,7 @@ TEST_F(AnimationTest, TransparentCharactersShowWhatIsBehindAndBlanksDoNot) {
   o.setSprite(&s);
   o.setPosition(Vector(10, 10));
   world.tick();
-  EXPECT_EQ(world.renderView({}).rowText(10).substr(8, 5), ".a. b");
+  EXPECT_EQ(world.picture().render({}).rowText(10).substr(8, 5), ".a. b");
 }
 
 TEST_F(AnimationTest, BoxBecomesTheSpritesUnlessSwitchedOff) {

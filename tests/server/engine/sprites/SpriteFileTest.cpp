@@ -9,6 +9,7 @@
 
 #include "engine/managers/ResourceManager.h"
 #include "engine/sprites/SpriteFile.h"
+#include "engine/world/WorldExtras.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -184,7 +185,7 @@ TEST_F(SpriteFile, FirstSpriteOfALabelStays) {
 
 TEST_F(SpriteFile, RelativeNamesAreLookedForInTheWorldsFolders) {
   EXPECT_EQ(RM.loadSprite("sprites/simple.txt", "s"), -1);
-  world.addResourceFolder(std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine");
+  world.extras().resources.addFolder(std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine");
   EXPECT_EQ(RM.loadSprite("sprites/simple.txt", "s"), 0);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 class FrapsTest : public WorldTest {
  protected:
-  std::string topRow() { return world.renderView(FixedVector()).rowText(1); }
+  std::string topRow() { return world.picture().render(FixedVector()).rowText(1); }
   void press(Keyboard::Key key) {
     EventKeyboard event;
     event.setKey(key);

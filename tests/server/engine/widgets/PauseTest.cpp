@@ -18,19 +18,19 @@ using Notes = std::vector<std::string>;
 class PauseTest : public WorldTest {
  protected:
   PauseTest() {
-    world.setWatched(true);
+    world.store().setWatched(true);
     new Pause(Keyboard::P);
   }
   void join(int count) {
-    for (int i = 0; i < count; ++i) players.push_back(world.join("player", RED));
+    for (int i = 0; i < count; ++i) players.push_back(world.input().join("player", RED));
     world.tick();
   }
   /// One tick in which these (counted from 0) press the key.
   void press(const std::vector<std::size_t>& voters) {
-    for (const std::size_t i : voters) world.key(players[i], Keyboard::P, KEY_PRESSED);
+    for (const std::size_t i : voters) world.input().key(players[i], Keyboard::P, KEY_PRESSED);
     world.tick();
   }
-  const Notes& notes() const { return world.view().notes; }
+  const Notes& notes() const { return world.picture().view().notes; }
 
   std::vector<std::uint32_t> players;
 };
@@ -93,7 +93,7 @@ TEST_F(PauseTest, PlayersThatLeaveAreNotCountedAnyMore) {
   join(4);
   press({0, 1});
   EXPECT_FALSE(world.isPaused()) << "two of four";
-  world.leave(players[3]);
+  world.input().leave(players[3]);
   world.tick();
   EXPECT_TRUE(world.isPaused()) << "two of three";
   EXPECT_EQ(notes(), Notes{"pause: 2 of 3"});
@@ -102,7 +102,7 @@ TEST_F(PauseTest, PlayersThatLeaveAreNotCountedAnyMore) {
 TEST_F(PauseTest, PlayersThatLeaveLoseTheirVote) {
   join(3);
   press({0});
-  world.leave(players[0]);
+  world.input().leave(players[0]);
   world.tick();
   press({1});
   EXPECT_FALSE(world.isPaused());
@@ -113,10 +113,10 @@ TEST_F(PauseTest, WhenNoPlayerIsLeftTheGameGoesOn) {
   join(2);
   press({0, 1});
   ASSERT_TRUE(world.isPaused());
-  world.leave(players[0]);
+  world.input().leave(players[0]);
   world.tick();
   EXPECT_TRUE(world.isPaused()) << "one is there, and may want it";
-  world.leave(players[1]);
+  world.input().leave(players[1]);
   world.tick();
   EXPECT_FALSE(world.isPaused());
 }
@@ -148,7 +148,7 @@ TEST_F(PauseTest, JoinsAndLeavesInAPauseAreSent) {
   for (const std::string& type : {std::string(JOIN_EVENT), std::string(LEAVE_EVENT), std::string(STEP_EVENT)})
     game.registerInterest(type);
   join(1);
-  world.leave(players[1]);
+  world.input().leave(players[1]);
   world.tick();
   EXPECT_TRUE(world.isPaused());
   EXPECT_EQ(received, (std::vector<std::string>{"game:df-join", "game:df-leave"}));

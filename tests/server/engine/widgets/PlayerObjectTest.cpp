@@ -5,6 +5,8 @@
 
 #include "engine/events/EventOut.h"
 #include "engine/widgets/PlayerObject.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 
 namespace df {
@@ -37,28 +39,30 @@ class PlayerObjects : public testing::Test {
  protected:
   PlayerObjects() : scope(world) { new Welcome<Ferry>; }
   ~PlayerObjects() override { world.shutDown(); }
-  Ferry* ferryOf(std::uint32_t player) { return static_cast<Ferry*>(world.getPlayer(player)->getObject()); }
+  Ferry* ferryOf(std::uint32_t player) {
+    return static_cast<Ferry*>(world.views().player(player)->getObject());
+  }
   World world;
   World::Scope scope;
 };
 
 TEST_F(PlayerObjects, EachPlayerThatJoinsGetsOne) {
   EXPECT_TRUE(WM.objectsOfType("Boat").isEmpty());
-  const std::uint32_t ann = world.join("ann", RED), bob = world.join("bob", BLUE);
+  const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
   world.tick();
   ASSERT_EQ(WM.objectsOfType("Boat").getCount(), 2);
   EXPECT_NE(ferryOf(ann), ferryOf(bob));
-  EXPECT_EQ(ferryOf(ann)->getPlayer(), world.getPlayer(ann));
-  EXPECT_EQ(ferryOf(ann)->getColor(), world.getPlayer(ann)->getColor());
-  EXPECT_EQ(ferryOf(bob)->getColor(), world.getPlayer(bob)->getColor());
+  EXPECT_EQ(ferryOf(ann)->getPlayer(), world.views().player(ann));
+  EXPECT_EQ(ferryOf(ann)->getColor(), world.views().player(ann)->getColor());
+  EXPECT_EQ(ferryOf(bob)->getColor(), world.views().player(bob)->getColor());
 }
 
 TEST_F(PlayerObjects, EachGetsItsPlayersInputOnly) {
-  const std::uint32_t ann = world.join("ann", RED), bob = world.join("bob", BLUE);
+  const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
   world.tick();
   ferryOf(ann)->received.clear(), ferryOf(bob)->received.clear();
-  world.key(ann, Keyboard::A, KEY_PRESSED);
-  world.mouse(bob, CLICKED, Mouse::LEFT, 9, 7);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().mouse(bob, CLICKED, Mouse::LEFT, 9, 7);
   world.tick();
   EXPECT_EQ(ferryOf(ann)->received, (std::vector<std::string>{"step", "A"}));
   EXPECT_EQ(ferryOf(bob)->received, (std::vector<std::string>{"step"}));
@@ -67,7 +71,7 @@ TEST_F(PlayerObjects, EachGetsItsPlayersInputOnly) {
 }
 
 TEST_F(PlayerObjects, OtherEventsGoToWhatItIsMadeOf) {
-  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t ann = world.input().join("ann", RED);
   world.tick();
   ferryOf(ann)->setVelocity(Vector(-10, 0));
   world.tick();
@@ -75,24 +79,24 @@ TEST_F(PlayerObjects, OtherEventsGoToWhatItIsMadeOf) {
 }
 
 TEST_F(PlayerObjects, ItGoesWithItsPlayer) {
-  const std::uint32_t ann = world.join("ann", RED), bob = world.join("bob", BLUE);
+  const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
   world.tick();
   Ferry* p_left = ferryOf(bob);
-  world.leave(ann);
+  world.input().leave(ann);
   world.tick();
   world.tick();
   ASSERT_EQ(WM.objectsOfType("Boat").getCount(), 1);
   EXPECT_EQ(WM.objectsOfType("Boat")[0], p_left);
-  EXPECT_EQ(p_left->getPlayer(), world.getPlayer(bob));
+  EXPECT_EQ(p_left->getPlayer(), world.views().player(bob));
 }
 
 // In the tick in which its player leaves, the game may still step it: getPlayer() is null.
 TEST_F(PlayerObjects, WithoutAPlayerItDoesNotStep) {
-  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t ann = world.input().join("ann", RED);
   world.tick();
   Ferry* p_ferry = ferryOf(ann);
   p_ferry->unregisterInterest(LEAVE_EVENT);
-  world.leave(ann);
+  world.input().leave(ann);
   world.tick();
   world.tick();
   p_ferry->received.clear();

@@ -19,7 +19,7 @@ namespace {
 class ViewObjectTest : public WorldTest {
  protected:
   std::string row(int y) {
-    const std::string text = world.renderView(viewCorner()).rowText(y);
+    const std::string text = world.picture().render(viewCorner()).rowText(y);
     return text.substr(0, text.find_last_not_of(' ') + 1);
   }
   FixedVector viewCorner() const { return *toFixed(WM.getView().getCorner()); }
@@ -114,14 +114,14 @@ TEST_F(ViewObjectTest, IsSeenInEveryPlayersOwnView) {
   points.setViewString("P");
   points.setBorder(false);
   points.setLocation(TOP_LEFT);
-  const std::uint32_t player = world.join("ann", RED);
+  const std::uint32_t player = world.input().join("ann", RED);
   world.tick();
   auto* p_ship = new Object;
   p_ship->setPosition(Vector(300, 70));
-  world.getPlayer(player)->setObject(p_ship);
+  world.views().player(player)->setObject(p_ship);
   world.tick();
-  EXPECT_NE(world.renderPlayer(player).rowText(0).find("P 0"), std::string::npos);
-  EXPECT_EQ(world.renderPlayer(player).rowText(0), world.renderView({}).rowText(0));
+  EXPECT_NE(world.picture().renderPlayer(player).rowText(0).find("P 0"), std::string::npos);
+  EXPECT_EQ(world.picture().renderPlayer(player).rowText(0), world.picture().render({}).rowText(0));
 }
 
 struct Entry : TextEntry {
@@ -152,8 +152,8 @@ TEST_F(ViewObjectTest, TextEntryTakesKeysUntilReturn) {
 }
 
 TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyTakesThatPlayersKeys) {
-  const std::uint32_t ann = world.join("ann", RED);
-  const std::uint32_t bob = world.join("bob", BLUE);
+  const std::uint32_t ann = world.input().join("ann", RED);
+  const std::uint32_t bob = world.input().join("bob", BLUE);
   world.tick();
   Entry* p_entry = nullptr;
   Probe probe;
@@ -162,41 +162,41 @@ TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyTakesThatPlayersKeys) {
     p_entry = new Entry;
     p.unregisterInterest(KEYBOARD_EVENT);
   };
-  world.key(ann, Keyboard::SPACE, KEY_PRESSED);
+  world.input().key(ann, Keyboard::SPACE, KEY_PRESSED);
   world.tick();
   ASSERT_NE(p_entry, nullptr);
   EXPECT_EQ(p_entry->getPlayer(), ann);
   p_entry->clearText();
-  world.key(bob, Keyboard::LEFTSHIFT, KEY_PRESSED);
-  world.key(ann, Keyboard::A, KEY_PRESSED);
-  world.key(bob, Keyboard::B, KEY_PRESSED);
-  world.key(bob, Keyboard::RETURN, KEY_PRESSED);
+  world.input().key(bob, Keyboard::LEFTSHIFT, KEY_PRESSED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().key(bob, Keyboard::B, KEY_PRESSED);
+  world.input().key(bob, Keyboard::RETURN, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(p_entry->getText(), "a");
   EXPECT_TRUE(p_entry->entered.empty());
-  world.leave(ann);
+  world.input().leave(ann);
   world.tick();
-  world.key(bob, Keyboard::RETURN, KEY_PRESSED);
+  world.input().key(bob, Keyboard::RETURN, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(p_entry->entered, std::vector<std::string>{"a"}) << "any player can finish";
 }
 
 TEST_F(ViewObjectTest, TextEntryWithoutAPlayerTakesAllKeysUntilItGetsOne) {
-  const std::uint32_t ann = world.join("ann", RED);
-  const std::uint32_t bob = world.join("bob", BLUE);
+  const std::uint32_t ann = world.input().join("ann", RED);
+  const std::uint32_t bob = world.input().join("bob", BLUE);
   Entry entry;
   EXPECT_EQ(entry.getPlayer(), 0u);
-  world.key(ann, Keyboard::A, KEY_PRESSED);
-  world.key(bob, Keyboard::B, KEY_PRESSED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().key(bob, Keyboard::B, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(entry.getText(), "ab");
   entry.setPlayer(bob);
-  world.key(ann, Keyboard::A, KEY_PRESSED);
-  world.key(bob, Keyboard::B, KEY_PRESSED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().key(bob, Keyboard::B, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(entry.getText(), "abb");
   entry.setPlayer(0);
-  world.key(ann, Keyboard::C, KEY_PRESSED);
+  world.input().key(ann, Keyboard::C, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(entry.getText(), "abbc");
 }

@@ -8,6 +8,7 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
@@ -69,7 +70,7 @@ class Bouncer : public Object {
 long allocationsOf(bool swept, bool precise, bool events) {
   World world;
   const World::Scope scope(world);
-  world.setLogSink([](const std::string&) {});
+  world.log().setSink([](const std::string&) {});
   WM.setSweptCollisions(swept);
   for (int i = 0; i < 300; ++i) {
     auto* p_o = new Bouncer;

@@ -21,7 +21,7 @@ class Capture : public WorldTest {
     return p;
   }
   const ObjectFacts* changed(const Object& o) const {
-    for (const ObjectFacts& f : world.view().changed) {
+    for (const ObjectFacts& f : world.picture().view().changed) {
       if (f.key == o.key()) return &f;
     }
     return nullptr;
@@ -35,8 +35,8 @@ TEST_F(Capture, DrawsByAltitudeThenCreation) {
   make("b", 3, 3, 2);
   GM.tick();
   EXPECT_EQ(received, (Received{"a", "b", "c", "d"}));
-  EXPECT_EQ(world.renderView({}).at(3, 3).ch, U'd');
-  EXPECT_EQ(world.renderView({}).at(3, 3).color, RED);
+  EXPECT_EQ(world.picture().render({}).at(3, 3).ch, U'd');
+  EXPECT_EQ(world.picture().render({}).at(3, 3).color, RED);
 }
 
 TEST_F(Capture, InactiveInvisibleAndFarOnesAreNotDrawn) {
@@ -54,13 +54,13 @@ TEST_F(Capture, WhatAPlayersViewShowsIsDrawn) {
   Probe* a = make("a", 300, 300);
   GM.tick();
   EXPECT_TRUE(received.empty());
-  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t ann = world.input().join("ann", RED);
   GM.tick();
   WM.getPlayer(ann)->setObject(a);
   GM.tick();
   EXPECT_EQ(received, (Received{"a"}));
-  EXPECT_EQ(world.renderPlayer(ann).at(40, 12).ch, U'a');
-  EXPECT_EQ(world.renderPlayer(0).at(40, 12).ch, U' ');
+  EXPECT_EQ(world.picture().renderPlayer(ann).at(40, 12).ch, U'a');
+  EXPECT_EQ(world.picture().renderPlayer(0).at(40, 12).ch, U' ');
 }
 
 TEST_F(Capture, CellIsTheRoundedPositionMinusTheRoundedCorner) {
@@ -68,8 +68,8 @@ TEST_F(Capture, CellIsTheRoundedPositionMinusTheRoundedCorner) {
   make("a", 10.5, 9.49);
   WM.setView(Box(Vector(2.5, 1.25), 80, 24));
   GM.tick();
-  EXPECT_EQ(world.renderPlayer(0).at(11 - 3, 9 - 1).ch, U'a');
-  EXPECT_EQ(world.renderView({}).at(11, 9).ch, U'a');
+  EXPECT_EQ(world.picture().renderPlayer(0).at(11 - 3, 9 - 1).ch, U'a');
+  EXPECT_EQ(world.picture().render({}).at(11, 9).ch, U'a');
 }
 
 TEST_F(Capture, StringsAreJustifiedAndCleaned) {
@@ -84,7 +84,7 @@ TEST_F(Capture, StringsAreJustifiedAndCleaned) {
     DM.drawCh(Vector(1, 4), char32_t{0x2588});
   };
   GM.tick();
-  const Canvas canvas = world.renderView({});
+  const Canvas canvas = world.picture().render({});
   EXPECT_EQ(canvas.rowText(1).substr(0, 18), "          left?\xC3\xA9 ");
   EXPECT_EQ(canvas.rowText(2).substr(0, 14), "       middle ");
   EXPECT_EQ(canvas.rowText(3).substr(0, 12), "     right  ");
@@ -98,9 +98,9 @@ TEST_F(Capture, StaticLookIsDrawnOnceAndMovesAlong) {
   a->setVelocity(Vector(1, 0));
   for (int i = 0; i < 3; ++i) GM.tick();
   EXPECT_EQ(received, (Received{"a"}));
-  EXPECT_EQ(world.renderView({}).at(6, 3).ch, U'a');
-  ASSERT_EQ(world.view().drawn.size(), 1u);
-  EXPECT_EQ(world.view().drawn[0].count, 1u);
+  EXPECT_EQ(world.picture().render({}).at(6, 3).ch, U'a');
+  ASSERT_EQ(world.picture().view().drawn.size(), 1u);
+  EXPECT_EQ(world.picture().view().drawn[0].count, 1u);
   a->setStaticLook();
   GM.tick();
   EXPECT_EQ(received, (Received{"a", "a"}));
@@ -112,10 +112,10 @@ TEST_F(Capture, CommandsNameTheObjectThatDrewThem) {
   Probe* silent = make("s", 4, 4);
   silent->on_draw = nullptr;
   a->on_event = [](Probe&, const Event&) { DM.drawCh(Vector(1, 1), '!', RED); };
-  world.join("ann", RED);
+  world.input().join("ann", RED);
   a->registerInterest("df-join");
   GM.tick();
-  const WorldView& view = world.view();
+  const WorldView& view = world.picture().view();
   ASSERT_EQ(view.drawn.size(), 3u);
   EXPECT_EQ(view.drawn[0].key, ObjectKey{});
   EXPECT_EQ(view.drawn[1].key, a->key());
@@ -138,7 +138,7 @@ TEST_F(Capture, DrawMayDeleteAndThrow) {
   GM.tick();
   EXPECT_EQ(logged("cannot draw"), 1);
   GM.tick();
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 TEST_F(Capture, DrawCannotBeginATickOrAnotherPicture) {
@@ -153,7 +153,7 @@ TEST_F(Capture, DrawCannotBeginATickOrAnotherPicture) {
   GM.tick();
   EXPECT_EQ(received, (Received{"draw", "draw"}));
   EXPECT_EQ(GM.getStepCount(), 1);
-  EXPECT_EQ(world.view().commands.size(), 1u);
+  EXPECT_EQ(world.picture().view().commands.size(), 1u);
 }
 
 TEST_F(Capture, ShutDownInsideDrawWaitsForItsEnd) {
@@ -163,47 +163,47 @@ TEST_F(Capture, ShutDownInsideDrawWaitsForItsEnd) {
     DM.drawCh(self.getPosition(), 'a');
   };
   WM.draw();
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 TEST_F(Capture, UnwatchedReportsNothingAndTheFirstWatchedTickEverything) {
   Object a;
   Object b;
   GM.tick();
-  EXPECT_TRUE(world.view().changed.empty());
-  world.setWatched(true);
+  EXPECT_TRUE(world.picture().view().changed.empty());
+  world.store().setWatched(true);
   GM.tick();
-  ASSERT_EQ(world.view().changed.size(), 2u);
-  EXPECT_EQ(world.view().changed[0].key, a.key());
-  EXPECT_EQ(world.view().changed[1].key, b.key());
-  EXPECT_EQ(world.view().tick, 2u);
-  EXPECT_EQ(world.view().boundary.size.x, fromCells(80));
+  ASSERT_EQ(world.picture().view().changed.size(), 2u);
+  EXPECT_EQ(world.picture().view().changed[0].key, a.key());
+  EXPECT_EQ(world.picture().view().changed[1].key, b.key());
+  EXPECT_EQ(world.picture().view().tick, 2u);
+  EXPECT_EQ(world.picture().view().boundary.size.x, fromCells(80));
   GM.tick();
-  EXPECT_TRUE(world.view().changed.empty());
+  EXPECT_TRUE(world.picture().view().changed.empty());
 }
 
 TEST_F(Capture, ChangesAreReportedInCreationOrder) {
   Object a;
   Object b;
   Object c;
-  world.setWatched(true);
+  world.store().setWatched(true);
   GM.tick();
   c.setAltitude(3);
   a.setSolidness(SPECTRAL);
   a.setVelocity(Vector(0, 0.5));
   b.setPosition(b.getPosition());  // no change
   GM.tick();
-  ASSERT_EQ(world.view().changed.size(), 2u);
-  EXPECT_EQ(world.view().changed[0].key, a.key());
-  EXPECT_EQ(world.view().changed[0].position.y, kFixedOne / 2);
-  EXPECT_EQ(world.view().changed[1].altitude, 3);
+  ASSERT_EQ(world.picture().view().changed.size(), 2u);
+  EXPECT_EQ(world.picture().view().changed[0].key, a.key());
+  EXPECT_EQ(world.picture().view().changed[0].position.y, kFixedOne / 2);
+  EXPECT_EQ(world.picture().view().changed[1].altitude, 3);
   GM.tick();  // a goes on moving
-  ASSERT_EQ(world.view().changed.size(), 1u);
+  ASSERT_EQ(world.picture().view().changed.size(), 1u);
 }
 
 TEST_F(Capture, EveryFactIsReported) {
   Object o;
-  world.setWatched(true);
+  world.store().setWatched(true);
   GM.tick();
   const auto reported = [&] {
     GM.tick();
@@ -236,7 +236,7 @@ TEST_F(Capture, BlockedObjectHasNoVelocityUntilItIsFree) {
   a.setPosition(Vector(10.5, 10));
   a.setVelocity(Vector(1, 0));
   a.setAcceleration(Vector(0.5, 0));
-  world.setWatched(true);
+  world.store().setWatched(true);
   GM.tick();
   ASSERT_NE(changed(a), nullptr);
   EXPECT_EQ(changed(a)->velocity, FixedVector{});
@@ -256,7 +256,7 @@ TEST_F(Capture, BouncerReportsItsNewVelocity) {
   Probe a("a", nullptr, Vector(10.5, 10));
   a.setVelocity(Vector(1, 0));
   a.on_event = [](Probe& self, const Event&) { self.setVelocity(Vector(-1, 0)); };
-  world.setWatched(true);
+  world.store().setWatched(true);
   GM.tick();
   ASSERT_NE(changed(a), nullptr);
   EXPECT_EQ(toCells(changed(a)->velocity.x), -1);
@@ -264,36 +264,36 @@ TEST_F(Capture, BouncerReportsItsNewVelocity) {
 
 TEST_F(Capture, VanishedAreThoseThatWereReported) {
   auto* p_a = new Object;
-  world.setWatched(true);
+  world.store().setWatched(true);
   GM.tick();
   const ObjectKey key = p_a->key();
   p_a->setAltitude(1);
   delete p_a;
   delete new Object;  // born and dead between two looks
   GM.tick();
-  EXPECT_EQ(world.view().vanished, std::vector{key});
-  EXPECT_TRUE(world.view().changed.empty());
+  EXPECT_EQ(world.picture().view().vanished, std::vector{key});
+  EXPECT_TRUE(world.picture().view().changed.empty());
   GM.tick();
-  EXPECT_TRUE(world.view().vanished.empty());
+  EXPECT_TRUE(world.picture().view().vanished.empty());
 }
 
 TEST_F(Capture, ReturningObjectIsANewOne) {
   Object o;
-  world.setWatched(true);
+  world.store().setWatched(true);
   GM.tick();
   const ObjectKey before = o.key();
   WM.removeObject(&o);
   WM.insertObject(&o);
   GM.tick();
-  EXPECT_EQ(world.view().vanished, std::vector{before});
-  ASSERT_EQ(world.view().changed.size(), 1u);
-  EXPECT_EQ(world.view().changed[0].key, o.key());
+  EXPECT_EQ(world.picture().view().vanished, std::vector{before});
+  ASSERT_EQ(world.picture().view().changed.size(), 1u);
+  EXPECT_EQ(world.picture().view().changed[0].key, o.key());
   EXPECT_NE(o.key(), before);
 }
 
 TEST_F(Capture, SlotReusedWithinATickIsReportedOnce) {
   std::vector<Object*> objects;
-  world.setWatched(true);
+  world.store().setWatched(true);
   for (int i = 0; i < 10; ++i) objects.push_back(new Object);
   GM.tick();
   for (Object*& p : objects) {
@@ -302,24 +302,24 @@ TEST_F(Capture, SlotReusedWithinATickIsReportedOnce) {
     p = new Object;
   }
   GM.tick();
-  EXPECT_EQ(world.view().changed.size(), 10u);
-  EXPECT_EQ(world.view().vanished.size(), 10u);
+  EXPECT_EQ(world.picture().view().changed.size(), 10u);
+  EXPECT_EQ(world.picture().view().vanished.size(), 10u);
 }
 
 TEST_F(Capture, PlayersAreReportedById) {
-  world.setWatched(true);
-  const std::uint32_t ann = world.join("ann", RED);
-  world.join("bob", BLUE);
+  world.store().setWatched(true);
+  const std::uint32_t ann = world.input().join("ann", RED);
+  world.input().join("bob", BLUE);
   GM.tick();
   auto* p_ship = new Object;
   WM.getPlayer(ann)->setObject(p_ship);
   WM.getPlayer(ann)->setScore(7);
   GM.tick();
-  ASSERT_EQ(world.view().players.size(), 2u);
-  EXPECT_EQ(world.view().players[0].name, "ann");
-  EXPECT_EQ(world.view().players[0].score, 7);
-  EXPECT_EQ(world.view().players[0].followed, p_ship->key());
-  EXPECT_EQ(world.view().players[1].followed.generation, 0u);
+  ASSERT_EQ(world.picture().view().players.size(), 2u);
+  EXPECT_EQ(world.picture().view().players[0].name, "ann");
+  EXPECT_EQ(world.picture().view().players[0].score, 7);
+  EXPECT_EQ(world.picture().view().players[0].followed, p_ship->key());
+  EXPECT_EQ(world.picture().view().players[1].followed.generation, 0u);
 }
 
 }  // namespace

@@ -145,19 +145,19 @@ TEST_F(WorldTest, AGameThatIsOverForOnePlayerGoesOnForTheOthers) {
   quitter.on_event = [](Probe&, const Event& e) {
     if (e.getType() == KEYBOARD_EVENT) GM.setGameOver();
   };
-  world.setGameOverLeaves(true);
-  const std::uint32_t ann = world.join("ann", CYAN);
-  const std::uint32_t bob = world.join("bob", RED);
-  world.key(bob, Keyboard::Q, KEY_PRESSED);
+  world.input().setGameOverLeaves(true);
+  const std::uint32_t ann = world.input().join("ann", CYAN);
+  const std::uint32_t bob = world.input().join("bob", RED);
+  world.input().key(bob, Keyboard::Q, KEY_PRESSED);
   world.tick();
   EXPECT_FALSE(world.isGameOver());
-  EXPECT_EQ(world.takeLeavers(), std::vector<std::uint32_t>{bob});
-  EXPECT_TRUE(world.takeLeavers().empty());
+  EXPECT_EQ(world.input().takeLeavers(), std::vector<std::uint32_t>{bob});
+  EXPECT_TRUE(world.input().takeLeavers().empty());
   GM.setGameOver();  // outside any player's input
   EXPECT_TRUE(world.isGameOver());
   GM.setGameOver(false);
-  world.setGameOverLeaves(false);
-  world.key(ann, Keyboard::Q, KEY_PRESSED);
+  world.input().setGameOverLeaves(false);
+  world.input().key(ann, Keyboard::Q, KEY_PRESSED);
   world.tick();
   EXPECT_TRUE(world.isGameOver());
 }

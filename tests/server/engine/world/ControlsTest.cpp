@@ -20,13 +20,13 @@ Controls arrows(int wait = 0) {
 /// A player that steers a ship at (10,10).
 class DeclaredControls : public WorldTest {
  protected:
-  DeclaredControls() : id(world.join("ann", RED)) {
+  DeclaredControls() : id(world.input().join("ann", RED)) {
     GM.tick();
     player().setObject(&ship);
   }
   Player& player() { return *WM.getPlayer(id); }
   void press(Key key, EventKeyboardAction action = KEY_PRESSED) {
-    world.key(id, key, action);
+    world.input().key(id, key, action);
     GM.tick();
   }
 
@@ -126,8 +126,8 @@ TEST_F(DeclaredControls, VelocitiesAndDrivesMoveInTheSameTick) {
 
 TEST_F(DeclaredControls, OnlyThePlayersOwnKeysMoveTheirObject) {
   player().setControls(arrows());
-  const std::uint32_t bob = world.join("bob", GREEN);
-  world.key(bob, RIGHTARROW, KEY_PRESSED);
+  const std::uint32_t bob = world.input().join("bob", GREEN);
+  world.input().key(bob, RIGHTARROW, KEY_PRESSED);
   GM.tick();
   expectAt(ship, 10, 10);
 }
@@ -196,7 +196,7 @@ TEST_F(DeclaredControls, BadNumbersSpoilTheTableAndAreCounted) {
         many}) {
     EXPECT_EQ(player().setControls(bad), -1);
   }
-  EXPECT_EQ(world.getRefusals(), 13u);
+  EXPECT_EQ(world.log().refusals(), 13u);
   press(RIGHTARROW);
   expectAt(ship, 11, 10);  // the table from before
   EXPECT_EQ(player().setControls(Controls()), 0);

@@ -85,7 +85,7 @@ std::vector<std::string> play(const Crowd& crowd, std::uint64_t seed, bool ears,
     pages.str({});
     said.push_back(line.str());
   }
-  if (p_stats != nullptr) *p_stats = world.moverStats();
+  if (p_stats != nullptr) *p_stats = world.store().moverStats();
   world.shutDown();
   return said;
 }
@@ -176,7 +176,7 @@ TEST(Crowd, IsCountedAsItIsWhenSomeChangeTheirKindOrGo) {
   EXPECT_TRUE(moves());
   for (int i = 1; i < 80; ++i) soft[static_cast<std::size_t>(i)]->setPosition(Vector(10, 12));
   EXPECT_TRUE(moves());
-  EXPECT_EQ(world.moverStats().met, 0u);
+  EXPECT_EQ(world.store().moverStats().met, 0u);
   world.shutDown();
 }
 
@@ -200,11 +200,11 @@ TEST(Crowd, IsNotListedBecauseOfAHearerElsewhere) {
     p_o->setVelocity(Vector(0.1, 0));
   }
   world.tick();
-  EXPECT_EQ(world.moverStats().unheard, 500u);
+  EXPECT_EQ(world.store().moverStats().unheard, 500u);
   p_far->setPosition(Vector(41, 12));
   world.tick();
-  EXPECT_EQ(world.moverStats().unheard, 500u) << "it is touched, and has to hear of each";
-  EXPECT_EQ(world.moverStats().met, 500u);
+  EXPECT_EQ(world.store().moverStats().unheard, 500u) << "it is touched, and has to hear of each";
+  EXPECT_EQ(world.store().moverStats().met, 500u);
   EXPECT_FALSE(pages.str().empty());
   world.shutDown();
 }

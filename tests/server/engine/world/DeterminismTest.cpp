@@ -11,6 +11,7 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "shared/values/SplitMix64.h"
 
 namespace df::test {
@@ -22,7 +23,7 @@ constexpr std::uint64_t kHash = 0xbbf0e9000aa30fba;
 class Recording {
  public:
   Recording() {
-    world.setLogSink([](const std::string&) {});
+    world.log().setSink([](const std::string&) {});
     world.setSeed(20261121);
     WM.setBoundary(Box(Vector(-40, -20), 160, 60));
     for (int i = 0; i < 250; ++i) spawn();

@@ -10,6 +10,7 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 
 namespace df::test {
@@ -18,7 +19,7 @@ namespace {
 class Extremes : public ::testing::Test {
  protected:
   Extremes() {
-    world.setLogSink([](const std::string&) {});
+    world.log().setSink([](const std::string&) {});
   }
   ~Extremes() override { world.shutDown(); }
   World world;
@@ -45,7 +46,7 @@ class Reacting : public Object {
 std::vector<FixedVector> pathAround(Vector origin, bool swept, int& collisions) {
   World world;
   const World::Scope scope(world);
-  world.setLogSink([](const std::string&) {});
+  world.log().setSink([](const std::string&) {});
   WM.setSweptCollisions(swept);
   std::vector<Reacting*> crowd;
   const auto turn = [](Reacting& self, const EventCollision& c) {
@@ -141,7 +142,7 @@ TEST_F(Extremes, NumbersThatAreNoneAreRefusedAndTheWorldGoesOn) {
     EXPECT_EQ(p_o->setSpeed(x), -1);
     refused += 2;
   }
-  EXPECT_EQ(world.getRefusals(), refused);
+  EXPECT_EQ(world.log().refusals(), refused);
   WM.update();
   EXPECT_EQ(p_o->getPosition(), Vector(1, 0));
   EXPECT_EQ(p_other->getPosition(), Vector(5.5, 5));
@@ -155,7 +156,7 @@ TEST_F(Extremes, AMillionObjectsLoadAndStep) {
     p_o->setVelocity(Vector(0.25, i % 2 == 0 ? 0.25 : -0.25));
   }
   for (int tick = 0; tick < 3; ++tick) WM.update();
-  EXPECT_EQ(world.getObjectCount(), 1000000);
+  EXPECT_EQ(world.store().countInWorld(), 1000000);
 }
 
 // One shot clears a screen of 700 and each of them leaves a piece of wreckage, all from within one handler's
@@ -180,7 +181,7 @@ TEST_F(Extremes, SevenHundredDieAndAreBornInOneTick) {
   p_shot->setPosition(Vector(500, 500));
   EXPECT_EQ(WM.moveObject(p_shot, Vector(50, 50)), 0);
   EXPECT_EQ(born, 700);
-  EXPECT_EQ(world.getObjectCount(), 701);
+  EXPECT_EQ(world.store().countInWorld(), 701);
   WM.update();
   EXPECT_EQ(WM.objectsOfType("piece").getCount(), 700);
 }

@@ -108,9 +108,9 @@ TEST_F(FindFree, NumbersOutOfRangeAreRefused) {
   EXPECT_EQ(WM.findFree(kCharacter, Vector(0, 3e9)), std::nullopt);
   EXPECT_EQ(WM.findFree(Box(Vector(), -1, 1), Vector()), std::nullopt);
   EXPECT_EQ(WM.findFree(Box(Vector(), 1, 2e6), Vector()), std::nullopt);
-  EXPECT_EQ(world.getRefusals(), 4u);
+  EXPECT_EQ(world.log().refusals(), 4u);
   EXPECT_EQ(WM.findFree(kCharacter, Vector(2e9, -2e9)), std::nullopt);  // only far away
-  EXPECT_EQ(world.getRefusals(), 4u);
+  EXPECT_EQ(world.log().refusals(), 4u);
 }
 
 TEST_F(FindFree, BoxesOfAnySizeFit) {

@@ -3,9 +3,12 @@
 
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
 #include "engine/world/Object.h"
 #include "engine/world/ObjectLookAccess.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 #include "shared/replica/Look.h"
 
 namespace df {
@@ -29,7 +32,7 @@ class Adorned : public Object {
 
 class FramesTest : public testing::Test {
  protected:
-  std::string row() { return world.renderView({}).rowText(5).substr(9, 3); }
+  std::string row() { return world.picture().render({}).rowText(5).substr(9, 3); }
 
   World world;
   World::Scope scope{world};
@@ -54,13 +57,13 @@ TEST_F(FramesTest, AHostGetsFramesAndSelector) {
   object.setPosition(Vector(10, 5));
   ObjectLookAccess::setFrames(object, letters(), Selector::turning(1, 5, 7));
   world.tick();
-  EXPECT_TRUE(world.view().looks.empty()) << "not watched";
-  world.setWatched(true);
+  EXPECT_TRUE(world.picture().view().looks.empty()) << "not watched";
+  world.store().setWatched(true);
   Object plain;
   world.tick();
-  ASSERT_EQ(world.view().looks.size(), 1u);
-  const PublishedLook& look = world.view().looks[0];
-  EXPECT_EQ(world.view().drawn[look.drawn].key, object.key());
+  ASSERT_EQ(world.picture().view().looks.size(), 1u);
+  const PublishedLook& look = world.picture().view().looks[0];
+  EXPECT_EQ(world.picture().view().drawn[look.drawn].key, object.key());
   EXPECT_EQ(look.p_look->sequence, letters());
   EXPECT_EQ(look.p_look->selector, Selector::turning(1, 5, 7));
 }
@@ -111,7 +114,7 @@ TEST_F(FramesTest, WhatDoesNotFitIsRefused) {
   EXPECT_EQ(ObjectLookAccess::setFrames(object, letters(), Selector::fixed(2)), 0);
   EXPECT_EQ(ObjectLookAccess::setSelector(object, Selector::fixed(3)), -1);
   EXPECT_EQ(object.getFrame(), 2);
-  EXPECT_EQ(world.getRefusals(), 6u);
+  EXPECT_EQ(world.log().refusals(), 6u);
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 
 #include "engine/world/GameRooms.h"
 #include "engine/world/InputQueue.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 
 namespace df {
 namespace {
@@ -13,10 +15,10 @@ namespace {
 class GameRoomsTest : public testing::Test {
  protected:
   void SetUp() override {
-    world.setLogSink([](const std::string&) {});
+    world.log().setSink([](const std::string&) {});
   }
   void keep(const GameRoom& room) {
-    world.inputs().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
+    world.input().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
   }
 
   World world;
@@ -44,7 +46,7 @@ TEST_F(GameRoomsTest, AreLimited) {
 TEST_F(GameRoomsTest, PlayersAreSentToOthersAlone) {
   keep({.name = "here", .is_this_one = true});
   keep({.name = "there"});
-  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t ann = world.input().join("ann", RED);
   world.tick();
   EXPECT_EQ(rooms.send(ann, "nowhere"), -1);
   EXPECT_EQ(rooms.send(ann, "here"), -1);
@@ -54,12 +56,12 @@ TEST_F(GameRoomsTest, PlayersAreSentToOthersAlone) {
   ASSERT_EQ(sent.size(), 1u);
   EXPECT_EQ(sent[0].player, ann);
   EXPECT_EQ(sent[0].room, "there");
-  EXPECT_NE(world.getPlayer(ann), nullptr) << "until the server leads them away";
+  EXPECT_NE(world.views().player(ann), nullptr) << "until the server leads them away";
 }
 
 TEST_F(GameRoomsTest, SendingIsLimitedInATickAndForgottenAfterIt) {
   keep({.name = "there"});
-  const std::uint32_t ann = world.join("ann", RED);
+  const std::uint32_t ann = world.input().join("ann", RED);
   world.tick();
   for (std::size_t i = 0; i < GameRooms::kMaxSentInTick; ++i) EXPECT_EQ(rooms.send(ann, "there"), 0);
   EXPECT_EQ(rooms.send(ann, "there"), -1);

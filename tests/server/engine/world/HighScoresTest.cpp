@@ -13,6 +13,7 @@
 #include "WorldManager.h"
 #include "engine/world/InputQueue.h"
 #include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
 
 namespace df {
 namespace {
@@ -20,10 +21,10 @@ namespace {
 class HighScoresTest : public testing::Test {
  protected:
   HighScoresTest() {
-    world.setLogSink([this](const std::string& line) { log.push_back(line); });
+    world.log().setSink([this](const std::string& line) { log.push_back(line); });
   }
   void keep(const std::string& table, const std::string& name, std::int64_t points) {
-    world.inputs().push(
+    world.input().push(
         {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
   }
   std::vector<AddedScore> taken() { return world.extras().scores.takeAdded(); }
@@ -99,7 +100,7 @@ TEST_F(HighScoresTest, MoreThanSixteenInATickAreRefusedAndTheNextTickTakesMore) 
   for (int i = 0; i < 16; ++i) EXPECT_EQ(scores.add("ann", i), 0);
   EXPECT_EQ(HighScores("other").add("ann", 99), -1);
   EXPECT_EQ(log.size(), 1u);
-  EXPECT_EQ(world.getRefusals(), 1u);
+  EXPECT_EQ(world.log().refusals(), 1u);
   world.tick();
   EXPECT_EQ(scores.add("ann", 99), 0);
   EXPECT_EQ(taken().size(), 17u);

@@ -129,7 +129,7 @@ TEST_F(Interests, HandlerThatThrowsIsQuarantinedAndTheTickGoesOn) {
   GM.tick();
   EXPECT_EQ(received, (Received{"bad:df-step", "good:df-step", "good:df-step"}));
   EXPECT_EQ(logged("bad"), 1);
-  EXPECT_EQ(world.getObjectCount(), 1);
+  EXPECT_EQ(world.store().countInWorld(), 1);
 }
 
 }  // namespace

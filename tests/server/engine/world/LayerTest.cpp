@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
 #include "engine/world/Layer.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 
@@ -19,7 +21,7 @@ class Falling : public Layer {
   void step(World& world) override {
     ++steps;
     for (const ObjectKey key : bodies) {
-      if (world.find(key) == nullptr) continue;
+      if (world.store().find(key) == nullptr) continue;
       WorldStore& store = world.store();
       const FixedVector v = store.velocity(key.slot);
       const FixedVector a{0, fromCells(1) / 4};
@@ -79,13 +81,13 @@ TEST_F(Layers, AClientCanComputeABodysFlight) {
   Object body;
   Object* const p_body = &body;
   layer->add(*p_body);
-  world.setWatched(true);
+  world.store().setWatched(true);
   p_body->setVelocity(Vector(0.5, -2));
   world.tick();
-  ASSERT_EQ(world.view().changed.size(), 1u);
-  FixedVector p = world.view().changed[0].position;
-  FixedVector v = world.view().changed[0].velocity;
-  const FixedVector a = world.view().changed[0].acceleration;
+  ASSERT_EQ(world.picture().view().changed.size(), 1u);
+  FixedVector p = world.picture().view().changed[0].position;
+  FixedVector v = world.picture().view().changed[0].velocity;
+  const FixedVector a = world.picture().view().changed[0].acceleration;
   for (int i = 0; i < 100; ++i) {
     world.tick();
     p = p + v;
@@ -109,7 +111,7 @@ TEST_F(Layers, AnObjectMarkedInAStepIsDeletedInTheSameUpdate) {
   class Reaper : public Layer {
    public:
     void step(World& world) override {
-      for (const ObjectKey key : doomed) world.markForDelete(world.find(key));
+      for (const ObjectKey key : doomed) world.objects().markForDelete(world.store().find(key));
     }
     std::vector<ObjectKey> doomed;
   };
@@ -118,7 +120,7 @@ TEST_F(Layers, AnObjectMarkedInAStepIsDeletedInTheSameUpdate) {
   const ObjectKey key = p_body->key();
   world.findLayer<Reaper>()->doomed.push_back(key);
   world.update();
-  EXPECT_EQ(world.find(key), nullptr);
+  EXPECT_EQ(world.store().find(key), nullptr);
 }
 
 }  // namespace

@@ -157,21 +157,21 @@ TEST_F(Mistakes, ASoundFileThatIsNotThere) {
 }
 
 TEST_F(Mistakes, ASoundThatWasNotLoadedIsSilent) {
-  world.setWatched(true);
+  world.store().setWatched(true);
   RM.getSound("fire")->play();
   RM.getSound("fire")->play(true);
   expectLine("RM.getSound(\"fire\"): nothing is loaded under this label; none is loaded");
   RM.getMusic("theme")->play();
   expectLine("RM.getMusic(\"theme\"): nothing is loaded under this label; none is loaded");
   world.tick();
-  EXPECT_TRUE(world.view().sounds.empty());
+  EXPECT_TRUE(world.picture().view().sounds.empty());
 }
 
 TEST_F(Mistakes, AClassThatForgotItsType) {
   new Saucer;
-  EXPECT_TRUE(world.objectsOfType("Saucer").isEmpty());
-  EXPECT_TRUE(world.objectsOfType("Saucer").isEmpty());
-  EXPECT_TRUE(world.objectsOfType("Bullet").isEmpty());  // there may be none just now
+  EXPECT_TRUE(world.objects().objectsOfType("Saucer").isEmpty());
+  EXPECT_TRUE(world.objects().objectsOfType("Saucer").isEmpty());
+  EXPECT_TRUE(world.objects().objectsOfType("Bullet").isEmpty());  // there may be none just now
   expectLine(
       "WM.objectsOfType(\"Saucer\") finds none: class Saucer does not call "
       "setType(\"Saucer\")");
@@ -191,7 +191,7 @@ TEST_F(Mistakes, SettersThatRefuseAreNamedOnceEach) {
   expectLine(
       "Refused: setPosition of Saucer: a number is not finite (a division by 0?) or out of range "
       "(further ones are only counted)");
-  EXPECT_EQ(world.getRefusals(), 6u);
+  EXPECT_EQ(world.log().refusals(), 6u);
   EXPECT_EQ(p_saucer->setSolidness(static_cast<Solidness>(7)), -1);
   expectLine(
       "Refused: setSolidness of Saucer: a solidness is HARD, SOFT or SPECTRAL (further ones are only "
@@ -221,7 +221,7 @@ TEST_F(Mistakes, AnObjectThatWasNotMadeWithNew) {
 }
 
 TEST_F(Mistakes, MakeNoMoreThanSoManyLines) {
-  for (int i = 0; i < 1000; ++i) world.logOnce("line " + std::to_string(i));
+  for (int i = 0; i < 1000; ++i) world.log().writeOnce("line " + std::to_string(i));
   EXPECT_EQ(lines.size(), 500u);
 }
 

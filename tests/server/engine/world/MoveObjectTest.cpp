@@ -288,7 +288,7 @@ TEST_F(MoveObject, TargetOutOfRangeIsRefused) {
   EXPECT_EQ(WM.moveObject(a, Vector(3e9, 10)), -1);
   EXPECT_EQ(WM.moveObject(nullptr, Vector()), -1);
   expectAt(*a, 10, 10);
-  EXPECT_EQ(world.getRefusals(), 2u);
+  EXPECT_EQ(world.log().refusals(), 2u);
 }
 
 TEST_F(MoveObject, HandlerThatThrowsCostsItsObjectOnly) {

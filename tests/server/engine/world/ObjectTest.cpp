@@ -77,7 +77,7 @@ TEST_F(ObjectTest, SettersRefuseWhatIsNotFiniteOrOutOfRange) {
   EXPECT_EQ(o.getSpeed(), 1);
   EXPECT_EQ(o.getAltitude(), 2);
   EXPECT_EQ(o.getSolidness(), HARD);
-  EXPECT_EQ(world.getRefusals(), 13u);
+  EXPECT_EQ(world.log().refusals(), 13u);
   EXPECT_EQ(logged("of refuser"), 8) << "each setter once";
 }
 
@@ -93,14 +93,14 @@ TEST_F(ObjectTest, AutomaticOnesAreOnlyRemoved) {
   Probe o("automatic");
   WM.markForDelete(&o);
   WM.update();
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
   EXPECT_EQ(logged("automatic"), 1);
   EXPECT_EQ(o.setPosition(Vector(3, 3)), 0);
   expectAt(o, 3, 3);
   EXPECT_EQ(WM.markForDelete(&o), -1);
   EXPECT_EQ(WM.moveObject(&o, Vector()), -1);
   EXPECT_EQ(WM.insertObject(&o), 0);
-  EXPECT_EQ(world.getObjectCount(), 1);
+  EXPECT_EQ(world.store().countInWorld(), 1);
 }
 
 struct Owner : Probe {
@@ -111,14 +111,14 @@ struct Owner : Probe {
 
 TEST_F(ObjectTest, OnlyWhatNewMadeIsTheWorldsToDelete) {
   auto* p_owner = new Owner(new Probe("child"));  // the inner `new` is pending inside the outer
-  EXPECT_EQ(world.getObjectCount(), 3);
+  EXPECT_EQ(world.store().countInWorld(), 3);
   WM.markForDelete(&p_owner->member);  // lies in a heap block, but is not its own
   WM.markForDelete(p_owner->p_child);
   WM.update();
-  EXPECT_EQ(world.getObjectCount(), 1);
+  EXPECT_EQ(world.store().countInWorld(), 1);
   WM.markForDelete(p_owner);
   WM.update();
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 TEST_F(ObjectTest, ArraysOptionalsAndMixinsAreSafe) {
@@ -134,7 +134,7 @@ TEST_F(ObjectTest, ArraysOptionalsAndMixinsAreSafe) {
   auto* p_array = new Probe[3];
   WM.markForDelete(&p_array[1]);
   WM.update();
-  EXPECT_EQ(world.getObjectCount(), 2);
+  EXPECT_EQ(world.store().countInWorld(), 2);
   delete[] p_array;
 }
 
@@ -143,7 +143,7 @@ TEST_F(ObjectTest, ConstructorThatThrowsLeavesNothing) {
     Bad() { throw std::runtime_error("no"); }
   };
   EXPECT_THROW(new Bad, std::runtime_error);
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 struct alignas(64) Wide : Object {
@@ -154,7 +154,7 @@ TEST_F(ObjectTest, OverAlignedOnesAreDeletedProperly) {
   WM.markForDelete(new Wide);
   WM.markForDelete(new (std::nothrow) Probe);
   WM.update();
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 Probe& aStaticObject() {
@@ -167,9 +167,9 @@ TEST(StaticObject, LivesInTheDefaultWorldAndSurvivesShutDown) {
   EXPECT_EQ(aStaticObject().getWorld(), &world);
   const ObjectKey before = aStaticObject().key();
   world.shutDown();
-  EXPECT_EQ(world.find(before), nullptr);
-  EXPECT_EQ(world.insertObject(&aStaticObject()), 0);
-  EXPECT_EQ(world.find(aStaticObject().key()), &aStaticObject());
+  EXPECT_EQ(world.store().find(before), nullptr);
+  EXPECT_EQ(world.objects().insertObject(&aStaticObject()), 0);
+  EXPECT_EQ(world.store().find(aStaticObject().key()), &aStaticObject());
 }
 
 TEST(ObjectOfAGoneWorld, IsHarmless) {
@@ -187,7 +187,7 @@ TEST(ObjectOfAGoneWorld, IsHarmless) {
   expectAt(*p_o, 6, 7);
   EXPECT_EQ(p_o->registerInterest("x"), -1);
   EXPECT_EQ(list[0], nullptr);
-  EXPECT_EQ(World::current().insertObject(p_o.get()), -1);
+  EXPECT_EQ(World::current().objects().insertObject(p_o.get()), -1);
   p_o.reset();
   list.clear();
 }

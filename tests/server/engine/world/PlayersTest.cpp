@@ -19,7 +19,7 @@ class Players : public WorldTest {
     }
   }
   std::uint32_t joined(const std::string& name) {
-    const std::uint32_t id = world.join(name, GREEN);
+    const std::uint32_t id = world.input().join(name, GREEN);
     GM.tick();
     return id;
   }
@@ -27,8 +27,8 @@ class Players : public WorldTest {
 };
 
 TEST_F(Players, JoinReturnsTheIdAtOnceAndTheEventComesNextTick) {
-  const std::uint32_t ann = world.join("ann", RED);
-  const std::uint32_t bob = world.join("bob", GREEN);
+  const std::uint32_t ann = world.input().join("ann", RED);
+  const std::uint32_t bob = world.input().join("bob", GREEN);
   EXPECT_EQ(ann, 1u);
   EXPECT_EQ(bob, 2u);
   EXPECT_EQ(WM.getPlayer(ann), nullptr);
@@ -36,12 +36,12 @@ TEST_F(Players, JoinReturnsTheIdAtOnceAndTheEventComesNextTick) {
   listener.on_event = [&](Probe&, const Event& e) {
     const auto id = dynamic_cast<const EventJoin&>(e).getPlayer();
     EXPECT_NE(WM.getPlayer(id), nullptr);
-    EXPECT_EQ(world.inputPlayer(), id);
+    EXPECT_EQ(world.input().player(), id);
     in_event.push_back(id);
   };
   GM.tick();
   EXPECT_EQ(in_event, (std::vector{ann, bob}));
-  EXPECT_EQ(world.inputPlayer(), 0u);
+  EXPECT_EQ(world.input().player(), 0u);
   ASSERT_EQ(WM.getPlayers().size(), 2u);
   EXPECT_EQ(WM.getPlayer(ann)->getName(), "ann");
   EXPECT_EQ(WM.getPlayer(ann)->getColor(), RED);
@@ -49,8 +49,8 @@ TEST_F(Players, JoinReturnsTheIdAtOnceAndTheEventComesNextTick) {
 
 TEST_F(Players, PlayerExistsUntilJustAfterTheLeaveEvent) {
   const std::uint32_t ann = joined("ann");
-  world.leave(ann);
-  world.key(ann, Keyboard::A, KEY_PRESSED);  // after leaving: ignored
+  world.input().leave(ann);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);  // after leaving: ignored
   bool seen = false;
   listener.on_event = [&](Probe&, const Event& e) {
     seen = WM.getPlayer(dynamic_cast<const EventLeave&>(e).getPlayer()) != nullptr;
@@ -58,20 +58,20 @@ TEST_F(Players, PlayerExistsUntilJustAfterTheLeaveEvent) {
   GM.tick();
   EXPECT_TRUE(seen);
   EXPECT_EQ(WM.getPlayer(ann), nullptr);
-  world.leave(ann);
-  world.leave(77);
+  world.input().leave(ann);
+  world.input().leave(77);
   GM.tick();
   EXPECT_EQ(received, (Received{"listener:df-join", "listener:df-leave"}));
-  EXPECT_EQ(world.join("eve", RED), ann + 1);
+  EXPECT_EQ(world.input().join("eve", RED), ann + 1);
 }
 
 TEST_F(Players, InputComesAfterTheStepEventInTheOrderItCame) {
   listener.registerInterest(STEP_EVENT);
   const std::uint32_t ann = joined("ann");
   received.clear();
-  world.mouse(ann, CLICKED, Mouse::LEFT, 3, 4);
-  world.key(ann, Keyboard::A, KEY_PRESSED);
-  world.leave(ann);
+  world.input().mouse(ann, CLICKED, Mouse::LEFT, 3, 4);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().leave(ann);
   GM.tick();
   EXPECT_EQ(received,
             (Received{"listener:df-step", "listener:df-mouse", "listener:df-keyboard", "listener:df-leave"}));
@@ -87,11 +87,11 @@ TEST_F(Players, KeysNameTheirPlayer) {
     EXPECT_EQ(k.getKeyboardAction(), KEY_DOWN);
     from.push_back(k.getPlayer());
   };
-  world.key(bob, Keyboard::SPACE, KEY_DOWN);
-  world.key(ann, Keyboard::SPACE, KEY_DOWN);
-  world.key(99, Keyboard::SPACE, KEY_DOWN);
-  world.key(ann, static_cast<Keyboard::Key>(9999), KEY_DOWN);
-  world.key(ann, Keyboard::SPACE, static_cast<EventKeyboardAction>(9));
+  world.input().key(bob, Keyboard::SPACE, KEY_DOWN);
+  world.input().key(ann, Keyboard::SPACE, KEY_DOWN);
+  world.input().key(99, Keyboard::SPACE, KEY_DOWN);
+  world.input().key(ann, static_cast<Keyboard::Key>(9999), KEY_DOWN);
+  world.input().key(ann, Keyboard::SPACE, static_cast<EventKeyboardAction>(9));
   GM.tick();
   EXPECT_EQ(from, (std::vector{bob, ann}));
 }
@@ -106,9 +106,9 @@ TEST_F(Players, MousePositionIsInWorldCoordinates) {
   listener.on_event = [&](Probe&, const Event& e) {
     seen = dynamic_cast<const EventMouse&>(e).getMousePosition();
   };
-  world.mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 3, 4);
-  world.mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 80, 4);  // not in the view
-  world.mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 3, -1);
+  world.input().mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 3, 4);
+  world.input().mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 80, 4);  // not in the view
+  world.input().mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 3, -1);
   GM.tick();
   // The corner, at (160.5, 88), shows cell 161 in its first column.
   EXPECT_EQ(seen, Vector(164, 92));
@@ -121,10 +121,10 @@ TEST_F(Players, WithoutObjectTheyShareTheWorldsView) {
   WM.setView(Box(Vector(50, 60), 80, 24));
   EXPECT_EQ(WM.getPlayer(ann)->getViewCorner(), Vector(50, 60));
   listener.on_event = [](Probe&, const Event&) { WM.setView(Box(Vector(70, 60), 80, 24)); };
-  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
   GM.tick();
   EXPECT_EQ(WM.getView().getCorner(), Vector(70, 60));
-  EXPECT_EQ(world.getPlayer(joined("bob"))->getViewCorner(), Vector(70, 60));
+  EXPECT_EQ(world.views().player(joined("bob"))->getViewCorner(), Vector(70, 60));
 }
 
 TEST_F(Players, DuringInputTheViewIsThatOfThePlayer) {
@@ -138,7 +138,7 @@ TEST_F(Players, DuringInputTheViewIsThatOfThePlayer) {
     during = WM.getView().getCorner();
     WM.setViewPosition(Vector(300, 112));
   };
-  world.key(ann, Keyboard::A, KEY_PRESSED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
   GM.tick();
   EXPECT_EQ(during, Vector(200, 100));
   EXPECT_EQ(WM.getPlayer(ann)->getViewCorner(), Vector(260, 100));
@@ -187,8 +187,8 @@ TEST_F(Players, ObjectOfAnotherWorldIsRefused) {
   World other;
   const World::Scope scope_of_other(other);
   Object there;
-  EXPECT_EQ(world.getPlayer(ann)->setObject(&there), -1);
-  EXPECT_EQ(world.setViewFollowing(&there), -1);
+  EXPECT_EQ(world.views().player(ann)->setObject(&there), -1);
+  EXPECT_EQ(world.views().follow(nullptr, &there), -1);
 }
 
 TEST_F(Players, TextsAreCheckedAndShownToOnePlayerOnly) {
@@ -204,9 +204,9 @@ TEST_F(Players, TextsAreCheckedAndShownToOnePlayerOnly) {
   ASSERT_EQ(player.facts().texts.size(), 2u);
   EXPECT_EQ(player.facts().texts[1].text, "lo");
   GM.tick();
-  EXPECT_EQ(world.renderPlayer(ann).rowText(1).substr(0, 8), "  hi \xC3\xA4?");
-  EXPECT_EQ(world.renderPlayer(ann).at(2, 1).color, YELLOW);
-  EXPECT_EQ(countDifferences(world.renderPlayer(bob), world.renderPlayer(0)), 0);
+  EXPECT_EQ(world.picture().renderPlayer(ann).rowText(1).substr(0, 8), "  hi \xC3\xA4?");
+  EXPECT_EQ(world.picture().renderPlayer(ann).at(2, 1).color, YELLOW);
+  EXPECT_EQ(countDifferences(world.picture().renderPlayer(bob), world.picture().renderPlayer(0)), 0);
   player.setText(0, Vector(2, 1), "");
   player.setText(1, Vector(2, 1), "");
   EXPECT_TRUE(player.facts().texts.empty());
@@ -214,8 +214,8 @@ TEST_F(Players, TextsAreCheckedAndShownToOnePlayerOnly) {
 
 TEST_F(Players, NothingHappensWithoutRegisteredInterests) {
   WM.removeObject(&listener);
-  const std::uint32_t ann = world.join("ann", RED);
-  world.key(ann, Keyboard::A, KEY_PRESSED);
+  const std::uint32_t ann = world.input().join("ann", RED);
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
   GM.tick();
   EXPECT_TRUE(received.empty());
   EXPECT_EQ(WM.getPlayers().size(), 1u);
@@ -244,7 +244,7 @@ TEST_F(Players, ViewThatFollowsAnotherLeavesThePlayersObjectAlone) {
   sight.setPosition(Vector(250, 250));
   player.setObject(&ship);
   listener.on_event = [&](Probe&, const Event&) { WM.setViewFollowing(&sight); };
-  world.key(id, Keyboard::F, KEY_PRESSED);
+  world.input().key(id, Keyboard::F, KEY_PRESSED);
   GM.tick();
   EXPECT_EQ(player.getObject(), &ship);
   EXPECT_EQ(player.facts().followed, sight.key());
@@ -255,11 +255,11 @@ TEST_F(Players, RefusedTextsAndSizesAreCountedAndLoggedOnce) {
   Player& player = *WM.getPlayer(joined("ann"));
   EXPECT_EQ(player.setText(16, Vector(2, 1), "x"), -1);
   EXPECT_EQ(player.setText(1, Vector(80, 1), "x"), -1);
-  EXPECT_EQ(world.getRefusals(), 2u);
+  EXPECT_EQ(world.log().refusals(), 2u);
   EXPECT_EQ(logged("setText"), 1);
   EXPECT_EQ(DM.setSize(19, 24), -1);
   EXPECT_EQ(DM.setSize(80, 151), -1);
-  EXPECT_EQ(world.getRefusals(), 4u);
+  EXPECT_EQ(world.log().refusals(), 4u);
   EXPECT_EQ(logged("setSize"), 1);
 }
 

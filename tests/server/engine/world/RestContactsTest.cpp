@@ -77,7 +77,7 @@ TEST_F(RestContacts, HandlersMayDeleteBoth) {
     delete &self;
   };
   WM.update();
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 TEST_F(RestContacts, OneAtRestStillAccelerates) {

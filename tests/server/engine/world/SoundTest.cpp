@@ -40,7 +40,7 @@ TEST_F(SoundTest, ExistingFilesAreLoadedAndMissingOnesAreLogged) {
 TEST_F(SoundTest, WhatIsPlayedInATickIsInItsView) {
   RM.loadSound(kFile, "fire");
   RM.loadMusic(kFile, "theme");
-  world.setWatched(true);
+  world.store().setWatched(true);
   Probe probe;
   probe.registerInterest(STEP_EVENT);
   probe.on_event = [](Probe&, const Event&) {
@@ -52,56 +52,56 @@ TEST_F(SoundTest, WhatIsPlayedInATickIsInItsView) {
   const std::vector<SoundPlayed> expected{{"fire", SoundPlayed::kPlay, false, false, 0},
                                           {"theme", SoundPlayed::kPlay, true, true, 0},
                                           {"theme", SoundPlayed::kPause, true, false, 0}};
-  EXPECT_EQ(world.view().sounds, expected);
+  EXPECT_EQ(world.picture().view().sounds, expected);
   probe.on_event = nullptr;
   world.tick();
-  EXPECT_TRUE(world.view().sounds.empty());
+  EXPECT_TRUE(world.picture().view().sounds.empty());
 }
 
 TEST_F(SoundTest, AKeysSoundNamesItsPlayer) {
   RM.loadSound(kFile, "fire");
-  world.setWatched(true);
-  const std::uint32_t player = world.join("ann", RED);
+  world.store().setWatched(true);
+  const std::uint32_t player = world.input().join("ann", RED);
   world.tick();
   Probe probe;
   probe.registerInterest("df-keyboard");
   probe.on_event = [](Probe&, const Event&) { RM.getSound("fire")->play(true); };
-  world.key(player, Keyboard::SPACE, KEY_PRESSED);
+  world.input().key(player, Keyboard::SPACE, KEY_PRESSED);
   world.tick();
-  ASSERT_EQ(world.view().sounds.size(), 1u);
-  EXPECT_EQ(world.view().sounds[0].player, player);
-  EXPECT_TRUE(world.view().sounds[0].loop);
+  ASSERT_EQ(world.picture().view().sounds.size(), 1u);
+  EXPECT_EQ(world.picture().view().sounds[0].player, player);
+  EXPECT_TRUE(world.picture().view().sounds[0].loop);
 }
 
 TEST_F(SoundTest, WhatPlaysAgainAndAgainIsInEveryViewUntilItEnds) {
   RM.loadSound(kFile, "engine");
   RM.loadMusic(kFile, "theme");
   RM.loadMusic(kFile, "engine");  // another thing than the sound of that name
-  world.setWatched(true);
+  world.store().setWatched(true);
   RM.getMusic("theme")->play();  // before the first tick, as games do
   RM.getSound("engine")->play();
   world.tick();
   const SoundPlayed theme{"theme", SoundPlayed::kPlay, true, true, 0};
-  EXPECT_EQ(world.view().playing, std::vector{theme}) << "once is not again and again";
+  EXPECT_EQ(world.picture().view().playing, std::vector{theme}) << "once is not again and again";
 
   RM.getSound("engine")->play(true);
   RM.getMusic("theme")->play();
   world.tick();
   const SoundPlayed engine{"engine", SoundPlayed::kPlay, false, true, 0};
-  EXPECT_EQ(world.view().playing, (std::vector{engine, theme})) << "each once, from when it began";
+  EXPECT_EQ(world.picture().view().playing, (std::vector{engine, theme})) << "each once, from when it began";
   RM.getMusic("engine")->stop();
   world.tick();
-  EXPECT_EQ(world.view().playing.size(), 2u);
+  EXPECT_EQ(world.picture().view().playing.size(), 2u);
   RM.getMusic("theme")->pause();
   RM.getSound("engine")->play(false);
   world.tick();
-  EXPECT_TRUE(world.view().playing.empty());
+  EXPECT_TRUE(world.picture().view().playing.empty());
 }
 
 TEST_F(SoundTest, WhatIsUnloadedStops) {
   RM.loadSound(kFile, "fire");
   RM.loadMusic(kFile, "theme");
-  world.setWatched(true);
+  world.store().setWatched(true);
   Probe probe;
   probe.registerInterest(STEP_EVENT);
   probe.on_event = [](Probe&, const Event&) {
@@ -110,14 +110,14 @@ TEST_F(SoundTest, WhatIsUnloadedStops) {
     RM.unloadSound("fire");
   };
   world.tick();
-  EXPECT_TRUE(world.view().playing.empty());
-  ASSERT_EQ(world.view().sounds.size(), 2u);
-  EXPECT_EQ(world.view().sounds[1], (SoundPlayed{"theme", SoundPlayed::kStop, true, false, 0}));
+  EXPECT_TRUE(world.picture().view().playing.empty());
+  ASSERT_EQ(world.picture().view().sounds.size(), 2u);
+  EXPECT_EQ(world.picture().view().sounds[1], (SoundPlayed{"theme", SoundPlayed::kStop, true, false, 0}));
 }
 
 TEST_F(SoundTest, SoundsBeyondTheLimitAreCounted) {
   RM.loadSound(kFile, "fire");
-  world.setWatched(true);
+  world.store().setWatched(true);
   Probe probe;
   probe.registerInterest(STEP_EVENT);
   probe.on_event = [](Probe&, const Event&) {
@@ -129,13 +129,13 @@ TEST_F(SoundTest, SoundsBeyondTheLimitAreCounted) {
     }
   };
   world.tick();
-  EXPECT_EQ(world.view().sounds.size(), 256u);
-  EXPECT_EQ(world.view().sounds_lost, 64u);
-  ASSERT_EQ(world.view().playing.size(), 16u);
-  EXPECT_EQ(world.view().playing.front().label, "4") << "the oldest made room";
+  EXPECT_EQ(world.picture().view().sounds.size(), 256u);
+  EXPECT_EQ(world.picture().view().sounds_lost, 64u);
+  ASSERT_EQ(world.picture().view().playing.size(), 16u);
+  EXPECT_EQ(world.picture().view().playing.front().label, "4") << "the oldest made room";
   probe.on_event = nullptr;
   world.tick();
-  EXPECT_EQ(world.view().sounds_lost, 0u);
+  EXPECT_EQ(world.picture().view().sounds_lost, 0u);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST_F(Update, ObjectStopsAtTheEndOfTheNumberRange) {
   WM.update();
   WM.update();
   expectAt(*a, 1999999999, 0);
-  EXPECT_EQ(world.getRefusals(), 2u);
+  EXPECT_EQ(world.log().refusals(), 2u);
   EXPECT_EQ(logged("update"), 1);
 }
 
@@ -171,7 +171,7 @@ TEST_F(Update, MarkedObjectMovesCollidesAndGetsEventsUntilTheEnd) {
   WM.markForDelete(b);
   WM.update();
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 TEST_F(Update, DeletionsGoInOrderOfTheMarks) {
@@ -195,7 +195,7 @@ TEST_F(Update, MarkOfAnObjectDeletedByHandDoesNotHitItsSuccessor) {
   delete a;
   make("b", 10, 10);
   WM.update();
-  EXPECT_EQ(world.getObjectCount(), 1);
+  EXPECT_EQ(world.store().countInWorld(), 1);
 }
 
 TEST_F(Update, NestedUpdateDoesNothing) {
@@ -229,7 +229,7 @@ TEST_F(Update, SevenHundredBirthsAndDeathsInOneTick) {
   };
   WM.update();
   EXPECT_EQ(births, 700);
-  EXPECT_EQ(world.getObjectCount(), 702);
+  EXPECT_EQ(world.store().countInWorld(), 702);
   EXPECT_EQ(WM.objectsOfType("new").getCount(), 700);
   EXPECT_EQ(WM.objectsOfType("old").getCount(), 0);
   a->on_event = nullptr;
@@ -247,7 +247,7 @@ TEST_F(Update, OrderStaysTightWhenEverythingDiesByHandInHandlers) {
     };
     WM.update();
   }
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
   EXPECT_TRUE(WM.getAllObjects(true).isEmpty());
 }
 

@@ -23,7 +23,7 @@ class TenToTheLeft : public LagCompensation {
   std::optional<FixedVector> positionOf(ObjectKey object, const ViewedTick& seen) const override {
     last = seen;
     if (object == hidden) return std::nullopt;
-    return toFixed(m_world.find(object)->getPosition() - Vector(10, 0));
+    return toFixed(m_world.store().find(object)->getPosition() - Vector(10, 0));
   }
   std::optional<FixedVector> viewCornerOf(std::uint32_t player, const ViewedTick&) const override {
     return player == 1 ? corner : std::nullopt;
@@ -59,38 +59,38 @@ TEST_F(SeenAt, IsWhereTheBoxIsDrawn) {
 
 TEST_F(SeenAt, GoesBackOnlyWhileAnInputWithAKnownTickIsHandled) {
   TenToTheLeft compensation(world);
-  world.setLagCompensation(&compensation);
-  const std::uint32_t ann = world.join("ann", RED);
+  world.input().setLagCompensation(&compensation);
+  const std::uint32_t ann = world.input().join("ann", RED);
   Probe dot("dot", nullptr, Vector(40, 5));
   dot.registerInterest(MSE_EVENT);
   Names at_click;
   dot.on_event = [&](Probe&, const Event& e) {
     at_click = names(WM.objectsSeenAt(static_cast<const EventMouse&>(e).getMousePosition()));
   };
-  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   GM.tick();
   EXPECT_EQ(at_click, Names{"dot"});
   EXPECT_EQ(compensation.last.base, 70u);
   EXPECT_EQ(compensation.last.drawn, 74u);
-  world.mouse(ann, CLICKED, Mouse::LEFT, 40, 5);
+  world.input().mouse(ann, CLICKED, Mouse::LEFT, 40, 5);
   GM.tick();
   EXPECT_EQ(at_click, Names{"dot"});
-  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
+  world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
   GM.tick();
   EXPECT_EQ(at_click, Names{});
   compensation.hidden = dot.key();
-  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   GM.tick();
   EXPECT_EQ(at_click, Names{});
   EXPECT_EQ(names(WM.objectsSeenAt(Vector(40, 5))), Names{"dot"});  // between inputs: now
-  world.setLagCompensation(nullptr);
+  world.input().setLagCompensation(nullptr);
 }
 
 TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
   TenToTheLeft compensation(world);
-  world.setLagCompensation(&compensation);
-  const std::uint32_t ann = world.join("ann", RED);
-  const std::uint32_t bob = world.join("bob", BLUE);
+  world.input().setLagCompensation(&compensation);
+  const std::uint32_t ann = world.input().join("ann", RED);
+  const std::uint32_t bob = world.input().join("bob", BLUE);
   Probe dot("dot", nullptr, Vector(40, 5));
   dot.registerInterest(MSE_EVENT);
   std::vector<Vector> clicks;
@@ -98,19 +98,19 @@ TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
     clicks.push_back(static_cast<const EventMouse&>(e).getMousePosition());
   };
   compensation.corner = toFixed(Vector(6.6, -2));  // cell 7
-  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
-  world.mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
-  world.mouse(bob, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
+  world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
+  world.input().mouse(bob, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   GM.tick();
   EXPECT_EQ(clicks, (std::vector<Vector>{Vector(37, 3), Vector(30, 5), Vector(30, 5)}))
       << "if no one says what the player saw, the present view counts";
-  world.setLagCompensation(nullptr);
+  world.input().setLagCompensation(nullptr);
 }
 
 TEST_F(SeenAt, TheGameSaysWhetherItLooksBack) {
-  EXPECT_FALSE(world.isLookingBack());
+  EXPECT_FALSE(world.input().isLookingBack());
   WM.setLookingBack();
-  EXPECT_TRUE(world.isLookingBack());
+  EXPECT_TRUE(world.input().isLookingBack());
   world.shutDown();
   EXPECT_FALSE(WM.isLookingBack());
 }

@@ -26,7 +26,7 @@ TEST_F(WorldLife, TwoWorldsInOneProcessDoNotMeet) {
   EXPECT_EQ(&World::current(), &world);
   EXPECT_EQ(WM.getAllObjects().getCount(), 1);
   other.update();  // not the current one, but current to its handlers
-  EXPECT_EQ(other.objectsOfType("there")[0]->getPosition(), Vector(11, 10));
+  EXPECT_EQ(other.objects().objectsOfType("there")[0]->getPosition(), Vector(11, 10));
   other.shutDown();
 }
 
@@ -57,12 +57,12 @@ TEST_F(WorldLife, ShutDownDeletesWhatNewMadeAndStartsOver) {
   Counted automatic(&dead);
   WM.setBoundary(Box(Vector(0, 0), 200, 200));
   DM.setSize(100, 30);
-  world.join("ann", RED);
+  world.input().join("ann", RED);
   GM.tick();
   GM.setGameOver();
   GM.shutDown();
   EXPECT_EQ(dead, 1);
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
   EXPECT_FALSE(GM.isStarted());
   EXPECT_FALSE(GM.getGameOver());
   EXPECT_EQ(GM.getStepCount(), 0);
@@ -71,7 +71,7 @@ TEST_F(WorldLife, ShutDownDeletesWhatNewMadeAndStartsOver) {
   EXPECT_EQ(GM.startUp(), 0);
   new Counted(&dead);
   GM.tick();
-  EXPECT_EQ(world.getObjectCount(), 1);
+  EXPECT_EQ(world.store().countInWorld(), 1);
   GM.shutDown();
   EXPECT_EQ(dead, 2);
 }
@@ -86,7 +86,7 @@ TEST_F(WorldLife, ObjectsMadeByDestructorsAreShutDownToo) {
   };
   new Phoenix(5);
   WM.shutDown();
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 TEST_F(WorldLife, ShutDownInsideATickWaitsForItsEnd) {
@@ -100,7 +100,7 @@ TEST_F(WorldLife, ShutDownInsideATickWaitsForItsEnd) {
   GM.run();
   EXPECT_TRUE(alive_after);
   EXPECT_TRUE(GM.getGameOver());
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
   GM.startUp();
   EXPECT_FALSE(GM.getGameOver());
 }
@@ -111,13 +111,13 @@ TEST_F(WorldLife, ShutDownInsideAHandlerOutsideATickWaitsForTheHandler) {
   bool alive_after = false;
   p_quitter->on_event = [&](Probe& self, const Event&) {
     GM.shutDown();
-    alive_after = world.getObjectCount() == 2 && self.getType() == "quitter";
+    alive_after = world.store().countInWorld() == 2 && self.getType() == "quitter";
   };
   const Vector there = p_wall->getPosition();
   EXPECT_EQ(WM.moveObject(p_quitter, there), -1);
   EXPECT_TRUE(alive_after);
   EXPECT_TRUE(GM.getGameOver());
-  EXPECT_EQ(world.getObjectCount(), 0);
+  EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
 TEST_F(WorldLife, RunWithoutRunnerTicksUntilGameOver) {
@@ -230,7 +230,7 @@ TEST_F(WorldLife, SameInputsGiveTheSameWorld) {
     }
     for (int i = 0; i < 200; ++i) w.tick();
     std::vector<Vector> positions;
-    const ObjectList all = w.getAllObjects();
+    const ObjectList all = w.objects().getAllObjects();
     for (int i = 0; i < all.getCount(); ++i) positions.push_back(all[i]->getPosition());
     w.shutDown();
     return positions;

@@ -12,6 +12,10 @@
 #include "Runner.h"
 #include "World.h"
 #include "WorldManager.h"
+#include "engine/world/Capture.h"
+#include "engine/world/WorldExtras.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 
 /// The game's main(), compiled into this test under another name.
 int saucershoot2_main(int argc, char* argv[]);
@@ -25,12 +29,12 @@ class SaucerShoot2 : public ::testing::Test, public df::Runner {
   void host(std::function<void()> play) {
     m_play = std::move(play);
     const df::World::Scope scope(world);
-    world.setLogSink([this](const std::string& line) { log += line + "\n"; });
-    world.addResourceFolder(std::string(NAIAD_SOURCE_DIR) + "/tests/support/saucershoot2");
+    world.log().setSink([this](const std::string& line) { log += line + "\n"; });
+    world.extras().resources.addFolder(std::string(NAIAD_SOURCE_DIR) + "/tests/support/saucershoot2");
     world.setRunner(this);
     srand(1);
     EXPECT_EQ(saucershoot2_main(0, nullptr), 0);
-    EXPECT_EQ(world.getObjectCount(), 0);
+    EXPECT_EQ(world.store().countInWorld(), 0);
   }
   void run(df::World& /*world*/) override { m_play(); }
 
@@ -52,7 +56,7 @@ class SaucerShoot2 : public ::testing::Test, public df::Runner {
   }
   int count(const char* type) const { return WM.objectsOfType(type).getCount(); }
   bool shows(const std::string& text) const {
-    return world.renderView({}).text().find(text) != std::string::npos;
+    return world.picture().render({}).text().find(text) != std::string::npos;
   }
 
   df::World world;
@@ -111,7 +115,7 @@ TEST_F(SaucerShoot2, AShotSaucerExplodesForTenPointsAndAnotherComes) {
     tick(14);
     EXPECT_EQ(count("Explosion"), 1);
     EXPECT_EQ(count("Saucer"), 16);
-    EXPECT_TRUE(shows("| Points 11 |")) << world.renderView({}).text();
+    EXPECT_TRUE(shows("| Points 11 |")) << world.picture().render({}).text();
     tick(12);
     EXPECT_EQ(count("Explosion"), 0);
   });
@@ -164,7 +168,7 @@ TEST_F(SaucerShoot2, SameDiceShowTheSameGame) {
         if (count("Hero") == 0) press(df::Keyboard::P);
         tick();
       }
-      pictures.push_back(world.renderView({}).text());
+      pictures.push_back(world.picture().render({}).text());
     });
   }
   EXPECT_EQ(pictures[0], pictures[1]);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "host/admission/Admission.h"
 #include "host/auth/PasswordHash.h"
 #include "host/journal/JournalWriter.h"
@@ -68,7 +69,7 @@ class FakeWorld : public WorldPort {
 class AdmissionTest : public testing::Test {
  protected:
   AdmissionTest() {
-    world.setLogSink([](const std::string&) {});
+    world.log().setSink([](const std::string&) {});
     options.max_players = 3;
   }
 

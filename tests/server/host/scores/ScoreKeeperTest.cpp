@@ -129,7 +129,7 @@ TEST_F(ScoreKeeperTest, AWorldThatSendsNonsenseFillsNothing) {
   ScoreKeeper keeper(folder, "game");
   for (std::uint32_t t = 0; t < 100; ++t) addAll(keeper, "round", t, {of("ann", 1, "t" + std::to_string(t))});
   addAll(keeper, "round", 100,
-         {of("", 1, "t1"), of("ann", 1, "no table"), of("ann", df::HighScores::kMaxPoints + 1, "t1")});
+         {of("", 1, "t1"), of("ann", 1, "no table"), of("ann", df::HighScoreLimits::kMaxPoints + 1, "t1")});
   addAll(keeper, "round", 101, {of("a\nb\x1b[2J and a very long name", 2, "t1")});
   keeper.finish();
   EXPECT_EQ(keeper.tables().size(), 16u);

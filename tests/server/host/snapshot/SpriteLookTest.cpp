@@ -11,9 +11,14 @@
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/sprites/Sprite.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/Object.h"
 #include "engine/world/Player.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 #include "host/snapshot/Publisher.h"
 #include "host/snapshot/SnapshotSender.h"
 #include "shared/replica/Replica.h"
@@ -41,9 +46,9 @@ df::Sprite saucer(int slowdown) {
 class Show {
  public:
   Show() {
-    world.setLogSink([](const std::string&) {});
-    world.setWatched(true);
-    m_player = world.join("ann", df::RED);
+    world.log().setSink([](const std::string&) {});
+    world.store().setWatched(true);
+    m_player = world.input().join("ann", df::RED);
   }
 
   /// So many ticks, as long as the client shows what is drawn. Return the bytes that they took.
@@ -64,8 +69,8 @@ class Show {
  private:
   std::size_t tick() {
     world.tick();
-    m_publisher.update(world.view());
-    m_sender.applyTick(m_publisher, world.getPlayer(m_player)->facts());
+    m_publisher.update(world.picture().view());
+    m_sender.applyTick(m_publisher, world.views().player(m_player)->facts());
     std::size_t bytes = 0;
     for (const SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
       Snapshot snapshot;
@@ -76,7 +81,7 @@ class Show {
     }
     m_sender.acknowledge(m_acks);
     EXPECT_EQ(m_sender.known().checksum(), m_replica.checksum());
-    const df::Canvas wanted = world.renderPlayer(m_player);
+    const df::Canvas wanted = world.picture().renderPlayer(m_player);
     const df::Canvas seen = m_replica.render(static_cast<std::uint32_t>(world.getStepCount()));
     EXPECT_EQ(countDifferences(wanted, seen), 0) << "tick " << world.getStepCount() << "\n"
                                                  << test::explain(wanted, seen);

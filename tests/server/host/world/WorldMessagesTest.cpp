@@ -241,7 +241,7 @@ TEST(WorldMessages, AnswersCrossWhole) {
   sent.pictures.push_back({5, df::Canvas(3, 2)});
   sent.pictures[0].canvas.put(1, 1, {U'ü', df::RED});
   sent.scores = {{"arcade", {"ann", -7}, 70'000, 3},
-                 {"other", {"bob", df::HighScores::kMaxPoints}, 70'000, 4}};
+                 {"other", {"bob", df::HighScoreLimits::kMaxPoints}, 70'000, 4}};
   sent.sent = {{3, "arcade"}};
   df::WorldView view;
   const auto answer = readAnswer(fieldsOf(frameOf({}, writer, sent)), reader, view);
@@ -282,7 +282,7 @@ WorldTurn fullTurn() {
       {.kind = Queue::kScore, .player = 0, .name = "eve", .table = "arcade", .points = -900'000'000'000});
   turn.inputs.push_back({.kind = Queue::kRoom,
                          .player = 0,
-                         .room = {"arcade", "saucershoot", 3, df::GameRooms::kMaxPlayers, true, false}});
+                         .room = {"arcade", "saucershoot", 3, df::GameRoomLimits::kMaxPlayers, true, false}});
   return turn;
 }
 
@@ -402,7 +402,7 @@ TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
     df::WorldView view;
     const df::AddedScore score{"t", {"n", 0}, 0, 0};
     WorldAnswer sent;
-    sent.scores.assign(df::HighScores::kMaxAddedInTick, score);
+    sent.scores.assign(df::HighScoreLimits::kMaxAddedInTick, score);
     std::string fields(fieldsOf(frameOf({}, writer, sent)));
     const std::size_t each = (fields.size() - fieldsOf(frameOf({}, writer, WorldAnswer())).size()) / 16;
     const std::size_t first = fields.find("t") - 1;

@@ -11,8 +11,11 @@
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/GameManager.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/world/InputQueue.h"
 #include "engine/world/Object.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "host/world/WorldServer.h"
 
 namespace naiad {
@@ -52,15 +55,15 @@ class WorldServerTest : public testing::Test {
     m_socket = sockets[0];
     m_thread = std::thread([this, theirs = sockets[1], scrolls] {
       df::World world;
-      world.setLogSink([](const std::string&) {});
+      world.log().setSink([](const std::string&) {});
       const df::World::Scope scope(world);
-      world.setLookingBack(true);
+      world.input().setLookingBack(true);
       world.setHelp({"fly"});
-      world.setWindow(80, 30);
+      world.views().setWindow(80, 30);
       auto* p_flyer = new Flyer(hits);
       if (scrolls) {
-        world.setBoundary(df::Box(df::Vector(), 400, 24));
-        world.setViewFollowing(p_flyer);
+        world.views().setBoundary(df::Box(df::Vector(), 400, 24));
+        world.views().follow(nullptr, p_flyer);
       }
       WorldServer(theirs, true).run(world);
       over = world.isGameOver();

@@ -1,5 +1,7 @@
 // The contact events of bodies, and what handlers may do.
 #include "engine/events/EventOut.h"
+#include "engine/world/Capture.h"
+#include "engine/world/WorldStore.h"
 #include "tests/server/physics/BodyScene.h"
 
 namespace df::test {
@@ -29,11 +31,11 @@ TEST_F(BodyContacts, WhatLiesStillSaysNothingAndCostsNothing) {
   ticks(60);
   ASSERT_EQ(p_crate->notes.size(), 1u);
   EXPECT_NEAR(p_crate->getPosition().y(), -0.5, 1e-9);
-  world.setWatched(true);
+  world.store().setWatched(true);
   world.tick();
   for (int i = 0; i < 30; ++i) {
     world.tick();
-    EXPECT_TRUE(world.view().changed.empty());
+    EXPECT_TRUE(world.picture().view().changed.empty());
   }
 }
 

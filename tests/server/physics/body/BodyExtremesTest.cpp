@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/world/WorldLog.h"
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
 #include "tests/support/NotANumber.h"
@@ -110,7 +111,7 @@ void add(Bits& bits, Vector v) {
 class Witnesses {
  public:
   Witnesses() : scope(world) {
-    world.setLogSink([this](const std::string& line) { log.push_back(line); });
+    world.log().setSink([this](const std::string& line) { log.push_back(line); });
     PM.setAspect(1);
     PM.setGravity(Vector(0, 0.01));
     BodyScene::wall(Vector(1000, 5), Vector(100, 5));
@@ -167,14 +168,14 @@ TEST(BodyExtremes, AnExplosionBeyondAllBoundsIsRefusedByEveryKind) {
     const World::Scope scope(run.world);
     std::vector<Object*> hurt;
     for (int i = 0; i < 12; ++i) hurt.push_back(kind.make(Vector(12.0 * i, -40)).front());
-    const std::uint64_t refusals = run.world.getRefusals();
+    const std::uint64_t refusals = run.world.log().refusals();
     for (std::size_t i = 0; i < hurt.size(); ++i) {
       const double angle = 0.5 * static_cast<double>(i);
       EXPECT_EQ(hit(hurt[i], Vector(1e30 * std::cos(angle), 1e30 * std::sin(angle))), -1);
       EXPECT_EQ(hit(hurt[i], Vector(kNan, 0)), -1);
       EXPECT_EQ(hit(hurt[i], Vector(0, -kInfinite)), -1);
     }
-    EXPECT_EQ(run.world.getRefusals() - refusals, 3 * hurt.size());
+    EXPECT_EQ(run.world.log().refusals() - refusals, 3 * hurt.size());
     run.ticks(kTicks);
     for (const Object* p_object : hurt) {
       EXPECT_FALSE(isFrozen(p_object));
@@ -222,15 +223,15 @@ TEST(BodyExtremes, AForceBeyondAllBoundsDisturbsWhatItPushesAlone) {
     const Made made = kind.make(Vector(0, -40));
     Object* p_pushed = made.front();
     those.ticks(5);
-    const std::uint64_t refusals = those.world.getRefusals();
+    const std::uint64_t refusals = those.world.log().refusals();
     const bool is_taken = push(p_pushed, Vector(1e30, -1e30)) == 0;
     those.ticks(kTicks - 5);
     const bool is_free = dynamic_cast<const Body*>(p_pushed) != nullptr && made.size() == 1;
     EXPECT_EQ(isFrozen(p_pushed), is_taken && !is_free);
     EXPECT_EQ(PM.getQuarantineCount() > 0, is_taken && !is_free);
     EXPECT_EQ(PM.getLimitCount() > 0, is_taken && is_free);
-    EXPECT_EQ(those.log.empty(), !is_taken && those.world.getRefusals() == 0);
-    EXPECT_EQ(those.world.getRefusals() - refusals, is_taken ? 0u : 1u);
+    EXPECT_EQ(those.log.empty(), !is_taken && those.world.log().refusals() == 0);
+    EXPECT_EQ(those.world.log().refusals() - refusals, is_taken ? 0u : 1u);
     EXPECT_EQ(p_pushed->getVelocity().x() != 0, is_taken && is_free);
     EXPECT_EQ(those.seen, undisturbed(kTicks));
   }

@@ -3,6 +3,9 @@
 #include <bit>
 #include <cstdint>
 
+#include "engine/world/Capture.h"
+#include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 #include "physics/body/BodyLayer.h"
 #include "tests/server/physics/BodyScene.h"
 
@@ -40,13 +43,13 @@ FlightBits flightOf(const Body* p_body) {
 
 TEST_F(BodyFast, TheLevelIsWhatWasSet) {
   EXPECT_EQ(PM.getAccuracy(), ACCURACY_FAST);
-  const std::uint64_t refusals = world.getRefusals();
+  const std::uint64_t refusals = world.log().refusals();
   EXPECT_EQ(PM.setAccuracy(static_cast<Accuracy>(7)), -1);
-  EXPECT_EQ(world.getRefusals(), refusals + 1);
+  EXPECT_EQ(world.log().refusals(), refusals + 1);
   EXPECT_EQ(PM.getAccuracy(), ACCURACY_FAST);
   EXPECT_EQ(PM.setAccuracy(ACCURACY_DEFAULT), 0);
   EXPECT_EQ(PM.getAccuracy(), ACCURACY_DEFAULT);
-  EXPECT_EQ(world.getRefusals(), refusals + 1);
+  EXPECT_EQ(world.log().refusals(), refusals + 1);
 
   EXPECT_TRUE(PM.isSleeping());
   PM.setSleeping(false);
@@ -132,7 +135,7 @@ TEST_F(BodyFast, AChangeOfLevelSendsNoEventTwice) {
   for (std::size_t i = 0; i < pile.size(); ++i) {
     EXPECT_NEAR(pile[i]->getPosition().y(), -0.5 - (i < 4 ? 0 : i < 7 ? 1 : i < 9 ? 2 : 3), 0.05) << i;
   }
-  EXPECT_EQ(world.getRefusals(), 0U);
+  EXPECT_EQ(world.log().refusals(), 0U);
   for (const std::string& line : log) EXPECT_EQ(line.find("frozen"), std::string::npos) << line;
 }
 
@@ -166,7 +169,7 @@ TEST_F(BodyFast, ASleepingHeapPublishesNothing) {
     heap.back()->setTurning();
   }
   ticks(200);
-  world.setWatched(true);
+  world.store().setWatched(true);
   world.tick();
   for (int tick = 0; tick < 20; ++tick) {
     std::vector<FlightBits> before, after;
@@ -174,7 +177,7 @@ TEST_F(BodyFast, ASleepingHeapPublishesNothing) {
     world.tick();
     for (const Body* p_body : heap) after.push_back(flightOf(p_body));
     ASSERT_EQ(before, after) << tick;
-    ASSERT_TRUE(world.view().changed.empty()) << tick;
+    ASSERT_TRUE(world.picture().view().changed.empty()) << tick;
   }
   const std::int64_t contacts = substeps().contacts;
   ticks(10);

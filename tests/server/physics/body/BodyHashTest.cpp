@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/events/EventOut.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/Field.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/physics/BodyScene.h"
@@ -54,7 +55,7 @@ constexpr std::uint64_t kFastHash = 10466656127780809921u;
 std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
   World world;
   const World::Scope scope(world);
-  world.setLogSink([](const std::string&) {});
+  world.log().setSink([](const std::string&) {});
   Hashed hash;
   const Whirl whirl;
   naiad::SplitMix64 random(5);

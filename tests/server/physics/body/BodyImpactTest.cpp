@@ -241,7 +241,7 @@ TEST_F(BodyImpacts, BadNumbersChangeNoOtherBody) {
   const auto run = [&](int poison) {
     World there;
     const World::Scope inside(there);
-    there.setLogSink([](const std::string&) {});
+    there.log().setSink([](const std::string&) {});
     PM.setAspect(1);
     PM.setGravity(perSecondSquared(Vector(0, 10)));
     wall(Vector(0, 5), Vector(50, 5));

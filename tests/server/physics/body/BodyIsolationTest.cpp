@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/world/WorldLog.h"
 #include "tests/server/physics/BodyScene.h"
 
 namespace df::test {
@@ -92,7 +93,7 @@ Pair addOthers(const Others& others) {
 std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_floor = false) {
   World world;
   const World::Scope scope(world);
-  world.setLogSink([](const std::string&) {});
+  world.log().setSink([](const std::string&) {});
   PM.setAspect(1);
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   const bool has_others = others.speed != kNobody;

@@ -5,7 +5,11 @@
 #include <vector>
 
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Views.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldStore.h"
 #include "host/snapshot/Publisher.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyLook.h"
@@ -204,8 +208,8 @@ TEST(BodyLook, AnglesBecomeIntegersThatWrap) {
 class DrawnBody : public testing::Test {
  protected:
   DrawnBody() : scope(world) {
-    world.setWatched(true);
-    world.join("Ann", df::WHITE);
+    world.store().setWatched(true);
+    world.input().join("Ann", df::WHITE);
     body.setPosition(df::Vector(30, 12));
     body.setSolidness(df::SPECTRAL);
   }
@@ -216,17 +220,17 @@ class DrawnBody : public testing::Test {
     for (int i = 0; i < ticks; ++i) {
       body.setAngle(m_angle += spin);
       world.tick();
-      publisher.update(world.view());
+      publisher.update(world.picture().view());
       for (const Publisher::Change& change : publisher.changes()) {
         looks += change.slot == body.key().slot && (change.groups & kLook) != 0 ? 1 : 0;
       }
       const ObjectState& state = publisher.find(body.key().slot)->state;
-      df::Canvas seen(world.getWindowWidth(), world.getWindowHeight());
+      df::Canvas seen(world.views().width(), world.views().height());
       for (const Glyph& glyph : *state.look.select(publisher.tick())) {
         const CellPosition cell = glyphCell(positionAt(state.motion, publisher.tick()), glyph);
         seen.put(cell.x, cell.y, {glyph.ch, glyph.color});
       }
-      EXPECT_EQ(countDifferences(seen, world.renderView({})), 0) << "tick " << publisher.tick();
+      EXPECT_EQ(countDifferences(seen, world.picture().render({})), 0) << "tick " << publisher.tick();
     }
     return looks;
   }
@@ -257,7 +261,7 @@ TEST_F(DrawnBody, WhatTurnsAndFliesFreelyCostsNoRecord) {
   std::size_t published = 0;
   for (int i = 0; i < 1000; ++i) {
     world.tick();
-    publisher.update(world.view());
+    publisher.update(world.picture().view());
     published += publisher.changes().size();
     for (const Publisher::Change& change : publisher.changes())
       ASSERT_EQ(change.groups, i == 0 ? +kAllGroups : +kMotion) << i;

@@ -1,6 +1,8 @@
 // Bodies that turn, through WM.update(): that they reach their solver, and the events that games get.
 #include <numbers>
 
+#include "engine/world/Capture.h"
+#include "engine/world/WorldStore.h"
 #include "physics/body/BodyLayer.h"
 #include "tests/server/physics/BodyScene.h"
 
@@ -89,10 +91,10 @@ TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {
   ticks(300);
   EXPECT_LE(p_light->getPosition().y() + 0.5, 0.01);
   EXPECT_LE(p_heavy->getPosition().y() - p_light->getPosition().y() + 1, 0.01);
-  world.setWatched(true);
+  world.store().setWatched(true);
   world.tick();
   world.tick();
-  EXPECT_TRUE(world.view().changed.empty());  // asleep
+  EXPECT_TRUE(world.picture().view().changed.empty());  // asleep
 }
 
 TEST_F(BodyRigids, OneAloneFliesExactly) {

@@ -6,6 +6,7 @@
 
 #include "engine/managers/WorldManager.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/Body.h"
 #include "physics/body/PhysicsManager.h"
 #include "tests/support/NotANumber.h"
@@ -16,7 +17,7 @@ namespace {
 class BodyShapes : public testing::Test {
  protected:
   BodyShapes() : scope(world) {
-    world.setLogSink([](const std::string&) {});
+    world.log().setSink([](const std::string&) {});
   }
   ~BodyShapes() override { world.shutDown(); }
   World world;
@@ -78,7 +79,7 @@ TEST_F(BodyShapes, RefuseWhatIsNone) {
   EXPECT_EQ(PM.setObstacleFriction(kNan), -1);
   EXPECT_TRUE(p_body->getShapes().empty());
   EXPECT_EQ(p_body->getFriction(), 0.5);
-  EXPECT_GT(world.getRefusals(), 18u);
+  EXPECT_GT(world.log().refusals(), 18u);
 }
 
 TEST_F(BodyShapes, AnImpulseBesideTheMiddleTurnsWhatMayTurn) {

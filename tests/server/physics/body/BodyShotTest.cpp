@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "engine/world/WorldLog.h"
 #include "physics/body/BodyLayer.h"
 #include "physics/body/BodyLimits.h"
 #include "shared/values/SplitMix64.h"
@@ -88,7 +89,7 @@ bool isThrough(const Body* p_box, const Object* p_wall, double angle, double len
 Found shoot(const Shot& shot) {
   World world;
   const World::Scope scope(world);
-  world.setLogSink([](const std::string&) {});
+  world.log().setSink([](const std::string&) {});
   PM.setAspect(1);
   Object* p_wall = nullptr;
   Body* p_body = nullptr;

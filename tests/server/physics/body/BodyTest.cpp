@@ -9,7 +9,9 @@
 #include "engine/events/EventOut.h"
 #include "engine/events/EventStep.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyLayer.h"
@@ -25,7 +27,7 @@ namespace {
 class Bodies : public testing::Test {
  protected:
   Bodies() : scope(world) {
-    world.setLogSink([this](const std::string& line) { log.push_back(line); });
+    world.log().setSink([this](const std::string& line) { log.push_back(line); });
   }
   ~Bodies() override { world.shutDown(); }
   void ticks(int n) {
@@ -62,14 +64,14 @@ TEST_F(Bodies, ALongFlightCostsAWatcherNothing) {
   PM.setGravity(Vector(0, 0.0123));
   auto* p_ball = new Body;
   p_ball->setVelocity(Vector(0.3, -1.7));
-  world.setWatched(true);
+  world.store().setWatched(true);
   world.tick();
-  ASSERT_EQ(world.view().changed.size(), 1u);
-  const ObjectFacts& facts = world.view().changed[0];
-  const naiad::Motion motion{world.view().tick, facts.position, facts.velocity, facts.acceleration};
+  ASSERT_EQ(world.picture().view().changed.size(), 1u);
+  const ObjectFacts& facts = world.picture().view().changed[0];
+  const naiad::Motion motion{world.picture().view().tick, facts.position, facts.velocity, facts.acceleration};
   for (int i = 0; i < 600; ++i) {
     world.tick();
-    const FixedVector drawn = naiad::positionAt(motion, world.view().tick);
+    const FixedVector drawn = naiad::positionAt(motion, world.picture().view().tick);
     const auto at = toFixed(static_cast<Object*>(p_ball)->getPosition());
     EXPECT_LT(std::abs(drawn.x - at->x) + std::abs(drawn.y - at->y), kFixedOne / 1000) << i;
   }
@@ -132,9 +134,9 @@ TEST_F(Bodies, GetAnEventWhenTheyLeaveTheWorldAndMayBeDeletedInIt) {
   p_body->setPosition(Vector(78.5, 3));
   p_body->setVelocity(Vector(1, 0));
   ticks(1);
-  EXPECT_NE(world.find(key), nullptr);
+  EXPECT_NE(world.store().find(key), nullptr);
   ticks(1);
-  EXPECT_EQ(world.find(key), nullptr);
+  EXPECT_EQ(world.store().find(key), nullptr);
   EXPECT_EQ(PM.getBodyCount(), 0);
 }
 
@@ -202,7 +204,7 @@ TEST_F(Bodies, RefuseWhatIsNoNumber) {
   EXPECT_EQ(p_body->setMass(-1), -1);
   EXPECT_EQ(p_body->setDrag(-1), -1);
   EXPECT_EQ(p_body->getMass(), 1);
-  EXPECT_GT(world.getRefusals(), 40u);
+  EXPECT_GT(world.log().refusals(), 40u);
   ticks(1);
   EXPECT_EQ(p_body->getPosition(), Vector());
 }
@@ -223,7 +225,7 @@ TEST_F(Bodies, ASceneFarAwayMovesAsAtTheOrigin) {
   const auto fly = [](Vector offset) {
     World there;
     const World::Scope inside(there);
-    there.setLogSink([](const std::string&) {});
+    there.log().setSink([](const std::string&) {});
     PM.setGravity(Vector(0, 0.0321));
     auto* p_body = new Body;
     static_cast<Object*>(p_body)->setPosition(offset + Vector(0.25, 0.125));

@@ -6,6 +6,7 @@
 
 #include "engine/managers/WorldManager.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/SoftObject.h"
 
@@ -31,9 +32,9 @@ TEST_F(SoftCloth, HasTheThreadsThatAreAskedForWithinLimits) {
   EXPECT_EQ(fine.getNodeCount(), 128 * 40);
   EXPECT_NEAR(fine.getNodePosition(fine.getNode(127, 39)).x(), 30, 1e-6);
   EXPECT_NEAR(fine.getNodePosition(fine.getNode(127, 39)).y(), 20, 1e-6);
-  const auto before = world.getRefusals();
+  const auto before = world.log().refusals();
   const Cloth refused(Vector(0, 0), 30, 20, 1, 5, 129, 1);
-  EXPECT_EQ(world.getRefusals(), before + 2);
+  EXPECT_EQ(world.log().refusals(), before + 2);
   EXPECT_EQ(refused.getColumns(), 13);
 }
 

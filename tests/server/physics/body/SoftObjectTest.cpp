@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "engine/managers/WorldManager.h"
+#include "engine/world/Capture.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/Body.h"
 #include "physics/body/PhysicsManager.h"
@@ -21,7 +23,7 @@ namespace {
 class SoftObjects : public testing::Test {
  protected:
   SoftObjects() : scope(world) {
-    world.setLogSink([this](const std::string& line) { log.push_back(line); });
+    world.log().setSink([this](const std::string& line) { log.push_back(line); });
     PM.setGravity(Vector(0, 0.02));
   }
   ~SoftObjects() override { world.shutDown(); }
@@ -104,18 +106,18 @@ TEST_F(SoftObjects, ABlobComesToRestOnAFloorAndBothGetEvents) {
 TEST_F(SoftObjects, ARestingBlobPublishesNothing) {
   new Floor(Vector(0, 20));
   auto* p_blob = new Blob(Vector(20, 15), 3);
-  world.setWatched(true);
+  world.store().setWatched(true);
   ticks(500);
   ASSERT_TRUE(p_blob->isAsleep());
-  const std::vector<DrawCommand> before = world.view().commands;
+  const std::vector<DrawCommand> before = world.picture().view().commands;
   EXPECT_FALSE(before.empty());
   for (int i = 0; i < 60; ++i) {
     world.tick();
-    EXPECT_TRUE(world.view().changed.empty()) << i;
-    ASSERT_EQ(world.view().commands.size(), before.size());
+    EXPECT_TRUE(world.picture().view().changed.empty()) << i;
+    ASSERT_EQ(world.picture().view().commands.size(), before.size());
     for (std::size_t k = 0; k < before.size(); ++k) {
-      EXPECT_EQ(world.view().commands[k].position, before[k].position);
-      EXPECT_EQ(world.view().commands[k].ch, before[k].ch);
+      EXPECT_EQ(world.picture().view().commands[k].position, before[k].position);
+      EXPECT_EQ(world.picture().view().commands[k].ch, before[k].ch);
     }
   }
 }
@@ -166,15 +168,15 @@ TEST_F(SoftObjects, WhatLiesOnARopeIsPublishedTheSameInEachTick) {
   auto* p_crate = new Body;
   p_crate->setBoxShape(4, 1);
   p_crate->setPosition(Vector(20, 8));
-  world.setWatched(true);
+  world.store().setWatched(true);
   ticks(900);
   const ObjectFacts of_rope = world.store().facts(p_rope->key().slot);
   const ObjectFacts of_crate = world.store().facts(p_crate->key().slot);
   EXPECT_EQ(of_crate.velocity, FixedVector{});
-  const std::vector<DrawCommand> before = world.view().commands;
+  const std::vector<DrawCommand> before = world.picture().view().commands;
   for (int i = 0; i < 60; ++i) {
     world.tick();
-    for (const ObjectFacts& facts : world.view().changed) {
+    for (const ObjectFacts& facts : world.picture().view().changed) {
       const ObjectFacts& published = facts.key == p_rope->key() ? of_rope : of_crate;
       EXPECT_EQ(facts.key, published.key);
       EXPECT_EQ(facts.position, published.position);
@@ -182,9 +184,9 @@ TEST_F(SoftObjects, WhatLiesOnARopeIsPublishedTheSameInEachTick) {
       EXPECT_EQ(facts.acceleration, published.acceleration);
       EXPECT_EQ(facts.box, published.box);
     }
-    ASSERT_EQ(world.view().commands.size(), before.size());
+    ASSERT_EQ(world.picture().view().commands.size(), before.size());
     for (std::size_t k = 0; k < before.size(); ++k) {
-      EXPECT_EQ(world.view().commands[k].position, before[k].position);
+      EXPECT_EQ(world.picture().view().commands[k].position, before[k].position);
     }
   }
 }
@@ -333,7 +335,7 @@ TEST_F(SoftObjects, WhatTheGameSetsIsTakenOver) {
 
 TEST_F(SoftObjects, BadNumbersAreRefused) {
   auto* p_blob = new Blob(Vector(20, 10), kNan, -1, 1e30);
-  EXPECT_EQ(world.getRefusals(), 3u);
+  EXPECT_EQ(world.log().refusals(), 3u);
   EXPECT_NEAR(p_blob->getMass(), 1, 1e-12);
   EXPECT_EQ(p_blob->setPosition(Vector(kNan, 0)), -1);
   EXPECT_EQ(p_blob->applyImpulse(Vector(kNan, 0)), -1);
@@ -362,7 +364,7 @@ TEST_F(SoftObjects, WhatGoesWrongStaysAlone) {
   const auto scene = [&](bool with_runaway) {
     World alone;
     const World::Scope inner(alone);
-    alone.setLogSink([](const std::string&) {});
+    alone.log().setSink([](const std::string&) {});
     PM.setGravity(Vector(0, 0.02));
     auto* p_blob = new Blob(Vector(20, 10), 2);
     SoftBody* p_runaway = nullptr;
@@ -525,7 +527,7 @@ TEST_F(SoftObjects, SoftBodiesAreDrawn) {
   ASSERT_NE(p_rope, nullptr);
   ASSERT_NE(p_steep, nullptr);
   world.tick();
-  const Canvas canvas = world.renderView({});
+  const Canvas canvas = world.picture().render({});
   EXPECT_EQ(canvas.at(2, 2).ch, U'-');
   EXPECT_EQ(canvas.at(7, 2).ch, U'-');
   EXPECT_EQ(canvas.at(8, 2).ch, U' ');

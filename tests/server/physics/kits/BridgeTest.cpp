@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/world/Capture.h"
 #include "physics/kits/Bridge.h"
 #include "physics/kits/Obstacle.h"
 #include "tests/server/physics/BodyScene.h"
@@ -71,7 +72,7 @@ TEST_F(Bridges, BodiesLieOnAnObstacle) {
   ticks(300);
   EXPECT_NEAR(p_crate->getPosition().y() + 1, 19.5, 1e-6);
   EXPECT_EQ(p_floor->getPosition(), Vector(0, 20));
-  const Canvas canvas = world.renderView({});
+  const Canvas canvas = world.picture().render({});
   EXPECT_EQ(canvas.at(0, 20).ch, U'%');
   EXPECT_EQ(canvas.at(39, 21).ch, U'%');
   EXPECT_EQ(canvas.at(40, 20).ch, U' ');

@@ -1,0 +1,110 @@
+// Sends events to the eventHandler()s of a world's Objects. The path of one event is inline, because a
+// crowded world does little else.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "engine/world/ActivityPage.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/Object.h"
+#include "engine/world/WorldStore.h"
+
+namespace df {
+
+class Interests;
+class ObjectRegistry;
+class WorldLog;
+struct WorldState;
+
+class EventDispatch {
+ public:
+  /// `shut_down` is called after each handler while a shutdown is pending. The others live longer than this.
+  EventDispatch(ObjectRegistry& objects, Interests& interests, const WorldState& state,
+                std::function<void()> shut_down);
+
+  /// Sends the event to all Objects that registered interest in its type, in order of registration. An Object
+  /// that registers during the call waits for the next event; one that is deleted, unregistered or made
+  /// inactive during the call is skipped. While the world is paused, only Pause objects get the event, unless
+  /// a player joins or leaves. Returns the number of Objects it was sent to.
+  int onEvent(const Event* p_event);
+  /// Like onEvent(), to all of them, paused or not.
+  int sendToAll(const Event& event) { return send(event, false); }
+  /// Sends the event to one Object, if it is alive and active. If its handler throws, the Object is made
+  /// inactive, marked for deletion and logged. Returns whether it was sent.
+  bool deliver(ObjectKey key, const Event& event);
+  /// Runs the eventHandler() of an Object in the world; see deliver().
+  [[gnu::always_inline]] void runHandler(ObjectKey key, Object& object, const Event& event) {
+    ++m_handlers;
+    try {
+      const ActivityScope running(*m_p_activity, classOf(object), classOf(event));
+      object.eventHandler(&event);
+    } catch (const std::exception& e) {
+      quarantine(key, e.what());
+    } catch (...) {
+      quarantine(key, "an exception of unknown type");
+    }
+    --m_handlers;
+    if (m_shutdown_pending) m_shut_down();
+  }
+  /// Sends a collision to the mover, then to the other, except to an Object that is gone, inactive or without
+  /// a handler. Both must be in the world. Returns whether the mover still is.
+  [[gnu::always_inline]] bool sendToBoth(ObjectKey mover, ObjectKey other, const EventCollision& event) {
+    const WorldStore& store = m_store;
+    if (store.hears(mover.slot)) {
+      runHandler(mover, *event.getObject1(), event);
+      if (!store.isStill(mover)) return false;
+      if (!store.isStill(other)) return true;
+    }
+    if (store.hears(other.slot)) {
+      runHandler(other, *event.getObject2(), event);
+      if (!store.isStill(mover)) return false;
+    }
+    return true;
+  }
+  /// True while an eventHandler() is running.
+  bool isRunning() const { return m_handlers > 0; }
+  /// Makes an Object whose handler threw inactive, marks it for deletion, and logs why.
+  void quarantine(ObjectKey key, const std::string& why);
+
+  /// Makes a shutdown pending.
+  void deferShutDown() { m_shutdown_pending = true; }
+  /// Returns whether a shutdown was pending, and cancels it.
+  bool takeShutDown() { return std::exchange(m_shutdown_pending, false); }
+
+  /// Notes what the classes of new Objects override, which their constructors could not know.
+  void learnNewcomers();
+  void learnType(std::uint32_t slot);
+
+  /// Notes further events and handlers on this page (ActivityPage.h). Not owned; null for none.
+  void setPage(ActivityPage* p_page);
+  /// The note of the running handler, with or without a page.
+  Activity& activity() { return *m_p_activity; }
+  /// Names the event's class on the page. Call it before the event is sent.
+  void nameClassOf(const Event& event) {
+    if (m_p_page != nullptr && classOf(event) != m_named_event) nameEvent(event);
+  }
+
+ private:
+  int send(const Event& event, bool is_paused);
+  void nameClass(std::uint32_t slot);
+  void nameEvent(const Event& event);
+
+  WorldStore& m_store;
+  ObjectRegistry& m_objects;
+  Interests& m_interests;
+  WorldLog& m_log;
+  const WorldState& m_state;
+  int m_handlers = 0;  // that are running, one inside the other
+  bool m_shutdown_pending = false;
+  std::function<void()> m_shut_down;
+  Activity m_own_activity;
+  Activity* m_p_activity = &m_own_activity;  // that, or the page's
+  ActivityPage* m_p_page = nullptr;          // null: what the game does is not noted
+  std::uintptr_t m_named_event = 0;          // class of the event that was named last
+};
+
+}  // namespace df

@@ -1,0 +1,72 @@
+// The registry of a world's Objects: it adds, removes, deletes and finds them. WorldManager.h documents the
+// functions that it has under the same names.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/world/Contact.h"
+#include "engine/world/ObjectList.h"
+#include "engine/world/WorldStore.h"
+#include "shared/values/Vector.h"
+
+namespace df {
+
+class Interests;
+class WorldLog;
+
+class ObjectRegistry {
+ public:
+  /// All three live longer than this.
+  ObjectRegistry(WorldStore& store, Interests& interests, WorldLog& log)
+      : m_store(store), m_interests(interests), m_log(log) {}
+
+  WorldStore& store() const { return m_store; }
+  WorldLog& log() const { return m_log; }
+  /// True if the Object is in the world. The pointer may be to a deleted Object.
+  bool owns(const Object* p_o) const;
+
+  int insertObject(Object* p_o);
+  int removeObject(Object* p_o);
+  int markForDelete(Object* p_o);
+  ObjectList getAllObjects(bool inactive = false) const;
+  ObjectList objectsOfType(const std::string& type);
+  ObjectList solidObjects() const;
+  Object* objectWithId(int id) const;
+  ObjectList getCollisions(const Object* p_o, Vector where) const;
+  Contact firstContact(const Object* p_o, Vector where) const;
+  /// The Objects for which `wanted` is true, in creation order; it gets a slot (collect) or an Object (pick).
+  template <class Wanted>
+  ObjectList collect(Wanted wanted) const {
+    ObjectList list;
+    const WorldStore::Walk walk(m_store);
+    for (std::size_t i = 0; i < walk.size(); ++i) {
+      const WorldStore::Slot s = walk[i];
+      if (s != WorldStore::kNoSlot && wanted(s)) list.append(&m_store, m_store.key(s));
+    }
+    return list;
+  }
+  template <class Wanted>
+  ObjectList pick(Wanted wanted) const {
+    return collect([&](auto s) { return wanted(*m_store.object(s)); });
+  }
+
+  /// Deletes the marked Objects in order of their marks, those that destructors mark included.
+  void deleteMarked();
+  /// Deletes the Objects made with `new`, removes the others, and forgets marks and lines that were logged
+  /// once.
+  void clear();
+
+ private:
+  void explainMissing(const std::string& type);
+
+  WorldStore& m_store;
+  Interests& m_interests;
+  WorldLog& m_log;
+  std::vector<ObjectKey> m_deletions;  // marked, in that order
+  std::set<std::string> m_missing;     // types that objectsOfType() was asked for in vain
+  std::set<std::string> m_unowned;     // types marked for deletion, but not made with new, that were logged
+};
+
+}  // namespace df

@@ -1,0 +1,86 @@
+#include "engine/world/Tick.h"
+
+#include "engine/events/EventStep.h"
+#include "engine/world/Capture.h"
+#include "engine/world/ControlApplier.h"
+#include "engine/world/EventDispatch.h"
+#include "engine/world/InputQueue.h"
+#include "engine/world/Mover.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/WorldExtras.h"
+#include "engine/world/WorldState.h"
+
+namespace df {
+
+namespace {
+
+// Sets a flag while it lives.
+class During {
+ public:
+  explicit During(bool& flag) : m_flag(flag) { m_flag = true; }
+  ~During() { m_flag = false; }
+  During(const During&) = delete;
+  During& operator=(const During&) = delete;
+
+ private:
+  bool& m_flag;
+};
+
+}  // namespace
+
+Tick::Tick(World& world, ObjectRegistry& objects, EventDispatch& events, Capture& picture, Mover& mover,
+           InputQueue& input, LazyExtras& extras, WorldState& state)
+    : m_world(world),
+      m_objects(objects),
+      m_events(events),
+      m_picture(picture),
+      m_mover(mover),
+      m_input(input),
+      m_extras(extras),
+      m_state(state) {}
+
+void Tick::run() {
+  if (isRunning()) return;
+  m_state.begun = true;
+  const During during(m_in_tick);
+  ++m_state.step_count;
+  m_events.learnNewcomers();
+  m_picture.clearPicture();
+  if (WorldExtras* p_extras = m_extras.find()) p_extras->beginTick(m_state.step_count);
+  if (!m_state.paused) {
+    const EventStep step(m_state.compat ? m_state.step_count - 1 : m_state.step_count);
+    m_events.onEvent(&step);
+    m_walkers.step();
+  }
+  if (!m_state.paused) ControlApplier::beginTick(m_mover);
+  m_input.drain();
+  if (!m_state.paused) update();
+  drawObjects();
+  m_picture.finishView();
+  if (WorldExtras* p_extras = m_extras.find()) p_extras->endTick(m_state.paused);
+}
+
+void Tick::update() {
+  if (m_in_update) return;
+  m_state.begun = true;
+  const During during(m_in_update);
+  m_events.learnNewcomers();
+  m_mover.moveAll();
+  for (std::size_t i = 0; i < m_state.layers.size(); ++i) m_state.layers[i]->step(m_world);  // may add one
+  m_objects.deleteMarked();
+  m_objects.store().closeGaps();
+  m_objects.store().age();
+}
+
+void Tick::draw() {
+  if (m_in_tick || m_in_draw) return;
+  m_picture.clearPicture();
+  drawObjects();
+}
+
+void Tick::drawObjects() {
+  const During during(m_in_draw);
+  m_picture.drawAll();
+}
+
+}  // namespace df

@@ -1,0 +1,54 @@
+// The steps of a world's tick and their order.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/world/Walkers.h"
+
+namespace df {
+
+class Capture;
+class EventDispatch;
+class InputQueue;
+class LazyExtras;
+class Mover;
+class ObjectRegistry;
+class World;
+struct WorldState;
+
+class Tick {
+ public:
+  /// All live longer than this. The world is for layers only.
+  Tick(World& world, ObjectRegistry& objects, EventDispatch& events, Capture& picture, Mover& mover,
+       InputQueue& input, LazyExtras& extras, WorldState& state);
+
+  // World::tick(), update() and draw().
+
+  void run();
+  void update();
+  void draw();
+  /// True while one of these is running.
+  bool isRunning() const { return m_in_tick || m_in_update || m_in_draw; }
+  /// True while a picture is being drawn.
+  bool isDrawing() const { return m_in_draw; }
+  /// The Objects that are turned towards their next node after each step event.
+  Walkers& walkers() { return m_walkers; }
+
+ private:
+  void drawObjects();
+
+  World& m_world;
+  ObjectRegistry& m_objects;
+  EventDispatch& m_events;
+  Capture& m_picture;
+  Mover& m_mover;
+  InputQueue& m_input;
+  LazyExtras& m_extras;
+  WorldState& m_state;
+  Walkers m_walkers;
+  bool m_in_tick = false;
+  bool m_in_update = false;
+  bool m_in_draw = false;
+};
+
+}  // namespace df

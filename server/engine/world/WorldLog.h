@@ -1,0 +1,56 @@
+// The log of a world: its lines, and the calls that were refused.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace df {
+
+struct ActivityPage;
+
+class WorldLog {
+ public:
+  using Sink = std::function<void(const std::string& line)>;
+
+  /// Receives the lines. Without one they go to a file (LogManager.h).
+  void setSink(Sink sink) { m_sink = std::move(sink); }
+  /// Names the file for lines without a sink. Not owned; null for dragonfly.log.
+  void setFile(const std::string* p_name) { m_p_file = p_name; }
+  /// Copies further lines to this page, for the report of a crash. Not owned; null for none.
+  void setPage(ActivityPage* p_page) { m_p_page = p_page; }
+  /// Lines of writeLog(level, …) with a level above this are dropped.
+  void setLevel(int level) { m_level = level; }
+  int level() const { return m_level; }
+  void setFlush(bool flush) { m_flush = flush; }
+  bool flush() const { return m_flush; }
+
+  /// Writes one line, without a newline at its end.
+  void write(const std::string& line) const;
+  /// Writes the line, unless this has written it before. After 500 different lines it writes no more.
+  void writeOnce(const std::string& line);
+  /// Like writeOnce(), but only the report of a crash shows the line: if it is a fault, a crash follows.
+  void noteOnce(const std::string& line);
+  /// Counts a refused call. Writes the first one of its name for this type of Object, with the values that
+  /// are accepted. Returns -1.
+  int refuse(const std::string& type, const char* what);
+  /// The number of refused calls.
+  std::uint64_t refusals() const { return m_refusals; }
+  /// Forgets the refusals and the lines that were written once.
+  void clear();
+
+ private:
+  bool isNew(const std::string& line);
+
+  Sink m_sink;
+  const std::string* m_p_file = nullptr;
+  ActivityPage* m_p_page = nullptr;
+  std::set<std::string> m_once;
+  std::uint64_t m_refusals = 0;
+  int m_level = 0;
+  bool m_flush = false;
+};
+
+}  // namespace df

@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/world/WorldLog.h"
+
+namespace df::test {
+namespace {
+
+class Log : public testing::Test {
+ protected:
+  Log() {
+    log.setSink([this](const std::string& line) { lines.push_back(line); });
+  }
+
+  std::vector<std::string> lines;
+  WorldLog log;
+};
+
+TEST_F(Log, RepeatedRefusalIsOnlyCounted) {
+  EXPECT_EQ(log.refuse("Ship", "setAltitude"), -1);
+  log.refuse("Ship", "setAltitude");
+  log.refuse("Saucer", "setAltitude");
+  EXPECT_EQ(log.refusals(), 3u);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0], "Refused: setAltitude of Ship: an altitude is 0 to 4 (further ones are only counted)");
+}
+
+TEST_F(Log, ClearForgetsWhatWasWrittenOnce) {
+  log.writeOnce("line");
+  log.writeOnce("line");
+  log.clear();
+  log.writeOnce("line");
+  EXPECT_EQ(lines.size(), 2u);
+  EXPECT_EQ(log.refusals(), 0u);
+}
+
+TEST_F(Log, DifferentLinesAreBounded) {
+  for (int i = 0; i < 1000; ++i) log.writeOnce(std::to_string(i));
+  EXPECT_EQ(lines.size(), 500u);
+  log.write("always");
+  EXPECT_EQ(lines.back(), "always");
+}
+
+TEST_F(Log, NotedLineNeedsAPage) {
+  log.noteOnce("line");
+  log.writeOnce("line");
+  EXPECT_EQ(lines, std::vector<std::string>{"line"});
+}
+
+}  // namespace
+}  // namespace df::test
