@@ -14,6 +14,7 @@
 #include "RawClient.h"
 #include "TestServer.h"
 #include "Valve.h"
+#include "engine/world/Views.h"
 #include "host/auth/PasswordHash.h"
 #include "shared/values/SplitMix64.h"
 
