@@ -167,8 +167,9 @@ class AdmissionTest : public testing::Test {
   }
   void playInPrivate() {
     options.players = "private";
-    rooms.setWorlds(
-        [this](asio::io_context&) { return std::make_unique<Round>(std::make_unique<FakeWorld>(worlds, worlds_end)); });
+    rooms.setWorlds([this](asio::io_context&) {
+      return std::make_unique<Round>(std::make_unique<FakeWorld>(worlds, worlds_end));
+    });
   }
 
   std::vector<std::string> log;
