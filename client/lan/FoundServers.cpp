@@ -27,7 +27,8 @@ std::string FoundServer::link() const {
 }
 
 bool FoundServers::addAnswer(const asio::ip::udp::endpoint& source, const LanAnswer& answer) {
-  const FoundServer server{answer, {source.address().to_string(), answer.port}, answer.key};
+  const ServerFacts& facts = answer;
+  const FoundServer server{facts, {source.address().to_string(), answer.port}, answer.key};
   return addEntry(server, rankOf(source.address()));
 }
 

@@ -17,7 +17,7 @@ std::uint32_t freePlaces(const Presence& server) {
 }
 
 std::string rowOf(const Presence& server, bool with_rooms) {
-  ServerFacts facts = server;
+  auto facts = static_cast<const ServerFacts&>(server);
   if (facts.name.empty()) facts.name = server.id;
   Json row = jsonOf(facts);
   row.set("link", linkOf(server));

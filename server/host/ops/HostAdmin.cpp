@@ -9,6 +9,7 @@
 #include "host/loop/HostEndpoint.h"
 #include "host/rooms/ServerLine.h"
 #include "host/settings/RoomList.h"
+#include "naiad.pb.h"
 #include "shared/admin/TimeSpan.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
