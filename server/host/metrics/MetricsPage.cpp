@@ -2,6 +2,7 @@
 
 #include "host/metrics/CounterFamilies.h"
 #include "host/metrics/Exposition.h"
+#include "host/metrics/HostPulse.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Version.h"
 

@@ -11,6 +11,7 @@
 #include "host/fleet/HostPlatform.h"
 #include "host/loop/HostPart.h"
 #include "host/ops/HostScores.h"
+#include "host/rooms/HostContext.h"
 #include "shared/fleet/Presence.h"
 #include "shared/fleet/SendOn.h"
 
