@@ -156,9 +156,10 @@ bool Host::rests() const {
   return m_clients->sessions().isEmpty() && m_clients->rooms().rest();
 }
 
-// Ticks are for the heartbeat alone. The next one is due when somebody connects.
+// Ticks only serve the heartbeat, which a fleet expects at its interval. A connection makes the next one due.
 TickClock Host::rest() {
-  const auto end = Clock::now() + kRestTime;
+  const auto heartbeat = std::chrono::milliseconds(m_context->options.bus_interval_ms);
+  const auto end = Clock::now() + std::min(kRestTime, heartbeat);
   do {
     m_context->home.restart();
   } while (m_context->home.run_one_until(end) > 0 && rests());
