@@ -419,7 +419,8 @@ void Round::dropCopies() {
 }
 
 void Round::orderCopy() {
-  if (!m_book.new_world || !m_history.isCopyDue(m_ticks, [this] { return m_p_process->cpuTime(); })) return;
+  if (!m_book.new_world || !m_p_process->canKeepCopy()) return;
+  if (!m_history.isCopyDue(m_ticks, [this] { return m_p_process->cpuTime(); })) return;
   m_history.beginCopy(m_ticks, m_players, m_p_process->keepCopy());
   if (const auto problem = m_p_process->takeCopyProblem())
     say("of this game's world no copies are kept: " + *problem);

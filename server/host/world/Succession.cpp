@@ -39,17 +39,17 @@ pid_t Succession::run() {
   while (waitForEnd()) {
     m_world = 0;
     KeeperOrder next;
-    if (!report() || !waitForWord(next) || !isChild(next.process)) return 0;
+    if (!report(KeeperEnd::kWorld) || !waitForWord(next) || !isChild(next.process)) return 0;
     std::set<pid_t> kept{next.process};
     kept.insert(next.kept.begin(), next.kept.end());
-    if (!endOthers(kept)) return 0;
+    if (!endOthers(kept) || !report(KeeperEnd::kRest)) return 0;
     m_world = next.process;
   }
   return m_world;
 }
 
-bool Succession::report() const {
-  const KeeperEnd end{m_status, 0};
+bool Succession::report(KeeperEnd::Kind what) const {
+  const KeeperEnd end{m_status, what};
   return send(m_front, &end, sizeof end, MSG_NOSIGNAL) == sizeof end;
 }
 

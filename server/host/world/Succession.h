@@ -27,7 +27,7 @@ class Succession {
   bool waitForEnd();
   bool takeOrder(KeeperOrder& order) const;
   bool waitForWord(KeeperOrder& order) const;
-  bool report() const;
+  bool report(KeeperEnd::Kind what) const;
 
   pid_t m_world;
   const int m_front;

@@ -9,8 +9,7 @@
 // Worlds cannot signal or trace any of the three.
 //
 // On the keeper's socket the front reads KeeperStart, then one KeeperEnd. Of a world that makes copies of
-// itself (WorldOrder::copies) there are more: one for each world that ends, until there is none to go on
-// with.
+// itself (WorldOrder::copies) there are more: two for each world that ends and is followed by a copy.
 #pragma once
 
 #include <sys/types.h>
@@ -56,10 +55,13 @@ struct KeeperStart {
 };
 
 struct KeeperEnd {
-  std::int32_t status = 0;  ///< of the world, as of waitpid()
-  /// All that it had started has ended, and the keeper ends. 0: copies are there, and the keeper waits for a
-  /// KeeperOrder that says which of them goes on.
-  std::int32_t is_last = 1;
+  enum Kind : std::int32_t {
+    kAll,    ///< all that the world had started has ended, and the keeper ends
+    kWorld,  ///< copies are there, and the keeper waits for a KeeperOrder that says which of them goes on
+    kRest,   ///< the copy of that order goes on, and of the world before nothing is left
+  };
+  std::int32_t status = 0;  ///< of the world that ended last, as of waitpid()
+  std::int32_t kind = kAll;
 };
 
 /// To the keeper of a world that makes copies.

@@ -98,33 +98,37 @@ std::optional<Message> WorldProcess::takeFromKeeper(int patience_millis) {
   Message message;
   if (::recv(m_keeper, &message, sizeof message, MSG_DONTWAIT) == sizeof message) return message;
   if (!m_status) m_status = SIGKILL;  // as if it had been killed
-  m_keeper_ended = true;
+  m_keeper_is = Keeper::kEnded;
   return std::nullopt;
 }
 
 void WorldProcess::readKeeper(int patience_millis) {
-  if (!m_started) {
+  if (m_keeper_is == Keeper::kStarting) {
     const auto start = takeFromKeeper<KeeperStart>(patience_millis);
     if (!start) return;
-    m_started = true;
+    m_keeper_is = Keeper::kWatching;
     m_process = start->process;
     if (start->error != 0) {
       m_failure = WorldEnd{WorldEnd::kCrashed,
                            "could not be started: " + std::generic_category().message(start->error)};
     }
   }
-  if (m_keeper_ended) return;
+  if (m_keeper_is == Keeper::kEnded) return;
   const auto end = takeFromKeeper<KeeperEnd>(patience_millis);
   if (!end) return;
+  if (end->kind == KeeperEnd::kRest) {
+    m_keeper_is = Keeper::kWatching;
+    return;
+  }
   if (!m_status) m_status = end->status;
-  m_keeper_ended = end->is_last != 0;
+  if (end->kind == KeeperEnd::kAll) m_keeper_is = Keeper::kEnded;
 }
 
 void WorldProcess::waitForKeeper() {
-  if (m_keeper_ended) return;
+  if (m_keeper_is == Keeper::kEnded) return;
   kill();
   const auto end = Clock::now() + std::chrono::milliseconds(kKillMillis);
-  while (!m_keeper_ended && Clock::now() < end) readKeeper(kKillMillis);
+  while (m_keeper_is != Keeper::kEnded && Clock::now() < end) readKeeper(kKillMillis);
 }
 
 // ---- down -------------------------------------------------------------------------------------------------
@@ -333,7 +337,7 @@ void WorldProcess::finish(int status) {
 // ---- copies -----------------------------------------------------------------------------------------------
 
 bool WorldProcess::keepCopy() {
-  m_copied = m_state == State::kReady && m_process > 0 && m_copies.order(m_process);
+  m_copied = m_state == State::kReady && canKeepCopy() && m_copies.order(m_process);
   return m_copied;
 }
 
@@ -346,7 +350,7 @@ std::chrono::nanoseconds WorldProcess::cpuTime() const {
 std::optional<std::uint32_t> WorldProcess::goOnWithCopy() {
   if (m_state != State::kEnded) return std::nullopt;
   readKeeper(0);  // it may have given up waiting
-  while (auto copy = m_keeper_ended ? std::nullopt : m_copies.takeNewest()) {
+  while (auto copy = m_keeper_is == Keeper::kEnded ? std::nullopt : m_copies.takeNewest()) {
     if (!orderToGoOn(*copy)) {
       ::close(copy->socket);
       continue;
@@ -371,6 +375,7 @@ void WorldProcess::become(WorldCopy copy) {
   m_self = std::make_shared<WorldProcess*>(this);  // handlers of the socket before have nothing to say
   m_socket.assign(asio::local::stream_protocol(), copy.socket);
   m_process = copy.process;
+  m_keeper_is = Keeper::kClearing;
   m_next_tick = copy.state.next_tick;
   m_views = std::move(copy.state.views);
   m_view = std::move(copy.state.view);

@@ -77,6 +77,8 @@ class WorldProcess : public WorldPort {
 
   /// Keep a copy of the world as it is after the next tick, beside the one before. False: there will be none.
   bool keepCopy();
+  /// May one be asked for? While the keeper ends what is left of a world before, it would end the copy, too.
+  bool canKeepCopy() const { return m_keeper_is == Keeper::kWatching; }
   /// Those that are kept end.
   void dropCopies() { m_copies.clear(); }
   /// Why there are none any more, once, in words.
@@ -96,6 +98,12 @@ class WorldProcess : public WorldPort {
     kTicking,
     kEnding,  ///< the socket is closed, or will be, and the process comes to its end
     kEnded,
+  };
+  enum class Keeper : std::uint8_t {
+    kStarting,
+    kWatching,
+    kClearing,  ///< ends what is left of the world before
+    kEnded,     ///< and with it all that the world had started
   };
 
   void beginTick();
@@ -133,12 +141,11 @@ class WorldProcess : public WorldPort {
   OutputRelay m_output;
   const df::ActivityPage* m_p_page = nullptr;  ///< null: there is none
   const std::chrono::nanoseconds m_hang_time;
-  bool m_started = false;  ///< as the keeper says
-  pid_t m_process = -1;    ///< the same
+  Keeper m_keeper_is = Keeper::kStarting;
+  pid_t m_process = -1;  ///< as the keeper says
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
   std::optional<int> m_status;        ///< once it has ended
-  bool m_keeper_ended = false;        ///< and with it all that the world had started
   std::optional<WorldEnd> m_failure;  ///< why it was killed
   std::optional<WorldEnd> m_end;
   Clock::time_point m_checked_at;

@@ -264,13 +264,14 @@ class LeftCopies : public testing::Test {
   }
   std::string waitForReport() const {
     pollfd readable{world.keeper, POLLIN, 0};
+    constexpr const char* kKinds[] = {", all have ended", ", copies are there", ", one goes on"};
     KeeperEnd end;
     if (poll(&readable, 1, kPatienceMillis) <= 0 ||
         recv(world.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end)
       return "nothing";
     return (WIFEXITED(end.status) ? "exit " + std::to_string(WEXITSTATUS(end.status))
                                   : "signal " + std::to_string(WTERMSIG(end.status))) +
-           (end.is_last != 0 ? ", all have ended" : ", copies are there");
+           kKinds[end.kind];
   }
   void order(const KeeperOrder& order) const {
     EXPECT_EQ(send(world.keeper, &order, sizeof order, MSG_NOSIGNAL), static_cast<ssize_t>(sizeof order));
@@ -284,12 +285,14 @@ class LeftCopies : public testing::Test {
 
 TEST_F(LeftCopies, TheOneThatGoesOnStaysAndAllOthersEnd) {
   order({KeeperOrder::kGoOn, left[0], {left[1], 0, 0}});
-  EXPECT_TRUE(isGone(left[2]));
+  EXPECT_EQ(waitForReport(), "exit 7, one goes on");
+  EXPECT_EQ(kill(left[2], 0), -1);
   EXPECT_EQ(kill(left[0], 0), 0);
   EXPECT_EQ(kill(left[1], 0), 0);
   order({KeeperOrder::kEndWorld, 0, {}});
   EXPECT_EQ(waitForReport(), "signal 9, copies are there");
   order({KeeperOrder::kGoOn, left[1], {}});
+  EXPECT_EQ(waitForReport(), "signal 9, one goes on");
   shutdown(world.keeper, SHUT_WR);
   EXPECT_EQ(waitForReport(), "signal 9, all have ended");
   EXPECT_EQ(kill(left[1], 0), -1);
