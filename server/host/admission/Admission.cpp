@@ -471,8 +471,8 @@ std::string Admission::moveSession(Session& session, const std::string& room, bo
   m_setup.rooms.leaveRoom(session);
   const auto color = static_cast<df::Color>(session.welcomed().color());
   wire::Welcome welcome = session.welcomed();
-  const std::uint32_t player = p_to->join(m_next_player, session.name(), color);
-  m_next_player = player + 1;
+  const std::uint32_t player = m_next_player++;
+  p_to->join(player, session.name(), color);
   welcome.set_player(player);
   describeRoom(*p_to, welcome);
   session.enterRoom(welcome);
@@ -495,10 +495,9 @@ std::string Admission::freeName(const std::string& wanted) const {
 // A player of this name joins the room's world.
 wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
   const df::Color color = colorOf(m_counters.joined++);
-  const std::uint32_t player = room.join(m_next_player, name, color);
-  m_next_player = player + 1;
-  wire::Welcome welcome = welcomeOf(room, player, name, color);
-  return welcome;
+  const std::uint32_t player = m_next_player++;
+  room.join(player, name, color);
+  return welcomeOf(room, player, name, color);
 }
 
 std::chrono::milliseconds Admission::graceTime() const {

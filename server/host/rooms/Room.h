@@ -48,11 +48,9 @@ class Room {
 
   // Players.
 
-  /// The world's next tick makes a player of this name; add() makes their session one of the room's. Return
-  /// the player's id.
-  std::uint32_t join(std::uint32_t player, const std::string& name, df::Color color) {
-    return m_p_round->addInput(
-        {.kind = df::InputQueue::kJoin, .player = player, .name = name, .color = color});
+  /// The world's next tick makes a player of this name; add() makes their session one of the room's.
+  void join(std::uint32_t player, const std::string& name, df::Color color) {
+    m_p_round->addInput({.kind = df::InputQueue::kJoin, .player = player, .name = name, .color = color});
   }
   /// The player leaves the world in its next tick.
   void leave(std::uint32_t player) {

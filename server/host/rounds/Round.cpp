@@ -54,20 +54,12 @@ void Round::adopt(std::unique_ptr<WorldPort> world) {
 
 // ---- the next turn ----------------------------------------------------------------------------------------
 
-std::uint32_t Round::addInput(Input input) {
-  if (const auto player = m_world->takeInput(input)) return *player;
-  const std::uint32_t player = input.player;
+void Round::addInput(Input input) {
   const bool lasts = input.kind != df::InputQueue::kKey && input.kind != df::InputQueue::kMouse;
-  if (!lasts && m_turn.inputs.size() >= kMaxInputs) return player;
+  if (!lasts && m_turn.inputs.size() >= kMaxInputs) return;
   input.seen.base -= m_later;
   input.seen.drawn -= m_later;
   m_turn.inputs.push_back(std::move(input));
-  return player;
-}
-
-void Round::endGame() {
-  m_turn.ends_game = true;
-  m_world->endGame();
 }
 
 void Round::notePlayers(const WorldTurn& turn) {
@@ -79,7 +71,7 @@ void Round::notePlayers(const WorldTurn& turn) {
 
 void Round::begin() {
   if (std::exchange(m_began, true)) return;
-  m_later = m_world->nextTick() - 1;
+  m_later = m_world->ticksBefore();
   if (!m_book.late_facts) return;
   m_book.journal->addFacts(m_book.late_facts());
   m_book.writer->wake();  // a server that is killed within the first second knows them, too

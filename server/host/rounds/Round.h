@@ -109,13 +109,11 @@ class Round {
 
   // Input, in the order it came. It counts from nextTick() on.
 
-  /// Return the player's id: that of the input, but in a world of this process for a join the next free one
-  /// if the world has had that one.
-  std::uint32_t addInput(df::InputQueue::Input input);
+  void addInput(df::InputQueue::Input input);
   /// In the next tick only this player's input comes; 0: all players'.
   void setHeard(std::uint32_t player) { m_turn.heard_player = player; }
   /// The game is to be over at the end of the next tick.
-  void endGame();
+  void endGame() { m_turn.ends_game = true; }
 
   // Ticks.
 

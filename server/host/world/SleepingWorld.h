@@ -10,7 +10,6 @@ namespace naiad {
 
 class SleepingWorld : public WorldPort {
  public:
-  std::optional<std::uint32_t> takeInput(const df::InputQueue::Input& input) override { return input.player; }
   bool isReady() const override { return false; }
   void tick(const SentTurn& /*turn*/) override {}
   std::uint32_t nextTick() const override { return m_next_tick; }

@@ -67,13 +67,4 @@ void WorldInProcess::notePublished(const Publisher& publisher) {
   if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.picture().view());
 }
 
-std::optional<std::uint32_t> WorldInProcess::takeInput(const df::InputQueue::Input& input) {
-  return m_world.input().push(input);
-}
-
-void WorldInProcess::endGame() {
-  m_world.setGameOver();
-  m_answer.game_over = true;
-}
-
 }  // namespace naiad

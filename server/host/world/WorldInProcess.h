@@ -28,10 +28,9 @@ class WorldInProcess : public WorldPort {
   bool isReady() const override { return true; }
   void tick(const SentTurn& turn) override;
   std::uint32_t nextTick() const override;
+  std::uint32_t ticksBefore() const override { return 0; }
   const df::WorldView& view() const override;
   void notePublished(const Publisher& publisher) override;
-  std::optional<std::uint32_t> takeInput(const df::InputQueue::Input& input) override;
-  void endGame() override;
 
  private:
   df::World& m_world;

@@ -48,6 +48,8 @@ class WorldPort {
   virtual void tick(const SentTurn& turn) = 0;
   /// The number of the next tick to begin, by which view() counts.
   virtual std::uint32_t nextTick() const = 0;
+  /// Before its first tick: the numbers by which it counts for itself are lower by so much.
+  virtual std::uint32_t ticksBefore() const { return nextTick() - 1; }
   /// So many may be begun before the first of them has ended, once the world has ended one.
   virtual std::uint32_t turnsAhead() const { return 1; }
 
@@ -61,14 +63,6 @@ class WorldPort {
   const WorldAnswer& answer() const { return m_answer; }
   /// These models have been published for it: for games that use lag compensation.
   virtual void notePublished(const Publisher& /*publisher*/) {}
-
-  // What the world of this process knows before its next turn.
-
-  /// Take an input at once. Return the player's id: that of the input, but for a join the next free one if
-  /// the world has had that one. Nothing: it has to come with a turn.
-  virtual std::optional<std::uint32_t> takeInput(const df::InputQueue::Input& /*input*/) { return {}; }
-  /// The next turn ends the game.
-  virtual void endGame() {}
 
   // Its end.
 

@@ -30,10 +30,11 @@ class RandomInputs {
 
   void play(Round& world) {
     if (m_players.empty() || (m_players.size() < m_most && m_random.below(60) == 0)) {
-      m_players.push_back(world.addInput({.kind = df::InputQueue::kJoin,
-                                          .player = ++m_last,
-                                          .name = "bot" + std::to_string(m_last),
-                                          .color = static_cast<df::Color>(df::RED + m_last % 7)}));
+      m_players.push_back(++m_last);
+      world.addInput({.kind = df::InputQueue::kJoin,
+                      .player = m_last,
+                      .name = "bot" + std::to_string(m_last),
+                      .color = static_cast<df::Color>(df::RED + m_last % 7)});
     } else if (m_players.size() > 1 && m_random.below(200) == 0) {
       world.addInput({.kind = df::InputQueue::kLeave, .player = m_players.front()});
       m_players.erase(m_players.begin());
