@@ -114,8 +114,6 @@ set(naiad_detail_headers
   server/engine/effects/Particles.h
   server/engine/events/KeyCharacter.h
   server/engine/managers/LogManager.h
-  server/engine/prelude/LettersBegin.h
-  server/engine/prelude/LettersEnd.h
   server/engine/prelude/SfmlDrawing.h
   server/engine/prelude/SfmlInput.h
   server/engine/prelude/SfmlValues.h
