@@ -97,8 +97,6 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
     df::World::current().extras().resources.addFolder(folder);
   const Installed installed(runner, game_log);
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
-  for (const std::string& folder : game.resourceFolders())
-    df::World::current().extras().resources.addFolder(folder);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
       std::to_string(options.seed));
   return play(game);

@@ -43,16 +43,6 @@ constexpr std::size_t kPrivateRing = std::size_t{256} << 10;
 /// To go on with one round. A server that ends while it does so may have been ended by the round.
 constexpr int kMaxAttempts = 3;
 
-std::string hexOf(const unsigned char* p, std::size_t count) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (std::size_t i = 0; i < count; ++i) {
-    text.push_back(kDigits[p[i] >> 4]);
-    text.push_back(kDigits[p[i] & 15]);
-  }
-  return text;
-}
-
 std::string readSettings() {
   const char* p_named = std::getenv("DRAGONFLY_CONFIG");
   const fs::path path = p_named != nullptr ? p_named : "df-config.txt";
@@ -84,10 +74,6 @@ DfrFacts factsOfStart(const WorldProcess& world) {
   for (const ReadFile& file : world.ready()->files) facts[kFactFile + file.name] = hexNumber(file.hash);
   return facts;
 }
-
-}  // namespace
-
-namespace {
 
 /// The header of a file that is one of this game's by its name, which pathOf() has made.
 std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& game) {
@@ -172,7 +158,7 @@ std::string hashOfModule(const std::string& path) {
   unsigned size = 0;
   good = good && EVP_DigestFinal_ex(p_context, hash, &size) == 1;
   EVP_MD_CTX_free(p_context);
-  return good ? hexOf(hash, size) : std::string();
+  return good ? hexText({hash, size}) : std::string();
 }
 
 DfrFacts factsOfMachine() {
