@@ -1,8 +1,8 @@
 #include "host/metrics/MetricsPage.h"
 
-#include "host/metrics/CounterFamilies.h"
 #include "host/metrics/Exposition.h"
 #include "host/metrics/HostPulse.h"
+#include "host/session/CounterTable.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Version.h"
 
@@ -82,6 +82,14 @@ void writeCpu(Exposition& out, const MetricsSnapshot::Cpu& cpu) {
   out.add(R"(thread="other")", seconds(cpu.other));
 }
 
+template <class Struct>
+void writeCounters(Exposition& out, const Struct& counters) {
+  for (const CounterSample& sample : samplesOf(counters)) {
+    if (!sample.help.empty()) out.begin(sample.family, MetricType::kCounter, sample.help);
+    out.add(sample.labels, sample.metric_value);
+  }
+}
+
 }  // namespace
 
 std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts& process) {
@@ -93,7 +101,12 @@ std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts&
     writeNamedRooms(out, p_snapshot->named_rooms);
     writeCounters(out, p_snapshot->counters);
     writeCounters(out, p_snapshot->passwords);
-    writeCounters(out, p_snapshot->network);
+    writeCounters(out, p_snapshot->network.streams);
+    writeCounters(out, p_snapshot->network.visitors);
+    writeCounters(out, p_snapshot->network.relay);
+    writeCounters(out, p_snapshot->network.gate);
+    writeCounters(out, p_snapshot->network.udp);
+    writeCounters(out, p_snapshot->network.traffic);
     writeCpu(out, p_snapshot->cpu);
   }
   writeProcess(out, process);

@@ -5,6 +5,7 @@
 
 #include "host/loop/HostClients.h"
 #include "host/loop/HostEndpoint.h"
+#include "host/session/CounterTable.h"
 #include "shared/net/lan/LanMessage.h"
 #include "shared/net/stream/TcpListener.h"
 
