@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "host/fleet/BusInbox.h"
 #include "host/fleet/BusQueue.h"
 
 namespace naiad {

@@ -25,7 +25,6 @@
 #include "host/process/CrashReport.h"
 #include "host/process/Restart.h"
 #include "host/program/Announcement.h"
-#include "host/rounds/RoomJournals.h"
 #include "host/rounds/RoomLaunch.h"
 #include "host/rounds/RoundHandover.h"
 #include "host/rounds/WorldSandbox.h"

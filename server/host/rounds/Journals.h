@@ -28,7 +28,7 @@ using KeptRounds = std::map<std::string, std::string>;
 /// What Journals::announceKept() has said, once.
 KeptRounds takeKeptRounds();
 
-/// What the journals of a server's rooms have in common (RoomJournals.h).
+/// What the journals of a server's rooms have in common (openRoomJournals).
 struct SharedJournals {
   std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
   std::set<std::string> checked = {};  ///< games of which a round has been held against another, or is
