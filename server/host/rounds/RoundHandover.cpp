@@ -1,7 +1,5 @@
 #include "host/rounds/RoundHandover.h"
 
-#include <pthread.h>
-#include <signal.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -22,6 +20,7 @@
 #include "host/rounds/WorldSandbox.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/program/BrokenPipes.h"
 
 namespace naiad {
 
@@ -182,16 +181,11 @@ void RoundHandover::prove(std::function<void(const Result& result)> done) {
     if (const auto round = room.journals->currentRound()) m_proofs.push_back({&room, *round});
   }
   m_proving = true;
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  m_thread = std::thread([this, done = std::move(done)] {
+  m_thread = startWithoutSignals([this, done = std::move(done)] {
     const Result result = execute();
     m_proving = false;
     done(result);
   });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 RoundHandover::Result RoundHandover::execute() {
