@@ -67,8 +67,6 @@ class GameThread : private Runner {
     m_thread.join();
     m_world.setRunner(nullptr);
   }
-  GameThread(const GameThread&) = delete;
-  GameThread& operator=(const GameThread&) = delete;
 
   /// Does main() wait in GM.run()?
   bool isRunning() const { return m_in_run; }

@@ -43,12 +43,12 @@ struct Shaking {
 };
 
 /// The players of a world as the connections of the published engine's NetworkManager: for games that were
-/// written as two programs, of which the server's half is played here (published/NetworkServer.h).
+/// written as two programs, of which the server's half is played here (published/NetworkManager.cpp).
 struct Connections {
   bool is_server = false;
   /// At most so many players are connected; the others watch.
   int limit = 16;
-  /// Is the game's server a player itself (NetworkServer.h)?
+  /// Is the game's server a player itself (server_plays)?
   bool has_host = false;
   /// The player that sits at the server then; 0 for none.
   std::uint32_t host = 0;

@@ -1,7 +1,5 @@
 #include "host/admin/ControlSocket.h"
 
-#include <pthread.h>
-#include <signal.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -22,11 +20,12 @@
 #include <utility>
 #include <vector>
 
-#include "host/admin/AdminCaller.h"
+#include "host/admin/AdminPlayer.h"
 #include "host/admin/ControlFile.h"
 #include "host/process/WatchFeed.h"
 #include "shared/admin/AdminJson.h"
 #include "shared/net/stream/TcpListener.h"
+#include "shared/program/BrokenPipes.h"
 
 namespace naiad {
 
@@ -341,15 +340,9 @@ void ControlSocket::State::finish() {
   if (connections.empty()) context.stop();
 }
 
-// Signals are for the thread that ticks.
 ControlSocket::ControlSocket(ControlListening options, Execute execute, WatchFeed& feed, LogLine log)
     : m_state(std::make_shared<State>(std::move(options), std::move(execute), feed, std::move(log))) {
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  m_state->thread = std::thread([this] { m_state->run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  m_state->thread = startWithoutSignals([this] { m_state->run(); });
 }
 
 ControlSocket::~ControlSocket() {

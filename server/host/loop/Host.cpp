@@ -19,7 +19,6 @@
 #include "host/loop/HostPart.h"
 #include "host/loop/OperatorLibrary.h"
 #include "host/process/CrashReport.h"
-#include "host/process/SideLog.h"
 #include "host/process/StopSignals.h"
 #include "host/process/TickClock.h"
 #include "host/process/Watchdog.h"

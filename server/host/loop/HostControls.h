@@ -40,8 +40,6 @@ class Reload {
   explicit Reload(ReadOptions read) : m_read(std::move(read)) {}
   /// Waits for what has begun.
   ~Reload();
-  Reload(const Reload&) = delete;
-  Reload& operator=(const Reload&) = delete;
 
   /// Read them, and call `done` once, on the other thread. `now`: the options in force. False: what was begun
   /// earlier is not done.

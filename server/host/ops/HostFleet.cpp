@@ -12,7 +12,7 @@
 #include "host/loop/HostClients.h"
 #include "host/loop/HostControls.h"
 #include "host/loop/HostEndpoint.h"
-#include "host/rooms/NewsEvent.h"
+#include "host/rooms/HostContext.h"
 #include "shared/fleet/GameResult.h"
 #include "shared/fleet/ServerId.h"
 #include "shared/net/base/Limits.h"
@@ -26,10 +26,6 @@ namespace {
 /// systemd as a platform (ServiceNotify.h).
 class SystemdPlatform : public HostPlatform {
  public:
-  SystemdPlatform() = default;
-  /// For tests: as ServiceNotify.
-  explicit SystemdPlatform(const ServiceNotify::Variable& variable) : m_service(variable) {}
-
   void notifyReady() override { m_service.notifyReady(); }
   void notifyReloading(Clock::time_point now) override { m_service.notifyReloading(now); }
   void notifyTick(Clock::time_point now) override { m_service.keepAlive(now); }

@@ -56,8 +56,6 @@ class HostCommands : public HostPart {
   }
   /// As finish().
   ~HostCommands() override { finish(); }
-  HostCommands(const HostCommands&) = delete;
-  HostCommands& operator=(const HostCommands&) = delete;
 
   void tick(Clock::time_point now) override { m_chat.update(now); }
   /// No more commands are taken. What was promised is written before.

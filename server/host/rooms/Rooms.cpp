@@ -10,7 +10,7 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/process/Ending.h"
-#include "host/rooms/NewsEvent.h"
+#include "host/rooms/HostContext.h"
 #include "host/rooms/Room.h"
 #include "host/world/BuildId.h"
 #include "host/world/WorldInProcess.h"

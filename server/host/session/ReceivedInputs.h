@@ -5,6 +5,7 @@
 // acknowledges the inputs of its tick, so the host has to know which these are.
 #pragma once
 
+#include <algorithm>
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <optional>
 
+#include "shared/replica/Acks.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/ControlTable.h"
 #include "shared/values/Keyboard.h"
@@ -50,7 +52,14 @@ class ReceivedInputs {
   static constexpr std::int32_t kMaxEarly = 8;
 
   enum class Verdict { kQueued, kRepeated, kTooMany };
-  Verdict add(const Input& input);
+  Verdict add(const Input& input) {
+    if (!isNewer(input.id, m_newest)) return Verdict::kRepeated;
+    if (m_queue.size() >= kMaxQueued) return Verdict::kTooMany;
+    m_newest = input.id;
+    m_queue.push_back(input);
+    m_pressed.noteInput(input);
+    return Verdict::kQueued;
+  }
   /// Call `apply(input)` for up to kPerTick inputs that are due in the world's next tick.
   template <class Apply>
   void takeDue(std::uint32_t tick, Apply apply) {
@@ -60,9 +69,22 @@ class ReceivedInputs {
     }
   }
   /// Queue the release of all keys that are down, in the tick `tick`.
-  void releaseKeys(std::uint32_t tick);
+  void releaseKeys(std::uint32_t tick) {
+    m_pressed.releaseAll([this, tick](Input input) {
+      input.id = m_newest;  // acknowledged together with that one
+      input.tick = tick;
+      m_queue.push_back(input);
+    });
+  }
   /// Another world begins: drop keys, controls and queued inputs. Return the last id dropped.
-  std::optional<std::uint32_t> clear();
+  std::optional<std::uint32_t> clear() {
+    std::optional<std::uint32_t> last;
+    if (!m_queue.empty()) last = m_queue.back().id;
+    m_queue.clear();
+    m_pressed = {};
+    m_controls.reset();
+    return last;
+  }
 
   /// The player steers by declared controls (null: does not). Keys in them wait for the tick that they ask
   /// for, since the client's prediction has applied them there.
@@ -73,7 +95,12 @@ class ReceivedInputs {
   std::uint32_t newest() const { return m_newest; }
 
  private:
-  bool isTooEarly(const Input& input, std::uint32_t tick) const;
+  bool isTooEarly(const Input& input, std::uint32_t tick) const {
+    const auto early = static_cast<std::int32_t>(input.tick - tick);
+    if (m_controls == nullptr || input.is_mouse || early <= 0 || early > kMaxEarly) return false;
+    return std::any_of(m_controls->rows.begin(), m_controls->rows.end(),
+                       [&input](const df::ControlRow& row) { return row.key == input.key; });
+  }
 
   std::deque<Input> m_queue;
   std::uint32_t m_newest = 0;

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "host/metrics/Exposition.h"
 #include "host/metrics/MetricsPage.h"
 #include "host/session/CounterTable.h"
 #include "tests/support/net/HttpClient.h"
