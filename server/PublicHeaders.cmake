@@ -114,8 +114,6 @@ set(naiad_detail_headers
   server/engine/effects/Particles.h
   server/engine/events/KeyCharacter.h
   server/engine/managers/LogManager.h
-  server/engine/prelude/LettersBegin.h
-  server/engine/prelude/LettersEnd.h
   server/engine/prelude/SfmlDrawing.h
   server/engine/prelude/SfmlInput.h
   server/engine/prelude/SfmlValues.h
@@ -132,7 +130,10 @@ set(naiad_detail_headers
   server/engine/world/WorldView.h
   shared/values/Dialect.h)
 
-# Made by the build: each brings detail/EventNetworks.h.
+# Made by the build, in detail/: what sets macros of one letter aside, and brings them back.
+set(naiad_letter_headers
+  LettersBegin.h LettersEnd.h)
+# Likewise: each brings detail/EventNetworks.h.
 set(naiad_event_network_headers
   EventCustomNetwork.h EventKeyboardNetwork.h EventMouseNetwork.h EventNetworkAccept.h EventNetworkClose.h EventNetworkConnect.h
   EventNetworkCreate.h EventNetworkCustom.h EventNetworkDelete.h EventNetworkGameOver.h EventNetworkSync.h)

@@ -22,6 +22,11 @@ struct AdminAnswer {
   std::vector<AdminRow> rows;           ///< each with the same names
 
   static AdminAnswer done(std::string text) { return {true, std::move(text), {}, {}, false, {}}; }
+  /// `if_empty`: the sentence instead of no rows.
+  static AdminAnswer list(std::vector<AdminRow> rows, std::string if_empty) {
+    std::string text = rows.empty() ? std::move(if_empty) : std::string();
+    return {true, std::move(text), {}, {}, true, std::move(rows)};
+  }
   static AdminAnswer refused(std::string text) { return {false, std::move(text), {}, {}, false, {}}; }
 };
 

@@ -1,6 +1,9 @@
 #include "shared/program/BrokenPipes.h"
 
+#include <pthread.h>
+
 #include <csignal>
+#include <utility>
 
 namespace naiad {
 
@@ -12,6 +15,16 @@ void surviveBrokenPipes() {
   action.sa_handler = [](int /*signal*/) {};
   action.sa_flags = SA_RESTART;
   sigaction(SIGPIPE, &action, nullptr);
+}
+
+std::thread startWithoutSignals(std::function<void()> job) {
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::thread thread(std::move(job));
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return thread;
 }
 
 }  // namespace naiad

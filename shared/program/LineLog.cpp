@@ -19,6 +19,8 @@
 #include <thread>
 #include <utility>
 
+#include "shared/program/BrokenPipes.h"
+
 namespace naiad {
 
 namespace {
@@ -126,12 +128,7 @@ void LineLog::Shared::add(const LogEvent& event) {
 void LineLog::Shared::start() {
   // A game may call exit() in a handler.
   [[maybe_unused]] static const int registered = std::atexit([] { waitUntilWritten(kLastChance); });
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are for the threads that were there before
-  std::thread([shared = shared_from_this()] { shared->run(); }).detach();
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  startWithoutSignals([shared = shared_from_this()] { shared->run(); }).detach();
 }
 
 bool LineLog::Shared::keep(const std::string& line) {

@@ -66,16 +66,6 @@ class Reader {
   World& m_world;
 };
 
-void apply(World& world, const ConfigSettings& s) {
-  const bool chars =
-      s.window_horizontal_chars != world.views().width() || s.window_vertical_chars != world.views().height();
-  if (chars && world.views().setWindow(s.window_horizontal_chars, s.window_vertical_chars) != 0) {
-    world.log().write("Configuration: no window can be of " + std::to_string(s.window_horizontal_chars) +
-                      " by " + std::to_string(s.window_vertical_chars) + " characters");
-  }
-  world.extras().background = s.window_background_color;
-}
-
 }  // namespace
 
 ConfigSettings& Config::settings() {
@@ -83,7 +73,15 @@ ConfigSettings& Config::settings() {
 }
 
 void Config::applyWindow() {
-  apply(World::current(), settings());
+  World& world = World::current();
+  const ConfigSettings& s = settings();
+  const bool chars =
+      s.window_horizontal_chars != world.views().width() || s.window_vertical_chars != world.views().height();
+  if (chars && world.views().setWindow(s.window_horizontal_chars, s.window_vertical_chars) != 0) {
+    world.log().write("Configuration: no window can be of " + std::to_string(s.window_horizontal_chars) +
+                      " by " + std::to_string(s.window_vertical_chars) + " characters");
+  }
+  world.extras().background = s.window_background_color;
 }
 
 Config& Config::getInstance() {
@@ -134,7 +132,7 @@ void Config::loadConfig(const std::string& str) {
   read("compat", compat);
   world.setCompat(compat);
   if (s.random_seed > 0) world.setSeed(static_cast<std::uint64_t>(s.random_seed));
-  apply(world, s);
+  applyWindow();
 }
 
 std::string Config::match(const std::string& find) const {

@@ -23,9 +23,18 @@ class StateMachine {
   State* getGlobalState() const { return m_p_global; }
 
   /// Execute the global and the present state.
-  void Update();
+  void Update() {
+    if (m_p_global != nullptr) m_p_global->Execute(m_p_owner);
+    if (m_p_state != nullptr) m_p_state->Execute(m_p_owner);
+  }
   /// Leave the present state and enter another one; null is ignored.
-  void changeState(State* p_new_state);
+  void changeState(State* p_new_state) {
+    if (p_new_state == nullptr) return;
+    m_p_previous = m_p_state;
+    if (m_p_state != nullptr) m_p_state->Exit(m_p_owner);
+    m_p_state = p_new_state;
+    m_p_state->Enter(m_p_owner);
+  }
   /// Change to the one before.
   void revertToPrevious() { changeState(m_p_previous); }
 

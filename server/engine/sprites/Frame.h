@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "Color.h"
 #include "Vector.h"
@@ -13,7 +14,8 @@ class Frame {
   /// An empty frame.
   Frame() = default;
   /// `frame_str` holds the rows one after another: new_width times new_height characters.
-  Frame(int new_width, int new_height, std::string frame_str);
+  Frame(int new_width, int new_height, std::string frame_str)
+      : m_width(new_width), m_height(new_height), m_string(std::move(frame_str)) {}
 
   /// Size in characters.
   void setWidth(int new_width) { m_width = new_width; }
@@ -25,7 +27,12 @@ class Frame {
   const std::string& getString() const { return m_string; }
 
   /// The character in column x of row y; a blank where there is none.
-  char at(int x, int y) const;
+  char at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= m_width || y >= m_height) return ' ';
+    const std::size_t i =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) + static_cast<std::size_t>(x);
+    return i < m_string.size() ? m_string[i] : ' ';
+  }
   /// Draw the frame around a world position: column x of row y at (position.x - (width - 1) / 2 + x,
   /// position.y - (height - 1) / 2 + y), all in halves of cells. The character `transparency` is left out; 0:
   /// none is. Return 0, or -1 for an empty frame, or if a character could not be drawn.

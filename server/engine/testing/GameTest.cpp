@@ -1,21 +1,30 @@
 #include "engine/testing/GameTest.h"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <functional>
 #include <map>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
-#include "engine/testing/GameThread.h"
-#include "engine/testing/TestedModule.h"
 #include "engine/world/Capture.h"
 #include "engine/world/InputQueue.h"
 #include "engine/world/Object.h"
 #include "engine/world/ObjectRegistry.h"
+#include "engine/world/Runner.h"
 #include "engine/world/Views.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
@@ -25,6 +34,137 @@
 namespace df {
 
 namespace {
+
+/// Runs a game's main() on a thread of its own, in turns with the thread that made it: one of the two always
+/// waits for the other. So a test can be written from top to bottom, though main() does not return before the
+/// game is over.
+class GameThread : private Runner {
+ public:
+  /// Run `game_main` with `world` as the current one, until it calls GM.run() or ends.
+  GameThread(World& world, std::function<int()> game_main) : m_world(world) {
+    world.setRunner(this);
+    m_thread = std::thread([this, game_main = std::move(game_main)] {
+      const World::Scope scope(m_world);
+      try {
+        game_main();
+      } catch (const std::exception& error) {
+        m_fault = error.what();
+      } catch (...) {
+        m_fault = "something that is no std::exception";
+      }
+      const std::lock_guard lock(m_mutex);
+      m_main_ended = true;
+      m_games_turn = false;
+      m_turned.notify_all();
+    });
+    std::unique_lock lock(m_mutex);
+    m_turned.wait(lock, [this] { return !m_games_turn; });
+  }
+  /// Have every run() return, and wait for the end of main().
+  ~GameThread() override {
+    m_ending = true;
+    if (m_in_run) finishRun();
+    m_thread.join();
+    m_world.setRunner(nullptr);
+  }
+
+  /// Does main() wait in GM.run()?
+  bool isRunning() const { return m_in_run; }
+  /// Did it get there at all?
+  bool hasRun() const { return m_has_run; }
+  /// Let GM.run() return, and main() go on to its next GM.run() or its end.
+  void finishRun() {
+    std::unique_lock lock(m_mutex);
+    m_in_run = false;
+    handTo(true, lock);
+  }
+  /// What main() threw; empty if nothing.
+  const std::string& fault() const { return m_fault; }
+
+ private:
+  void run(World& world) override {
+    if (m_ending) return;
+    if (m_has_run) world.setGameOver(false);  // as in a program: after the title comes the game
+    std::unique_lock lock(m_mutex);
+    m_in_run = m_has_run = true;
+    handTo(false, lock);
+  }
+  /// Let the other side go on, until it hands back.
+  void handTo(bool game, std::unique_lock<std::mutex>& lock) {
+    m_games_turn = game;
+    m_turned.notify_all();
+    m_turned.wait(lock, [&] { return m_games_turn != game || (game && m_main_ended); });
+  }
+
+  World& m_world;
+  std::mutex m_mutex;
+  std::condition_variable m_turned;
+  bool m_games_turn = true;
+  bool m_in_run = false;
+  bool m_has_run = false;
+  bool m_main_ended = false;
+  bool m_ending = false;
+  std::string m_fault;
+  std::thread m_thread;  // last: it uses what stands above
+};
+
+namespace fs = std::filesystem;
+
+/// A copy that no other process uses, to be removed once it is loaded.
+fs::path copyOf(const fs::path& module) {
+  std::string name = (fs::temp_directory_path() / (module.stem().string() + "-XXXXXX.so")).string();
+  const int file = mkstemps(name.data(), 3);
+  if (file < 0) throw std::runtime_error("There is no room for a copy of the game: " + name);
+  close(file);
+  fs::copy_file(module, name, fs::copy_options::overwrite_existing);
+  return name;
+}
+
+void* load(const fs::path& module) {
+  static std::set<fs::path> s_loaded;
+  if (s_loaded.insert(module).second) return dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const fs::path copy = copyOf(module);
+  void* p_handle = dlopen(copy.c_str(), RTLD_NOW | RTLD_LOCAL);
+  std::error_code none;
+  fs::remove(copy, none);
+  return p_handle;
+}
+
+/// A game's module, loaded for one test.
+class TestedModule {
+ public:
+  /// Load it: the first time in this process from where it is, later from a copy in the folder for temporary
+  /// files, for what is loaded twice from one file is the same, with the variables of the game before. Throws
+  /// std::runtime_error.
+  explicit TestedModule(const std::string& path) {
+    const fs::path module = fs::absolute(path).lexically_normal();
+    if (!fs::exists(module))
+      throw std::runtime_error("There is no game " + module.string() + ": build it first.");
+    void* p_handle = load(module);
+    if (p_handle == nullptr) throw std::runtime_error(std::string("The game cannot be loaded: ") + dlerror());
+    m_main = reinterpret_cast<Main>(dlsym(p_handle, "main"));
+    if (m_main == nullptr) throw std::runtime_error("The game " + module.string() + " has no main().");
+    m_name = module.stem().string();
+    const fs::path folder = module.parent_path();
+    m_folders = {(folder / m_name).string(), folder.string(), folder.parent_path().string()};
+  }
+
+  /// Run the game's main(). It stays loaded: destructors of its static Objects may still run.
+  int main() const {
+    std::string name = m_name;
+    char* arguments[] = {name.data(), nullptr};
+    return m_main(1, arguments);
+  }
+  /// Where its sprites and sounds are looked for: beside it in a folder of its name, in its folder, and above
+  /// that.
+  const std::vector<std::string>& folders() const { return m_folders; }
+
+ private:
+  using Main = int (*)(int, char**);
+  std::string m_name;
+  std::vector<std::string> m_folders;
+  Main m_main = nullptr;
+};
 
 constexpr std::size_t kShownLogLines = 5;
 constexpr Color kColors[] = {RED, GREEN, YELLOW, CYAN, MAGENTA, WHITE, BLUE};

@@ -3,17 +3,143 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
-#include "engine/collision/SweepBounds.h"
-#include "engine/collision/SweepSegments.h"
+#include "engine/collision/SweepPath.h"
 #include "engine/world/CollisionRule.h"
+#include "shared/values/Fixed.h"
 
 namespace df {
 
 namespace {
+
+/// A quick bound, in doubles, on when a move touches a box: without a branch, from a little too early to a
+/// little too late. Sweep tests what this leaves exactly.
+class SweepBounds {
+ public:
+  /// Times of the move at which a box is touched, also before its start and after its end; enter > leave if
+  /// it never is.
+  struct Stay {
+    double enter;
+    double leave;
+  };
+
+  explicit SweepBounds(const SweepPath& path)
+      : m_x(path.box().corner.x + path.from().x, path.box().size.x, path.lengthX(),
+            path.to().x < path.from().x),
+        m_y(path.box().corner.y + path.from().y, path.box().size.y, path.lengthY(),
+            path.to().y < path.from().y) {}
+
+  Stay at(const FixedBox& other) const {
+    const Stay x = m_x.at(other.corner.x, other.size.x);
+    const Stay y = m_y.at(other.corner.y, other.size.y);
+    return {std::max(x.enter, y.enter), std::min(x.leave, y.leave)};
+  }
+  /// No hit at or before `moment` has a later enter.
+  static double latest(Moment moment) { return moment.toDouble() * (1 + 1e-12); }
+
+ private:
+  // On this side and that, in units: doubles of coordinates are some thousand off.
+  static constexpr double kSlack = 1 << 16;
+  // For an axis at rest, where each unit is worth for ever.
+  static constexpr double kForEver = 1e100;
+
+  struct Axis {
+    double centre;
+    double half;      // of its size
+    double per_unit;  // time, negative if it goes back
+
+    Axis(Fixed corner, Fixed size, std::uint64_t length, bool back)
+        : centre(static_cast<double>(corner) + 0.5 * static_cast<double>(size)),
+          half(0.5 * static_cast<double>(size) + kSlack),
+          per_unit(length == 0 ? kForEver : (back ? -1 : 1) / static_cast<double>(length)) {}
+    Stay at(Fixed corner, Fixed size) const {
+      const double other_half = 0.5 * static_cast<double>(size);
+      const double middle = (static_cast<double>(corner) + other_half - centre) * per_unit;
+      const double length = (half + other_half) * std::abs(per_unit);
+      return {middle - length, middle + length};
+    }
+  };
+
+  Axis m_x;
+  Axis m_y;
+};
+
+/// A path cut into pieces, so that what lies along it is searched in the order of travel.
+///
+/// It is as many steps long as its longer axis has units. Where the shorter axis is after so many steps is
+/// rounded, and a piece is a little wider for it: only the sweep says what is hit, and when.
+class SweepSegments {
+ public:
+  /// The path must not be of length 0.
+  explicit SweepSegments(const SweepPath& path)
+      : m_horizontal(path.lengthX() >= path.lengthY()),
+        m_along(axis(path, m_horizontal)),
+        m_across(axis(path, !m_horizontal)),
+        m_slope(halfOf(m_across.length) / std::max(halfOf(m_along.length), 1.0)) {}
+
+  /// Is the longer axis x?
+  bool isHorizontal() const { return m_horizontal; }
+  std::uint64_t length() const { return m_along.length; }
+  /// How far the shorter axis goes at each step.
+  double slope() const { return m_slope; }
+  /// The time at which so many steps are done.
+  Moment at(std::uint64_t steps) const { return {steps, m_along.length}; }
+  /// Not more than the steps done at `moment`, and hardly less.
+  std::uint64_t stepsBefore(Moment moment) const {
+    if (moment.numerator == 0) return 0;
+    constexpr double kLess = 1 - 1e-12;
+    return static_cast<std::uint64_t>(moment.toDouble() * kLess * static_cast<double>(m_along.length));
+  }
+  /// From step `begin` to step `end`.
+  SweepPath::Piece piece(std::uint64_t begin, std::uint64_t end) const {
+    const auto [along_low, along_high] = std::minmax({m_along.after(begin), m_along.after(end)});
+    const auto [across_low, across_high] =
+        std::minmax({m_across.after(across(begin, -kSlack)), m_across.after(across(end, kSlack))});
+    if (m_horizontal) return {{along_low, across_low}, {along_high, across_high}};
+    return {{across_low, along_low}, {across_high, along_high}};
+  }
+
+ private:
+  // In units of two: doubles have 53 bits, steps 64; some thousand units are lost, this many are not.
+  static constexpr double kSlack = 1 << 20;
+
+  struct Axis {
+    Fixed start;  // of the box's corner
+    std::uint64_t length;
+    std::uint64_t back;  // all ones if it goes back: arithmetic in place of an unpredictable branch
+
+    Fixed after(std::uint64_t steps) const {
+      return static_cast<Fixed>(static_cast<std::uint64_t>(start) + ((steps ^ back) - back));
+    }
+  };
+
+  static Axis axis(const SweepPath& path, bool is_x) {
+    const FixedVector corner = path.box().corner + path.from();
+    if (is_x) return {corner.x, path.lengthX(), path.to().x < path.from().x ? ~std::uint64_t{0} : 0};
+    return {corner.y, path.lengthY(), path.to().y < path.from().y ? ~std::uint64_t{0} : 0};
+  }
+  // Signed numbers become doubles faster.
+  static double halfOf(std::uint64_t steps) {
+    return static_cast<double>(static_cast<std::int64_t>(steps >> 1));
+  }
+  // Where the shorter axis is by then, or beyond.
+  std::uint64_t across(std::uint64_t steps, double slack) const {
+    const double half = m_slope * halfOf(steps) + slack;
+    if (half <= 0) return 0;
+    if (half >= halfOf(m_across.length)) return m_across.length;
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(half)) * 2;
+  }
+
+  bool m_horizontal;
+  Axis m_along;   // the longer one
+  Axis m_across;  // the shorter one
+  double m_slope;
+};
 
 // Among many Objects a hit is near, and among few an empty piece costs little. So the first piece is short,
 // and after each empty piece the next one is longer: in cells of the level.

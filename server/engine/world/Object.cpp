@@ -15,7 +15,6 @@
 #include "engine/world/DelayedFree.h"
 #include "engine/world/Interests.h"
 #include "engine/world/ObjectExtras.h"
-#include "engine/world/PendingBlocks.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"

@@ -1,11 +1,13 @@
 // The part of Object that others see of it: looks, paths, and its attributes as text.
-
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <sstream>
 #include <utility>
 
 #include "engine/collision/Mask.h"
-#include "engine/sprites/AnimationLook.h"
+#include "engine/sprites/Animation.h"
+#include "engine/sprites/Sprite.h"
 #include "engine/world/ClassName.h"
 #include "engine/world/ConfigText.h"
 #include "engine/world/Object.h"
@@ -17,11 +19,51 @@
 #include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "shared/replica/Limits.h"
+#include "shared/replica/Look.h"
 #include "shared/replica/LookCodec.h"
 
 namespace df {
 
+/// Sprite's friend: all its frames. Empty if they cannot be described: there are none, too many (kMaxFrames)
+/// or too large ones, or only such as draw nothing.
+class SpritePictures {
+ public:
+  static const naiad::Sequence& of(const Sprite& sprite) { return sprite.pictures(); }
+};
+
 namespace {
+
+naiad::Selector selectorOf(const Animation& animation, std::uint32_t tick) {
+  const int slowdown = animation.getSprite()->getTicksPerFrame();
+  const int count = animation.getSlowdownCount();
+  const auto index = static_cast<std::size_t>(animation.getIndex());
+  const bool still = slowdown < 1 || count < 0 || slowdown > int{naiad::kMaxTicksPerFrame};
+  if (still) return naiad::Selector::fixed(index);
+  // A count set beyond the slowdown turns the page with the next tick, as the last count before it does.
+  const auto shown = static_cast<std::uint32_t>(std::min(count, slowdown - 1));
+  return naiad::Selector::clock(tick - shown, static_cast<std::uint32_t>(slowdown), true, index);
+}
+
+// An animation as clients get it: the pictures of its sprite, and a clock that says which of them shows.
+// While only the clock decides, clients draw it without further messages.
+
+/// What `animation` shows in `tick`, and will show after it unless it is stopped, set or hidden. Null if the
+/// pictures cannot be described, or are no more than one. `before`, what this returned an earlier time, is
+/// returned again if it still holds.
+std::shared_ptr<const naiad::Look> lookOf(const Animation& animation, std::uint32_t tick,
+                                          const std::shared_ptr<const naiad::Look>& before) {
+  const Sprite* p_sprite = animation.getSprite();
+  if (p_sprite == nullptr || p_sprite->getFrameCount() < 2) return nullptr;
+  if (animation.getTransform() != Transform::NO_TRANSFORM) return nullptr;  // the pictures are others
+  if (animation.getIndex() < 0 || animation.getIndex() >= p_sprite->getFrameCount()) return nullptr;
+  const naiad::Sequence& pictures = SpritePictures::of(*p_sprite);
+  if (pictures.empty()) return nullptr;
+  const naiad::Selector selector = selectorOf(animation, tick).rebased(tick, pictures.size());
+  if (before != nullptr && before->sequence.isSharedWith(pictures) &&
+      before->selector.rebased(tick, pictures.size()) == selector)
+    return before;
+  return std::make_shared<const naiad::Look>(naiad::Look{pictures, 0, selector});
+}
 
 constexpr unsigned kAll = (1u << ObjectAttributeMax) - 1;
 // What serialize() calls the attributes, by the number of their bits.

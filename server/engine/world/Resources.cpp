@@ -1,12 +1,14 @@
 #include "engine/world/Resources.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <utility>
+#include <vector>
 
-#include "engine/sprites/CaseInsensitiveFile.h"
 #include "engine/sprites/SpriteFile.h"
 #include "engine/world/WorldLog.h"
 #include "engine/world/WorldState.h"
@@ -14,6 +16,26 @@
 namespace df {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+bool sameButForCase(const std::string& a, const std::string& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+// What is called `name` in the folder, as it is or but for case.
+std::vector<fs::path> matches(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  if (name == "." || name == "..") return {folder / name};
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
+    const std::string called = entry.path().filename().string();
+    if (sameButForCase(called, name)) found.push_back(folder / called);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
 
 /// "; loaded are: saucer, ship"
 template <class Labels>
@@ -46,6 +68,25 @@ bool isFile(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::string findLoosely(const std::string& folder, const std::string& name) {
+  std::string slashed = name;
+  std::replace(slashed.begin(), slashed.end(), '\\', '/');
+  std::vector<fs::path> candidates = {folder};
+  for (const fs::path& part : fs::path(slashed)) {
+    std::vector<fs::path> next;
+    for (const fs::path& candidate : candidates) {
+      const std::vector<fs::path> found = matches(candidate, part.string());
+      next.insert(next.end(), found.begin(), found.end());
+    }
+    candidates = std::move(next);
+  }
+  const auto file = std::find_if(candidates.begin(), candidates.end(), [](const fs::path& path) {
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+  });
+  return file == candidates.end() ? std::string() : file->string();
+}
 
 void Resources::clear() {
   for (auto& p_sprite : m_sprites) m_unloaded.push_back(std::move(p_sprite));

@@ -17,6 +17,13 @@ namespace df {
 class WorldLog;
 struct WorldState;
 
+// Finds files by names as on systems that separate folders by backslashes and ignore case.
+
+/// The file in `folder` (empty: the working directory) that `name`, a path relative to it, means there: a
+/// backslash parts folders, letters of ASCII count without their case. Of several, the one that comes first
+/// by name; empty if there is none.
+std::string findLoosely(const std::string& folder, const std::string& name);
+
 /// The sounds, or the pieces of music, of one world.
 template <class T>
 class SoundBank {

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <cstdint>
-
-#include "engine/world/Walkers.h"
+#include <vector>
 
 namespace df {
 
@@ -12,9 +11,30 @@ class EventDispatch;
 class InputQueue;
 class LazyExtras;
 class Mover;
+class Object;
 class ObjectRegistry;
 class World;
 struct WorldState;
+
+/// The Objects of a world that walk along paths.
+class Walkers {
+ public:
+  Walkers() = default;
+  Walkers(const Walkers&) = delete;
+  Walkers& operator=(const Walkers&) = delete;
+  /// Objects may outlive their world.
+  ~Walkers();
+
+  /// Adds or removes the Object.
+  void set(Object& object, bool walks);
+  /// A tick begins: turn each towards its next node, by the order in which they set out.
+  void step();
+
+ private:
+  static void turn(Object& object);
+
+  std::vector<Object*> m_objects;
+};
 
 class Tick {
  public:

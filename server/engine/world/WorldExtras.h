@@ -2,6 +2,8 @@
 // costs a null pointer and one test in a tick.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -9,21 +11,91 @@
 #include <vector>
 
 #include "engine/events/Event.h"
-#include "engine/world/Animations.h"
-#include "engine/world/Connections.h"
 #include "engine/world/Random.h"
 #include "engine/world/Resources.h"
 #include "engine/world/RoomTable.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/Settings.h"
-#include "engine/world/Shaking.h"
 #include "engine/world/WorldView.h"
 
 namespace df {
 
 class WorldLog;
 class WorldStore;
+struct ObjectExtras;
 struct WorldState;
+
+/// The window shakes (DM.shake): by how many cells the picture is off its place in a tick.
+struct Shaking {
+  int scale_x = 0;  ///< at most so many cells to either side
+  int scale_y = 0;
+  int ticks = 0;  ///< that are left
+  int x = 0;      ///< in this tick
+  int y = 0;
+
+  void step(Random& random) {
+    x = y = 0;
+    if (ticks <= 0) return;
+    --ticks;
+    x = random.below(2 * scale_x + 1) - scale_x;
+    y = random.below(2 * scale_y + 1) - scale_y;
+  }
+};
+
+/// The players of a world as the connections of the published engine's NetworkManager: for games that were
+/// written as two programs, of which the server's half is played here (published/NetworkManager.cpp).
+struct Connections {
+  bool is_server = false;
+  /// At most so many players are connected; the others watch.
+  int limit = 16;
+  /// Is the game's server a player itself (server_plays)?
+  bool has_host = false;
+  /// The player that sits at the server then; 0 for none.
+  std::uint32_t host = 0;
+  /// Players whose connection the game has closed.
+  std::vector<std::uint32_t> closed;
+  /// By socket, which is an index here: the player, or 0 for none.
+  std::vector<std::uint32_t> players;
+
+  /// The socket of a player; -1 for none.
+  int socketOf(std::uint32_t player) const {
+    const auto found = std::find(players.begin(), players.end(), player);
+    return player == 0 || found == players.end() ? -1 : static_cast<int>(found - players.begin());
+  }
+  bool isConnected(int socket) const {
+    return socket >= 0 && socket < static_cast<int>(players.size()) &&
+           players[static_cast<std::size_t>(socket)] != 0;
+  }
+  int count() const {
+    return static_cast<int>(players.size() -
+                            static_cast<std::size_t>(std::count(players.begin(), players.end(), 0u)));
+  }
+};
+
+/// The Objects of a world with running animations.
+class Animations {
+ public:
+  explicit Animations(WorldStore& store) : m_store(store) {}
+  Animations(const Animations&) = delete;
+  Animations& operator=(const Animations&) = delete;
+  /// Objects may outlive their world.
+  ~Animations();
+
+  /// Runs the animation of the Object in this slot. Adding it twice is once.
+  void add(std::uint32_t slot, ObjectExtras& extras);
+  void remove(ObjectExtras& extras);
+  /// One tick has passed.
+  void advance();
+
+ private:
+  struct Entry {
+    std::uint32_t slot;
+    ObjectExtras* p_extras;  // it stores its place here (ObjectExtras::animated)
+  };
+
+  WorldStore& m_store;
+  std::vector<Entry> m_entries;
+};
 
 /// The part that World::shutDown() sets back.
 struct RoundExtras {

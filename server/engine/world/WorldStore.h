@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -24,9 +25,7 @@
 #include "engine/collision/Grid.h"
 #include "engine/collision/Mask.h"
 #include "engine/collision/MoverStats.h"
-#include "engine/world/ObjectFlags.h"
 #include "engine/world/ObjectProfile.h"
-#include "engine/world/TurnBits.h"
 #include "engine/world/WorldView.h"
 #include "shared/values/Fixed.h"
 #include "shared/values/Solidness.h"
@@ -35,6 +34,75 @@ namespace df {
 
 class Object;
 class World;
+
+/// The flags of an Object in its world's store.
+struct ObjectFlags {
+  /// An engine that is built without the options beyond the book has their setters, but nothing of what they
+  /// do.
+#if defined(NAIAD_WITHOUT_LAYERS)
+  static constexpr bool kLayers = false;
+#else
+  static constexpr bool kLayers = true;
+#endif
+  enum Flag : std::uint32_t {
+    kInWorld = 1 << 0,
+    kActive = 1 << 1,
+    kVisible = 1 << 2,
+    kNoSoft = 1 << 3,
+    kHeap = 1 << 4,      ///< made with `new`: the world's to delete
+    kMarked = 1 << 5,    ///< to be deleted after update
+    kLookKept = 1 << 6,  ///< its static look was drawn, and is repeated
+    kDirty = 1 << 7,     ///< in the list of changes
+    kReported = 1 << 8,  ///< the host has its state
+    kDerive = 1 << 9,    ///< speed and direction follow from the velocity
+    kStaticLook = 1 << 10,
+    kNeverDraws = 1 << 11,  ///< its dynamic type is Object itself
+    kTyped = 1 << 12,       ///< kNeverDraws and kDeaf have been found out
+    kFollowed = 1 << 13,    ///< a view follows it
+    kDeaf = 1 << 14,        ///< its class does not override eventHandler()
+    kSwept = 1 << 15,
+    kPrecise = 1 << 16,
+    kRestContacts = 1 << 17,
+    kMayMoveOut = 1 << 18,
+    kBody = 1 << 19,     ///< moved by a layer, not by the book's rules
+    kPainted = 1 << 24,  ///< has a sprite or a shape, which draw() shows unless its class overrides it
+    kOnView = 1 << 25,   ///< a view object: drawn at every position
+    kFrames = 1 << 28,   ///< it has frames
+  };
+};
+
+/// Which turns Objects take in update(), as bits by place in the creation order: entry i has bit i % 64 of
+/// word i / 64, so that 64 Objects are classified at a time.
+struct TurnBits {
+  using Words = std::vector<std::uint64_t>;
+
+  Words turns;    ///< moves in update(): active, with a velocity, an acceleration or contacts at rest
+  Words fliers;   ///< of these, SPECTRAL ones that only add their velocity
+  Words walkers;  ///< of these, solid ones that use nothing beyond the book's test of where a move ends
+  Words sequels;  ///< its slot is the one after that of the entry before
+  Words blocked;  ///< its last move in update did not happen
+  Words hearers;  ///< solid, active, and its class overrides eventHandler(): hears of collisions
+  Words hards;    ///< active and HARD
+  Words softs;    ///< active and SOFT
+
+  static bool get(const Words& words, std::size_t i) { return (words[i / 64] >> (i % 64) & 1) != 0; }
+  static void set(Words& words, std::size_t i, bool on) {
+    const std::uint64_t bit = std::uint64_t{1} << (i % 64);
+    std::uint64_t& word = words[i / 64];
+    word = on ? word | bit : word & ~bit;
+  }
+  /// Make room for entry i, the last one.
+  void grow(std::size_t i) {
+    if (i % 64 != 0) return;
+    for (Words* p_words : {&turns, &fliers, &walkers, &sequels, &blocked, &hearers, &hards, &softs})
+      p_words->resize(i / 64 + 1);
+  }
+  /// Entry i is a gap. Its sequel bit stays, and means nothing without a turn.
+  void clear(std::size_t i) {
+    for (Words* p_words : {&turns, &fliers, &walkers, &blocked, &hearers, &hards, &softs})
+      set(*p_words, i, false);
+  }
+};
 
 /// The mask of the sprite's frame that shows, if it is drawn where the Object's box is; else null. Defined
 /// with Object, of which the store knows pointers only.

@@ -4,8 +4,6 @@
 
 namespace naiad {
 
-AdminWorker::AdminWorker() = default;
-
 AdminWorker::~AdminWorker() {
   finish();
 }

@@ -15,11 +15,8 @@ class AdminWorker {
  public:
   static constexpr std::size_t kMaxWaiting = 1024;
 
-  AdminWorker();
   /// As finish().
   ~AdminWorker();
-  AdminWorker(const AdminWorker&) = delete;
-  AdminWorker& operator=(const AdminWorker&) = delete;
 
   /// False, and the job is dropped: too many wait. Any thread; never waits for a job. `job` must not throw.
   bool give(std::function<void()> job);

@@ -1,14 +1,66 @@
 #include "host/admin/BanList.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <tuple>
 #include <utility>
 
-#include "host/admin/BanStore.h"
-#include "host/session/LookAlikes.h"
+#include "host/session/Names.h"
+#include "shared/admin/TimeSpan.h"
+#include "shared/net/base/AddressPrefix.h"
 
 namespace naiad {
 
 namespace {
+
+constexpr const char* kKinds[] = {"name", "range", "exception"};  ///< by Ban::Kind
+
+constexpr StateFile::Kind kFileOfBans{
+    "file of bans", 0x4e616942,  // "NaiB"
+    1,
+    "CREATE TABLE bans(kind TEXT NOT NULL, target TEXT NOT NULL, reason TEXT NOT NULL, made_by TEXT NOT "
+    "NULL, "
+    "made INTEGER NOT NULL, until INTEGER, PRIMARY KEY(kind, target)) STRICT",
+    false};
+
+std::int64_t secondsOf(Ban::Time time) {
+  return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
+}
+
+Ban::Time timeOf(std::int64_t seconds) {
+  return Ban::Time(std::chrono::seconds(seconds));
+}
+
+const char* kindName(const Ban& ban) {
+  return kKinds[static_cast<int>(ban.kind)];
+}
+
+std::string storedTarget(const Ban& ban) {
+  return ban.kind == Ban::Kind::kName ? ban.name : ban.range->text();
+}
+
+/// Nothing: no ban that this program writes.
+std::optional<Ban> banAt(const StateStatement& statement) {
+  Ban ban;
+  const std::string kind = statement.text(0);
+  const std::string target = statement.text(1);
+  int number = 0;
+  while (number < 3 && kind != kKinds[number]) ++number;
+  if (number == 3) return std::nullopt;
+  ban.kind = static_cast<Ban::Kind>(number);
+  if (ban.kind == Ban::Kind::kName) {
+    ban.name = target;
+  } else {
+    ban.range = AddressRange::parse(target);
+    if (!ban.range) return std::nullopt;
+  }
+  ban.reason = statement.text(2);
+  ban.by = statement.text(3);
+  ban.made = timeOf(statement.number(4));
+  if (!statement.isNull(5)) ban.until = timeOf(statement.number(5));
+  return ban;
+}
 
 constexpr const char* kNoFile = "This server keeps no file of bans (--state), so they end with it.";
 
@@ -25,6 +77,109 @@ bool names(const std::string& text, const Ban& ban) {
 }
 
 }  // namespace
+
+BanStore::BanStore(std::filesystem::path file) : m_file(std::move(file), kFileOfBans) {}
+
+std::vector<Ban> BanStore::load() {
+  if (!m_file.openIfThere()) return {};
+  StateStatement statement =
+      m_file.prepare("SELECT kind, target, reason, made_by, made, until FROM bans ORDER BY made, target");
+  std::vector<Ban> bans;
+  while (statement.step()) {
+    auto ban = banAt(statement);
+    if (!ban) m_file.fail("has a line that is no ban: \"" + statement.text(1) + "\"");
+    bans.push_back(std::move(*ban));
+  }
+  if (!statement.isDone()) m_file.fail("cannot be read");
+  return bans;
+}
+
+void BanStore::save(const Ban& ban) {
+  m_file.openOrMake();
+  StateStatement statement = m_file.prepare("INSERT OR REPLACE INTO bans VALUES(?, ?, ?, ?, ?, ?)");
+  statement.bind(1, kindName(ban));
+  statement.bind(2, storedTarget(ban));
+  statement.bind(3, ban.reason);
+  statement.bind(4, ban.by);
+  statement.bind(5, secondsOf(ban.made));
+  if (ban.until) statement.bind(6, secondsOf(*ban.until));
+  statement.step();
+  if (!statement.isDone()) m_file.fail("cannot be written");
+}
+
+void BanStore::erase(const Ban& ban) {
+  if (!m_file.isOpen() && !m_file.openIfThere()) return;
+  StateStatement statement = m_file.prepare("DELETE FROM bans WHERE kind = ? AND target = ?");
+  statement.bind(1, kindName(ban));
+  statement.bind(2, storedTarget(ban));
+  statement.step();
+  if (!statement.isDone()) m_file.fail("cannot be written");
+}
+
+std::string banSentence(const Ban& ban) {
+  std::string sentence = "You are banned from this server";
+  if (ban.until) sentence += " until " + timeText(*ban.until);
+  return sentence + (ban.reason.empty() ? "." : ": " + ban.reason);
+}
+
+void BanSet::Index::add(const AddressRange& range, std::size_t ban) {
+  places.push_back({range.length(), range.bytes(), ban});
+  if (std::find(lengths.begin(), lengths.end(), range.length()) == lengths.end())
+    lengths.push_back(range.length());
+}
+
+void BanSet::Index::sort() {
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.length, a.bytes) < std::tie(b.length, b.bytes);
+  });
+  std::sort(lengths.begin(), lengths.end());
+}
+
+BanSet::BanSet(std::vector<Ban> bans) : m_bans(std::move(bans)) {
+  for (std::size_t i = 0; i < m_bans.size(); ++i) {
+    const Ban& ban = m_bans[i];
+    if (ban.kind == Ban::Kind::kRange) m_ranges.add(*ban.range, i);
+    if (ban.kind == Ban::Kind::kException) m_exceptions.add(*ban.range, i);
+    if (ban.kind != Ban::Kind::kName) continue;
+    for (std::string& shape : shapesOf(ban.name)) m_shapes.emplace_back(std::move(shape), i);
+  }
+  m_ranges.sort();
+  m_exceptions.sort();
+  std::sort(m_shapes.begin(), m_shapes.end());
+}
+
+const Ban* BanSet::findIn(const Index& index, const asio::ip::address& address, Ban::Time now) const {
+  const AddressRange::Bytes bytes = AddressRange::bytesOf(address);
+  for (const int length : index.lengths) {
+    const Place wanted{length, AddressRange::masked(bytes, length), 0};
+    const auto found = std::lower_bound(index.places.begin(), index.places.end(), wanted,
+                                        [](const Place& a, const Place& b) {
+                                          return std::tie(a.length, a.bytes) < std::tie(b.length, b.bytes);
+                                        });
+    if (found == index.places.end() || found->length != length || found->bytes != wanted.bytes) continue;
+    const Ban& ban = m_bans[found->ban];  // one for each range, so a longer one is what may hold instead
+    if (!ban.isOver(now) && ban.range->contains(address)) return &ban;
+  }
+  return nullptr;
+}
+
+const Ban* BanSet::find(const asio::ip::address& address, Ban::Time now) const {
+  const asio::ip::address own = unmapped(address);
+  if (m_ranges.places.empty() || own.is_loopback()) return nullptr;
+  const Ban* const p_ban = findIn(m_ranges, own, now);
+  if (p_ban == nullptr || findIn(m_exceptions, own, now) != nullptr) return nullptr;
+  return p_ban;
+}
+
+const Ban* BanSet::findName(const std::vector<std::string>& shapes, Ban::Time now) const {
+  for (const std::string& shape : shapes) {
+    auto found = std::lower_bound(m_shapes.begin(), m_shapes.end(), std::pair(shape, std::size_t{0}));
+    for (; found != m_shapes.end() && found->first == shape; ++found) {
+      if (!m_bans[found->second].isOver(now)) return &m_bans[found->second];
+    }
+  }
+  return nullptr;
+}
 
 struct BanList::File {
   BanStore store;

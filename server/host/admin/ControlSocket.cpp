@@ -1,26 +1,201 @@
 #include "host/admin/ControlSocket.h"
 
-#include <pthread.h>
-#include <signal.h>
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <asio/executor_work_guard.hpp>
 #include <asio/io_context.hpp>
 #include <asio/local/stream_protocol.hpp>
 #include <asio/post.hpp>
 #include <asio/steady_timer.hpp>
+#include <asio/write.hpp>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "host/admin/ControlConnection.h"
+#include "host/admin/AdminPlayer.h"
 #include "host/admin/ControlFile.h"
+#include "host/process/WatchFeed.h"
+#include "shared/admin/AdminJson.h"
 #include "shared/net/stream/TcpListener.h"
+#include "shared/program/BrokenPipes.h"
 
 namespace naiad {
 
 namespace {
+
+/// One connection to the control socket.
+/// Reads a line, has it carried out, writes the answer, and only then reads on: a program that sends much and
+/// reads nothing waits. On the socket's thread. Keeps itself alive while something is under way.
+class ControlConnection : public std::enable_shared_from_this<ControlConnection> {
+ public:
+  using Socket = asio::local::stream_protocol::socket;
+
+  struct Events {
+    /// A command; `done` on this thread.
+    std::function<void(AdminRequest, AdminCaller, std::function<void(AdminAnswer)>)> execute;
+    std::function<void()> on_watch;
+    /// Called once.
+    std::function<void(ControlConnection&)> on_closed;
+  };
+
+  ControlConnection(Socket socket, AdminCaller caller, bool is_short, Events events)
+      : m_socket(std::move(socket)),
+        m_timer(m_socket.get_executor()),
+        m_caller(std::move(caller)),
+        m_short(is_short),
+        m_events(std::move(events)) {}
+  void start(std::chrono::milliseconds short_time) {
+    if (m_short) {
+      m_timer.expires_after(short_time);
+      m_timer.async_wait([self = shared_from_this()](const std::error_code& error) {
+        if (!error) self->close();
+      });
+    }
+    read();
+  }
+  /// Write one error, and hang up.
+  void turnAway(const std::string& sentence) {
+    send(answerLines(AdminAnswer::refused(sentence)));
+    finish();
+  }
+  /// For a watcher: written, or counted if too much waits.
+  void sendEvent(const WatchEvent& event) {
+    if (!m_watching || m_closed) return;
+    if (m_out.size() + m_writing.size() > ControlSocket::kMaxUnread) {
+      ++m_dropped;
+      return;
+    }
+    if (m_dropped > 0) send(droppedLine(std::exchange(m_dropped, 0)));
+    send(eventLine(event.kind, event.text));
+  }
+  void noteDropped(std::uint64_t count) { m_dropped += m_watching ? count : 0; }
+  bool isWatching() const { return m_watching; }
+  /// Hang up once what waits is written.
+  void finish() {
+    m_finishing = true;
+    if (!isWriting()) close();
+  }
+  void close() {
+    if (std::exchange(m_closed, true)) return;
+    std::error_code ignored;
+    m_timer.cancel();
+    m_socket.close(ignored);
+    const auto self = shared_from_this();  // the callback forgets this
+    m_events.on_closed(*this);
+  }
+
+ private:
+  bool isWriting() const { return !m_writing.empty() || !m_out.empty(); }
+  void read() {
+    if (m_reading || m_busy || m_ended || m_finishing || m_closed || isWriting()) return;
+    m_reading = true;
+    m_socket.async_read_some(asio::buffer(m_piece),
+                             [self = shared_from_this()](const std::error_code& error, std::size_t size) {
+                               self->onRead(error, size);
+                             });
+  }
+  void onRead(const std::error_code& error, std::size_t size) {
+    m_reading = false;
+    if (m_closed) return;
+    if (error) m_ended = true;
+    m_in.append(m_piece.data(), size);
+    serveLines();
+  }
+  void serveLines() {
+    // One line at a time; the next when its answer is written, so that what is read from here is bounded.
+    while (!m_busy && !m_finishing && !m_closed && !isWriting()) {
+      const std::size_t end = m_in.find('\n');
+      if (end == std::string::npos) break;
+      const std::string line = m_in.substr(0, end);
+      m_in.erase(0, end + 1);
+      if (std::exchange(m_too_long, false) || line.size() > kMaxControlLine) {
+        answer(AdminAnswer::refused("A line has " + std::to_string(kMaxControlLine) + " bytes at most."));
+      } else {
+        serveLine(line);
+      }
+    }
+    if (m_in.find('\n') == std::string::npos) {
+      if (m_in.size() > kMaxControlLine) {
+        m_too_long = true;
+        m_in.clear();
+      }
+      if (m_ended && !m_busy) return finish();
+    }
+    read();
+  }
+  void serveLine(std::string_view line) {
+    AdminRequest request;
+    try {
+      request = readRequestLine(line);
+    } catch (const AdminUsageError& error) {
+      return answer(AdminAnswer::refused(error.what()));
+    }
+    const bool watches = request.command->name == "watch";
+    if (watches && m_short)
+      return answer(AdminAnswer::refused("Too many connections are open: this place is for short commands."));
+    m_busy = true;
+    m_events.execute(std::move(request), m_caller,
+                     [weak = weak_from_this(), watches](const AdminAnswer& given) {
+                       if (const auto self = weak.lock()) self->onAnswer(given, watches);
+                     });
+  }
+  void onAnswer(const AdminAnswer& given, bool watches) {
+    m_busy = false;
+    if (m_closed) return;
+    answer(given);
+    if (watches) {
+      m_watching = true;
+      m_events.on_watch();
+    }
+    serveLines();
+  }
+  void answer(const AdminAnswer& given) { send(answerLines(given)); }
+  void send(const std::string& bytes) {
+    m_out += bytes;
+    write();
+  }
+  void write() {
+    if (!m_writing.empty() || m_out.empty() || m_closed) return;
+    m_writing.swap(m_out);
+    asio::async_write(
+        m_socket, asio::buffer(m_writing),
+        [self = shared_from_this()](const std::error_code& error, std::size_t) { self->onWritten(error); });
+  }
+  void onWritten(const std::error_code& error) {
+    m_writing.clear();
+    if (error) return close();
+    if (m_dropped > 0 && m_watching && m_out.empty()) m_out = droppedLine(std::exchange(m_dropped, 0));
+    write();
+    if (m_writing.empty() && m_finishing) return close();
+    serveLines();
+  }
+
+  Socket m_socket;
+  asio::steady_timer m_timer;
+  AdminCaller m_caller;
+  bool m_short;
+  Events m_events;
+  std::array<char, kMaxControlLine> m_piece{};
+  std::string m_in;         ///< read, not served
+  bool m_too_long = false;  ///< the rest of a line is skipped
+  std::string m_out;        ///< to be written
+  std::string m_writing;
+  bool m_busy = false;  ///< a command is being carried out
+  bool m_reading = false;
+  bool m_ended = false;  ///< nothing more comes from there
+  bool m_finishing = false;
+  bool m_closed = false;
+  bool m_watching = false;
+  std::uint64_t m_dropped = 0;
+};
 
 using asio::local::stream_protocol;
 
@@ -165,15 +340,9 @@ void ControlSocket::State::finish() {
   if (connections.empty()) context.stop();
 }
 
-// Signals are for the thread that ticks.
 ControlSocket::ControlSocket(ControlListening options, Execute execute, WatchFeed& feed, LogLine log)
     : m_state(std::make_shared<State>(std::move(options), std::move(execute), feed, std::move(log))) {
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  m_state->thread = std::thread([this] { m_state->run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  m_state->thread = startWithoutSignals([this] { m_state->run(); });
 }
 
 ControlSocket::~ControlSocket() {

@@ -10,7 +10,7 @@
 #include <functional>
 #include <memory>
 
-#include "host/admin/AdminCaller.h"
+#include "host/admin/AdminPlayer.h"
 #include "host/process/WatchFeed.h"
 #include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminRequest.h"

@@ -1,6 +1,7 @@
 // A vote among players to throw one out.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -39,15 +40,61 @@ class VoteKick {
   };
 
   /// The player with the session `voter` wants the one with the session `target` out.
-  Outcome vote(const std::vector<AdminPlayer>& players, std::uint64_t voter, std::uint64_t target, Time now);
+  Outcome vote(const std::vector<AdminPlayer>& players, std::uint64_t voter, std::uint64_t target, Time now) {
+    const AdminPlayer* const p_voter = findSession(players, voter);
+    const AdminPlayer* const p_target = findSession(players, target);
+    if (p_voter == nullptr || p_target == nullptr) return Outcome::kSelf;
+    const AddressPrefix voice = voterAt(*p_voter);
+    if (voice == voterAt(*p_target)) return Outcome::kSelf;
+    if (m_target && now >= m_ends) m_target.reset();
+    const bool begins = !m_target;
+    if (begins) {
+      Begun& begun = m_begun.use(voice);
+      if (begun.at && now - *begun.at < kBetween) return Outcome::kTooSoon;
+      begun.at = now;
+      m_target = target;
+      m_ends = now + kTime;
+      m_voices.clear();
+    }
+    if (*m_target != target) return Outcome::kOther;
+    const bool is_new = m_voices.insert(voice).second;
+    count(players);
+    if (m_voices.size() >= m_needed) {
+      m_target.reset();
+      return Outcome::kPassed;
+    }
+    return begins ? Outcome::kBegun : is_new ? Outcome::kAgreed : Outcome::kAlready;
+  }
   /// A vote has found too few voices: on this session. Once.
-  std::optional<std::uint64_t> takeFailed(Time now);
+  std::optional<std::uint64_t> takeFailed(Time now) {
+    if (!m_target || now < m_ends) return std::nullopt;
+    const std::uint64_t target = *m_target;
+    m_target.reset();
+    return target;
+  }
   /// Voices so far, and how many it takes; of the vote that is on, or has just passed.
   std::size_t voices() const { return m_voices.size(); }
   std::size_t needed() const { return m_needed; }
 
  private:
-  void count(const std::vector<AdminPlayer>& players);
+  static AddressPrefix voterAt(const AdminPlayer& player) {
+    return AddressPrefix::ofEndpoint(player.address).value_or(AddressPrefix());
+  }
+  static const AdminPlayer* findSession(const std::vector<AdminPlayer>& players, std::uint64_t session) {
+    const auto found = std::find_if(players.begin(), players.end(), [session](const AdminPlayer& player) {
+      return player.session == session;
+    });
+    return found != players.end() ? &*found : nullptr;
+  }
+  void count(const std::vector<AdminPlayer>& players) {
+    // Voters may have left since they agreed: their voices go, too.
+    std::set<AddressPrefix> voters;
+    for (const AdminPlayer& player : players) {
+      if (!player.detached) voters.insert(voterAt(player));
+    }
+    std::erase_if(m_voices, [&voters](const AddressPrefix& voice) { return !voters.contains(voice); });
+    m_needed = std::max<std::size_t>(2, voters.size() / 2 + 1);
+  }
 
   std::optional<std::uint64_t> m_target;
   Time m_ends{};

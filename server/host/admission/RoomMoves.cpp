@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/rooms/ServerLine.h"
+#include "host/rooms/SessionTable.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/RoomName.h"

@@ -49,8 +49,6 @@ class PasswordCheck::Worker {
     wake_.notify_one();
     thread_.join();
   }
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
 
   void setHash(PasswordHash hash) {
     auto fresh = std::make_shared<const PasswordHash>(std::move(hash));

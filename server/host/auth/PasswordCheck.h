@@ -43,8 +43,6 @@ class PasswordCheck {
   PasswordCheck(asio::any_io_executor owner, PasswordHash hash)
       : PasswordCheck(std::move(owner), std::move(hash), Limits{}) {}
   ~PasswordCheck();
-  PasswordCheck(const PasswordCheck&) = delete;
-  PasswordCheck& operator=(const PasswordCheck&) = delete;
 
   /// `from`: the client's address; `known`: it has players. `done` is called once, posted to the owner, never
   /// from inside. An empty password, or one of more than kMaxPassword bytes, is kWrong at once, and no guess.

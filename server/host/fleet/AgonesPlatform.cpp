@@ -1,8 +1,5 @@
 #include "host/fleet/AgonesPlatform.h"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <asio/io_context.hpp>
 #include <asio/post.hpp>
 #include <asio/steady_timer.hpp>
@@ -18,6 +15,7 @@
 
 #include "host/fleet/SidecarDuties.h"
 #include "shared/net/http/HttpExchange.h"
+#include "shared/program/BrokenPipes.h"
 
 namespace naiad {
 
@@ -98,17 +96,11 @@ struct AgonesPlatform::Loop {
 };
 
 AgonesPlatform::Loop::Loop(std::uint16_t port) : sidecar{"127.0.0.1", portOf(port)} {
-  // Signals are for the threads that were there before.
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread = std::thread([this] {
+  thread = startWithoutSignals([this] {
     work();
     watch();
     context.run();
   });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 AgonesPlatform::Loop::~Loop() {

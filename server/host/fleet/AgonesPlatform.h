@@ -23,8 +23,6 @@ class AgonesPlatform : public HostPlatform {
   /// The sidecar's port on 127.0.0.1; 0: as AGONES_SDK_HTTP_PORT says, else kDefaultPort.
   explicit AgonesPlatform(std::uint16_t port);
   ~AgonesPlatform() override;
-  AgonesPlatform(const AgonesPlatform&) = delete;
-  AgonesPlatform& operator=(const AgonesPlatform&) = delete;
 
   void notifyReady() override;
   void notifyTick(Clock::time_point now) override;

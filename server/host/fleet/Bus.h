@@ -38,7 +38,7 @@ class Bus {
   /// Never waits. Any thread.
   virtual void publish(BusMessage message) = 0;
   virtual bool isConnected() const = 0;
-  /// What came since the last call, of each subject the newest (BusInbox.h). It is as others wrote it.
+  /// What came since the last call, of each subject the newest (BusQueue.h). It is as others wrote it.
   virtual std::vector<BusMessage> takeMessages() = 0;
   /// Wait until what is kept has arrived, at most so long.
   virtual void finish(std::chrono::milliseconds patience) = 0;

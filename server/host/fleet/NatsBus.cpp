@@ -2,8 +2,6 @@
 
 #ifdef NAIAD_NATS
 #include <nats/nats.h>
-#include <pthread.h>
-#include <signal.h>
 #endif
 
 #include <condition_variable>
@@ -14,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/fleet/BusInbox.h"
 #include "host/fleet/BusQueue.h"
+#include "shared/program/BrokenPipes.h"
 
 namespace naiad {
 
@@ -68,12 +66,7 @@ Options optionsOf(const BusSettings& settings) {
 class NatsBus : public Bus {
  public:
   explicit NatsBus(BusSettings settings) : m_settings(std::move(settings)) {
-    sigset_t all;
-    sigset_t before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are for the threads that were there before
-    m_thread = std::thread([this] { run(); });
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    m_thread = startWithoutSignals([this] { run(); });
   }
   ~NatsBus() override {
     {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "host/journal/DfrReader.h"
-#include "host/world/KeptSession.h"
+#include "host/world/TurnRecord.h"
 
 namespace naiad {
 

@@ -29,8 +29,6 @@ class RepeatCheck {
   /// then. `on_difference`: gets a sentence, once.
   RepeatCheck(NewWorld new_world, std::function<void(const std::string&)> on_difference);
   ~RepeatCheck();
-  RepeatCheck(const RepeatCheck&) = delete;
-  RepeatCheck& operator=(const RepeatCheck&) = delete;
 
   /// The first world has answered this turn.
   void add(const SentTurn& turn, std::uint64_t answer_hash, const df::WorldView& view);

@@ -39,7 +39,14 @@ class RoundHistory {
   explicit RoundHistory(std::string records = {}) : m_records(std::move(records)) {}
 
   /// The next record. False: the round is too long, and nothing of it is kept.
-  bool add(std::string_view record);
+  bool add(std::string_view record) {
+    if (m_records.size() + record.size() > kMaxBytes && !forgetBeginning()) {
+      *this = RoundHistory();
+      return false;
+    }
+    m_records += record;
+    return true;
+  }
   const std::string& records() const { return m_records; }
   /// records() begin with the round; otherwise no world can begin it again, but a copy can go on with it.
   bool hasBeginning() const { return m_has_beginning; }
@@ -52,17 +59,52 @@ class RoundHistory {
     return isDueNow(ticks, cpu_time());
   }
   /// A copy was asked for, for the tick that begins; `is_kept`: there will be one.
-  void beginCopy(std::uint32_t ticks, std::vector<std::uint32_t> players, bool is_kept);
+  void beginCopy(std::uint32_t ticks, std::vector<std::uint32_t> players, bool is_kept) {
+    m_asked = ticks;
+    if (is_kept) m_under_way = CopyMark{ticks, std::move(players), 0};
+  }
   /// The tick has its result in records(). True: a copy was kept behind it.
-  bool endTick();
+  bool endTick() {
+    if (!m_under_way) return false;
+    m_under_way->records = m_records.size();
+    m_marks.push_back(*std::exchange(m_under_way, std::nullopt));
+    if (m_marks.size() > kMost) m_marks.pop_front();
+    if (!m_has_beginning) forgetBeginning();
+    return true;
+  }
   /// The copy behind so many ticks goes on: it and those that are newer have no mark any more.
-  std::optional<CopyMark> takeCopy(std::uint32_t ticks);
+  std::optional<CopyMark> takeCopy(std::uint32_t ticks) {
+    // The next one is due soon: what goes on has one copy fewer.
+    m_under_way.reset();
+    m_asked = 0;
+    while (!m_marks.empty() && m_marks.back().ticks > ticks) m_marks.pop_back();
+    if (m_marks.empty() || m_marks.back().ticks != ticks) return std::nullopt;
+    CopyMark mark = std::move(m_marks.back());
+    m_marks.pop_back();
+    return mark;
+  }
   /// There are no copies any more.
-  void dropCopies();
+  void dropCopies() {
+    m_marks.clear();
+    m_under_way.reset();
+    m_asked = 0;
+    m_cpu_time = {};
+  }
 
  private:
-  bool isDueNow(std::uint32_t ticks, std::chrono::nanoseconds cpu_time);
-  bool forgetBeginning();
+  bool isDueNow(std::uint32_t ticks, std::chrono::nanoseconds cpu_time) {
+    const bool is_due = m_asked == 0 || ticks - m_asked >= kTicks || cpu_time - m_cpu_time >= kLongest;
+    if (is_due) m_cpu_time = cpu_time;
+    return is_due;
+  }
+  bool forgetBeginning() {
+    const std::size_t forgotten = m_marks.empty() ? 0 : m_marks.front().records;
+    if (forgotten == 0) return false;
+    for (CopyMark& mark : m_marks) mark.records -= forgotten;
+    m_records.erase(0, forgotten);
+    m_has_beginning = false;
+    return true;
+  }
 
   static constexpr std::size_t kMost = 8;  ///< more than a world keeps copies
 
@@ -73,5 +115,7 @@ class RoundHistory {
   std::uint32_t m_asked = 0;               ///< in which tick; 0: never
   std::chrono::nanoseconds m_cpu_time{0};  ///< then
 };
+
+static_assert(RoundHistory::kTicks % RoundHistory::kFewestTicks == 0, "that is when it is looked");
 
 }  // namespace naiad

@@ -12,6 +12,7 @@
 #include <new>
 #include <system_error>
 
+#include "host/world/BuildId.h"
 #include "shared/values/FastHash.h"
 
 namespace naiad {
@@ -44,13 +45,7 @@ std::string readAll(int file) {
 }  // namespace
 
 std::string uuidText(const std::array<std::uint8_t, 16>& uuid) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : uuid) {
-    text.push_back(kDigits[byte >> 4]);
-    text.push_back(kDigits[byte & 15]);
-  }
-  return text;
+  return hexText(uuid);
 }
 
 TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,

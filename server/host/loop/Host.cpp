@@ -17,13 +17,12 @@
 #include "host/loop/HostControls.h"
 #include "host/loop/HostEndpoint.h"
 #include "host/loop/HostPart.h"
-#include "host/loop/NetworkReport.h"
 #include "host/loop/OperatorLibrary.h"
 #include "host/process/CrashReport.h"
-#include "host/process/SideLog.h"
 #include "host/process/StopSignals.h"
 #include "host/process/TickClock.h"
 #include "host/process/Watchdog.h"
+#include "host/session/CounterTable.h"
 #include "naiad.pb.h"
 #include "shared/program/BrokenPipes.h"
 
@@ -282,8 +281,16 @@ void Host::drain() {
 
 void Host::logEnd() const {
   m_context->log("stopped: " + m_context->counters.summary());
-  logPasswords(m_clients->admission().passwordCounters(), m_context->log);
-  logRefusals(m_endpoint->network(), m_context->log);
+  const auto log = [this](const std::string& what, const auto& counters) {
+    const std::string text = listCounters(samplesOf(counters));
+    if (!text.empty()) m_context->log(what + ": " + text);
+  };
+  const NetworkThread& network = m_endpoint->network();
+  log("passwords", m_clients->admission().passwordCounters());
+  log("streams", network.streamCounters());
+  log("visitors' socket", network.visitorCounters());
+  log("between the threads", network.counters());
+  if (network.hasDatagrams()) log("datagrams", network.gateCounters());
 }
 
 void Host::stop(const std::string& sentence) {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "host/admission/Places.h"
-#include "host/rooms/ServerLine.h"
-#include "host/session/LookAlikes.h"
+#include "host/rooms/SessionTable.h"
+#include "host/session/Names.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/program/LogText.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/process/Histogram.h"
+#include "host/process/StageClock.h"
 
 namespace naiad {
 

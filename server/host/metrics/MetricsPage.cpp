@@ -1,14 +1,54 @@
 #include "host/metrics/MetricsPage.h"
 
-#include "host/metrics/CounterFamilies.h"
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
 #include "host/metrics/Exposition.h"
 #include "host/metrics/HostPulse.h"
+#include "host/session/CounterTable.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
 
 namespace {
+
+/// Of proc(5), the fields of /proc/self/stat after the name.
+constexpr int kStartTime = 20;  ///< field 22: in clock ticks after the start of the machine
+
+std::string textOf(const char* path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+double startTime() {
+  const std::string text = textOf("/proc/self/stat");
+  // A program's name may have spaces and brackets in it.
+  std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
+  std::string field;
+  for (int i = 0; i < kStartTime && fields >> field; ++i) {
+  }
+  const std::string all = textOf("/proc/stat");
+  const std::size_t boot = all.find("\nbtime ");
+  if (!fields || boot == std::string::npos) return 0;
+  return std::strtod(all.c_str() + boot + 7, nullptr) +
+         std::strtod(field.c_str(), nullptr) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+std::uint64_t openFiles() {
+  std::error_code error;
+  std::uint64_t count = 0;
+  for (std::filesystem::directory_iterator at("/proc/self/fd", error), end; !error && at != end;
+       at.increment(error)) {
+    ++count;
+  }
+  return count == 0 ? 0 : count - 1;  // without that of the folder itself
+}
 
 double seconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
@@ -82,7 +122,49 @@ void writeCpu(Exposition& out, const MetricsSnapshot::Cpu& cpu) {
   out.add(R"(thread="other")", seconds(cpu.other));
 }
 
+template <class Struct>
+void writeCounters(Exposition& out, const Struct& counters) {
+  for (const CounterSample& sample : samplesOf(counters)) {
+    if (!sample.help.empty()) out.begin(sample.family, MetricType::kCounter, sample.help);
+    out.add(sample.labels, sample.metric_value);
+  }
+}
+
 }  // namespace
+
+ProcessFacts ProcessFacts::read() {
+  static const double start_seconds = startTime();
+  ProcessFacts facts;
+  facts.start_seconds = start_seconds;
+  timespec cpu{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
+  facts.cpu_seconds = static_cast<double>(cpu.tv_sec) + static_cast<double>(cpu.tv_nsec) * 1e-9;
+  std::istringstream pages(textOf("/proc/self/statm"));
+  pages >> facts.virtual_size >> facts.resident;
+  const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  facts.virtual_size *= page;
+  facts.resident *= page;
+  facts.open_files = openFiles();
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) == 0) facts.max_files = files.rlim_cur;
+  return facts;
+}
+
+void writeProcess(Exposition& out, const ProcessFacts& facts) {
+  out.begin("process_cpu_seconds_total", MetricType::kCounter, "CPU time of the process.");
+  out.add("", facts.cpu_seconds);
+  out.begin("process_resident_memory_bytes", MetricType::kGauge, "Memory of the process that is in RAM.");
+  out.add("", facts.resident);
+  out.begin("process_virtual_memory_bytes", MetricType::kGauge, "Addresses of the process.");
+  out.add("", facts.virtual_size);
+  out.begin("process_open_fds", MetricType::kGauge, "Files and sockets that are open.");
+  out.add("", facts.open_files);
+  out.begin("process_max_fds", MetricType::kGauge, "Files and sockets that may be open.");
+  out.add("", facts.max_files);
+  out.begin("process_start_time_seconds", MetricType::kGauge,
+            "When the process began, in seconds since 1970.");
+  out.add("", facts.start_seconds);
+}
 
 std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts& process) {
   Exposition out;
@@ -93,7 +175,12 @@ std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts&
     writeNamedRooms(out, p_snapshot->named_rooms);
     writeCounters(out, p_snapshot->counters);
     writeCounters(out, p_snapshot->passwords);
-    writeCounters(out, p_snapshot->network);
+    writeCounters(out, p_snapshot->network.streams);
+    writeCounters(out, p_snapshot->network.visitors);
+    writeCounters(out, p_snapshot->network.relay);
+    writeCounters(out, p_snapshot->network.gate);
+    writeCounters(out, p_snapshot->network.udp);
+    writeCounters(out, p_snapshot->network.traffic);
     writeCpu(out, p_snapshot->cpu);
   }
   writeProcess(out, process);

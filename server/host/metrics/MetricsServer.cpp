@@ -1,7 +1,6 @@
 #include "host/metrics/MetricsServer.h"
 
 #include <pthread.h>
-#include <signal.h>
 #include <time.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include <utility>
 
 #include "shared/net/http/HttpHead.h"
+#include "shared/program/BrokenPipes.h"
 
 namespace naiad {
 
@@ -30,17 +30,6 @@ constexpr std::size_t kMaxDrained = std::size_t{1} << 20;
 
 MetricsServer::Answer badRequest() {
   return {400, "This is no request that is answered here.\n"};
-}
-
-/// Signals are for the threads that were there before.
-std::thread startWithoutSignals(const std::function<void()>& job) {
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(job);
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return thread;
 }
 
 /// RFC 9110 15. Clients do not use it.

@@ -44,8 +44,6 @@ class MetricsServer {
   MetricsServer(const MetricsAddress& address, MetricsHosts hosts, Respond respond);
   /// Ends the thread, and hangs up.
   ~MetricsServer();
-  MetricsServer(const MetricsServer&) = delete;
-  MetricsServer& operator=(const MetricsServer&) = delete;
 
   std::uint16_t port() const;
   /// That the thread has used so far. Any thread.

@@ -25,8 +25,6 @@ class DatagramService {
   /// `random`: 64 unpredictable bits.
   DatagramService(std::unique_ptr<DatagramSocket> socket, Now now, Random random);
   ~DatagramService();
-  DatagramService(const DatagramService&) = delete;
-  DatagramService& operator=(const DatagramService&) = delete;
 
   /// One session's datagrams, opened and sealed. They go to wherever the newest authentic one came from.
   class Channel : public SealedChannel {

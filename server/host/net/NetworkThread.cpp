@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "host/auth/ResumeTokens.h"
-#include "host/net/RelayedDatagrams.h"
 #include "host/net/RelayedStream.h"
 #include "shared/net/datagram/UdpSocket.h"
 #include "shared/net/stream/Framing.h"

@@ -97,8 +97,6 @@ class NetworkThread {
       : NetworkThread(home, address, port, std::move(on_channel), options, std::move(tls), Limits{}) {}
   /// Channels may outlive the sockets; they have to be gone before this.
   ~NetworkThread();
-  NetworkThread(const NetworkThread&) = delete;
-  NetworkThread& operator=(const NetworkThread&) = delete;
 
   // All of these: from the tick thread.
 

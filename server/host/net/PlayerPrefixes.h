@@ -19,19 +19,41 @@ namespace naiad {
 class PlayerPrefixes {
  public:
   /// The first time the session's player joins from `prefix`; later they have moved there.
-  void note(std::uint64_t session, const AddressPrefix& prefix);
+  void note(std::uint64_t session, const AddressPrefix& prefix) {
+    const std::lock_guard lock(m_mutex);
+    const auto [found, joined] = m_sessions.try_emplace(session, Places{prefix, prefix});
+    Places& places = found->second;
+    if (!joined && places.present == prefix) return;
+    if (!joined && places.present != places.joined) leave(places.present);
+    places.present = prefix;
+    if (joined || places.present != places.joined) ++m_counts[prefix];
+  }
   /// The session is over. Harmless if it was never noted.
-  void forget(std::uint64_t session);
+  void forget(std::uint64_t session) {
+    const std::lock_guard lock(m_mutex);
+    const auto ended = m_sessions.extract(session);
+    if (ended.empty()) return;
+    const Places& places = ended.mapped();
+    if (places.present != places.joined) leave(places.present);
+    leave(places.joined);
+  }
 
   /// Sessions that count for `prefix`.
-  std::size_t count(const AddressPrefix& prefix) const;
+  std::size_t count(const AddressPrefix& prefix) const {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_counts.find(prefix);
+    return found != m_counts.end() ? found->second : 0;
+  }
 
  private:
   struct Places {
     AddressPrefix joined;
     AddressPrefix present;
   };
-  void leave(const AddressPrefix& prefix);
+  void leave(const AddressPrefix& prefix) {
+    const auto found = m_counts.find(prefix);
+    if (--found->second == 0) m_counts.erase(found);
+  }
 
   mutable std::mutex m_mutex;
   std::map<std::uint64_t, Places> m_sessions;

@@ -4,10 +4,11 @@
 #include <asio/post.hpp>
 #include <charconv>
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 
-#include "host/admin/PlayerChoice.h"
 #include "shared/admin/TimeSpan.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/AddressRange.h"
@@ -16,6 +17,36 @@
 namespace naiad {
 
 namespace {
+
+using Fits = std::function<bool(const AdminPlayer&)>;
+
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+std::optional<std::uint32_t> idOf(const std::string& typed) {
+  if (typed.size() < 2 || typed.front() != '#') return std::nullopt;
+  std::uint32_t id = 0;
+  const char* const p_end = typed.data() + typed.size();
+  const auto [p_read, error] = std::from_chars(typed.data() + 1, p_end, id);
+  return error == std::errc() && p_read == p_end ? std::optional(id) : std::nullopt;
+}
+
+std::vector<AdminPlayer> thoseThat(const std::vector<AdminPlayer>& players, const Fits& fits) {
+  std::vector<AdminPlayer> found;
+  std::copy_if(players.begin(), players.end(), std::back_inserter(found), fits);
+  return found;
+}
+
+PlayerChoice oneOf(const std::vector<AdminPlayer>& found, const std::string& typed) {
+  if (found.size() == 1) return {found.front()};
+  AdminAnswer problem = AdminAnswer::refused("Several players may be meant by \"" + typed + "\":");
+  for (const AdminPlayer& player : found)
+    problem.candidates.push_back("#" + std::to_string(player.id) + " " + player.name);
+  return {std::nullopt, std::move(problem)};
+}
 
 using Level = AdminCommand::Level;
 
@@ -121,6 +152,23 @@ BanPlan planBan(const Ban& ban, const std::vector<AdminPlayer>& players, const s
 
 }  // namespace
 
+PlayerChoice choosePlayer(const std::vector<AdminPlayer>& players, const std::string& typed) {
+  std::vector<Fits> ways;
+  if (const auto id = idOf(typed)) {
+    ways = {[id](const AdminPlayer& player) { return player.id == *id; }};
+  } else {
+    const std::string low = lowered(typed);
+    ways = {[&typed](const AdminPlayer& player) { return player.name == typed; },
+            [low](const AdminPlayer& player) { return lowered(player.name) == low; },
+            [low](const AdminPlayer& player) { return lowered(player.name).starts_with(low); }};
+  }
+  for (const Fits& fits : ways) {
+    const std::vector<AdminPlayer> found = thoseThat(players, fits);
+    if (!found.empty()) return oneOf(found, typed);
+  }
+  return {std::nullopt, AdminAnswer::refused("There is no player \"" + typed + "\".")};
+}
+
 // From any thread; the job runs on the host's.
 void AdminConsole::post(std::function<void()> job) {
   asio::post(m_context.home, std::move(job));
@@ -149,7 +197,7 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
   if (name == "ping") return AdminAnswer::done("The server answers.");
   if (name == "who") return listPlayers(caller);
   if (name == "status") return {true, "", {}, m_admin.status(), false, {}};
-  if (name == "rooms") return listRooms();
+  if (name == "rooms") return AdminAnswer::list(m_admin.rooms(), "This server has no rooms.");
   if (name == "tell") return tell(request, caller);
   if (name == "kick") return kick(request);
   if (name == "mute" || name == "unmute") return mute(request, name == "mute");
@@ -168,21 +216,10 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
 
 // ---- players ----------------------------------------------------------------------------------------------
 
-AdminAnswer AdminConsole::listRooms() const {
-  AdminAnswer answer = AdminAnswer::done("");
-  answer.is_list = true;
-  answer.rows = m_admin.rooms();
-  if (answer.rows.empty()) answer.text = "This server has no rooms.";
-  return answer;
-}
-
 AdminAnswer AdminConsole::listPlayers(const AdminCaller& caller) const {
-  const std::vector<AdminPlayer> players = m_admin.players();
-  AdminAnswer answer = AdminAnswer::done("");
-  answer.is_list = true;
-  for (const AdminPlayer& player : players) answer.rows.push_back(rowOf(player, caller.level));
-  if (players.empty()) answer.text = "Nobody plays.";
-  return answer;
+  std::vector<AdminRow> rows;
+  for (const AdminPlayer& player : m_admin.players()) rows.push_back(rowOf(player, caller.level));
+  return AdminAnswer::list(std::move(rows), "Nobody plays.");
 }
 
 // A muted player's lines reach nobody, so none of theirs is passed on here either.
@@ -268,21 +305,19 @@ void AdminConsole::endBanned() {
 }
 
 AdminAnswer AdminConsole::listBans() const {
-  AdminAnswer answer = AdminAnswer::done("");
-  answer.is_list = true;
+  std::vector<AdminRow> rows;
   const auto set = m_bans.now();
   for (const Ban& ban : set->all()) {
     if (ban.isOver(m_bans.time())) continue;
-    answer.rows.push_back({{"number", static_cast<std::int64_t>(ban.number)},
-                           {"who", ban.target()},
-                           {"kind", std::string(ban.kind == Ban::Kind::kException ? "allowed" : "banned")},
-                           {"until", ban.until ? timeText(*ban.until) : std::string("for ever")},
-                           {"since", timeText(ban.made)},
-                           {"by", ban.by},
-                           {"reason", ban.reason}});
+    rows.push_back({{"number", static_cast<std::int64_t>(ban.number)},
+                    {"who", ban.target()},
+                    {"kind", std::string(ban.kind == Ban::Kind::kException ? "allowed" : "banned")},
+                    {"until", ban.until ? timeText(*ban.until) : std::string("for ever")},
+                    {"since", timeText(ban.made)},
+                    {"by", ban.by},
+                    {"reason", ban.reason}});
   }
-  if (answer.rows.empty()) answer.text = "Nobody is banned.";
-  return answer;
+  return AdminAnswer::list(std::move(rows), "Nobody is banned.");
 }
 
 // ---- the server -------------------------------------------------------------------------------------------

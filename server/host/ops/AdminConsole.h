@@ -2,16 +2,30 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "host/admin/AdminCaller.h"
+#include "host/admin/AdminPlayer.h"
 #include "host/admin/AdminWorker.h"
 #include "host/admin/BanList.h"
 #include "host/ops/HostAdmin.h"
 #include "host/rooms/HostContext.h"
+#include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminRequest.h"
 
 namespace naiad {
+
+/// Which player somebody means who types #ID, a name, or the beginning of one.
+struct PlayerChoice {
+  std::optional<AdminPlayer> player;  ///< nothing: `problem` says why
+  AdminAnswer problem{};
+};
+
+/// In this order: #ID, which is never a name, so that a player who is called "#7" shields nobody; the whole
+/// name; the whole name but for the case of letters; its beginning. Several that fit equally well are an
+/// error that lists them.
+PlayerChoice choosePlayer(const std::vector<AdminPlayer>& players, const std::string& typed);
 
 /// On the host's thread. Each command of an admin is logged with who gave it, passwords as "***".
 class AdminConsole {
@@ -31,7 +45,6 @@ class AdminConsole {
   void reload(Done done);
   void scores(const AdminRequest& request, Done done);
   void answerSaved(const std::string& text, const std::string& problem, const Done& done);
-  AdminAnswer listRooms() const;
   AdminAnswer listPlayers(const AdminCaller& caller) const;
   AdminAnswer tell(const AdminRequest& request, const AdminCaller& caller);
   AdminAnswer kick(const AdminRequest& request);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/admin/PlayerChoice.h"
 #include "host/loop/HostClients.h"
-#include "host/rooms/ServerLine.h"
+#include "host/ops/AdminConsole.h"
+#include "host/rooms/SessionTable.h"
 #include "shared/admin/AdminText.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/program/LogText.h"

@@ -7,7 +7,7 @@
 #include "host/loop/HostClients.h"
 #include "host/loop/HostControls.h"
 #include "host/loop/HostEndpoint.h"
-#include "host/rooms/ServerLine.h"
+#include "host/rooms/SessionTable.h"
 #include "host/settings/RoomList.h"
 #include "naiad.pb.h"
 #include "shared/admin/TimeSpan.h"
@@ -49,25 +49,22 @@ AdminPlayer factsOf(const Session& session, Session::Clock::time_point now) {
 }
 
 AdminAnswer listOf(const std::vector<ScoreRow>& scores) {
-  AdminAnswer answer = AdminAnswer::done(scores.empty() ? "No scores are kept." : "");
-  answer.is_list = true;
+  std::vector<AdminRow> rows;
   std::int64_t place = 0;
   for (const ScoreRow& row : scores) {
-    place = !answer.rows.empty() && row.table == std::get<std::string>(answer.rows.back()[0].second)
-                ? place + 1
-                : 1;
+    place = !rows.empty() && row.table == std::get<std::string>(rows.back()[0].second) ? place + 1 : 1;
     const std::chrono::system_clock::time_point at{std::chrono::seconds(row.at)};
-    answer.rows.push_back({{"table", row.table},
-                           {"place", place},
-                           {"name", row.name},
-                           {"points", row.points},
-                           {"at", timeText(at)},
-                           {"recording", row.recording},
-                           {"round", row.round},
-                           {"tick", std::int64_t{row.tick}},
-                           {"number", std::int64_t{row.number}}});
+    rows.push_back({{"table", row.table},
+                    {"place", place},
+                    {"name", row.name},
+                    {"points", row.points},
+                    {"at", timeText(at)},
+                    {"recording", row.recording},
+                    {"round", row.round},
+                    {"tick", std::int64_t{row.tick}},
+                    {"number", std::int64_t{row.number}}});
   }
-  return answer;
+  return AdminAnswer::list(std::move(rows), "No scores are kept.");
 }
 
 /// "rooms one, two".
@@ -84,6 +81,12 @@ std::string unknownGame(const std::string& typed, const std::vector<std::string>
   std::string all;
   for (const std::string& game : games) all += (all.empty() ? "" : ", ") + game;
   return sentence + ". There are: " + all + ".";
+}
+
+HostControls::Done answering(std::function<void(AdminAnswer)> done) {
+  return [done = std::move(done)](bool is_done, const std::string& sentence) {
+    done(is_done ? AdminAnswer::done(sentence + ".") : AdminAnswer::refused(sentence + "."));
+  };
 }
 
 double millis(std::chrono::microseconds time) {
@@ -194,10 +197,7 @@ AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
 }
 
 void HostAdmin::keepRound(std::function<void(AdminAnswer)> done) {
-  m_access.controls.keepRound([done = std::move(done)](bool is_done, const std::string& sentence) {
-    const std::string text = sentence + ".";
-    done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
-  });
+  m_access.controls.keepRound(answering(std::move(done)));
 }
 
 // Without a time of its own, or of the server's option: until the last one leaves.
@@ -222,10 +222,7 @@ AdminAnswer HostAdmin::cancel() {
 }
 
 void HostAdmin::reload(std::function<void(AdminAnswer)> done) {
-  m_access.controls.reload([done = std::move(done)](bool is_done, const std::string& sentence) {
-    const std::string text = sentence + ".";
-    done(is_done ? AdminAnswer::done(text) : AdminAnswer::refused(text));
-  });
+  m_access.controls.reload(answering(std::move(done)));
 }
 
 AdminAnswer HostAdmin::changePassword(std::optional<PasswordHash> hash) {

@@ -7,11 +7,12 @@
 #include <utility>
 
 #include "host/fleet/AgonesPlatform.h"
-#include "host/fleet/SystemdPlatform.h"
+#include "host/fleet/HostPlatform.h"
+#include "host/fleet/ServiceNotify.h"
 #include "host/loop/HostClients.h"
 #include "host/loop/HostControls.h"
 #include "host/loop/HostEndpoint.h"
-#include "host/rooms/NewsEvent.h"
+#include "host/rooms/HostContext.h"
 #include "shared/fleet/GameResult.h"
 #include "shared/fleet/ServerId.h"
 #include "shared/net/base/Limits.h"
@@ -21,6 +22,23 @@
 namespace naiad {
 
 namespace {
+
+/// systemd as a platform (ServiceNotify.h).
+class SystemdPlatform : public HostPlatform {
+ public:
+  void notifyReady() override { m_service.notifyReady(); }
+  void notifyReloading(Clock::time_point now) override { m_service.notifyReloading(now); }
+  void notifyTick(Clock::time_point now) override { m_service.keepAlive(now); }
+  void notifyPlayers(const PlatformPlayers& players) override {
+    const std::size_t playing = players.ids.size();
+    m_service.notifyStatus(players.address + ", " + std::to_string(playing) +
+                           (playing == 1 ? " player" : " players"));
+  }
+  void notifyStopping() override { m_service.notifyStopping(); }
+
+ private:
+  ServiceNotify m_service;
+};
 
 constexpr std::chrono::seconds kSayPlayers{1};
 constexpr std::chrono::milliseconds kLastWord{1500};  ///< to the platform, and to the bus

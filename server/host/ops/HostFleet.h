@@ -23,8 +23,6 @@ class HostFleet : public HostPart {
   /// What it works with outlives it.
   HostFleet(const HostAccess& access, HostScores& scores);
   ~HostFleet() override;
-  HostFleet(const HostFleet&) = delete;
-  HostFleet& operator=(const HostFleet&) = delete;
 
   void begin() override;
   void tick(Clock::time_point now) override;

@@ -12,7 +12,6 @@
 #include "host/loop/HostEndpoint.h"
 #include "host/metrics/Exposition.h"
 #include "host/metrics/MetricsPage.h"
-#include "host/metrics/ProcessFacts.h"
 #include "host/process/TickClock.h"
 #include "host/settings/MetricsAddress.h"
 

@@ -5,17 +5,39 @@
 // from another thread, and where nothing was asked for nothing is measured.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <string_view>
 
 #include "host/loop/HostPart.h"
 #include "host/metrics/HostPulse.h"
-#include "host/metrics/LatestValue.h"
+#include "host/metrics/MetricsPage.h"
 #include "host/metrics/MetricsServer.h"
-#include "host/metrics/MetricsSnapshot.h"
 
 namespace naiad {
+
+/// Hands the newest value from one thread to another, without a lock: neither ever waits.
+/// One thread calls publish(), one other takeLatest().
+template <class T>
+class LatestValue {
+ public:
+  ~LatestValue() { delete m_newest.load(); }
+
+  /// A value that was not taken yet is dropped.
+  void publish(std::unique_ptr<const T> value) {
+    delete m_newest.exchange(value.release(), std::memory_order_acq_rel);
+  }
+  /// The newest value; null before the first. Valid until the next call.
+  const T* takeLatest() {
+    if (const T* p_newest = m_newest.exchange(nullptr, std::memory_order_acq_rel)) m_taken.reset(p_newest);
+    return m_taken.get();
+  }
+
+ private:
+  std::atomic<const T*> m_newest = nullptr;
+  std::unique_ptr<const T> m_taken;  ///< the reader's
+};
 
 /// All calls are for the thread that ticks.
 class HostMetrics : public HostPart {
@@ -23,8 +45,6 @@ class HostMetrics : public HostPart {
   /// Listens on HostOptions::metrics, and logs the port. Throws ListenError for one that is taken.
   explicit HostMetrics(const HostAccess& access);
   ~HostMetrics() override;
-  HostMetrics(const HostMetrics&) = delete;
-  HostMetrics& operator=(const HostMetrics&) = delete;
 
   void begin() override;
   /// Measures, if it is time.

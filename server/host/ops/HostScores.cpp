@@ -1,7 +1,7 @@
 #include "host/ops/HostScores.h"
 
 #include "host/loop/HostClients.h"
-#include "host/rooms/NewsEvent.h"
+#include "host/rooms/HostContext.h"
 
 namespace naiad {
 

@@ -1,13 +1,187 @@
 // The parts that libdragonfly-ops.so adds to a host (host/loop/OperatorLibrary.h).
+#include <asio/ip/address.hpp>
+#include <asio/post.hpp>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "host/admin/AdminWorker.h"
+#include "host/admin/BanList.h"
+#include "host/admin/ControlFile.h"
+#include "host/admin/ControlSocket.h"
+#include "host/loop/HostClients.h"
+#include "host/loop/HostEndpoint.h"
+#include "host/loop/HostPart.h"
 #include "host/loop/OperatorLibrary.h"
-#include "host/ops/HostCommands.h"
+#include "host/net/LanResponder.h"
+#include "host/ops/AdminConsole.h"
+#include "host/ops/ChatCommands.h"
+#include "host/ops/HostAdmin.h"
 #include "host/ops/HostFleet.h"
-#include "host/ops/HostListing.h"
 #include "host/ops/HostMetrics.h"
 #include "host/ops/HostScores.h"
+#include "host/ops/StatusFile.h"
 #include "host/rooms/HostContext.h"
+#include "host/session/CounterTable.h"
+#include "host/world/Descendants.h"
+#include "shared/admin/ControlPath.h"
+#include "shared/net/lan/LanMessage.h"
+#include "shared/net/stream/TcpListener.h"
 
 namespace naiad {
+
+namespace {
+
+/// Takes commands for a host: from the socket for programs of this machine, and from the chat.
+/// On the host's thread, where commands are carried out, too.
+class HostCommands : public HostPart {
+ public:
+  /// Makes the socket, by HostOptions::control, and has clients that are banned kept out. Throws
+  /// BanFileError, PasswordError, and ListenError where the socket's path was asked for and cannot be; the
+  /// usual one is a convenience, without which a server goes on.
+  HostCommands(const HostAccess& access, HostScores& scores)
+      : m_access(access),
+        m_bans(m_worker, access.context.options.state),
+        m_admin(access, scores),
+        m_console(access.context, m_admin, m_worker, m_bans),
+        m_chat(access, m_admin, m_console, m_bans) {
+    access.endpoint.setBans([this](const asio::ip::address& address) { return m_bans.isBanned(address); });
+    access.clients.admission().setBans([this](const asio::ip::address& address, const std::string& name) {
+      return m_bans.refusal(address, name);
+    });
+    access.clients.setCommands(
+        [this](Session& session, const std::string& line) { m_chat.serve(session, line); });
+    listen();
+  }
+  /// As finish().
+  ~HostCommands() override { finish(); }
+
+  void tick(Clock::time_point now) override { m_chat.update(now); }
+  /// No more commands are taken. What was promised is written before.
+  void finish() override {
+    // Answers of the worker go to the socket's clients.
+    m_control.reset();
+    m_worker.finish();
+  }
+
+ private:
+  void listen() {
+    const HostOptions& options = m_access.context.options;
+    const bool by_default = options.control.empty() && options.control_by_port;
+    ControlListening where = listening(by_default);
+    if (where.path.empty()) return;
+    try {
+      m_control = std::make_unique<ControlSocket>(std::move(where), executor(), m_access.context.feed,
+                                                  m_access.context.log);
+    } catch (const ListenError& error) {
+      if (!by_default) throw;
+      m_access.context.log({LogEvent::Level::kWarning, std::string("warning: ") + error.what() +
+                                                           " dfctl cannot reach this server (--control)."});
+    }
+  }
+  ControlListening listening(bool by_default) const {
+    // A world must not give orders, nor hide in a namespace from where its process has no number here.
+    ControlListening listening;
+    listening.path = m_access.context.options.control;
+    if (by_default) {
+      listening.path = controlPath(m_access.endpoint.port()).value_or(std::filesystem::path());
+      removeStaleControls(listening.path.parent_path());
+    }
+    listening.is_refused = [](pid_t process) { return process <= 0 || isDescendant(process); };
+    return listening;
+  }
+  ControlSocket::Execute executor() {
+    return [this](AdminRequest request, AdminCaller caller, std::function<void(AdminAnswer)> done) {
+      asio::post(m_access.context.home,
+                 [this, request = std::move(request), caller = std::move(caller), done = std::move(done)] {
+                   m_console.execute(request, caller, done);
+                 });
+    };
+  }
+
+  HostAccess m_access;
+  AdminWorker m_worker;
+  BanList m_bans;  ///< the network thread asks it, too
+  HostAdmin m_admin;
+  AdminConsole m_console;
+  ChatCommands m_chat;
+  std::unique_ptr<ControlSocket> m_control;  ///< null: there is none
+};
+
+/// Lets players find a server: in the local network, and by a file for lists on the web.
+/// On the host's thread.
+class HostListing : public HostPart {
+ public:
+  /// By the options. Throws ListenError with HostOptions::lan "on" if there is no socket for the network's
+  /// queries, and std::runtime_error for a status file that cannot be written.
+  explicit HostListing(const HostAccess& access)
+      : m_access(access), m_lan(openLan()), m_status(openStatus()) {}
+
+  /// It answers in the local network from now on.
+  void begin() override {
+    if (m_lan) m_lan->start();
+  }
+  /// The number of players is told on.
+  void tick(Clock::time_point /*now*/) override {
+    const std::size_t playing = m_access.clients.sessions().playing();
+    if (m_lan) m_lan->setPlayers(playing);
+    if (!m_status) return;
+    m_status->setPlayers(static_cast<std::uint32_t>(playing));
+    if (const std::string news = m_status->takeNews(); !news.empty()) m_access.context.log(news);
+  }
+  /// It is found no more.
+  void drain() override {
+    if (m_lan) m_lan->stop();
+    m_status.reset();
+  }
+  /// What became of the network's queries goes to the log.
+  void finish() override {
+    if (!m_lan) return;
+    const LanCounters lan = m_lan->counters();
+    const std::string text = listCounters({{"answered", lan.answered},
+                                           {"routed", lan.routed},
+                                           {"foreign", lan.foreign},
+                                           {"malformed", lan.malformed},
+                                           {"too_often", lan.too_often},
+                                           {"unsent", lan.unsent}});
+    if (!text.empty()) m_access.context.log("local network: " + text);
+  }
+
+ private:
+  std::unique_ptr<LanResponder> openLan() const {
+    // Without encryption it is not to be found. Loopback alone is found only if that is asked for: it is no
+    // network with others in it.
+    const HostOptions& options = m_access.context.options;
+    const bool automatic = options.lan == "auto";
+    const bool loopback = asio::ip::make_address(options.address).is_loopback();
+    const auto key = m_access.endpoint.fingerprint();
+    if (!key || options.lan == "off" || (automatic && loopback)) return nullptr;
+    try {
+      const LanAnswer answer{m_access.clients.facts(), {}, m_access.endpoint.port(), ShortKey::of(*key)};
+      return std::make_unique<LanResponder>(answer, options.address,
+                                            automatic ? LanMode::kAuto : LanMode::kOn);
+    } catch (const std::system_error& error) {
+      const std::string wrong = std::string("cannot be found in the local network: ") + error.what();
+      if (!automatic) throw ListenError("--lan on: the server " + wrong + ".", error.code());
+      m_access.context.log({LogEvent::Level::kWarning, "warning: the server " + wrong});
+      return nullptr;
+    }
+  }
+  std::unique_ptr<StatusFile> openStatus() const {
+    const HostOptions& options = m_access.context.options;
+    if (options.status_file.empty()) return nullptr;
+    const auto link = options.link_host.empty() ? std::nullopt : m_access.endpoint.joinLink(true);
+    return std::make_unique<StatusFile>(options.status_file, m_access.clients.facts(),
+                                        link ? link->text() : std::string());
+  }
+
+  HostAccess m_access;
+  std::unique_ptr<LanResponder> m_lan;   ///< null: not to be found in the local network
+  std::unique_ptr<StatusFile> m_status;  ///< null: none is asked for
+};
+
+}  // namespace
 
 // The fleet comes last: a platform that is sent the end takes the server away.
 extern "C" void naiad_makeOperatorParts(const HostAccess& access,

@@ -28,8 +28,6 @@ class StatusFile {
   StatusFile(std::string path, ServerFacts facts, std::string link);
   /// Removes the file: no server, no status.
   ~StatusFile();
-  StatusFile(const StatusFile&) = delete;
-  StatusFile& operator=(const StatusFile&) = delete;
 
   /// How many play. Does not wait for the disk. Any thread.
   void setPlayers(std::uint32_t players);

@@ -6,14 +6,78 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include "host/process/StopSignals.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
+
+/// Log lines for a thread that must not wait: one that ends a server whose game may hold the log's lock.
+/// Passes lines on, in order, on a thread of its own, which is there before it is needed.
+class SideLog {
+ public:
+  explicit SideLog(LogLine log);
+  /// Waits for all lines, however long they take.
+  ~SideLog();
+
+  /// Does not wait for the log. Any thread.
+  void operator()(const std::string& line);
+  /// Wait until all lines are passed on, or for so long. Any thread.
+  void waitUntilLogged(std::chrono::milliseconds most);
+
+ private:
+  void run();
+
+  LogLine m_log;
+  std::mutex m_mutex;
+  std::condition_variable m_changed;
+  std::deque<std::string> m_lines;  ///< the first one is being passed on
+  bool m_stopping = false;
+  std::thread m_thread;  ///< last: it uses the others
+};
+
+/// Judges how long the tick takes: is the game hanging, and may the server still end in order?
+/// Single-threaded. Time is passed in.
+class HangWatch {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// After this time in one tick the game counts as hanging.
+  static constexpr std::chrono::seconds kHang{1};
+  /// A server that is to end waits so long for a tick, and so long after the signal.
+  static constexpr std::chrono::seconds kTickBeforeEnd{3};
+  static constexpr std::chrono::seconds kSignalBeforeEnd{1};
+
+  enum class Step {
+    kNothing,
+    kReport,     ///< the game hangs: once for each tick
+    kEndHung,    ///< end without the game: it is asked for, and the tick does not finish
+    kEndAtOnce,  ///< end without the game: it was asked for twice
+  };
+
+  /// `tick` and `since`: of the tick that is running, if one is. `stops`: signals so far that ask for the
+  /// end.
+  Step check(std::optional<std::uint64_t> tick, Time since, int stops, Time now) {
+    if (stops > 0 && !m_asked_at) m_asked_at = now;
+    if (stops > 1) return Step::kEndAtOnce;
+    if (!tick) return Step::kNothing;
+    if (m_asked_at && now - since >= kTickBeforeEnd && now - *m_asked_at >= kSignalBeforeEnd)
+      return Step::kEndHung;
+    if (now - since < kHang || m_reported == tick) return Step::kNothing;
+    m_reported = tick;
+    return Step::kReport;
+  }
+
+ private:
+  std::optional<Time> m_asked_at;
+  std::optional<std::uint64_t> m_reported;
+};
 
 /// How a server ends without its game.
 struct ForcedEnd {
@@ -26,11 +90,9 @@ class Watchdog {
  public:
   /// Watches `signals` and the ticks that are reported to it, until it is destroyed. `end` ends the process;
   /// it is called on the watching thread, and does not return. `log` is called there, too, and must not wait
-  /// for anything the game may hold (SideLog.h).
+  /// for anything the game may hold (SideLog).
   Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedEnd&)> end);
   ~Watchdog();
-  Watchdog(const Watchdog&) = delete;
-  Watchdog& operator=(const Watchdog&) = delete;
 
   /// On the thread that ticks.
   void beginTick(std::uint64_t number);

@@ -25,7 +25,6 @@
 #include "host/process/CrashReport.h"
 #include "host/process/Restart.h"
 #include "host/program/Announcement.h"
-#include "host/rounds/RoomJournals.h"
 #include "host/rounds/RoomLaunch.h"
 #include "host/rounds/RoundHandover.h"
 #include "host/rounds/WorldSandbox.h"
@@ -97,8 +96,6 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
     df::World::current().extras().resources.addFolder(folder);
   const Installed installed(runner, game_log);
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
-  for (const std::string& folder : game.resourceFolders())
-    df::World::current().extras().resources.addFolder(folder);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
       std::to_string(options.seed));
   return play(game);

@@ -12,8 +12,16 @@
 #include "host/settings/HostOptions.h"
 #include "shared/program/ClientLog.h"
 #include "shared/program/LineLog.h"
+#include "shared/program/LogEvent.h"
 
 namespace naiad {
+
+// News of a worker as an event of the log.
+
+/// What begins with "warning: " is one.
+inline LogEvent newsEvent(const std::string& news) {
+  return {news.starts_with("warning: ") ? LogEvent::Level::kWarning : LogEvent::Level::kInfo, news};
+}
 
 /// Not thread-safe, but for `feed`, `log` and the atomics of `stages`.
 struct HostContext {

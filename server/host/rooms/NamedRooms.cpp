@@ -1,15 +1,30 @@
 // Rooms that have names: which there are, when they sleep and wake, and what becomes of one whose game fails.
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <system_error>
 #include <utility>
 
 #include "host/rooms/Rooms.h"
-#include "host/world/SleepingWorld.h"
+#include "host/world/WorldPort.h"
 
 namespace naiad {
 
 namespace {
+
+/// The world of a room in which none is: it takes no turn, until another one replaces it.
+class SleepingWorld : public WorldPort {
+ public:
+  bool isReady() const override { return false; }
+  void tick(const SentTurn& /*turn*/) override {}
+  std::uint32_t nextTick() const override { return m_next_tick; }
+  const df::WorldView& view() const override { return m_view; }
+  void checkProcess(std::uint32_t tick) override { m_next_tick = std::max(tick, 1u); }
+
+ private:
+  std::uint32_t m_next_tick = 1;
+  df::WorldView m_view;
+};
 
 /// A game that fails as soon as it begins is not begun again before.
 constexpr std::chrono::seconds kClosedTime{30};

@@ -5,6 +5,10 @@
 #include <tuple>
 #include <utility>
 
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
+
 namespace naiad {
 
 namespace {
@@ -23,6 +27,12 @@ bool isConnected(const Session& session) {
 }
 
 }  // namespace
+
+void sendServerLine(Session& session, const std::string& text) {
+  wire::ServerMessage message;
+  message.mutable_chat()->set_text(safeText(text, kMaxChatLength));  // without a player: the server's
+  session.sendKept(message);
+}
 
 SessionTable::SessionTable(std::size_t max_sessions, Counters& counters,
                            std::function<void(Session&)> on_remove)

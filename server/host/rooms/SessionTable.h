@@ -6,12 +6,18 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "host/session/Session.h"
 #include "shared/net/base/AddressPrefix.h"
 
 namespace naiad {
+
+// Chat lines from the server to one player.
+
+/// Sends a chat line from the server, cut to kMaxChatLength characters. Thread: the host's.
+void sendServerLine(Session& session, const std::string& text);
 
 /// Not thread-safe. Callbacks run inside sessions, so sessions are destroyed in add() and sweep() alone: call
 /// these from outside of any session's callback.

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <random>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -22,8 +23,8 @@
 #include "host/journal/RoundRecovery.h"
 #include "host/journal/Salvage.h"
 #include "host/process/TickClock.h"
-#include "host/rounds/DebugCommand.h"
 #include "host/rounds/WorldSandbox.h"
+#include "host/settings/GameModule.h"
 #include "host/world/BuildId.h"
 #include "host/world/Repeatable.h"
 #include "shared/values/Version.h"
@@ -31,6 +32,14 @@
 namespace naiad {
 
 namespace {
+
+bool isInstalled(const std::string& game, const std::filesystem::path& module) {
+  try {
+    return GameModule::find(game) == module;
+  } catch (const GameError&) {
+    return false;
+  }
+}
 
 namespace fs = std::filesystem;
 
@@ -42,16 +51,6 @@ constexpr std::size_t kPrivateRing = std::size_t{256} << 10;
 
 /// To go on with one round. A server that ends while it does so may have been ended by the round.
 constexpr int kMaxAttempts = 3;
-
-std::string hexOf(const unsigned char* p, std::size_t count) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (std::size_t i = 0; i < count; ++i) {
-    text.push_back(kDigits[p[i] >> 4]);
-    text.push_back(kDigits[p[i] & 15]);
-  }
-  return text;
-}
 
 std::string readSettings() {
   const char* p_named = std::getenv("DRAGONFLY_CONFIG");
@@ -84,10 +83,6 @@ DfrFacts factsOfStart(const WorldProcess& world) {
   for (const ReadFile& file : world.ready()->files) facts[kFactFile + file.name] = hexNumber(file.hash);
   return facts;
 }
-
-}  // namespace
-
-namespace {
 
 /// The header of a file that is one of this game's by its name, which pathOf() has made.
 std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& game) {
@@ -139,7 +134,34 @@ std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::
   return {};
 }
 
+/// Attempts to go on with the round from where it is. Each that comes to its end adds a turn.
+int attemptsOf(const OpenRound& round) {
+  std::istringstream fact(round.fact(kFactAttempts));
+  int attempts = 0;
+  std::uint32_t turns = 0;
+  return fact >> attempts >> turns && turns >= round.turns() ? attempts : 0;
+}
+
+/// Not an option: it is of one start, and no configuration.
+constexpr const char* kKeptVariable = "DF_KEPT_ROUNDS";
+
 }  // namespace
+
+std::string shellWord(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) c == '\'' ? word += "'\\''" : word += c;
+  return word + "'";
+}
+
+std::string debugCommand(const std::string& file, std::uint32_t tick, const std::string& game,
+                         const std::filesystem::path& module) {
+  std::string line = "dfreplay " + shellWord(file) + " --until " + std::to_string(tick) + " --debug";
+  if (!isInstalled(game, module)) line += " --game " + shellWord(module.string());
+  return line;
+}
 
 // Only the newest one: from those before, players have gone on already.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
@@ -172,7 +194,7 @@ std::string hashOfModule(const std::string& path) {
   unsigned size = 0;
   good = good && EVP_DigestFinal_ex(p_context, hash, &size) == 1;
   EVP_MD_CTX_free(p_context);
-  return good ? hexOf(hash, size) : std::string();
+  return good ? hexText({hash, size}) : std::string();
 }
 
 DfrFacts factsOfMachine() {
@@ -278,18 +300,6 @@ std::optional<WorldOrder> Journals::orderOfOpenRound() const {
   order.frame_nanos = m_open->header().frame_nanos;
   return order;
 }
-
-namespace {
-
-/// Attempts to go on with the round from where it is. Each that comes to its end adds a turn.
-int attemptsOf(const OpenRound& round) {
-  std::istringstream fact(round.fact(kFactAttempts));
-  int attempts = 0;
-  std::uint32_t turns = 0;
-  return fact >> attempts >> turns && turns >= round.turns() ? attempts : 0;
-}
-
-}  // namespace
 
 // The attempt is noted in the file before it begins: a round that kills the server again and again is given
 // up.
@@ -416,13 +426,6 @@ std::unique_ptr<Round> Journals::keep(std::unique_ptr<WorldProcess> world, const
 }
 
 // ---- a program that goes on in this one's place -----------------------------------------------------------
-
-namespace {
-
-/// Not an option: it is of one start, and no configuration.
-constexpr const char* kKeptVariable = "DF_KEPT_ROUNDS";
-
-}  // namespace
 
 KeptRounds takeKeptRounds() {
   KeptRounds rounds;

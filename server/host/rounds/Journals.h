@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,11 +16,21 @@
 #include "host/journal/RepeatCheck.h"
 #include "host/rounds/Round.h"
 #include "host/settings/HostOptions.h"
-#include "host/world/WorldOrder.h"
+#include "host/world/Repeatable.h"
 #include "host/world/WorldProcess.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
+
+// How an author sees where a game of theirs died.
+
+/// What to type in a shell: "dfreplay FILE --until TICK --debug", with --game where `game` is the name of no
+/// installed game, or of another one than `module` (both as of GameModule).
+std::string debugCommand(const std::string& file, std::uint32_t tick, const std::string& game,
+                         const std::filesystem::path& module);
+
+/// One word of a shell's line.
+std::string shellWord(const std::string& text);
 
 /// Rounds that a program which this process ran before has left open for this one: the uuid of each, and the
 /// hash of the module that has executed it again, to the same answers.
@@ -28,7 +39,7 @@ using KeptRounds = std::map<std::string, std::string>;
 /// What Journals::announceKept() has said, once.
 KeptRounds takeKeptRounds();
 
-/// What the journals of a server's rooms have in common (RoomJournals.h).
+/// What the journals of a server's rooms have in common (openRoomJournals).
 struct SharedJournals {
   std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
   std::set<std::string> checked = {};  ///< games of which a round has been held against another, or is

@@ -98,8 +98,6 @@ class Round {
   Round(std::unique_ptr<WorldProcess> world, Book book);
   /// One that has not come to its end was stopped.
   ~Round();
-  Round(const Round&) = delete;
-  Round& operator=(const Round&) = delete;
 
   /// Called at the end of every tick: from tick(), or later from the host's event loop.
   void setOnTick(std::function<void()> on_tick) { m_on_tick = std::move(on_tick); }

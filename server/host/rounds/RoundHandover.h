@@ -48,8 +48,6 @@ class RoundHandover {
   RoundHandover(const StartCommand& command, std::vector<Room> rooms);
   /// A proof that is under way ends.
   ~RoundHandover();
-  RoundHandover(const RoundHandover&) = delete;
-  RoundHandover& operator=(const RoundHandover&) = delete;
 
   // On the host's thread.
 

@@ -45,8 +45,6 @@ class ScoreKeeper {
   ScoreKeeper(const std::filesystem::path& folder, std::string game);
   /// As finish().
   ~ScoreKeeper();
-  ScoreKeeper(const ScoreKeeper&) = delete;
-  ScoreKeeper& operator=(const ScoreKeeper&) = delete;
 
   /// What a world is passed at its start.
   const std::map<std::string, std::vector<df::HighScore>>& tables() const { return m_tables.all(); }

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <string>
-#include <utility>
 
 namespace naiad {
 
@@ -107,8 +105,5 @@ struct Counters {
   /// "connections=3 joined=2 …", only what is not zero.
   std::string summary() const;
 };
-
-/// "name=3 other=1 …" of numbers by name, only those that are not zero.
-std::string listCounters(std::initializer_list<std::pair<const char*, std::uint64_t>> counters);
 
 }  // namespace naiad

@@ -7,21 +7,20 @@
 // ends alone. Time is passed in. Single-threaded: the host's event loop and tick share a thread.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "host/net/SealedChannel.h"
-#include "host/session/ChatAllowance.h"
 #include "host/session/ClientActivity.h"
 #include "host/session/Counters.h"
 #include "host/session/ReceivedInputs.h"
 #include "host/session/ReliableOutbox.h"
-#include "host/session/ResizeRequest.h"
-#include "host/session/SessionStanding.h"
 #include "host/session/SnapshotDelivery.h"
 #include "host/session/StreamPair.h"
 #include "shared/net/base/Channel.h"
@@ -39,6 +38,109 @@ enum Refused_Reason : int;
 class ServerMessage;
 class Welcome;
 }  // namespace wire
+
+/// How many lines of chat a client may send now.
+/// One for a session, whatever becomes of its streams: only time refills it. Time is passed in.
+class ChatAllowance {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  static constexpr double kPerSecond = 3;
+  static constexpr double kAtOnce = 3;
+  /// Lines at once from a client that comes back, if it was silent long enough to have typed them.
+  static constexpr double kSaved = 30;
+
+  explicit ChatAllowance(Time now) : m_refilled(now) {}
+
+  /// False if the line is one too many.
+  bool takeLine(Time now) {
+    refill(now, kAtOnce);
+    if (m_lines < 1) return false;
+    m_lines -= 1;
+    return true;
+  }
+  /// The client is back, on another stream, and nothing had come since `silent_since`: what was typed
+  /// meanwhile comes all at once.
+  void refillAfterSilence(Time silent_since, Time now) {
+    refill(silent_since, kAtOnce);
+    refill(now, kSaved);
+  }
+
+ private:
+  /// Up to `most` lines; if there are more, they stay.
+  void refill(Time now, double most) {
+    if (now <= m_refilled) return;
+    const double seconds = std::chrono::duration<double>(now - m_refilled).count();
+    m_refilled = now;
+    if (m_lines < most) m_lines = std::min(most, m_lines + seconds * kPerSecond);
+  }
+
+  double m_lines = kAtOnce;
+  Time m_refilled;
+};
+
+/// The terminal size that a client asked for last, applied at most four times a second: each new size may
+/// cost half a world.
+class ResizeRequest {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  struct Size {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+  };
+
+  static constexpr std::chrono::milliseconds kEvery{250};
+
+  /// True if this replaces a size that was not applied.
+  bool request(Size size) { return std::exchange(m_wanted, size).has_value(); }
+  /// Go on with what was requested from `other`.
+  void continueFrom(const ResizeRequest& other) { m_wanted = other.m_wanted; }
+  /// The size to apply now, if any.
+  std::optional<Size> takeDue(Time now) {
+    if (!m_wanted || (m_applied && now - *m_applied < kEvery)) return std::nullopt;
+    m_applied = now;
+    return std::exchange(m_wanted, std::nullopt);
+  }
+
+ private:
+  std::optional<Size> m_wanted;
+  std::optional<Time> m_applied;  ///< when a size was applied last
+};
+
+/// What a host knows of a player beside the game: since when they play, and what they may do.
+/// Time is passed in.
+class SessionStanding {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// The client was welcomed.
+  void begin(Time now) { m_joined = m_acted = now; }
+  /// A key, a click or a line of chat came.
+  void noteAction(Time now) { m_acted = now; }
+  /// The session goes on with another stream, which is a sign of life. An admin's rights end, since a resume
+  /// token must not give them.
+  void changeStream(Time now) {
+    m_acted = now;
+    m_admin = false;
+    ++m_streams;
+  }
+
+  Time joined() const { return m_joined; }
+  Time acted() const { return m_acted; }
+  bool isAdmin() const { return m_admin; }
+  void setAdmin() { m_admin = true; }
+  bool isMuted() const { return m_muted; }
+  void setMuted(bool muted) { m_muted = muted; }
+  /// How many streams the session has had before the present one.
+  std::uint32_t streams() const { return m_streams; }
+
+ private:
+  Time m_joined{};
+  Time m_acted{};
+  std::uint32_t m_streams = 0;
+  bool m_admin = false;
+  bool m_muted = false;
+};
 
 class Session {
  public:

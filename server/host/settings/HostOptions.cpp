@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <iostream>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "host/settings/DefaultFolders.h"
@@ -25,247 +28,190 @@ enum class UsedBy { kBoth, kServer, kProgram };
 
 struct Row {
   Option option;
-  UsedBy used_by = UsedBy::kBoth;
-  const char* key = nullptr;  ///< in df-config.txt; null: the name with _ for -; empty: not there
+  UsedBy used_by;
 };
+
+using OneOf = std::vector<std::string>;
+using Values = std::variant<std::monostate, OptionRange, OneOf>;
+
+/// Its variable has the option's name: NAIAD_MAX_PLAYERS sets --max-players.
+Row row(const std::string& name, OptionTarget target, const char* help, const Values& values = {},
+        UsedBy used_by = UsedBy::kBoth) {
+  std::string variable = "NAIAD_" + name.substr(2);
+  for (char& c : variable) c = c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  Option option{name, std::move(target), help, variable};
+  if (const auto* p_range = std::get_if<OptionRange>(&values)) option.range = *p_range;
+  if (const auto* p_words = std::get_if<OneOf>(&values)) option.one_of = *p_words;
+  option.joins = name == "--room";
+  return {std::move(option), used_by};
+}
 
 /// The table, with its targets in `o`.
 std::vector<Row> tableOf(HostOptions& o) {
   return {
-      {{"--game", &o.game,
-        "Game to host: the name of a shipped one (see --list-games) or the path of a module (.so)",
-        "NAIAD_GAME"},
-       UsedBy::kServer},
-      {{.name = "--room",
-        .target = &o.rooms,
-        .help = "NAME=GAME[,KEY=VALUE…]: a room in which this game is played, beside others; give it once "
-                "for each room "
-                "(in the environment: with blanks between). Players begin in the first one, or join by "
-                "HOST/NAME. The keys are max-players, world-memory, seed and players, as the options",
-        .environment = "NAIAD_ROOM",
-        .joins = true},
-       UsedBy::kServer},
-      {{.name = "--room-sleep",
-        .target = &o.room_sleep,
-        .help = "Seconds without players after which a room ends its round and its process; the next player "
-                "wakes it",
-        .environment = "NAIAD_ROOM_SLEEP",
-        .range = OptionRange{0, 1e6}},
-       UsedBy::kServer},
-      {{"--address", &o.address,
-        "Numeric address to listen on; :: is every address of this machine, IPv4 too", "NAIAD_ADDRESS"}},
-      {{"--port", &o.port, "Port to listen on, TCP and UDP; 0 takes any free one", "NAIAD_PORT",
-        OptionRange{0, 65535}}},
-      {{"--max-players", &o.max_players, "Players at a time", "NAIAD_MAX_PLAYERS",
-        OptionRange{1, kMaxServerPlayers}}},
-      {{"--max-per-address", &o.max_per_address,
-        "Players at a time from one IPv4 address or IPv6 network (/64), with those whose connection broke",
-        "NAIAD_MAX_PER_ADDRESS", OptionRange{1, static_cast<double>(kMaxServerPlayers)}}},
-      {{"--server-name", &o.name, "Name shown to players", "NAIAD_SERVER_NAME"}},
-      {{"--seed", &o.seed, "Seed of the world's random numbers; 0 takes a new one and logs it", "NAIAD_SEED",
-        OptionRange{0, 9e15}}},
-      {{"--frame-time", &o.frame_micros,
-        "Length of a tick in microseconds, 1000 or more; 0 is what the game's df-config.txt says, else "
-        "exactly 1/30 s",
-        "NAIAD_FRAME_TIME", OptionRange{0, 1e6}},
-       UsedBy::kBoth,
-       ""},  // there the game's frame_time is in milliseconds
-      {{"--ticks", &o.ticks, "Stop after this many ticks; 0 never", "NAIAD_TICKS", OptionRange{0, 2e9}}},
-      {{"--exit-when-empty", &o.exit_when_empty,
-        "Stop this many seconds after the last player left (a minute if no player ever joins); 0 never",
-        "NAIAD_EXIT_WHEN_EMPTY", OptionRange{0, 1e6}}},
-      {{"--players",
-        &o.players,
-        "Whose keys and mouse the game hears: together = all players'; first = the first one's, while the "
-        "others watch and wait for their turn; private = a world for each player, in a process of its own",
-        "NAIAD_PLAYERS",
-        {},
-        {"together", "first", "private"}}},
-      {{"--on-game-over",
-        &o.on_game_over,
-        "When the game is over because of a key or click of one player among several: leave = it is for them "
-        "alone; exit = for all. restart = as leave, and when the game itself is over or crashes, the "
-        "next round begins, in a process of its own; players stay connected",
-        "NAIAD_ON_GAME_OVER",
-        {},
-        {"leave", "exit", "restart"}}},
-      {{"--sandbox",
-        &o.sandbox,
-        "Games in processes of their own cannot connect, reach this user's other processes, or open files "
-        "that are not the game's, as far as the kernel has Landlock and seccomp; off: they can do what this "
-        "user can",
-        "NAIAD_SANDBOX",
-        {},
-        {"on", "off"}}},
-      {{"--world-memory", &o.world_memory,
-        "MiB of addresses that a game in a process of its own may have; 0: no limit", "NAIAD_WORLD_MEMORY",
-        OptionRange{0, 1 << 20}}},
-      {{"--hang-time", &o.hang_time,
-        "Seconds of one tick after which a game in a process of its own hangs: the log says what it does, "
-        "and "
-        "after five times that it is ended. Neither a machine under load nor a debugger makes it hang",
-        "NAIAD_HANG_TIME", OptionRange{0.1, 600}}},
-      {{"--world-environment", &o.world_environment,
-        "Names of variables, with commas between, that games in processes of their own find in their "
-        "environment, beside the usual ones",
-        "NAIAD_WORLD_ENVIRONMENT"}},
-      {{"--in-process", &o.in_process,
-        "The game runs in the server's own process, for a debugger, or where its pictures are too large for "
-        "another one: without sandbox and journal, and a crash ends the server",
-        "NAIAD_IN_PROCESS"},
-       UsedBy::kServer},
-      {{"--journal", &o.journal,
-        "Write each round down in a file of this directory, as it is played: dfreplay executes it again, and "
-        "a server that was killed goes on with it. The game has clocks and random devices then that can be "
-        "repeated. off: none. Default: rounds in the folder of --state; none with --players private, "
-        "--in-process, and for games that are programs themselves",
-        "NAIAD_JOURNAL"}},
-      {{"--recover",
-        &o.recover,
-        "When this server was killed in a round that --journal has: on = the round is executed again, and "
-        "its players go on with it; off = another one begins",
-        "NAIAD_RECOVER",
-        {},
-        {"on", "off"}}},
-      {{"--insecure", &o.insecure, "Without encryption or datagrams, on loopback only (for tests)",
-        "NAIAD_INSECURE"}},
-      {{"--certificate", &o.certificate,
-        "Certificate chain (PEM), with --key; default: self-signed, made on the first start",
-        "NAIAD_CERTIFICATE"}},
-      {{"--key", &o.key, "Private key (PEM) of --certificate, readable by you alone", "NAIAD_KEY"}},
-      {{"--identity", &o.identity,
-        "Directory of the self-made key; default: naiad in your configuration directory", "NAIAD_IDENTITY"}},
-      {{"--password", &o.password,
-        "Password that players need, or its $argon2id$ hash (other users see the command line: rather set it "
-        "in the environment or in --config)",
-        "NAIAD_PASSWORD"}},
-      {{"--grace", &o.grace, "Seconds that a player whose connection broke may take to come back; 0: none",
-        "NAIAD_GRACE", OptionRange{0, 3600}}},
-      {{"--drain-time", &o.drain_time,
-        "Seconds that SIGTERM gives players to finish: no new ones are let in, and the server ends when all "
-        "have left, or then; 0: it ends at once",
-        "NAIAD_DRAIN_TIME", OptionRange{0, 86400}}},
-      {{"--join-file", &o.join_file,
-        "Write address and fingerprint, as dfclient takes them, to this file once listening",
-        "NAIAD_JOIN_FILE"}},
-      {{"--visitors", &o.visitors,
-        "Path of a socket at which doors of this machine (ssh, browsers) bring visitors with their "
-        "addresses; who may "
-        "write to the file, mode 0660, is believed",
-        "NAIAD_VISITORS"}},
-      {{"--link-host", &o.link_host,
-        "Name or address by which players elsewhere reach this machine, for the link that is printed; "
-        "HOST:PORT "
-        "where a router forwards another port",
-        "NAIAD_LINK_HOST"}},
-      {{"--ssh-door", &o.ssh_door, "Also print how to play by ssh: USER@HOST[:PORT] of a door to this server",
-        "NAIAD_SSH_DOOR"}},
-      {{"--web-address", &o.web_address, "Also print this address of a page to play on (https://…)",
-        "NAIAD_WEB_ADDRESS"}},
-      {{"--qr", &o.qr, "Print --web-address as a QR code, too", "NAIAD_QR"}},
-      {{"--lan",
-        &o.lan,
-        "Let dfclient without arguments find this server in the local network: auto = where the address is "
-        "private, on = wherever it listens, off = not",
-        "NAIAD_LAN",
-        {},
-        {"auto", "on", "off"}}},
-      {{"--truth", &o.truth_file,
-        "Write what each player ought to see, tick by tick, to this file (for tests; large)", "NAIAD_TRUTH"}},
-      {{"--metrics", &o.metrics,
-        "Give out metrics for Prometheus (/metrics) and health (/healthz, /readyz) by HTTP on this numeric "
-        "ADDR:PORT, like 127.0.0.1:9100; port 0 takes any free one",
-        "NAIAD_METRICS"}},
-      {{"--metrics-hosts", &o.metrics_hosts,
-        "Names of this machine, with commas between, by which --metrics may be asked, beside localhost and "
-        "addresses",
-        "NAIAD_METRICS_HOSTS"}},
-      {{"--metrics-public", &o.metrics_public,
-        "--metrics may be an address that the internet can reach; everybody can read them then",
-        "NAIAD_METRICS_PUBLIC"}},
-      {{"--audit",
-        &o.audit,
-        "With --metrics: hold what one player was sent against what the world shows them, one second in ten, "
-        "and count wrong cells",
-        "NAIAD_AUDIT",
-        {},
-        {"on", "off"}}},
-      {{"--port-file", &o.port_file, "Write the port number to this file once listening", "NAIAD_PORT_FILE"}},
-      {{"--status-file", &o.status_file,
-        "Write name, game, number of players and link (see --link-host) to this file as JSON, every 5 "
-        "seconds; "
-        "for lists of servers on the web. It is removed when the server stops",
-        "NAIAD_STATUS_FILE"}},
-      {{"--log", &o.log_file, "Append log lines to this file instead of stderr", "NAIAD_LOG"}},
-      {{"--log-format",
-        &o.log_format,
-        "How log lines look: text = sentences; json = an object a line, with the facts in it by name",
-        "NAIAD_LOG_FORMAT",
-        {},
-        {"text", "json"}},
-       UsedBy::kServer},
-      {{"--log-level",
-        &o.log_level,
-        "Log what is as bad as this, or worse",
-        "NAIAD_LOG_LEVEL",
-        {},
-        {"error", "warning", "info"}},
-       UsedBy::kServer},
-      {{"--log-chat", &o.log_chat, "Log what players say, too", "NAIAD_LOG_CHAT"}},
-      {{"--control", &o.control,
-        "Path of the socket for dfctl's commands, mode 0660: who may write to it is an admin; off: none. "
-        "Default: control-PORT.sock in naiad in the user's runtime directory ($XDG_RUNTIME_DIR), else in "
-        "~/.local/state/naiad; none for games that are programs themselves",
-        "NAIAD_CONTROL"}},
-      {{"--state", &o.state,
-        "Folder of what lasts beyond a restart: bans, scores, rounds that are written down. Default: naiad "
-        "in the user's directory for state "
-        "($XDG_STATE_HOME, ~/.local/state); none for games that are programs themselves",
-        "NAIAD_STATE"}},
-      {{"--admin-password", &o.admin_password,
-        "Password that makes a player an admin in the chat (/admin PASSWORD), or its $argon2id$ hash; as "
-        "with "
-        "--password, rather in the environment or in --config",
-        "NAIAD_ADMIN_PASSWORD"}},
-      {{"--vote-kick", &o.vote_kick,
-        "Players may vote others out for five minutes (/vote kick NAME): more than half of the addresses "
-        "that "
-        "play have to agree within 30 seconds",
-        "NAIAD_VOTE_KICK"}},
-      {{"--inactive-kick", &o.inactive_kick,
-        "Seconds without key, click or line of chat after which a player has to go, warned 10 seconds "
-        "before; "
-        "0 never",
-        "NAIAD_INACTIVE_KICK", OptionRange{0, 86400}}},
-      {{"--platform",
-        &o.platform,
-        "What runs the server, and is sent that it is ready, healthy, played on and at its end: systemd; "
-        "agones = the sidecar at 127.0.0.1, port $AGONES_SDK_HTTP_PORT (9358); none; auto = the one that has "
-        "set its variable",
-        "NAIAD_PLATFORM",
-        {},
-        {"auto", "none", "systemd", "agones"}}},
-      {{"--bus", &o.bus,
-        "Say on this NATS server what plays here, and the scores: nats://HOST:PORT or tls://HOST:PORT (other "
-        "users see the command line: a password rather in --bus-credentials)",
-        "NAIAD_BUS"}},
-      {{"--bus-id", &o.bus_id,
-        "Name of this server on the bus, of a-z, 0-9 and '-'; default: of the machine and the port",
-        "NAIAD_BUS_ID"}},
-      {{"--bus-interval", &o.bus_interval_ms,
-        "Milliseconds after which the server says again that it is there, as its directory's",
-        "NAIAD_BUS_INTERVAL", OptionRange{50, 60'000}}},  // Presence.h
-      {{"--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it",
-        "NAIAD_BUS_CREDENTIALS"}},
-      {{"--bus-ca", &o.bus_ca,
-        "Certificates (PEM) by which that of a tls:// bus is judged; default: the system's", "NAIAD_BUS_CA"}},
-      {{"--headless", &o.headless, "Without network and players, as fast as possible", "NAIAD_HEADLESS"},
-       UsedBy::kProgram},
-      {{"--local-client", &o.local_client, "Started in a terminal: play there, too", "NAIAD_LOCAL_CLIENT"},
-       UsedBy::kProgram},
-      {{"--public", &o.is_public,
-        "Let players of other machines in: listen on every address, not on loopback alone", "NAIAD_PUBLIC"},
-       UsedBy::kProgram},
+      row("--game", &o.game,
+          "Game to host: the name of a shipped one (see --list-games) or the path of a module (.so)", {},
+          UsedBy::kServer),
+      row("--room", &o.rooms,
+          "NAME=GAME[,KEY=VALUE…]: a room in which this game is played, beside others; give it once for each "
+          "room (in the environment: with blanks between). Players begin in the first one, or join by "
+          "HOST/NAME. The keys are max-players, world-memory, seed and players, as the options",
+          {}, UsedBy::kServer),
+      row("--room-sleep", &o.room_sleep,
+          "Seconds without players after which a room ends its round and its process; the next player wakes "
+          "it",
+          OptionRange{0, 1e6}, UsedBy::kServer),
+      row("--address", &o.address,
+          "Numeric address to listen on; :: is every address of this machine, IPv4 too"),
+      row("--port", &o.port, "Port to listen on, TCP and UDP; 0 takes any free one", OptionRange{0, 65535}),
+      row("--max-players", &o.max_players, "Players at a time", OptionRange{1, kMaxServerPlayers}),
+      row("--max-per-address", &o.max_per_address,
+          "Players at a time from one IPv4 address or IPv6 network (/64), with those whose connection broke",
+          OptionRange{1, static_cast<double>(kMaxServerPlayers)}),
+      row("--server-name", &o.name, "Name shown to players"),
+      row("--seed", &o.seed, "Seed of the world's random numbers; 0 takes a new one and logs it",
+          OptionRange{0, 9e15}),
+      row("--frame-time", &o.frame_micros,
+          "Length of a tick in microseconds, 1000 or more; 0 is what the game's df-config.txt says, else "
+          "exactly 1/30 s",
+          OptionRange{0, 1e6}),
+      row("--ticks", &o.ticks, "Stop after this many ticks; 0 never", OptionRange{0, 2e9}),
+      row("--exit-when-empty", &o.exit_when_empty,
+          "Stop this many seconds after the last player left (a minute if no player ever joins); 0 never",
+          OptionRange{0, 1e6}),
+      row("--players", &o.players,
+          "Whose keys and mouse the game hears: together = all players'; first = the first one's, while the "
+          "others watch and wait for their turn; private = a world for each player, in a process of its own",
+          OneOf{"together", "first", "private"}),
+      row("--on-game-over", &o.on_game_over,
+          "When the game is over because of a key or click of one player among several: leave = it is for "
+          "them alone; exit = for all. restart = as leave, and when the game itself is over or crashes, the "
+          "next round begins, in a process of its own; players stay connected",
+          OneOf{"leave", "exit", "restart"}),
+      row("--sandbox", &o.sandbox,
+          "Games in processes of their own cannot connect, reach this user's other processes, or open files "
+          "that are not the game's, as far as the kernel has Landlock and seccomp; off: they can do what "
+          "this user can",
+          OneOf{"on", "off"}),
+      row("--world-memory", &o.world_memory,
+          "MiB of addresses that a game in a process of its own may have; 0: no limit",
+          OptionRange{0, 1 << 20}),
+      row("--hang-time", &o.hang_time,
+          "Seconds of one tick after which a game in a process of its own hangs: the log says what it does, "
+          "and after five times that it is ended. Neither a machine under load nor a debugger makes it hang",
+          OptionRange{0.1, 600}),
+      row("--world-environment", &o.world_environment,
+          "Names of variables, with commas between, that games in processes of their own find in their "
+          "environment, beside the usual ones"),
+      row("--in-process", &o.in_process,
+          "The game runs in the server's own process, for a debugger, or where its pictures are too large "
+          "for another one: without sandbox and journal, and a crash ends the server",
+          {}, UsedBy::kServer),
+      row("--journal", &o.journal,
+          "Write each round down in a file of this directory, as it is played: dfreplay executes it again, "
+          "and a server that was killed goes on with it. The game has clocks and random devices then that "
+          "can be repeated. off: none. Default: rounds in the folder of --state; none with --players "
+          "private, --in-process, and for games that are programs themselves"),
+      row("--recover", &o.recover,
+          "When this server was killed in a round that --journal has: on = the round is executed again, and "
+          "its players go on with it; off = another one begins",
+          OneOf{"on", "off"}),
+      row("--insecure", &o.insecure, "Without encryption or datagrams, on loopback only (for tests)"),
+      row("--certificate", &o.certificate,
+          "Certificate chain (PEM), with --key; default: self-signed, made on the first start"),
+      row("--key", &o.key, "Private key (PEM) of --certificate, readable by you alone"),
+      row("--identity", &o.identity,
+          "Directory of the self-made key; default: naiad in your configuration directory"),
+      row("--password", &o.password,
+          "Password that players need, or its $argon2id$ hash (other users see the command line: rather set "
+          "it in the environment or in --config)"),
+      row("--grace", &o.grace, "Seconds that a player whose connection broke may take to come back; 0: none",
+          OptionRange{0, 3600}),
+      row("--drain-time", &o.drain_time,
+          "Seconds that SIGTERM gives players to finish: no new ones are let in, and the server ends when "
+          "all have left, or then; 0: it ends at once",
+          OptionRange{0, 86400}),
+      row("--join-file", &o.join_file,
+          "Write address and fingerprint, as dfclient takes them, to this file once listening"),
+      row("--visitors", &o.visitors,
+          "Path of a socket at which doors of this machine (ssh, browsers) bring visitors with their "
+          "addresses; who may write to the file, mode 0660, is believed"),
+      row("--link-host", &o.link_host,
+          "Name or address by which players elsewhere reach this machine, for the link that is printed; "
+          "HOST:PORT where a router forwards another port"),
+      row("--ssh-door", &o.ssh_door,
+          "Also print how to play by ssh: USER@HOST[:PORT] of a door to this server"),
+      row("--web-address", &o.web_address, "Also print this address of a page to play on (https://…)"),
+      row("--qr", &o.qr, "Print --web-address as a QR code, too"),
+      row("--lan", &o.lan,
+          "Let dfclient without arguments find this server in the local network: auto = where the address is "
+          "private, on = wherever it listens, off = not",
+          OneOf{"auto", "on", "off"}),
+      row("--truth", &o.truth_file,
+          "Write what each player ought to see, tick by tick, to this file (for tests; large)"),
+      row("--metrics", &o.metrics,
+          "Give out metrics for Prometheus (/metrics) and health (/healthz, /readyz) by HTTP on this numeric "
+          "ADDR:PORT, like 127.0.0.1:9100; port 0 takes any free one"),
+      row("--metrics-hosts", &o.metrics_hosts,
+          "Names of this machine, with commas between, by which --metrics may be asked, beside localhost and "
+          "addresses"),
+      row("--metrics-public", &o.metrics_public,
+          "--metrics may be an address that the internet can reach; everybody can read them then"),
+      row("--audit", &o.audit,
+          "With --metrics: hold what one player was sent against what the world shows them, one second in "
+          "ten, and count wrong cells",
+          OneOf{"on", "off"}),
+      row("--port-file", &o.port_file, "Write the port number to this file once listening"),
+      row("--status-file", &o.status_file,
+          "Write name, game, number of players and link (see --link-host) to this file as JSON, every 5 "
+          "seconds; for lists of servers on the web. It is removed when the server stops"),
+      row("--log", &o.log_file, "Append log lines to this file instead of stderr"),
+      row("--log-format", &o.log_format,
+          "How log lines look: text = sentences; json = an object a line, with the facts in it by name",
+          OneOf{"text", "json"}, UsedBy::kServer),
+      row("--log-level", &o.log_level, "Log what is as bad as this, or worse",
+          OneOf{"error", "warning", "info"}, UsedBy::kServer),
+      row("--log-chat", &o.log_chat, "Log what players say, too"),
+      row("--control", &o.control,
+          "Path of the socket for dfctl's commands, mode 0660: who may write to it is an admin; off: none. "
+          "Default: control-PORT.sock in naiad in the user's runtime directory ($XDG_RUNTIME_DIR), else in "
+          "~/.local/state/naiad; none for games that are programs themselves"),
+      row("--state", &o.state,
+          "Folder of what lasts beyond a restart: bans, scores, rounds that are written down. Default: naiad "
+          "in the user's directory for state ($XDG_STATE_HOME, ~/.local/state); none for games that are "
+          "programs themselves"),
+      row("--admin-password", &o.admin_password,
+          "Password that makes a player an admin in the chat (/admin PASSWORD), or its $argon2id$ hash; as "
+          "with --password, rather in the environment or in --config"),
+      row("--vote-kick", &o.vote_kick,
+          "Players may vote others out for five minutes (/vote kick NAME): more than half of the addresses "
+          "that play have to agree within 30 seconds"),
+      row("--inactive-kick", &o.inactive_kick,
+          "Seconds without key, click or line of chat after which a player has to go, warned 10 seconds "
+          "before; 0 never",
+          OptionRange{0, 86400}),
+      row("--platform", &o.platform,
+          "What runs the server, and is sent that it is ready, healthy, played on and at its end: systemd; "
+          "agones = the sidecar at 127.0.0.1, port $AGONES_SDK_HTTP_PORT (9358); none; auto = the one that "
+          "has set its variable",
+          OneOf{"auto", "none", "systemd", "agones"}),
+      row("--bus", &o.bus,
+          "Say on this NATS server what plays here, and the scores: nats://HOST:PORT or tls://HOST:PORT "
+          "(other users see the command line: a password rather in --bus-credentials)"),
+      row("--bus-id", &o.bus_id,
+          "Name of this server on the bus, of a-z, 0-9 and '-'; default: of the machine and the port"),
+      row("--bus-interval", &o.bus_interval_ms,
+          "Milliseconds after which the server says again that it is there, as its directory's",
+          OptionRange{50, 60'000}),  // Presence.h
+      row("--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it"),
+      row("--bus-ca", &o.bus_ca,
+          "Certificates (PEM) by which that of a tls:// bus is judged; default: the system's"),
+      row("--headless", &o.headless, "Without network and players, as fast as possible", {},
+          UsedBy::kProgram),
+      row("--local-client", &o.local_client, "Started in a terminal: play there, too", {}, UsedBy::kProgram),
+      row("--public", &o.is_public,
+          "Let players of other machines in: listen on every address, not on loopback alone", {},
+          UsedBy::kProgram),
   };
 }
 
@@ -310,8 +256,9 @@ const char* const kExitCodes =
     "  4  cannot listen on that address and port\n"
     "  5  a file cannot be written, or a key, certificate or password not be used\n";
 
+/// In df-config.txt: the name with _ for -; empty: it is not there.
 std::string keyOf(const Row& row) {
-  if (row.key != nullptr) return row.key;
+  if (row.option.name == "--frame-time") return {};  // there the game's frame_time is in milliseconds
   std::string key = row.option.name.substr(2);
   std::replace(key.begin(), key.end(), '-', '_');
   return key;

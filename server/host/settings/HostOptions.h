@@ -55,7 +55,7 @@ struct HostOptions {
   std::string ssh_door;   ///< USER@HOST[:PORT] of a door to this server; empty: none
   std::string web_address;          ///< of a page to play on; empty: none
   bool qr = false;                  ///< print that as a QR code, too
-  std::string lan = "auto";         ///< found in the local network: "auto", "on" or "off" (LanQueryJudge.h)
+  std::string lan = "auto";         ///< found in the local network: "auto", "on" or "off" (LanMode)
   std::string truth_file;           ///< write what each player should see, tick by tick
   std::string metrics;              ///< ADDR:PORT for metrics and health; empty: none
   std::string metrics_hosts;        ///< names by which they may be asked for, with commas between

@@ -1,14 +1,29 @@
 #include "host/snapshot/PerClientState.h"
 
+#include <bit>
 #include <utility>
 
 #include "shared/replica/Acks.h"
 #include "shared/replica/Motion.h"
+#include "shared/replica/SteeredCopy.h"
 #include "shared/replica/ViewFollow.h"
 
 namespace naiad {
 
 namespace {
+
+/// Cells by which a window exceeds the view, at least.
+constexpr std::int64_t kMargin = 8;
+/// Orders farther than this from the window's take too many bits.
+constexpr std::uint64_t kFarOrder = 1 << 14;
+
+bool covers(std::int32_t from, std::int32_t bits, std::int32_t low, std::int32_t extent) {
+  return low >= from && std::int64_t{low} + extent <= std::int64_t{from} + (std::int64_t{1} << bits);
+}
+
+std::int32_t bitsFor(std::int32_t extent) {
+  return static_cast<std::int32_t>(std::bit_width(static_cast<std::uint32_t>(extent + kMargin - 1)));
+}
 
 /// The id of the object, whose birth was sent or is pending; kNone if it has none.
 std::uint32_t idOf(df::ObjectKey object, const KnownObjects& known) {
@@ -18,6 +33,52 @@ std::uint32_t idOf(df::ObjectKey object, const KnownObjects& known) {
 }
 
 }  // namespace
+
+std::uint32_t OriginChoice::updateWindow(CellPosition view_corner, const WorldRecord& world,
+                                         std::uint64_t newest_order) {
+  const Origin& newest = m_origins[m_newest];
+  if (m_newest != 0 && covers(newest.corner.x, newest.x_bits, view_corner.x, world.view_width) &&
+      covers(newest.corner.y, newest.y_bits, view_corner.y, world.view_height) &&
+      newest_order - newest.order < kFarOrder) {
+    return 0;
+  }
+  // A slot that is unconfirmed may be set again, since no snapshot names it yet.
+  const bool pending = m_newest != m_slot;
+  if (!pending) m_newest = m_newest % kOriginSlots + 1;
+  Origin& origin = m_origins[m_newest];
+  origin.x_bits = bitsFor(world.view_width);
+  origin.y_bits = bitsFor(world.view_height);
+  origin.corner.x = view_corner.x - ((1 << origin.x_bits) - world.view_width) / 2;
+  origin.corner.y = view_corner.y - ((1 << origin.y_bits) - world.view_height) / 2;
+  origin.order = newest_order;
+  return m_newest;
+}
+
+void OriginChoice::confirmArrival(std::uint32_t slot) {
+  if (slot == m_newest) m_slot = m_newest;
+}
+
+void AckedControl::setSent(const ControlRecord& record) {
+  m_has_record = true;
+  m_at_rest = false;
+  m_coasted = 0;
+  m_model = record;
+}
+
+bool AckedControl::implies(const ControlRecord& actual, const df::ControlTable& table) {
+  if (!m_has_record) return false;
+  for (; m_coasted < kMaxCoasting && !m_at_rest && m_model.tick != actual.tick; ++m_coasted) {
+    SteeredCopy copy(m_model, table);
+    copy.beginTick();
+    copy.finishTick();
+    ControlRecord next = copy.now();
+    m_model.tick = next.tick;
+    m_at_rest = next == m_model;
+    m_model = next;
+  }
+  m_model.tick = actual.tick;
+  return m_model == actual;
+}
 
 // ---- what is pending --------------------------------------------------------------------------------------
 

@@ -11,13 +11,50 @@
 #include <string>
 #include <vector>
 
-#include "host/snapshot/AckedControl.h"
 #include "host/snapshot/KnownObjects.h"
-#include "host/snapshot/OriginChoice.h"
 #include "host/snapshot/Publisher.h"
+#include "shared/replica/ControlCodec.h"
 #include "shared/replica/SnapshotCodec.h"
 
 namespace naiad {
+
+/// The origin of one client's positions: a window around its view, so that positions take few bits.
+///
+/// A view that leaves the window gets another one, in another slot. Snapshots name the new slot only once the
+/// client has confirmed it.
+class OriginChoice {
+ public:
+  /// The view has moved. Returns the slot whose window has to be sent; 0: none.
+  std::uint32_t updateWindow(CellPosition view_corner, const WorldRecord& world, std::uint64_t newest_order);
+  /// The client has received the slot as it is now.
+  void confirmArrival(std::uint32_t slot);
+
+  /// The slot that snapshots name; 0: none yet.
+  std::uint32_t slot() const { return m_slot; }
+  const Origin& window() const { return m_origins[m_slot]; }
+  const Origin& at(std::uint32_t slot) const { return m_origins[slot]; }
+
+ private:
+  std::array<Origin, kOriginSlots + 1> m_origins;
+  std::uint32_t m_slot = 0;
+  std::uint32_t m_newest = 0;  ///< the slot set last
+};
+
+/// The state of the steered object as a client computes it from the last record that it was sent.
+/// Computes coast() a tick at a time.
+class AckedControl {
+ public:
+  /// `record` was sent.
+  void setSent(const ControlRecord& record);
+  /// Does `actual` follow from the last record by the same table? Ticks must not go back.
+  bool implies(const ControlRecord& actual, const df::ControlTable& table);
+
+ private:
+  bool m_has_record = false;
+  bool m_at_rest = false;  ///< coasting changes nothing any more
+  int m_coasted = 0;       ///< ticks
+  ControlRecord m_model;
+};
 
 class PerClientState {
  public:

@@ -9,22 +9,127 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "engine/world/WorldView.h"
 #include "host/snapshot/ChangeIndex.h"
-#include "host/snapshot/ExactObjects.h"
-#include "host/snapshot/LookCatalogue.h"
 #include "host/snapshot/ModelIndex.h"
 #include "host/snapshot/PublishedModel.h"
-#include "host/snapshot/TickCache.h"
-#include "host/snapshot/ViewMoves.h"
 #include "shared/replica/MotionCodec.h"
 #include "shared/replica/Records.h"
 
 namespace naiad {
+
+/// The objects whose published positions are exact to the bit, as a client's view or prediction needs them.
+class ExactObjects {
+ public:
+  /// Take in one tick: the objects that players follow or steer. Returns whether any player steers by
+  /// declared controls.
+  bool updatePlayers(std::span<const df::PlayerFacts> players) {
+    m_keys.clear();
+    bool controls = false;
+    for (const df::PlayerFacts& player : players) {
+      if (player.followed.generation != 0) m_keys.push_back(player.followed);
+      if (player.steering.object.generation != 0) m_keys.push_back(player.steering.object);
+      controls = controls || player.steering.p_table != nullptr;
+    }
+    std::sort(m_keys.begin(), m_keys.end(), isBefore);
+    return controls;
+  }
+  const std::vector<df::ObjectKey>& keys() const { return m_keys; }
+  bool contains(df::ObjectKey key) const {
+    auto found = std::lower_bound(m_keys.begin(), m_keys.end(), key, isBefore);
+    for (; found != m_keys.end() && found->slot == key.slot; ++found) {
+      if (found->generation == key.generation) return true;
+    }
+    return false;
+  }
+
+  /// Solid objects that stand still are exact, too.
+  void setSolids(bool exact) {
+    m_solids_are_new = m_solids_are_new || (exact && !m_solids);
+    m_solids = exact;
+  }
+  bool hasSolids() const { return m_solids; }
+  /// True once after setSolids(): those published before are still coarse.
+  bool takeNewSolids() { return std::exchange(m_solids_are_new, false); }
+
+ private:
+  static bool isBefore(df::ObjectKey a, df::ObjectKey b) { return a.slot < b.slot; }
+
+  std::vector<df::ObjectKey> m_keys;  ///< by slot
+  bool m_solids = false;
+  bool m_solids_are_new = false;
+};
+
+/// The looks that were published lately: which of them recur, and one copy of each in memory.
+class LookCatalogue {
+ public:
+  /// The model has a new look: compute its sum, find out whether it recurs, and share its memory.
+  void enterLook(PublishedModel& model, std::uint32_t tick);
+
+ private:
+  void share(Sequence& sequence);
+
+  std::unordered_map<std::uint64_t, std::uint32_t> m_last_used;  ///< by sum: the tick of the last enterLook()
+  std::unordered_map<std::uint64_t, Sequence> m_sequences;       ///< by sum: some of those that are published
+};
+
+/// Values by slot that are the same for all clients in a tick, computed when the first client asks.
+template <class Value>
+class TickCache {
+ public:
+  /// Forget all values.
+  void clear() { ++m_round; }
+  /// Null if it was not put there since the last clear().
+  const Value* find(std::size_t index) const {
+    return index < m_entries.size() && m_entries[index].round == m_round ? &m_entries[index].value : nullptr;
+  }
+  /// `size`: more than any index until the next clear(). The reference is valid until the next put().
+  const Value& put(std::size_t index, std::size_t size, Value value) {
+    m_entries.resize(size);
+    m_entries[index] = {m_round, std::move(value)};
+    return m_entries[index].value;
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t round = 0;
+    Value value;
+  };
+  std::vector<Entry> m_entries;
+  std::uint32_t m_round = 1;
+};
+
+/// Finds out whether all views move slowly enough to predict what enters them.
+class ViewMoves {
+ public:
+  /// Take in one tick. Returns whether a view has appeared or moved by more than a cell, or was resized.
+  bool updateViews(const df::WorldView& view) {
+    bool jumped = view.players.size() != m_corners.size();
+    m_corners.resize(view.players.size());
+    for (std::size_t i = 0; i < m_corners.size(); ++i) {
+      const df::FixedVector corner = view.players[i].view_corner;
+      const df::FixedVector moved{corner.x - m_corners[i].x, corner.y - m_corners[i].y};
+      jumped = jumped || std::max(std::abs(moved.x), std::abs(moved.y)) > df::kFixedOne;
+      m_corners[i] = corner;
+    }
+    const bool resized = std::exchange(m_width, view.view_width) != view.view_width ||
+                         std::exchange(m_height, view.view_height) != view.view_height;
+    return jumped || resized;
+  }
+
+ private:
+  std::vector<df::FixedVector> m_corners;  ///< a tick ago
+  std::int32_t m_width = 0;
+  std::int32_t m_height = 0;
+};
 
 class Publisher {
  public:

@@ -1,10 +1,85 @@
 #include "host/snapshot/SnapshotBuilder.h"
 
-#include "host/snapshot/Urgency.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+
+#include "host/snapshot/ClientReplica.h"
+#include "host/snapshot/Publisher.h"
+#include "host/snapshot/SnapshotPackets.h"
 
 namespace naiad {
 
 namespace {
+
+/// A tick of waiting counts as much as being so many cells nearer.
+constexpr double kCellsPerTick = 8;
+/// For repeating, a cell per tick of speed counts as much as being so many cells nearer.
+constexpr double kCellsPerSpeed = 20;
+/// Deaths are short, and each removes a ghost.
+constexpr double kDeathUrgency = 1e6;
+constexpr double kOwnUrgency = 1e5;
+
+/// The objects that the view follows and that the player steers.
+bool isOwn(const KnownObjects::Known& known, const df::PlayerFacts& player) {
+  const df::ObjectKey key{known.slot, known.generation};
+  return player.followed == key || player.steering.object == key;
+}
+
+/// How urgently one client needs the record of an object, in cells of distance from the middle of its view.
+class Urgency {
+ public:
+  Urgency(const ClientReplica& replica, const Publisher& publisher)
+      : m_replica(replica), m_publisher(publisher) {}
+  double of(std::uint32_t id) const {
+    // What is on the view, near its middle or has waited long comes first.
+    const KnownObjects::Known& known = m_replica.objects.at(id);
+    const df::PlayerFacts& player = m_replica.state.player();
+    if (known.life == KnownObjects::Life::kDying) return kDeathUrgency;
+    if (isOwn(known, player)) return kOwnUrgency;
+    const std::uint32_t tick = m_publisher.tick();
+    const double waited = kCellsPerTick * (tick - known.pending_since);
+    const ObjectState& state = m_publisher.find(known.slot)->state;
+    if (state.body.on_view) return waited;
+    const df::FixedVector at = positionAt(state.motion, tick);
+    const WorldRecord& world = m_replica.state.world();
+    const df::FixedVector corner = player.view_corner;
+    const df::FixedVector focus{corner.x + df::fromCells(world.view_width) / 2,
+                                corner.y + df::fromCells(world.view_height) / 2};
+    const double dx = df::toCells(at.x) - df::toCells(focus.x);
+    const double dy = 2 * (df::toCells(at.y) - df::toCells(focus.y));  // cells are twice as high as wide
+    return waited - std::sqrt(dx * dx + dy * dy);
+  }
+  /// Of repeating the record before a loss is known: an object that moves fast is soon wrong.
+  double ofRepeating(std::uint32_t id) const {
+    const KnownObjects::Known& known = m_replica.objects.at(id);
+    if (known.life == KnownObjects::Life::kDying) return of(id);
+    const df::FixedVector v = m_publisher.find(known.slot)->state.motion.velocity;
+    return of(id) + kCellsPerSpeed * (std::abs(df::toCells(v.x)) + std::abs(df::toCells(v.y)));
+  }
+
+ private:
+  const ClientReplica& m_replica;
+  const Publisher& m_publisher;
+};
+
+/// An upper bound for the record of any object in this state.
+std::size_t maxBits(std::uint32_t id, const ClientReplica& replica, const Publisher& publisher) {
+  constexpr std::size_t kLifeBits = 112;
+  constexpr std::size_t kMotionBits = 448;
+  constexpr std::size_t kBodyBits = 384;
+  constexpr std::size_t kLookBits = 192;
+  constexpr std::size_t kFrameBits = 32;
+  constexpr std::size_t kGlyphBits = 128;
+  const std::uint8_t groups = replica.objects.groupsToSend(id);
+  std::size_t bits = kLifeBits;
+  if ((groups & kMotion) != 0) bits += kMotionBits;
+  if ((groups & kBody) != 0) bits += kBodyBits;
+  if ((groups & kLook) == 0) return bits;
+  const Sequence& sequence = publisher.find(replica.objects.at(id).slot)->state.look.sequence;
+  return bits + kLookBits + kFrameBits * sequence.size() + kGlyphBits * sequence.glyphCount();
+}
 
 /// Of a record without its state or its motion.
 const ObjectState kNoState;
@@ -16,6 +91,50 @@ bool isTooLarge(std::size_t bits, std::size_t bytes) {
 }
 
 }  // namespace
+
+void RedundantResend::addRecord(const KnownObjects::Sent& sent, std::size_t bits, double urgency) {
+  const auto repeated = std::find_if(m_current.begin(), m_current.end(),
+                                     [&sent](const Record& record) { return record.sent.id == sent.id; });
+  const int repeats = repeated != m_current.end() ? repeated->repeats + 1 : 0;
+  if (repeats > 1 || (repeats == 1 && bits > kShortBits)) return;
+  m_next.push_back({urgency, bits, sent, repeats});
+}
+
+void RedundantResend::requeueRecords(KnownObjects& known, std::uint32_t tick) {
+  std::sort(m_next.begin(), m_next.end(), [](const Record& a, const Record& b) {
+    return a.urgency != b.urgency ? a.urgency > b.urgency : a.sent.id < b.sent.id;
+  });
+  m_current.clear();
+  std::size_t used = 0;
+  for (const Record& record : m_next) {
+    const KnownObjects::Sent& sent = record.sent;
+    const KnownObjects::Known& now = known.at(sent.id);
+    if (now.birth != sent.birth || now.unconfirmed == 0) continue;
+    if (used > 0 && used + record.bits > kBits) continue;
+    used += record.bits;
+    known.addPending(sent.id, now.unconfirmed & (sent.groups == kDeath ? +kLife : +sent.groups), tick);
+    m_current.push_back(record);
+  }
+  m_next.clear();
+}
+
+void PendingQueue::fill(const ClientReplica& replica, const Publisher& publisher, std::size_t limit) {
+  m_ids.clear();
+  std::size_t bits = PacketLimits::kMaxOverheadBits + replica.state.maxPendingBits();
+  for (const std::uint32_t id : replica.objects.pendingIds()) {
+    m_ids.push_back(id);
+    if (bits <= 8 * limit) bits += maxBits(id, replica, publisher);
+  }
+  if (bits <= 8 * limit) return std::sort(m_ids.begin(), m_ids.end(), std::greater<>());
+  m_ranked.clear();
+  const Urgency urgency(replica, publisher);
+  for (const std::uint32_t id : m_ids) m_ranked.emplace_back(urgency.of(id), id);
+  // Equal urgency: by id, so that a run is the same everywhere.
+  std::sort(m_ranked.begin(), m_ranked.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : a.second > b.second;
+  });
+  std::transform(m_ranked.begin(), m_ranked.end(), m_ids.begin(), [](const auto& r) { return r.second; });
+}
 
 SnapshotBuilder& SnapshotBuilder::ofThread() {
   thread_local SnapshotBuilder builder;

@@ -16,7 +16,6 @@
 #include "host/snapshot/Interest.h"
 #include "host/snapshot/LossDetector.h"
 #include "host/snapshot/Publisher.h"
-#include "host/snapshot/RedundantResend.h"
 #include "host/snapshot/SentChecksums.h"
 #include "host/snapshot/SnapshotBuilder.h"
 #include "host/snapshot/SnapshotPackets.h"

@@ -61,8 +61,6 @@ class StateFile {
   /// Nothing is opened or made yet. The kind's texts are literals.
   StateFile(std::filesystem::path file, const Kind& kind);
   ~StateFile();
-  StateFile(const StateFile&) = delete;
-  StateFile& operator=(const StateFile&) = delete;
 
   // All of these throw StateFileError. A file that cannot be read, is damaged, or is of another kind is left
   // as it is.

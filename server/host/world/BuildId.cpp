@@ -4,10 +4,10 @@
 #include <link.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 namespace naiad {
 
@@ -18,16 +18,6 @@ constexpr char kHere = 0;  ///< it lies in the file that this code lies in
 
 std::size_t aligned(std::size_t size) {
   return (size + kNoteAlignment - 1) / kNoteAlignment * kNoteAlignment;
-}
-
-std::string hexOf(const unsigned char* p, std::size_t count) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (std::size_t i = 0; i < std::min(count, kMaxBuildId / 2); ++i) {
-    text.push_back(kDigits[p[i] >> 4]);
-    text.push_back(kDigits[p[i] & 15]);
-  }
-  return text;
 }
 
 /// Of the notes that lie at `p`; empty if the id is not among them.
@@ -41,7 +31,8 @@ std::string idAmongNotes(const unsigned char* p, std::size_t size) {
     if (whole > size) return {};
     const bool is_gnu =
         note.n_namesz == sizeof kOwner && std::memcmp(p + sizeof note, kOwner, sizeof kOwner) == 0;
-    if (is_gnu && note.n_type == NT_GNU_BUILD_ID) return hexOf(p + data, note.n_descsz);
+    if (is_gnu && note.n_type == NT_GNU_BUILD_ID)
+      return hexText({p + data, std::min<std::size_t>(note.n_descsz, kMaxBuildId / 2)});
     p += whole;
     size -= whole;
   }
@@ -86,6 +77,16 @@ std::string findId(std::function<bool(const dl_phdr_info& info)> is_wanted) {
 }
 
 }  // namespace
+
+std::string hexText(std::span<const std::uint8_t> bytes) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (const std::uint8_t byte : bytes) {
+    text.push_back(kDigits[byte >> 4]);
+    text.push_back(kDigits[byte & 15]);
+  }
+  return text;
+}
 
 std::string buildIdOf(const std::string& file) {
   return findId([&file](const dl_phdr_info& info) {

@@ -5,6 +5,10 @@
 // dropped and counted; a world that prints faster than it is read waits.
 #pragma once
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -31,19 +35,53 @@ class OutputRelay {
 
   /// Takes over the reading end of a pipe, which does not block; below 0: none. An empty `line` drops all.
   OutputRelay(int pipe, Line line) : m_pipe(pipe), m_line(std::move(line)) {}
-  ~OutputRelay();
+  ~OutputRelay() {
+    if (m_pipe >= 0) ::close(m_pipe);
+  }
   OutputRelay(const OutputRelay&) = delete;
   OutputRelay& operator=(const OutputRelay&) = delete;
 
   /// Pass on what has come. Once in each tick; waits for nothing.
-  void update(Clock::time_point now);
+  void update(Clock::time_point now) {
+    char piece[16 << 10];
+    for (std::size_t done = 0; done < kMaxRead && m_pipe >= 0;) {
+      const ssize_t got = ::read(m_pipe, piece, sizeof piece);
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) return;
+      takePiece({piece, static_cast<std::size_t>(got)}, now);
+      done += static_cast<std::size_t>(got);
+    }
+  }
   /// The same, when the world has ended: the last line may lack its end.
-  void finish(Clock::time_point now);
+  void finish(Clock::time_point now) {
+    update(now);
+    if (!m_text.empty()) endLine(now);
+    reportDropped();
+  }
 
  private:
-  void takePiece(std::string_view piece, Clock::time_point now);
-  void endLine(Clock::time_point now);
-  void reportDropped();
+  void takePiece(std::string_view piece, Clock::time_point now) {
+    while (!piece.empty()) {
+      const std::size_t end = std::min(piece.find('\n'), piece.size());
+      m_text += piece.substr(0, end).substr(0, kMaxLine - std::min(m_text.size(), kMaxLine));
+      if (end == piece.size()) return;
+      endLine(now);
+      piece.remove_prefix(end + 1);
+    }
+  }
+  void endLine(Clock::time_point now) {
+    const std::string line = std::exchange(m_text, {});
+    if (!m_bucket.takeToken(kRate, now)) {
+      ++m_dropped;
+      return;
+    }
+    reportDropped();
+    if (m_line) m_line(line);
+  }
+  void reportDropped() {
+    const std::uint64_t dropped = std::exchange(m_dropped, 0);
+    if (dropped > 0 && m_line) m_line(std::to_string(dropped) + " lines were too many and are left out");
+  }
 
   int m_pipe;
   Line m_line;

@@ -6,19 +6,130 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <string>
 
-#include "host/world/LandlockRules.h"
 #include "host/world/SystemCallFilter.h"
 
 namespace naiad {
 
 namespace {
+
+// The same numbers on all architectures.
+constexpr long kCreateRuleset = 444;
+constexpr long kAddRule = 445;
+constexpr long kRestrictSelf = 446;
+
+constexpr unsigned kAskVersion = 1;
+constexpr unsigned kPathBeneath = 1;
+
+constexpr std::uint64_t kExecute = 1 << 0;
+constexpr std::uint64_t kWriteFile = 1 << 1;
+constexpr std::uint64_t kReadFile = 1 << 2;
+constexpr std::uint64_t kReadDir = 1 << 3;
+constexpr std::uint64_t kRemoveDir = 1 << 4;
+constexpr std::uint64_t kRemoveFile = 1 << 5;
+constexpr std::uint64_t kMakeDir = 1 << 7;
+constexpr std::uint64_t kMakeRegular = 1 << 8;
+constexpr std::uint64_t kRefer = 1 << 13;
+constexpr std::uint64_t kTruncate = 1 << 14;
+constexpr std::uint64_t kControlDevice = 1 << 15;
+
+constexpr std::uint64_t kOfFiles = kExecute | kWriteFile | kReadFile | kTruncate | kControlDevice;
+constexpr std::uint64_t kReading = kExecute | kReadFile | kReadDir;
+constexpr std::uint64_t kWriting =
+    kReading | kWriteFile | kRemoveDir | kRemoveFile | kMakeDir | kMakeRegular | kRefer | kTruncate;
+
+/// Every right of a version, by the number of bits.
+std::uint64_t rightsOf(int version) {
+  if (version >= 5) return (kControlDevice << 1) - 1;
+  if (version >= 3) return (kTruncate << 1) - 1;
+  if (version == 2) return (kRefer << 1) - 1;
+  return kRefer - 1;
+}
+
+struct Ruleset {
+  std::uint64_t files = 0;
+  std::uint64_t network = 0;  ///< since version 4: bind and connect, TCP
+  std::uint64_t scoped = 0;   ///< since version 6: abstract Unix sockets, signals
+};
+
+struct [[gnu::packed]] PathBeneath {
+  std::uint64_t access = 0;
+  std::int32_t parent = -1;
+};
+
+std::size_t sizeOf(int version) {
+  return (version >= 6 ? 3 : version >= 4 ? 2 : 1) * sizeof(std::uint64_t);
+}
+
+// Landlock: the files that a world's process may open, and nothing else of the file system.
+//
+// The kernel's interface is used directly, by numbers: the headers of a machine may be older than its kernel.
+
+inline constexpr int kLandlockHoldsTruncation = 3;
+inline constexpr int kLandlockScopesSignals = 6;
+
+class LandlockRules {
+ public:
+  /// Nothing is allowed. `version`: of landlockVersion(), above 0.
+  explicit LandlockRules(int version) : m_handled(rightsOf(version)) {
+    const Ruleset rules{m_handled, 3, 3};
+    m_rules = static_cast<int>(syscall(kCreateRuleset, &rules, sizeOf(version), 0));
+    if (m_rules < 0) m_error = errno;
+  }
+  ~LandlockRules() {
+    if (m_rules >= 0) close(m_rules);
+  }
+  LandlockRules(const LandlockRules&) = delete;
+  LandlockRules& operator=(const LandlockRules&) = delete;
+
+  // A file, or a folder with all that is in it. One that is not there, or cannot be reached, is left out.
+
+  /// To read, list and execute.
+  void allowReading(const std::string& path) { allow(path, kReading); }
+  /// The same, and to write, make and remove files and folders there; no links, devices or sockets.
+  void allowWriting(const std::string& path) { allow(path, kWriting); }
+  /// To write into a file that is there.
+  void allowAppending(const std::string& path) { allow(path, kWriteFile); }
+  /// A device file.
+  void allowDevice(const std::string& path) { allow(path, kReadFile | kWriteFile | kControlDevice); }
+
+  /// Make them hold, for this thread and all that it starts, for good. PR_SET_NO_NEW_PRIVS has been called.
+  /// Return errno, or 0.
+  int enforce() {
+    if (m_error != 0) return m_error;
+    return syscall(kRestrictSelf, m_rules, 0) == 0 ? 0 : errno;
+  }
+
+ private:
+  void allow(const std::string& path, std::uint64_t access) const {
+    PathBeneath rule{access & m_handled, open(path.c_str(), O_PATH | O_CLOEXEC)};
+    if (rule.parent < 0) return;
+    struct stat facts {};
+    if (fstat(rule.parent, &facts) == 0 && !S_ISDIR(facts.st_mode)) rule.access &= kOfFiles;
+    if (rule.access != 0) syscall(kAddRule, m_rules, kPathBeneath, &rule, 0);
+    close(rule.parent);
+  }
+
+  std::uint64_t m_handled = 0;  ///< what is refused unless a rule allows it
+  int m_rules = -1;
+  int m_error = 0;
+};
+
+/// The version of Landlock's interface that this kernel has; 0: none. 3 holds back truncate(), 6 signals to
+/// others.
+int landlockVersion() {
+  const long version = syscall(kCreateRuleset, nullptr, 0, kAskVersion);
+  return version > 0 ? static_cast<int>(version) : 0;
+}
 
 // A sanitizer's runtime reserves terabytes of addresses, reads /proc and traces its own process.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

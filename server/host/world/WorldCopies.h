@@ -2,7 +2,7 @@
 //
 // The front orders a copy by one end of a new pair of sockets, which it sends over a socket beside the
 // world's, before the turn behind which the copy is to be made (WorldTurn::copied). So a world never has to
-// make a socket. The copy writes its process id, and waits (CopyMaker.h). Two are kept, for the newer one may
+// make a socket. The copy writes its process id, and waits (CopyMaker). Two are kept, for the newer one may
 // be sick already.
 //
 // A world may be a stranger's program: what it says of a copy is not believed (the keeper lets only a child

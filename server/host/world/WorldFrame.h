@@ -91,7 +91,13 @@ class FieldWriter {
     if (static_cast<std::size_t>(m_p_end - m_p_next) < count) grow(count);
     return m_p_next;
   }
-  void grow(std::size_t count);
+  void grow(std::size_t count) {
+    // Frames of a world are nearly as long as the one before, whose size is there already.
+    const std::size_t used = size();
+    m_out.resize(m_out.size() + m_out.size() / 8 + kFirstSize + count);
+    m_p_next = m_out.data() + used;
+    m_p_end = m_out.data() + m_out.size();
+  }
   void varint(std::uint64_t value) {
     char* p = room(kMaxVarint);
     if (value < 0x80) {  // most are

@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,13 +21,98 @@
 #include "host/world/DescriptorMessage.h"
 #include "host/world/FixedStart.h"
 #include "host/world/Repeatable.h"
-#include "host/world/Succession.h"
 #include "host/world/WordPointers.h"
+#include "host/world/WorldLauncher.h"
 #include "host/world/WorldStart.h"
 
 namespace naiad {
 
 namespace {
+
+/// Alive or not: it has not been waited for.
+bool isChild(pid_t process) {
+  siginfo_t facts{};
+  return process > 0 && waitid(P_PID, static_cast<id_t>(process), &facts, WEXITED | WNOHANG | WNOWAIT) == 0;
+}
+
+/// Has it ended? Others that have are waited for.
+bool takeEnd(pid_t world, int& status) {
+  int how = 0;
+  for (pid_t child = 0; (child = waitpid(-1, &how, WNOHANG)) > 0;) {
+    if (child != world) continue;
+    status = how;
+    return true;
+  }
+  return false;
+}
+
+/// A world that makes copies, and its keeper's part in what follows when it ends: the front says which copy
+/// is the world from then on, and all other descendants of the keeper end.
+class Succession {
+ public:
+  /// How long a keeper waits for the front's word after a world's end.
+  static constexpr int kWordMillis = 1'000;
+
+  /// `world`: a child of this process, which has no threads and is a child subreaper. `front`: the keeper's
+  /// socket. `children`: readable when one has ended.
+  Succession(pid_t world, int front, int children) : m_world(world), m_front(front), m_children(children) {}
+
+  /// Until the front wants no world any more, or has gone. Each end of a world is reported but the last one.
+  /// Return the world that is left; 0: it has ended, and m_status says how.
+  pid_t run() {
+    while (waitForEnd()) {
+      m_world = 0;
+      KeeperOrder next;
+      if (!report(KeeperEnd::kWorld) || !waitForWord(next) || !isChild(next.process)) return 0;
+      std::set<pid_t> kept{next.process};
+      kept.insert(next.kept.begin(), next.kept.end());
+      if (!endOthers(kept) || !report(KeeperEnd::kRest)) return 0;
+      m_world = next.process;
+    }
+    return m_world;
+  }
+  /// Of the last world that has ended, as of waitpid().
+  int status() const { return m_status; }
+
+ private:
+  /// False: the front wants no world any more.
+  bool waitForEnd() {
+    pollfd either[2] = {{m_front, POLLIN | POLLRDHUP, 0}, {m_children, POLLIN, 0}};
+    while (!takeEnd(m_world, m_status)) {
+      if (poll(either, 2, -1) < 0) continue;
+      if (either[0].revents != 0) {
+        KeeperOrder order;
+        if (!takeOrder(order) || order.kind != KeeperOrder::kEndWorld) return false;
+        kill(m_world, SIGKILL);
+      }
+      signalfd_siginfo facts{};
+      if (either[1].revents != 0) {
+        [[maybe_unused]] const ssize_t got = read(m_children, &facts, sizeof facts);
+      }
+    }
+    return true;
+  }
+  /// False: the front has closed its end.
+  bool takeOrder(KeeperOrder& order) const {
+    return recv(m_front, &order, sizeof order, MSG_DONTWAIT) == sizeof order;
+  }
+  bool waitForWord(KeeperOrder& order) const {
+    do {
+      pollfd readable{m_front, POLLIN, 0};
+      if (poll(&readable, 1, kWordMillis) <= 0 || !takeOrder(order)) return false;
+    } while (order.kind == KeeperOrder::kEndWorld);  // it had just ended
+    return true;
+  }
+  bool report(KeeperEnd::Kind what) const {
+    const KeeperEnd end{m_status, what};
+    return send(m_front, &end, sizeof end, MSG_NOSIGNAL) == sizeof end;
+  }
+
+  pid_t m_world;
+  const int m_front;
+  const int m_children;
+  int m_status = 0;
+};
 
 constexpr int kFailure = STDERR_FILENO + 3;  ///< in the world's process, until its program is executed
 constexpr int kFirstFree = kFailure + 1;

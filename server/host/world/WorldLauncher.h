@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "host/world/Repeatable.h"
 #include "host/world/Sandbox.h"
-#include "host/world/WorldOrder.h"
 
 namespace naiad {
 

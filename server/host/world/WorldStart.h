@@ -18,7 +18,7 @@ inline constexpr int kWorldSocket = STDERR_FILENO + 1;
 /// That of the memory which it shares with its host: an ActivityPage.
 inline constexpr int kWorldPage = kWorldSocket + 1;
 
-/// That of the socket by which it is asked for copies (CopyMaker.h), if it is. Far from those that a game
+/// That of the socket by which it is asked for copies (CopyMaker), if it is. Far from those that a game
 /// opens, which have the same numbers with and without.
 inline constexpr int kWorldCopies = 100;
 

@@ -10,7 +10,7 @@
 
 #include "GatewayRun.h"
 #include "WebClient.h"
-#include "host/auth/SelfSigned.h"
+#include "host/auth/ServerIdentity.h"
 
 namespace naiad::test {
 namespace {

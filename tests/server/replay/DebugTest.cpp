@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "host/rounds/DebugCommand.h"
+#include "host/rounds/Journals.h"
 #include "tests/server/replay/FrailRound.h"
 #include "tests/support/RunProgram.h"
 #include "tests/support/Sanitizers.h"

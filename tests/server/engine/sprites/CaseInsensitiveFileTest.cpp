@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/managers/ResourceManager.h"
-#include "engine/sprites/CaseInsensitiveFile.h"
+#include "engine/world/Resources.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "engine/world/PendingBlocks.h"
+#include "engine/world/DelayedFree.h"
 
 namespace df::test {
 namespace {

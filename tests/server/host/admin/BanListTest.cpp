@@ -9,7 +9,6 @@
 #include <iterator>
 
 #include "host/admin/BanList.h"
-#include "host/admin/BanStore.h"
 
 namespace naiad {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Players.h"
-#include "host/admin/PlayerChoice.h"
+#include "host/ops/AdminConsole.h"
 
 namespace naiad {
 namespace {

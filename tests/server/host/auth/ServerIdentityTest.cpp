@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "host/auth/SelfSigned.h"
 #include "host/auth/ServerIdentity.h"
 #include "shared/net/base/SafeFile.h"
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "host/fleet/Bus.h"
-#include "host/fleet/BusInbox.h"
 #include "host/fleet/BusQueue.h"
 
 #ifdef NAIAD_NATS

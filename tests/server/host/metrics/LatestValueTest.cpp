@@ -3,7 +3,7 @@
 #include <memory>
 #include <thread>
 
-#include "host/metrics/LatestValue.h"
+#include "host/ops/HostMetrics.h"
 
 namespace naiad {
 namespace {

@@ -9,56 +9,51 @@
 #include <type_traits>
 #include <vector>
 
-#include "host/metrics/CounterFamilies.h"
 #include "host/metrics/Exposition.h"
 #include "host/metrics/MetricsPage.h"
+#include "host/session/CounterTable.h"
 #include "tests/support/net/HttpClient.h"
 
 namespace naiad {
 namespace {
 
-/// What is written of the struct with these values in its members, which are all counters.
-template <class Struct, class Write>
-std::string written(const std::vector<std::uint64_t>& values, Write write) {
+/// The page with these values in the members of one of the snapshot's structs, which are all counters.
+template <class Struct>
+std::string written(const std::vector<std::uint64_t>& values, Struct& (*part)(MetricsSnapshot&)) {
   static_assert(std::is_trivially_copyable_v<Struct>);
-  Struct counters;
-  std::memcpy(&counters, values.data(), sizeof counters);
-  Exposition out;
-  write(out, counters);
-  return out.text();
+  MetricsSnapshot snapshot;
+  std::memcpy(&part(snapshot), values.data(), sizeof(Struct));
+  return renderMetrics(&snapshot, ProcessFacts());
 }
 
 /// Each counter, changed alone, must change the page.
-template <class Struct, class Write>
-void expectAllWritten(Write write) {
+template <class Struct>
+void expectAllWritten(Struct& (*part)(MetricsSnapshot&)) {
   constexpr std::size_t kCount = sizeof(Struct) / sizeof(std::uint64_t);
   std::vector<std::uint64_t> values(kCount);
   // Where a counter counts a part of another, that one stands before it and is larger.
   for (std::size_t i = 0; i < kCount; ++i) values[i] = 1000 * (kCount - i);
-  const std::string before = written<Struct>(values, write);
+  const std::string before = written<Struct>(values, part);
   for (std::size_t i = 0; i < kCount; ++i) {
     ++values[i];
-    EXPECT_NE(written<Struct>(values, write), before) << "counter " << i;
+    EXPECT_NE(written<Struct>(values, part), before) << "counter " << i;
     --values[i];
   }
 }
 
 TEST(CounterFamilies, HaveEveryCounter) {
-  expectAllWritten<Counters>([](Exposition& out, const Counters& all) { writeCounters(out, all); });
-  expectAllWritten<PasswordCheck::Counters>(
-      [](Exposition& out, const PasswordCheck::Counters& all) { writeCounters(out, all); });
-  expectAllWritten<NetworkCounters>(
-      [](Exposition& out, const NetworkCounters& all) { writeCounters(out, all); });
+  expectAllWritten<Counters>([](MetricsSnapshot & all) -> auto& { return all.counters; });
+  expectAllWritten<PasswordCheck::Counters>([](MetricsSnapshot & all) -> auto& { return all.passwords; });
+  expectAllWritten<NetworkCounters>([](MetricsSnapshot & all) -> auto& { return all.network; });
 }
 
 TEST(CounterFamilies, WhatCountsAPartIsTakenFromTheWhole) {
-  Counters counters;
-  counters.snapshots = 10;
-  counters.datagram_snapshots = 7;
-  Exposition out;
-  writeCounters(out, counters);
-  EXPECT_EQ(test::metricOf(out.text(), R"(naiad_snapshots_total{path="stream"})"), 3);
-  EXPECT_EQ(test::metricOf(out.text(), R"(naiad_snapshots_total{path="datagram"})"), 7);
+  MetricsSnapshot snapshot;
+  snapshot.counters.snapshots = 10;
+  snapshot.counters.datagram_snapshots = 7;
+  const std::string page = renderMetrics(&snapshot, ProcessFacts());
+  EXPECT_EQ(test::metricOf(page, R"(naiad_snapshots_total{path="stream"})"), 3);
+  EXPECT_EQ(test::metricOf(page, R"(naiad_snapshots_total{path="datagram"})"), 7);
 }
 
 TEST(CounterFamilies, AreInTheSummaryOfTheLogAsWell) {

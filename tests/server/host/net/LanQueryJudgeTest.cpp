@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/net/LanQueryJudge.h"
+#include "host/net/LanResponder.h"
 
 namespace naiad {
 namespace {

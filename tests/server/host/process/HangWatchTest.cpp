@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/process/HangWatch.h"
+#include "host/process/Watchdog.h"
 
 namespace naiad {
 namespace {

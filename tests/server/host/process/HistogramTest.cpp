@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "host/process/Histogram.h"
+#include "host/process/StageClock.h"
 
 namespace naiad {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/session/StallDetector.h"
+#include "host/session/StreamPair.h"
 
 namespace naiad {
 namespace {

@@ -475,16 +475,19 @@ TEST(HostOptions, AVariableThatIsNoneIsAWarning) {
 TEST(HostOptions, VariablesOfTheClientAreNoMistakes) {
   namespace fs = std::filesystem;
   std::set<std::string> names;
-  const std::regex name("\"(NAIAD_[A-Z_]+)\"");
+  const std::regex name("[\"`](NAIAD_[A-Z_]+)[\"`]");
+  const auto add = [&](const std::string& source) {
+    for (std::sregex_iterator found(source.begin(), source.end(), name); found != std::sregex_iterator();
+         ++found)
+      names.insert((*found)[1]);
+  };
+  add(hostOptionsMarkdown());
   for (const char* folder : {"client", "shared", "server"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(NAIAD_SOURCE_DIR) / folder)) {
       if (entry.path().extension() != ".cpp") continue;
       std::ostringstream text;
       text << std::ifstream(entry.path()).rdbuf();
-      const std::string source = text.str();
-      for (std::sregex_iterator found(source.begin(), source.end(), name); found != std::sregex_iterator();
-           ++found)
-        names.insert((*found)[1]);
+      add(text.str());
     }
   }
   EXPECT_GT(names.size(), 40u);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/snapshot/LossEstimator.h"
+#include "host/snapshot/LossDetector.h"
 
 namespace naiad::test {
 namespace {

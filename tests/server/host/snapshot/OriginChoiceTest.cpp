@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/snapshot/OriginChoice.h"
+#include "host/snapshot/PerClientState.h"
 
 namespace naiad {
 namespace {

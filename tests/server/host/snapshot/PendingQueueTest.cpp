@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "DirectSender.h"
-#include "host/snapshot/PendingQueue.h"
+#include "host/snapshot/SnapshotBuilder.h"
 
 namespace naiad {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "host/snapshot/RedundantResend.h"
+#include "host/snapshot/SnapshotBuilder.h"
 
 namespace naiad::test {
 namespace {
