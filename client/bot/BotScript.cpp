@@ -1,9 +1,8 @@
 #include "client/bot/BotScript.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -17,89 +16,13 @@ constexpr int kMaxCount = 1000000;
 constexpr std::size_t kMaxSteps = 10000;
 constexpr std::size_t kMaxDepth = 16;
 
-/// In the order of df::Keyboard::Key.
-constexpr std::array<std::string_view, df::Keyboard::kKeyCount> kKeyNames = {"SPACE",
-                                                                             "RETURN",
-                                                                             "ESCAPE",
-                                                                             "TAB",
-                                                                             "LEFTARROW",
-                                                                             "RIGHTARROW",
-                                                                             "UPARROW",
-                                                                             "DOWNARROW",
-                                                                             "PAUSE",
-                                                                             "MINUS",
-                                                                             "PLUS",
-                                                                             "TILDE",
-                                                                             "PERIOD",
-                                                                             "COMMA",
-                                                                             "SLASH",
-                                                                             "LEFTCONTROL",
-                                                                             "RIGHTCONTROL",
-                                                                             "LEFTSHIFT",
-                                                                             "RIGHTSHIFT",
-                                                                             "F1",
-                                                                             "F2",
-                                                                             "F3",
-                                                                             "F4",
-                                                                             "F5",
-                                                                             "F6",
-                                                                             "F7",
-                                                                             "F8",
-                                                                             "F9",
-                                                                             "F10",
-                                                                             "F11",
-                                                                             "F12",
-                                                                             "A",
-                                                                             "B",
-                                                                             "C",
-                                                                             "D",
-                                                                             "E",
-                                                                             "F",
-                                                                             "G",
-                                                                             "H",
-                                                                             "I",
-                                                                             "J",
-                                                                             "K",
-                                                                             "L",
-                                                                             "M",
-                                                                             "N",
-                                                                             "O",
-                                                                             "P",
-                                                                             "Q",
-                                                                             "R",
-                                                                             "S",
-                                                                             "T",
-                                                                             "U",
-                                                                             "V",
-                                                                             "W",
-                                                                             "X",
-                                                                             "Y",
-                                                                             "Z",
-                                                                             "NUM1",
-                                                                             "NUM2",
-                                                                             "NUM3",
-                                                                             "NUM4",
-                                                                             "NUM5",
-                                                                             "NUM6",
-                                                                             "NUM7",
-                                                                             "NUM8",
-                                                                             "NUM9",
-                                                                             "NUM0",
-                                                                             "BACKSPACE",
-                                                                             "QUOTE",
-                                                                             "SEMICOLON",
-                                                                             "LEFTBRACKET",
-                                                                             "RIGHTBRACKET",
-                                                                             "BACKSLASH",
-                                                                             "EQUAL",
-                                                                             "LEFTALT",
-                                                                             "RIGHTALT",
-                                                                             "INSERT",
-                                                                             "DELETE",
-                                                                             "HOME",
-                                                                             "END",
-                                                                             "PAGEUP",
-                                                                             "PAGEDOWN"};
+/// In the order of df::Keyboard::Key, with blanks between.
+constexpr std::string_view kKeyNames =
+    "SPACE RETURN ESCAPE TAB LEFTARROW RIGHTARROW UPARROW DOWNARROW PAUSE MINUS PLUS TILDE PERIOD "
+    "COMMA SLASH LEFTCONTROL RIGHTCONTROL LEFTSHIFT RIGHTSHIFT F1 F2 F3 F4 F5 F6 F7 F8 F9 F10 F11 F12 "
+    "A B C D E F G H I J K L M N O P Q R S T U V W X Y Z NUM1 NUM2 NUM3 NUM4 NUM5 NUM6 NUM7 NUM8 NUM9 "
+    "NUM0 BACKSPACE QUOTE SEMICOLON LEFTBRACKET RIGHTBRACKET BACKSLASH EQUAL LEFTALT RIGHTALT INSERT "
+    "DELETE HOME END PAGEUP PAGEDOWN";
 
 bool isSpace(char c) {
   return c == ' ' || c == '\t' || c == '\r';
@@ -124,9 +47,12 @@ std::optional<df::Keyboard::Key> keyNamed(const std::string& name) {
   std::string upper;
   for (const char c : name) upper.push_back(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
   if (upper.size() == 1 && upper[0] >= '0' && upper[0] <= '9') upper = std::string("NUM") + upper;
-  const auto found = std::find(kKeyNames.begin(), kKeyNames.end(), upper);
-  if (found == kKeyNames.end()) return std::nullopt;
-  return static_cast<df::Keyboard::Key>(found - kKeyNames.begin());
+  std::istringstream names{std::string(kKeyNames)};
+  int key = 0;
+  for (std::string one; names >> one; ++key) {
+    if (one == upper) return static_cast<df::Keyboard::Key>(key);
+  }
+  return std::nullopt;
 }
 
 /// Recursive descent without the recursion: open loops are kept on a stack.
@@ -194,15 +120,11 @@ class BotScriptParser {
   }
 
   int number(const char* what, int least, int most) {
-    const std::string text = word();
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || error != std::errc{} || end != text.data() + text.size() || value < least ||
-        value > most) {
+    const auto value = readNumber(word(), least, most);
+    if (!value)
       fail(std::string(what) + " must be a number from " + std::to_string(least) + " to " +
            std::to_string(most));
-    }
-    return value;
+    return value.value_or(least);
   }
 
   df::Keyboard::Key key() {

@@ -16,7 +16,6 @@
 
 #include "client/bot/BotPlayer.h"
 #include "client/bot/TruthRecorder.h"
-#include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
 #include "client/session/ExitCode.h"
 #include "client/session/TrustOptions.h"

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
+#include <limits>
 #include <system_error>
 
 #include "shared/net/base/SafeFile.h"
@@ -59,12 +59,7 @@ std::optional<std::string> keyFolderName(std::string_view auth_info) {
     std::array<unsigned char, 32> hash{};
     if (EVP_Digest(line.data(), line.size(), hash.data(), nullptr, EVP_sha256(), nullptr) != 1)
       return std::nullopt;
-    std::string name;
-    for (const unsigned char byte : hash) {
-      name += "0123456789abcdef"[byte >> 4];
-      name += "0123456789abcdef"[byte & 15];
-    }
-    return name;
+    return hexText({reinterpret_cast<const char*>(hash.data()), hash.size()});
   }
   return std::nullopt;
 }
@@ -113,9 +108,7 @@ bool VisitorFolder::take() {
 
 pid_t VisitorFolder::holder() const {
   const std::string text = readSmallFile(m_path / kLockFile, 32).value_or("");
-  pid_t process = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), process);
-  return error == std::errc{} && process > 1 ? process : 0;
+  return readNumber<pid_t>(text.substr(0, text.find('\n')), 2, std::numeric_limits<pid_t>::max()).value_or(0);
 }
 
 std::string VisitorFolder::name() const {

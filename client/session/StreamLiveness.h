@@ -2,15 +2,19 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
 
-#include "client/session/RoundTrip.h"
 #include "shared/net/base/IdleTimer.h"
+#include "shared/net/base/LinkStats.h"
 
 namespace naiad {
 
 class StreamLiveness {
  public:
   using Time = std::chrono::steady_clock::time_point;
+  using Millis = LinkStats::Millis;
 
   static constexpr std::chrono::seconds kPingInterval{1};
   /// Interval of pings while datagrams pass, which measure the round trip, too.
@@ -29,23 +33,24 @@ class StreamLiveness {
   /// There is a new stream: pings of the old one are lost, and the next one is due now.
   void startStream(Time now);
   /// No ping of this stream counts any more.
-  void forgetPings() { m_round_trip.forgetPings(); }
+  void forgetPings() { m_pings.clear(); }
   /// Does the oldest ping wait too long? `has_datagrams`: the server is alive, so the stream is
   /// dead.
   bool isStreamDead(Time now, bool has_datagrams) const;
   bool isPingDue(Time now, bool has_datagrams) const;
   /// A ping goes out: its token.
   std::uint64_t startPing(Time now);
-  std::optional<RoundTrip::Millis> endPing(std::uint64_t token, Time now) {
-    return m_round_trip.endPing(token, now);
-  }
+  /// Its pong arrived. The time it took; nothing if the token is unknown or its pong has arrived before.
+  std::optional<Millis> endPing(std::uint64_t token, Time now);
   /// A round trip measured with datagrams.
-  void noteRoundTrip(RoundTrip::Millis sample, Time now) { m_round_trip.addSample(sample, now); }
-  /// Smoothed, rounded up; zero before the first measurement.
-  std::chrono::milliseconds roundTrip() const { return m_round_trip.shown(); }
+  void noteRoundTrip(Millis sample, Time now) { m_stats.addSample(sample, now); }
+  /// Smoothed, in whole milliseconds, rounded up: less than one is a measurement, too. Zero before the first.
+  std::chrono::milliseconds roundTrip() const;
 
  private:
-  RoundTrip m_round_trip;
+  std::map<std::uint64_t, Time> m_pings;  ///< unanswered, by token
+  std::uint64_t m_next_token = 1;
+  LinkStats m_stats;
   Time m_last_ping;
   IdleTimer m_idle;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shared/net/base/SafeText.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {
@@ -15,7 +16,7 @@ constexpr int kMaxPanelColumns = 44;
 constexpr int kMinPanelRows = 20;
 
 int columnsIn(const std::string& text) {
-  return static_cast<int>(df::decodeUtf8(text).size());
+  return static_cast<int>(columnsOf(text));
 }
 
 std::string asUtf8(const std::u32string& text) {

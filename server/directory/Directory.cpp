@@ -1,27 +1,134 @@
 #include "server/directory/Directory.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
 #include <asio/steady_timer.hpp>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <filesystem>
+#include <mutex>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "host/auth/ServerIdentity.h"
-#include "server/directory/FleetWatch.h"
-#include "server/directory/ListFile.h"
+#include "server/directory/FleetList.h"
 #include "server/directory/ServerList.h"
-#include "shared/fleet/SendOn.h"
-#include "shared/fleet/ServerId.h"
+#include "shared/fleet/BusPayloads.h"
+#include "shared/net/base/SafeFile.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 namespace {
+
+// The file of a list of servers: replaced in one step, by a thread of its own, so that a disk that stalls
+// delays no player.
+
+class ListFile {
+ public:
+  /// Writes the first text. Throws std::runtime_error if that fails.
+  ListFile(std::string path, std::string text);
+  /// Removes the file: a list that is not kept up leads to servers that are gone.
+  ~ListFile();
+  ListFile(const ListFile&) = delete;
+  ListFile& operator=(const ListFile&) = delete;
+
+  /// Written soon, if it is another one. Does not wait. Any thread.
+  void setText(std::string text);
+  /// What is new about writing, as a line of the log; else empty. Any thread.
+  std::string takeNews();
+
+ private:
+  void run();
+  void noteResult(const std::string& problem);
+
+  const std::string m_path;
+  std::mutex m_mutex;
+  std::condition_variable m_wake;
+  std::string m_text;
+  std::string m_news;
+  bool m_has_text = false;  ///< that is not written yet
+  bool m_failing = false;
+  bool m_stopping = false;
+  std::thread m_thread;  ///< last: it uses the others
+};
+
+constexpr std::chrono::seconds kAgain{2};  ///< after a failure
+
+/// Empty if it was written.
+std::string writeProblem(const std::string& path, const std::string& text) {
+  try {
+    publishFile(path, text);
+  } catch (const std::system_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+ListFile::ListFile(std::string path, std::string text) : m_path(std::move(path)), m_text(std::move(text)) {
+  if (const std::string problem = writeProblem(m_path, m_text); !problem.empty())
+    throw std::runtime_error("The list " + m_path + " cannot be written: " + problem);
+  m_thread = std::thread([this] { run(); });
+}
+
+ListFile::~ListFile() {
+  {
+    const std::lock_guard lock(m_mutex);
+    m_stopping = true;
+  }
+  m_wake.notify_one();
+  m_thread.join();
+  ::unlink(m_path.c_str());
+}
+
+void ListFile::setText(std::string text) {
+  {
+    const std::lock_guard lock(m_mutex);
+    if (m_text == text) return;
+    m_text = std::move(text);
+    m_has_text = true;
+  }
+  m_wake.notify_one();
+}
+
+std::string ListFile::takeNews() {
+  const std::lock_guard lock(m_mutex);
+  return std::exchange(m_news, std::string());
+}
+
+void ListFile::run() {
+  std::unique_lock lock(m_mutex);
+  while (!m_stopping) {
+    m_wake.wait(lock, [this] { return m_stopping || m_has_text; });
+    if (m_stopping) return;
+    m_has_text = false;
+    const std::string text = m_text;
+    lock.unlock();
+    const std::string problem = writeProblem(m_path, text);
+    lock.lock();
+    noteResult(problem);
+    if (problem.empty()) continue;
+    m_has_text = true;
+    m_wake.wait_for(lock, kAgain, [this] { return m_stopping; });
+  }
+}
+
+// A full disk is said once, and once more when it is over.
+void ListFile::noteResult(const std::string& problem) {
+  const bool failing = !problem.empty();
+  if (std::exchange(m_failing, failing) == failing) return;
+  m_news = failing ? "warning: the list " + m_path + " cannot be written: " + problem
+                   : "the list " + m_path + " is written again";
+}
 
 using Clock = std::chrono::steady_clock;
 

@@ -1,17 +1,32 @@
 // The directory of a fleet: listens on the bus to servers that say they are there, writes a list of them for
 // the web (ServerList.h), sends players to them (Lobby.h), and says to those that fill up where there is room
-// (SendOn.h).
+// (BusPayloads.h).
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
-#include "server/directory/DirectorySettings.h"
+#include "host/fleet/Bus.h"
+#include "server/directory/Lobby.h"
+#include "shared/fleet/BusPayloads.h"
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
+
+/// What a directory is given, beside its log.
+struct DirectorySettings {
+  BusSettings bus;
+  std::chrono::milliseconds interval = Presence::kInterval;  ///< in which its servers say that they are there
+  std::string list;                                          ///< file for the list of servers; empty: none
+  std::optional<LobbySettings> lobby;                        ///< nothing: none
+  std::string identity;     ///< folder of the lobby's key; empty: the user's (ServerIdentity.h)
+  std::string certificate;  ///< PEM file, in place of that folder; empty: none
+  std::string key;          ///< the same
+};
 
 /// All of it happens in run(), on the thread that calls it.
 class Directory {

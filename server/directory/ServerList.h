@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/fleet/Presence.h"
+#include "shared/fleet/BusPayloads.h"
 
 namespace naiad {
 

@@ -1,22 +1,19 @@
 // dfdir: the directory of a fleet. It hears on the bus which servers there are, writes the list of them, and
 // sends players to them.
-#include <asio/ip/address.hpp>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "server/directory/Directory.h"
-#include "shared/fleet/Presence.h"
+#include "shared/fleet/BusPayloads.h"
+#include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/Options.h"
 #include "shared/program/BrokenPipes.h"
-#include "shared/program/OpenFiles.h"
 #include "shared/values/Version.h"
 
 namespace {
@@ -49,18 +46,9 @@ struct CommandLine {
 
 /// ADDRESS:PORT into the settings of the lobby.
 std::string storeListen(const std::string& text, naiad::DirectorySettings& settings) {
-  const std::size_t colon = text.rfind(':');
-  const auto where =
-      colon != std::string::npos ? naiad::LinkHost::parse(text.substr(0, colon)) : std::nullopt;
-  std::error_code error;
-  if (where) asio::ip::make_address(where->host, error);
-  int port = -1;
-  const char* const p_end = text.data() + text.size();
-  const auto read = where ? std::from_chars(text.data() + colon + 1, p_end, port) : std::from_chars_result{};
-  const bool good =
-      where && !error && read.ptr == p_end && port >= 0 && port <= 65'535 && colon + 1 < text.size();
-  if (!good) return "ADDRESS:PORT is wanted, like 0.0.0.0:9875 or [::]:9875; port 0 is any free one";
-  settings.lobby = naiad::LobbySettings{.address = where->host, .port = static_cast<std::uint16_t>(port)};
+  const auto where = naiad::NumericEndpoint::parse(text);
+  if (!where) return "ADDRESS:PORT is wanted, like 0.0.0.0:9875 or [::]:9875; port 0 is any free one";
+  settings.lobby = naiad::LobbySettings{.address = where->address.to_string(), .port = where->port};
   return "";
 }
 

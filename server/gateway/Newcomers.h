@@ -59,7 +59,6 @@ class Newcomers {
   /// Another way to end it from now on: it has become something else.
   void replace(const Place& place, HangUp hang_up) { m_hang_ups[place.m_id] = std::move(hang_up); }
 
-  std::size_t count() const { return m_limit.count(); }
   /// Connections that were ended for another one.
   std::uint64_t ended() const { return m_ended; }
 

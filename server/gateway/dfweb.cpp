@@ -11,7 +11,6 @@
 #include "shared/net/base/SafeFile.h"
 #include "shared/options/Options.h"
 #include "shared/program/BrokenPipes.h"
-#include "shared/program/OpenFiles.h"
 #include "shared/values/Version.h"
 
 namespace {

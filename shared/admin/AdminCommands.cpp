@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shared/options/OptionPages.h"
+
 namespace naiad {
 
 namespace {
@@ -138,16 +140,6 @@ std::string placeholder(const AdminArgument& argument) {
   return all;
 }
 
-// A line that begins with a dot would be a macro, and a dash a hyphen.
-std::string manText(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '\\' || c == '-') escaped += '\\';
-    escaped += c;
-  }
-  return escaped;
-}
-
 std::string whereGiven(const AdminCommand& command) {
   if (command.place == Place::kSocket) return "dfctl";
   const std::string who = command.level == Level::kPlayer ? "every player" : "admins";
@@ -203,9 +195,9 @@ std::string adminManSection() {
   std::string text = ".SH COMMANDS\n";
   for (const AdminCommand& command : adminCommands()) {
     if (command.place == Place::kChat) continue;
-    text += ".TP\n.B " + manText(adminUsage(command)) + "\n" + manText(command.help) + ".\n";
+    text += ".TP\n.B " + roff(adminUsage(command)) + "\n" + roff(command.help) + ".\n";
     for (const AdminArgument& argument : command.arguments)
-      text += ".br\n\\fI" + manText(upper(argument.name)) + "\\fR: " + manText(argument.help) + ".\n";
+      text += ".br\n\\fI" + roff(upper(argument.name)) + "\\fR: " + roff(argument.help) + ".\n";
   }
   return text;
 }

@@ -9,7 +9,6 @@
 
 #include "host/auth/SelfSigned.h"
 #include "shared/net/base/SafeFile.h"
-#include "shared/net/base/UserDirectory.h"
 
 namespace naiad {
 namespace {

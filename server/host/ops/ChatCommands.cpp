@@ -6,7 +6,7 @@
 #include "host/admin/PlayerChoice.h"
 #include "host/loop/HostClients.h"
 #include "host/rooms/ServerLine.h"
-#include "shared/admin/AdminText.h"
+#include "shared/admin/AdminAnswer.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/program/LogText.h"
 

@@ -13,7 +13,6 @@
 #include "host/settings/RoomList.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
-#include "shared/options/UnknownVariables.h"
 
 namespace naiad {
 
@@ -254,7 +253,7 @@ std::vector<Row> tableOf(HostOptions& o) {
         "NAIAD_BUS_ID"}},
       {{"--bus-interval", &o.bus_interval_ms,
         "Milliseconds after which the server says again that it is there, as its directory's",
-        "NAIAD_BUS_INTERVAL", OptionRange{50, 60'000}}},  // Presence.h
+        "NAIAD_BUS_INTERVAL", OptionRange{50, 60'000}}},  // BusPayloads.h
       {{"--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it",
         "NAIAD_BUS_CREDENTIALS"}},
       {{"--bus-ca", &o.bus_ca,

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "host/settings/GameModule.h"
-#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/options/NearestName.h"
 

@@ -33,7 +33,7 @@ struct LinkHost {
   /// Nothing if it is none of these.
   static std::optional<LinkHost> parse(std::string_view text, std::uint16_t default_port = kDefaultPort);
   /// "game.example", "[::1]:9877": the default port is left out.
-  std::string text() const;
+  std::string text(std::uint16_t default_port = kDefaultPort) const;
 
   friend bool operator==(const LinkHost&, const LinkHost&) = default;
 };

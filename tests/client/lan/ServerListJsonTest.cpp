@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "../../support/HostileTexts.h"
-#include "client/lan/ListUrl.h"
-#include "client/lan/ServerListJson.h"
+#include "client/lan/ListDownload.h"
 #include "client/lan/ServerListText.h"
 #include "shared/json/Json.h"
 #include "shared/net/base/Limits.h"

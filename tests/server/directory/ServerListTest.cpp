@@ -4,7 +4,7 @@
 #include <string>
 
 #include "client/lan/ListDownload.h"
-#include "client/lan/ServerListJson.h"
+#include "client/lan/ServerListText.h"
 #include "server/directory/ServerList.h"
 
 namespace naiad {
