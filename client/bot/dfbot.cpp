@@ -14,12 +14,11 @@
 #include <system_error>
 #include <vector>
 
-#include "client/bot/BotPlayer.h"
+#include "client/bot/BotScript.h"
 #include "client/bot/TruthRecorder.h"
 #include "client/session/Connection.h"
 #include "client/session/ExitCode.h"
 #include "client/session/TrustOptions.h"
-#include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
 

@@ -5,7 +5,7 @@
 
 #include "shared/admin/AdminCommands.h"
 #include "shared/admin/AdminRequest.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
 namespace {

@@ -23,7 +23,6 @@
 
 #include "client/door/DoorPlaces.h"
 #include "client/door/GamesList.h"
-#include "client/door/KeyFolders.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/stream/ByteStream.h"

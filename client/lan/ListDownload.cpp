@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <asio/io_context.hpp>
 #include <memory>
-#include <optional>
 #include <thread>
 #include <utility>
 

@@ -24,9 +24,8 @@
 #include "client/session/ReceivedWorld.h"
 #include "client/session/ReliableInbox.h"
 #include "client/session/ServerLink.h"
-#include "client/session/StreamLiveness.h"
 #include "client/session/UpdateTiming.h"
-#include "shared/net/base/IdleTimer.h"
+#include "shared/net/base/LinkStats.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/Keyboard.h"
 
@@ -79,7 +78,7 @@ class ClientSession {
   }
 
   /// Pings and time-outs. Call about ten times a second: time between rarer calls does not count as silence
-  /// of the server (IdleTimer.h).
+  /// of the server (IdleTimer).
   void update(Time now);
   /// When update() has something to do before its usual time; nothing if it has not.
   std::optional<Time> nextWake() const { return isOver() ? std::nullopt : m_timing.nextWake(); }

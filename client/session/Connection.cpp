@@ -1,7 +1,6 @@
 #include "client/session/Connection.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 namespace naiad {

@@ -12,7 +12,6 @@
 #include "client/trust/ServerAddress.h"
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/Fingerprint.h"
-#include "shared/net/stream/ShortKey.h"
 
 namespace naiad {
 
@@ -42,7 +41,7 @@ class StreamOpener {
   /// Open a stream for a session. `done` is called once, from the event loop, unless cancelled. One at a
   /// time: an attempt under way is cancelled.
   virtual void open(Done done) = 0;
-  /// The same for a second stream beside it (SecondStream.h), independent of the first.
+  /// The same for a second stream beside it (SecondStream), independent of the first.
   virtual void openSecond(Done done) = 0;
   /// Give up; no `done` will be called.
   virtual void cancel() = 0;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "client/session/Connection.h"
-#include "shared/net/stream/ShortKey.h"
+#include "shared/net/stream/Fingerprint.h"
 #include "shared/options/Options.h"
 
 namespace naiad {

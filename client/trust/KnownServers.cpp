@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "client/trust/ServerAddress.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/base/SafeText.h"
-#include "shared/net/stream/Fingerprint.h"
 
 namespace naiad {
 namespace {

@@ -1,7 +1,6 @@
 #include "client/ui/ClientControls.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "shared/net/base/Limits.h"
 #include "shared/values/Canvas.h"

@@ -19,9 +19,9 @@
 #include <variant>
 #include <vector>
 
+#include "client/lan/FoundServers.h"
 #include "client/lan/LanBrowser.h"
 #include "client/lan/ListDownload.h"
-#include "client/lan/ServerListText.h"
 #include "client/session/TrustOptions.h"
 #include "client/terminal/TerminalGuard.h"
 #include "client/terminal/TerminalType.h"

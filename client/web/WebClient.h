@@ -18,7 +18,6 @@
 #include "client/ui/PlayerInput.h"
 #include "client/ui/SoundNotes.h"
 #include "client/web/BrowserKeys.h"
-#include "client/web/WebPort.h"
 #include "client/web/WebStreams.h"
 
 namespace naiad {

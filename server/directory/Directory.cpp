@@ -6,14 +6,11 @@
 #include <asio/io_context.hpp>
 #include <asio/signal_set.hpp>
 #include <asio/steady_timer.hpp>
-#include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <filesystem>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -22,8 +19,6 @@
 
 #include "host/auth/ServerIdentity.h"
 #include "server/directory/FleetList.h"
-#include "server/directory/ServerList.h"
-#include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/stream/JoinLink.h"
 

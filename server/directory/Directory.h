@@ -1,5 +1,5 @@
 // The directory of a fleet: listens on the bus to servers that say they are there, writes a list of them for
-// the web (ServerList.h), sends players to them (Lobby.h), and says to those that fill up where there is room
+// the web (FleetList.h), sends players to them (Lobby.h), and says to those that fill up where there is room
 // (BusPayloads.h).
 #pragma once
 

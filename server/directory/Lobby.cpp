@@ -9,7 +9,6 @@
 
 #include "naiad.pb.h"
 #include "proto/ParseErrors.h"
-#include "server/directory/ServerList.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/PrefixAllowance.h"
 #include "shared/net/base/SafeText.h"

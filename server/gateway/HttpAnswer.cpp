@@ -4,7 +4,6 @@
 #include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <ctime>
-#include <utility>
 
 namespace naiad {
 namespace {

@@ -4,10 +4,8 @@
 #include <sys/resource.h>
 
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <string>
-#include <system_error>
 
 #include "server/replay/DebugRound.h"
 #include "server/replay/RecordedRound.h"

@@ -1,4 +1,4 @@
-// What servers of a fleet and its directory say on the bus: each a JSON object (BusFields.h), under the
+// What servers of a fleet and its directory say on the bus: each a JSON object (BusFields), under the
 // subject of a server.
 #pragma once
 
@@ -11,9 +11,39 @@
 #include <vector>
 
 #include "shared/fleet/ServerFacts.h"
+#include "shared/json/Json.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
+
+inline constexpr std::size_t kMaxBusPayload = 2048;
+
+/// Reads a payload of the bus: one flat JSON object (RFC 8259) of kMaxBusPayload bytes at most. Payloads are
+/// as untrusted as a client's: what is missing, of another kind or out of range makes the whole unreadable.
+/// Members that are not known are left out, so that a fleet may have servers of two versions.
+class BusFields {
+ public:
+  explicit BusFields(std::string_view payload);
+
+  /// All that was asked for was there and good.
+  bool ok() const { return m_ok; }
+
+  /// True if the payload has the member, as a text, a number or a flag.
+  bool has(std::string_view name) const;
+
+  // Of a member; fails, and is empty, for one that is not so.
+
+  std::int64_t number(std::string_view name, std::int64_t least, std::int64_t most);
+  bool flag(std::string_view name);
+  /// Drawable characters only, `most` of them; an empty one is good.
+  std::string line(std::string_view name, std::size_t most);
+  /// As it stands, `most` bytes of printable ASCII.
+  std::string word(std::string_view name, std::size_t most);
+
+ private:
+  Json m_object;
+  bool m_ok = true;
+};
 
 // How servers of a fleet are called on the bus.
 inline constexpr std::size_t kMaxServerId = 48;
@@ -99,7 +129,8 @@ std::optional<std::vector<PresenceRoom>> readRooms(std::string_view text);
 
 /// What a server says of itself on the bus, again and again: where it is, which key it proves, who plays.
 ///
-///   naiad.presence.ID {"v":1,"id":"berlin-9876","name":"Berlin","game":"tron","host":"192.0.2.7","port":9876,
+///   naiad.presence.ID
+///   {"v":1,"id":"berlin-9876","name":"Berlin","game":"tron","host":"192.0.2.7","port":9876,
 ///                       "key":"…64 hexadecimal digits…","protocol":4,"players":3,"max_players":64,
 ///                       "password":false,"open":true,"rooms":"lobby=lobby:3/64 duel=tron:0/2"}
 struct Presence : ServerFacts {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <string_view>
 
 namespace naiad {
 std::string roff(std::string_view text) {

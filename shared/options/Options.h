@@ -14,9 +14,13 @@
 
 namespace naiad {
 
-/// Variables of the environment that are misspelt: they would be ignored without notice.
-/// A sentence for each variable that begins with `prefix` and is none of `known`, with the nearest of these.
-/// `p_environment`: entries NAME=VALUE, and a null at the end.
+/// The name that `typed` is the beginning of or takes the fewest changes to become: a character inserted,
+/// left out, replaced, or two swapped. Empty if that would be more than a third of it.
+std::string nearestName(const std::string& typed, const std::vector<std::string>& names);
+
+/// Misspelt variables of the environment would be ignored without notice. A sentence for each variable that
+/// begins with `prefix` and is none of `known`, with the nearest of these. `p_environment`: entries
+/// NAME=VALUE, and a null at the end.
 std::vector<std::string> complainOfUnknownVariables(const char* const* p_environment,
                                                     const std::string& prefix,
                                                     const std::vector<std::string>& known);

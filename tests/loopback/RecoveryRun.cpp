@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "ProcessesBelow.h"
-#include "client/bot/BotPlayer.h"
+#include "client/bot/BotScript.h"
 #include "client/bot/TruthRecorder.h"
 #include "client/session/Connection.h"
 #include "host/journal/OpenRound.h"

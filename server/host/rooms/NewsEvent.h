@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "shared/program/LogEvent.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 

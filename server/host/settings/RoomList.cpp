@@ -6,7 +6,7 @@
 
 #include "host/settings/GameModule.h"
 #include "shared/net/base/SafeText.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
 

@@ -1,7 +1,6 @@
 #include "shared/net/base/AddressRange.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <system_error>
 

@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 
 #include <bit>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <optional>

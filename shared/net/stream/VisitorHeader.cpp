@@ -3,7 +3,6 @@
 #include <asio/ip/address.hpp>
 #include <cstdint>
 #include <cstring>
-#include <system_error>
 
 #include "shared/net/base/AddressPrefix.h"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "../../support/HostileTexts.h"
+#include "client/lan/FoundServers.h"
 #include "client/lan/ListDownload.h"
-#include "client/lan/ServerListText.h"
 #include "shared/json/Json.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"

@@ -12,8 +12,6 @@
 #include "Script.h"
 #include "host/fleet/GameServerFacts.h"
 #include "server/directory/FleetList.h"
-#include "server/directory/ServerList.h"
-#include "shared/fleet/BusFields.h"
 #include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/SafeText.h"
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "QuickInterval.h"
-#include "client/lan/ServerListText.h"
+#include "client/lan/FoundServers.h"
 #include "host/fleet/Bus.h"
 #include "shared/fleet/BusPayloads.h"
 #include "tests/loopback/GameProgram.h"

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "shared/fleet/BusFields.h"
 #include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/values/SplitMix64.h"
