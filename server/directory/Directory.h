@@ -3,13 +3,18 @@
 // (BusPayloads.h).
 #pragma once
 
+#include <asio/io_context.hpp>
+#include <asio/signal_set.hpp>
+#include <asio/steady_timer.hpp>
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "host/auth/ServerIdentity.h"
 #include "host/fleet/Bus.h"
+#include "server/directory/FleetList.h"
 #include "server/directory/Lobby.h"
 #include "shared/fleet/BusPayloads.h"
 #include "shared/net/stream/Fingerprint.h"
@@ -41,17 +46,35 @@ class Directory {
   /// SIGINT and SIGTERM stop it; SIGHUP opens the log again, and reads the lobby's key. A
   /// second one of the first two has its usual effect.
   void heedSignals();
-  /// Serve until a signal comes, or stop().
+  /// Serve until a signal comes.
   void run();
-  void stop();
 
   /// Of the lobby; nothing without one.
   std::optional<std::uint16_t> port() const;
   std::optional<Fingerprint> fingerprint() const;
 
  private:
-  struct Loop;
-  std::unique_ptr<Loop> m_loop;
+  class ListFile;
+  using Time = std::chrono::steady_clock::time_point;
+
+  void openLobby();
+  void reload();
+  void takeTurn(Time now);
+  void sendOn(Time now);
+  void awaitTurn();
+  void stop();
+  void logCounters();
+
+  DirectorySettings m_settings;
+  LogLine m_log;
+  asio::io_context m_context{1};
+  asio::steady_timer m_timer{m_context};
+  asio::signal_set m_signals{m_context};
+  std::unique_ptr<ListFile> m_file;
+  FleetWatch m_fleet;
+  std::optional<ServerIdentity> m_identity;
+  std::optional<Lobby> m_lobby;
+  Time m_said_room{};
 };
 
 }  // namespace naiad
