@@ -334,18 +334,10 @@ std::string besideThisProgram() {
 
 std::vector<naiad::Option> optionsOf(DoorOptions& door) {
   std::vector<naiad::Option> options{
-      {.name = "--games",
-       .target = &door.games,
-       .help = "The list of games that are offered",
-       .type = "FILE"},
-      {.name = "--state",
-       .target = &door.state,
-       .help = "Folder for what belongs to visitors",
-       .type = "DIR"},
-      {.name = "--client",
-       .target = &door.client,
-       .help = "The dfclient to run (default: the one beside this program)",
-       .type = "FILE"},
+      naiad::typedOption("--games", "FILE", &door.games, "The list of games that are offered"),
+      naiad::typedOption("--state", "DIR", &door.state, "Folder for what belongs to visitors"),
+      naiad::typedOption("--client", "FILE", &door.client,
+                         "The dfclient to run (default: the one beside this program)"),
       {.name = "--max-visitors",
        .target = &door.limits.in_all,
        .help = "Visitors at a time",

@@ -78,6 +78,19 @@ bool isHost(const std::string& host) {
 
 }  // namespace
 
+std::string busComplaint(const BusSettings& settings) {
+#ifndef NAIAD_NATS
+  return "--bus: this program was built without NATS (Debian: libnats-dev)";
+#endif
+  const std::string& url = settings.url;
+  const std::string scheme = settings.isEncrypted() ? "tls://" : "nats://";
+  if (!url.starts_with(scheme) || url.size() == scheme.size())
+    return "--bus: nats://HOST:PORT or tls://HOST:PORT is wanted";
+  if (!settings.isEncrypted() && !settings.authorities.empty())
+    return "--bus-ca is for tls://, not for nats://";
+  return "";
+}
+
 BusFields::BusFields(std::string_view payload) {
   if (payload.size() <= kMaxBusPayload) m_object = Json::parse(payload, 1).value_or(Json());
   m_ok = m_object.object() != nullptr &&

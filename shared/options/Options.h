@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -58,6 +59,13 @@ struct Option {
   bool* p_from_environment = nullptr;  ///< becomes true if the variable gave it
   std::string* p_place = nullptr;      ///< becomes "FILE:LINE" if the file of --config gave it
 };
+
+/// One whose value is of this type, as --help names it: "FILE".
+inline Option typedOption(std::string name, std::string type, OptionTarget target, std::string help) {
+  Option option{std::move(name), std::move(target), std::move(help)};
+  option.type = std::move(type);
+  return option;
+}
 
 struct Program {
   std::string name;         ///< "dfserver"

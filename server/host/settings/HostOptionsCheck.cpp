@@ -7,7 +7,6 @@
 #include "host/settings/RoomList.h"
 #include "host/settings/SshDoor.h"
 #include "shared/fleet/BusPayloads.h"
-#include "shared/fleet/BusSettings.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
