@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -17,89 +17,13 @@ constexpr int kMaxCount = 1000000;
 constexpr std::size_t kMaxSteps = 10000;
 constexpr std::size_t kMaxDepth = 16;
 
-/// In the order of df::Keyboard::Key.
-constexpr std::array<std::string_view, df::Keyboard::kKeyCount> kKeyNames = {"SPACE",
-                                                                             "RETURN",
-                                                                             "ESCAPE",
-                                                                             "TAB",
-                                                                             "LEFTARROW",
-                                                                             "RIGHTARROW",
-                                                                             "UPARROW",
-                                                                             "DOWNARROW",
-                                                                             "PAUSE",
-                                                                             "MINUS",
-                                                                             "PLUS",
-                                                                             "TILDE",
-                                                                             "PERIOD",
-                                                                             "COMMA",
-                                                                             "SLASH",
-                                                                             "LEFTCONTROL",
-                                                                             "RIGHTCONTROL",
-                                                                             "LEFTSHIFT",
-                                                                             "RIGHTSHIFT",
-                                                                             "F1",
-                                                                             "F2",
-                                                                             "F3",
-                                                                             "F4",
-                                                                             "F5",
-                                                                             "F6",
-                                                                             "F7",
-                                                                             "F8",
-                                                                             "F9",
-                                                                             "F10",
-                                                                             "F11",
-                                                                             "F12",
-                                                                             "A",
-                                                                             "B",
-                                                                             "C",
-                                                                             "D",
-                                                                             "E",
-                                                                             "F",
-                                                                             "G",
-                                                                             "H",
-                                                                             "I",
-                                                                             "J",
-                                                                             "K",
-                                                                             "L",
-                                                                             "M",
-                                                                             "N",
-                                                                             "O",
-                                                                             "P",
-                                                                             "Q",
-                                                                             "R",
-                                                                             "S",
-                                                                             "T",
-                                                                             "U",
-                                                                             "V",
-                                                                             "W",
-                                                                             "X",
-                                                                             "Y",
-                                                                             "Z",
-                                                                             "NUM1",
-                                                                             "NUM2",
-                                                                             "NUM3",
-                                                                             "NUM4",
-                                                                             "NUM5",
-                                                                             "NUM6",
-                                                                             "NUM7",
-                                                                             "NUM8",
-                                                                             "NUM9",
-                                                                             "NUM0",
-                                                                             "BACKSPACE",
-                                                                             "QUOTE",
-                                                                             "SEMICOLON",
-                                                                             "LEFTBRACKET",
-                                                                             "RIGHTBRACKET",
-                                                                             "BACKSLASH",
-                                                                             "EQUAL",
-                                                                             "LEFTALT",
-                                                                             "RIGHTALT",
-                                                                             "INSERT",
-                                                                             "DELETE",
-                                                                             "HOME",
-                                                                             "END",
-                                                                             "PAGEUP",
-                                                                             "PAGEDOWN"};
+/// In the order of df::Keyboard::Key, with blanks between.
+constexpr std::string_view kKeyNames =
+    "SPACE RETURN ESCAPE TAB LEFTARROW RIGHTARROW UPARROW DOWNARROW PAUSE MINUS PLUS TILDE PERIOD "
+    "COMMA SLASH LEFTCONTROL RIGHTCONTROL LEFTSHIFT RIGHTSHIFT F1 F2 F3 F4 F5 F6 F7 F8 F9 F10 F11 F12 "
+    "A B C D E F G H I J K L M N O P Q R S T U V W X Y Z NUM1 NUM2 NUM3 NUM4 NUM5 NUM6 NUM7 NUM8 NUM9 "
+    "NUM0 BACKSPACE QUOTE SEMICOLON LEFTBRACKET RIGHTBRACKET BACKSLASH EQUAL LEFTALT RIGHTALT INSERT "
+    "DELETE HOME END PAGEUP PAGEDOWN";
 
 bool isSpace(char c) {
   return c == ' ' || c == '\t' || c == '\r';
@@ -120,13 +44,114 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+using namespace df::Keyboard;
+
+std::vector<BotAction> ScriptPlayer::tick() {
+  std::vector<BotAction> out;
+  if (m_left > 0) {
+    --m_left;
+    if (m_left > 0) {
+      if (m_down != UNDEFINED_KEY) out.push_back(KeyAction{m_down, df::KEY_DOWN});
+      return out;
+    }
+  }
+  if (m_down != UNDEFINED_KEY) {
+    out.push_back(KeyAction{m_down, df::KEY_RELEASED});
+    m_down = UNDEFINED_KEY;
+  }
+  skipLoops();
+  if (m_at >= m_script.steps().size()) return out;
+  const BotStep& step = m_script.steps()[m_at++];
+  m_left = 1;
+  switch (step.kind) {
+    case BotStep::Kind::kPress:
+    case BotStep::Kind::kHold:
+      m_down = step.key;
+      m_left = step.kind == BotStep::Kind::kHold ? step.count : 1;
+      out.push_back(KeyAction{step.key, df::KEY_PRESSED});
+      break;
+    case BotStep::Kind::kWait:
+      m_left = step.count;
+      break;
+    case BotStep::Kind::kClick:
+      out.push_back(BotClick{df::CLICKED, step.button, step.x, step.y});
+      break;
+    case BotStep::Kind::kMove:
+      out.push_back(BotClick{df::MOVED, df::Mouse::UNDEFINED_MOUSE_BUTTON, step.x, step.y});
+      break;
+    case BotStep::Kind::kChat:
+      out.push_back(BotChat{step.text});
+      break;
+    default:
+      break;
+  }
+  return out;
+}
+
+/// To the next step that takes time. Ends, because every loop and every script contains one.
+void ScriptPlayer::skipLoops() {
+  const auto& steps = m_script.steps();
+  while (m_at < steps.size()) {
+    const BotStep& step = steps[m_at];
+    if (step.kind == BotStep::Kind::kLoop) {
+      m_rounds.push_back(step.count);
+      ++m_at;
+    } else if (step.kind == BotStep::Kind::kEndLoop) {
+      if (--m_rounds.back() > 0) {
+        m_at = step.target + 1;
+      } else {
+        m_rounds.pop_back();
+        ++m_at;
+      }
+    } else if (step.kind == BotStep::Kind::kRestart) {
+      m_at = 0;
+    } else {
+      return;
+    }
+  }
+}
+
+RandomPlayer::RandomPlayer(std::uint64_t seed, int view_width, int view_height)
+    : m_random(seed), m_width(std::max(view_width, 1)), m_height(std::max(view_height, 1)) {}
+
+// Not std::uniform_int_distribution: its results differ between standard libraries.
+int RandomPlayer::below(int limit) {
+  return static_cast<int>(m_random() % static_cast<std::uint64_t>(limit));
+}
+
+std::vector<BotAction> RandomPlayer::tick() {
+  static constexpr std::array<Key, 12> kKeys = {SPACE, SPACE, LEFTARROW, RIGHTARROW, UPARROW, DOWNARROW,
+                                                W,     A,     S,         D,          RETURN,  SPACE};
+  std::vector<BotAction> out;
+  if (m_left-- > 0) {
+    if (m_down != UNDEFINED_KEY) out.push_back(KeyAction{m_down, df::KEY_DOWN});
+    return out;
+  }
+  if (m_down != UNDEFINED_KEY) {
+    out.push_back(KeyAction{m_down, df::KEY_RELEASED});
+    m_down = UNDEFINED_KEY;
+  }
+  m_left = 1 + below(12);
+  const int choice = below(10);
+  if (choice < 6) {
+    m_down = kKeys[static_cast<std::size_t>(below(static_cast<int>(kKeys.size())))];
+    out.push_back(KeyAction{m_down, df::KEY_PRESSED});
+  } else if (choice < 9) {
+    out.push_back(BotClick{df::CLICKED, df::Mouse::LEFT, below(m_width), below(m_height)});
+  }
+  return out;
+}
+
 std::optional<df::Keyboard::Key> keyNamed(const std::string& name) {
   std::string upper;
   for (const char c : name) upper.push_back(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
   if (upper.size() == 1 && upper[0] >= '0' && upper[0] <= '9') upper = std::string("NUM") + upper;
-  const auto found = std::find(kKeyNames.begin(), kKeyNames.end(), upper);
-  if (found == kKeyNames.end()) return std::nullopt;
-  return static_cast<df::Keyboard::Key>(found - kKeyNames.begin());
+  std::istringstream names{std::string(kKeyNames)};
+  int key = 0;
+  for (std::string one; names >> one; ++key) {
+    if (one == upper) return static_cast<df::Keyboard::Key>(key);
+  }
+  return std::nullopt;
 }
 
 /// Recursive descent without the recursion: open loops are kept on a stack.
@@ -194,15 +219,11 @@ class BotScriptParser {
   }
 
   int number(const char* what, int least, int most) {
-    const std::string text = word();
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || error != std::errc{} || end != text.data() + text.size() || value < least ||
-        value > most) {
+    const auto value = readNumber(word(), least, most);
+    if (!value)
       fail(std::string(what) + " must be a number from " + std::to_string(least) + " to " +
            std::to_string(most));
-    }
-    return value;
+    return value.value_or(least);
   }
 
   df::Keyboard::Key key() {

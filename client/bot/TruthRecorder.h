@@ -12,9 +12,46 @@
 #include <string>
 #include <unordered_map>
 
+#include "shared/replica/Acks.h"
 #include "shared/replica/Replica.h"
+#include "shared/replica/SnapshotCodec.h"
 
 namespace naiad {
+
+/// Does a client show all that the server has sent it? Only then is its picture to be compared with the
+/// world's.
+///
+/// A snapshot that is complete says that the server has nothing more to send. One before it may be lost, or
+/// come later: by datagram what is sent after it on the stream overtakes it.
+class WholePicture {
+ public:
+  /// A snapshot was applied. `acks`: what has arrived by now, that one included. `before`: number of the
+  /// newest that was sent before this session's.
+  void addSnapshot(const SnapshotHeader& header, const AckWindow& acks, std::uint32_t before = 0) {
+    if (header.number == acks.newest) {
+      m_complete = header.complete;
+      m_tick = header.tick;
+    }
+    m_whole = m_complete && hasAll(acks, before);
+  }
+  bool isWhole() const { return m_whole; }
+  /// Of the newest snapshot, by number. Late ones do not change it.
+  std::uint32_t tick() const { return m_tick; }
+
+ private:
+  /// Those that the window has left count as arrived: the sender took them for lost, and sent what they said
+  /// again, before it called a snapshot complete.
+  static bool hasAll(const AckWindow& acks, std::uint32_t before) {
+    const auto between = static_cast<std::int32_t>(acks.newest - before) - 1;
+    if (between <= 0) return between == 0;
+    const std::uint64_t all = between >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << between) - 1;
+    return (acks.mask & all) == all;
+  }
+
+  std::uint32_t m_tick = 0;
+  bool m_complete = false;  ///< the newest snapshot
+  bool m_whole = false;
+};
 
 class TruthRecorder {
  public:
@@ -26,7 +63,7 @@ class TruthRecorder {
 
   /// Before a snapshot of `tick` is applied to `replica`.
   void beforeSnapshot(const Replica& replica, std::uint32_t tick);
-  /// After a snapshot of `tick` was. `complete`: all that the server has sent is there (WholePicture.h);
+  /// After a snapshot of `tick` was. `complete`: all that the server has sent is there (WholePicture);
   /// `skips`: may ticks be skipped from here on?
   void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
   /// No further snapshot comes.

@@ -14,13 +14,10 @@
 #include <system_error>
 #include <vector>
 
-#include "client/bot/BotPlayer.h"
+#include "client/bot/BotScript.h"
 #include "client/bot/TruthRecorder.h"
-#include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
-#include "client/session/ExitCode.h"
 #include "client/session/TrustOptions.h"
-#include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
 
@@ -321,10 +318,9 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& serve
       {"--name", &bot.name, "Name in the game (with several clients: numbered)", "NAIAD_NAME"}};
   for (naiad::Option& option : naiad::trustOptions(server, bot.trust, bot.session)) options.push_back(option);
   options.push_back({"--game", &bot.game, "The game wanted; refused if another one runs", "NAIAD_GAME"});
-  options.push_back({.name = "--truth",
-                     .target = &bot.truth_file,
-                     .help = "Compare every tick seen with this file, as dfserver --truth FILE writes it",
-                     .type = "FILE"});
+  options.push_back(
+      naiad::typedOption("--truth", "FILE", &bot.truth_file,
+                         "Compare every tick seen with this file, as dfserver --truth FILE writes it"));
   options.push_back(
       {"--rejoin", &bot.rejoin, "Look for a server that was lost, as dfclient does, instead of ending"});
   options.push_back({"--quiet", &bot.quiet, "Do not print the last screen"});

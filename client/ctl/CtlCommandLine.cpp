@@ -1,14 +1,133 @@
 #include "client/ctl/CtlCommandLine.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "shared/admin/AdminCommands.h"
 #include "shared/admin/AdminRequest.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
-
 namespace {
+
+bool isOfCtl(const AdminCommand& command) {
+  return command.isFor(AdminCommand::Level::kAdmin, AdminCommand::Place::kSocket);
+}
+
+std::string names() {
+  std::string all = "completion";
+  for (const AdminCommand& command : adminCommands()) {
+    if (isOfCtl(command)) all += " " + command.name;
+  }
+  return all;
+}
+
+/// What the first argument of a command may be, if that is a choice, and the names of those that have one.
+std::string choices(const AdminCommand& command) {
+  std::string all;
+  if (command.arguments.empty()) return all;
+  for (const std::string& one : command.arguments.front().one_of) all += (all.empty() ? "" : " ") + one;
+  for (const AdminArgument& argument : command.arguments) {
+    if (argument.named) all += (all.empty() ? "--" : " --") + argument.name;
+  }
+  return all;
+}
+
+std::string quoted(std::string text) {
+  for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4)
+    text.replace(at, 1, "'\\''");
+  return "'" + text + "'";
+}
+
+/// A description in zsh's pairs ends at no colon of its own.
+std::string withoutColons(std::string text) {
+  std::replace(text.begin(), text.end(), ':', ';');
+  return text;
+}
+
+std::string bash() {
+  std::string text =
+      "# bash completion of dfctl\n"
+      "_dfctl() {\n"
+      "  local word=${COMP_WORDS[COMP_CWORD]} i command=\n"
+      "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
+      "    case ${COMP_WORDS[i]} in\n"
+      "      --control) ((++i)) ;;\n"
+      "      -*) ;;\n"
+      "      *) command=${COMP_WORDS[i]}; break ;;\n"
+      "    esac\n"
+      "  done\n"
+      "  if [[ ${COMP_WORDS[COMP_CWORD-1]} = --control ]]; then\n"
+      "    COMPREPLY=($(compgen -f -- \"$word\"))\n"
+      "    return\n"
+      "  fi\n"
+      "  local words=\n"
+      "  case $command in\n"
+      "    '') words='--control --json --help --version " +
+      names() +
+      "' ;;\n"
+      "    completion) words='bash zsh fish' ;;\n";
+  for (const AdminCommand& command : adminCommands()) {
+    if (isOfCtl(command) && !choices(command).empty())
+      text += "    " + command.name + ") words='" + choices(command) + "' ;;\n";
+  }
+  return text +
+         "  esac\n"
+         "  COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
+         "}\n"
+         "complete -F _dfctl dfctl\n";
+}
+
+std::string zsh() {
+  std::string text =
+      "#compdef dfctl\n"
+      "_dfctl() {\n"
+      "  local -a commands=(\n";
+  for (const AdminCommand& command : adminCommands()) {
+    if (isOfCtl(command)) text += "    " + quoted(command.name + ":" + withoutColons(command.help)) + "\n";
+  }
+  text +=
+      "    'completion:Print a completion script for a shell'\n"
+      "  )\n"
+      "  _arguments -C '--control[Path of the server'\\''s control socket]:path:_files' '--json[Answer as "
+      "JSON]' \\\n"
+      "    '--help[Show help]' '--version[Show the version]' '1:command:->command' '*::argument:->argument'\n"
+      "  case $state in\n"
+      "    command) _describe command commands ;;\n"
+      "    argument)\n"
+      "      case $words[1] in\n"
+      "        completion) _values shell bash zsh fish ;;\n";
+  for (const AdminCommand& command : adminCommands()) {
+    if (isOfCtl(command) && !choices(command).empty())
+      text += "        " + command.name + ") _values argument " + choices(command) + " ;;\n";
+  }
+  return text +
+         "      esac ;;\n"
+         "  esac\n"
+         "}\n"
+         "if [ \"$funcstack[1]\" = _dfctl ]; then _dfctl \"$@\"; else compdef _dfctl dfctl; fi\n";
+}
+
+std::string fish() {
+  std::string text =
+      "# fish completion of dfctl\n"
+      "complete -c dfctl -f\n"
+      "complete -c dfctl -l control -r -F -d 'Path of the control socket'\n"
+      "complete -c dfctl -l json -d 'Answer as JSON'\n"
+      "complete -c dfctl -l help -d 'Show help'\n"
+      "complete -c dfctl -l version -d 'Show the version'\n"
+      "complete -c dfctl -n __fish_use_subcommand -a completion -d 'Print a completion script'\n"
+      "complete -c dfctl -n '__fish_seen_subcommand_from completion' -a 'bash zsh fish'\n";
+  for (const AdminCommand& command : adminCommands()) {
+    if (!isOfCtl(command)) continue;
+    text += "complete -c dfctl -n __fish_use_subcommand -a " + command.name + " -d " + quoted(command.help) +
+            "\n";
+    if (!choices(command).empty())
+      text += "complete -c dfctl -n '__fish_seen_subcommand_from " + command.name + "' -a '" +
+              choices(command) + "'\n";
+  }
+  return text;
+}
 
 const std::vector<std::string> kCtlOptions{"--control", "--json", "--help", "--version"};
 constexpr std::string_view kControlOption = "--control=";
@@ -19,6 +138,30 @@ constexpr std::string_view kControlOption = "--control=";
 }
 
 }  // namespace
+
+std::optional<std::string> ctlCompletion(const std::string& shell) {
+  if (shell == "bash") return bash();
+  if (shell == "zsh") return zsh();
+  if (shell == "fish") return fish();
+  return std::nullopt;
+}
+
+std::string ctlManSections() {
+  return ".SH OPTIONS\n"
+         ".TP\n\\fB\\-\\-control\\fR \\fIPATH\\fR\nThe socket; default: that of the one server of this user, "
+         "or the "
+         "one in /run/naiad/admin.\n"
+         ".TP\n\\fB\\-\\-json\\fR\nPrint the answer as JSON.\n"
+         ".TP\n\\fB\\-\\-help\\fR, \\fB\\-\\-version\\fR\nPrint what they say, and exit.\n" +
+         adminManSection() +
+         ".SH ENVIRONMENT\n.TP\n.B NAIAD_CONTROL\nAs \\-\\-control.\n"
+         ".SH EXIT STATUS\n.TP\n.B 0\nThe server has done it.\n.TP\n.B 1\nThe server refuses.\n"
+         ".TP\n.B 2\nWrong usage.\n.TP\n.B 3\nNo server answers.\n";
+}
+
+std::optional<std::string> ctlPage(const std::string& kind) {
+  return kind == "man" ? ctlManSections() : ctlCompletion(kind);
+}
 
 CtlCommandLine readCtlCommandLine(const std::vector<std::string>& words) {
   CtlCommandLine line;

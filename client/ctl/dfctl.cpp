@@ -8,11 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "client/ctl/Completions.h"
 #include "client/ctl/ControlClient.h"
 #include "client/ctl/CtlCommandLine.h"
+#include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminJson.h"
-#include "shared/admin/AdminText.h"
 #include "shared/program/LogText.h"
 #include "shared/values/Version.h"
 

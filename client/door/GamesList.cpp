@@ -1,26 +1,21 @@
 #include "client/door/GamesList.h"
 
-#include <algorithm>
 #include <sstream>
 #include <variant>
+
+#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 namespace {
 
 constexpr std::size_t kMaxName = 32;
 
-bool isName(const std::string& text) {
-  return text.size() <= kMaxName && std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-                  c == '_' || c == '.';
-         });
-}
-
 /// What is wrong with a line of these words; else it is in `game`.
 std::string readWords(const std::vector<std::string>& words, std::optional<OfferedGame>& game) {
   if (words.size() < 3 || words.size() > 4)
     return "a name, a link and the path of a visitors' socket are wanted";
-  if (!isName(words[0])) return "the name may have 32 letters, digits, '-', '_' and '.'";
+  if (words[0].size() > kMaxName || !isPlainName(words[0]))
+    return "the name may have 32 letters, digits, '-', '_' and '.'";
   const auto parsed = JoinLink::parse(words[1]);
   if (const auto* p_problem = std::get_if<LinkProblem>(&parsed))
     return "the link is none: " + p_problem->sentence;

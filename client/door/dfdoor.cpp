@@ -1,6 +1,7 @@
 // dfdoor: what an ssh door runs for each visitor (ForceCommand of its sshd, deploy/door): finds out who they
 // are and which game they want, and runs dfclient for them. Nothing that they type becomes a word of a
 // command but their name, which is cleaned.
+#include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -22,12 +23,92 @@
 
 #include "client/door/DoorPlaces.h"
 #include "client/door/GamesList.h"
-#include "client/door/KeyFolders.h"
-#include "client/door/VisitorQuestions.h"
 #include "shared/net/base/SafeFile.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/net/stream/ByteStream.h"
 #include "shared/net/stream/VisitorHeader.h"
 #include "shared/options/Options.h"
+
+namespace naiad {
+namespace {
+
+// What a door asks its visitor before the game, in lines on their terminal.
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMaxLine = 200;  // bytes
+constexpr int kMaxTries = 3;
+
+/// A byte of the terminal; nothing if none comes until `end`.
+std::optional<char> readByte(Clock::time_point end) {
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    if (left.count() <= 0) return std::nullopt;
+    pollfd ready{STDIN_FILENO, POLLIN, 0};
+    const int count = ::poll(&ready, 1, static_cast<int>(left.count()));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return std::nullopt;
+    char byte = 0;
+    const ssize_t size = ::read(STDIN_FILENO, &byte, 1);
+    if (size < 0 && errno == EINTR) continue;
+    if (size != 1) return std::nullopt;
+    return byte;
+  }
+}
+
+std::optional<std::size_t> choiceOf(const std::string& answer, const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (answer == names[i] || answer == std::to_string(i + 1)) return i;
+  }
+  return std::nullopt;
+}
+
+/// Write `question` and read a line, at most 200 bytes of it. Nothing if none comes within `patience`, or the
+/// terminal is gone, or the line is longer.
+std::optional<std::string> askLine(const std::string& question, std::chrono::seconds patience) {
+  std::fputs(question.c_str(), stdout);
+  std::fflush(stdout);
+  const auto end = Clock::now() + patience;
+  std::string line;
+  while (line.size() <= kMaxLine) {
+    const auto byte = readByte(end);
+    if (!byte) return std::nullopt;
+    if (*byte == '\n') return line;
+    line.push_back(*byte);
+  }
+  return std::nullopt;
+}
+
+/// Which of these to play, by its number or name. Nothing after three answers that are none, or as askLine().
+std::optional<std::size_t> askChoice(const std::vector<std::string>& names, std::chrono::seconds patience) {
+  for (std::size_t i = 0; i < names.size(); ++i) std::printf("%3zu  %s\n", i + 1, names[i].c_str());
+  for (int i = 0; i < kMaxTries; ++i) {
+    const auto answer = askLine("Which game? ", patience);
+    if (!answer) return std::nullopt;
+    if (const auto choice = choiceOf(*answer, names)) return choice;
+    std::printf("Its number is wanted, 1 to %zu.\n", names.size());
+  }
+  return std::nullopt;
+}
+
+/// Their name in the game; `known` if the line is empty. Nothing as askLine().
+std::optional<std::string> askName(const std::string& known, std::chrono::seconds patience) {
+  const auto answer = askLine(known.empty() ? "Your name? " : "Your name? [" + known + "] ", patience);
+  if (!answer) return std::nullopt;
+  const bool is_blank =
+      std::all_of(answer->begin(), answer->end(), [](char c) { return c == ' ' || c == '\r'; });
+  return is_blank && !known.empty() ? known : safeName(*answer);
+}
+
+/// Yes unless the line begins with n or N. Nothing as askLine().
+std::optional<bool> askYes(const std::string& question, std::chrono::seconds patience) {
+  const auto answer = askLine(question + " [y] ", patience);
+  if (!answer) return std::nullopt;
+  return !answer->starts_with('n') && !answer->starts_with('N');
+}
+
+}  // namespace
+}  // namespace naiad
 
 namespace {
 
@@ -253,18 +334,10 @@ std::string besideThisProgram() {
 
 std::vector<naiad::Option> optionsOf(DoorOptions& door) {
   std::vector<naiad::Option> options{
-      {.name = "--games",
-       .target = &door.games,
-       .help = "The list of games that are offered",
-       .type = "FILE"},
-      {.name = "--state",
-       .target = &door.state,
-       .help = "Folder for what belongs to visitors",
-       .type = "DIR"},
-      {.name = "--client",
-       .target = &door.client,
-       .help = "The dfclient to run (default: the one beside this program)",
-       .type = "FILE"},
+      naiad::typedOption("--games", "FILE", &door.games, "The list of games that are offered"),
+      naiad::typedOption("--state", "DIR", &door.state, "Folder for what belongs to visitors"),
+      naiad::typedOption("--client", "FILE", &door.client,
+                         "The dfclient to run (default: the one beside this program)"),
       {.name = "--max-visitors",
        .target = &door.limits.in_all,
        .help = "Visitors at a time",

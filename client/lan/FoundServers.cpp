@@ -1,13 +1,60 @@
 #include "client/lan/FoundServers.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <tuple>
 
+#include "shared/json/Json.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 namespace {
+
+constexpr std::size_t kMaxDepth = 8;
+
+std::uint16_t countAt(const Json& server, std::string_view name, std::uint16_t missing = 0) {
+  const Json* const p_value = server.find(name);
+  if (p_value == nullptr) return missing;
+  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+  return static_cast<std::uint16_t>(std::clamp(p_value->number().value_or(0), 0.0, kMost));
+}
+
+/// Nothing without a link that leads somewhere.
+std::optional<FoundServer> serverOf(const Json& object) {
+  const auto parsed = JoinLink::parse(object["link"].textOrEmpty());
+  const auto* p_link = std::get_if<JoinLink>(&parsed);
+  if (p_link == nullptr || !p_link->room.empty()) return std::nullopt;
+  FoundServer server;
+  server.name = safeText(object["name"].textOrEmpty(), kMaxLanText);
+  server.game = safeText(object["game"].textOrEmpty(), kMaxLanText);
+  server.players = countAt(object, "players");
+  server.max_players = countAt(object, "max_players");
+  server.protocol = countAt(object, "protocol", kProtocolVersion);
+  const bool* const p_password = object["password"].boolean();
+  server.asks_password = p_password != nullptr && *p_password;
+  server.where = {p_link->where.host, p_link->where.port};
+  server.key = p_link->key;
+  return server;
+}
+
+using Row = std::array<std::string, 5>;
+
+Row rowOf(const FoundServer& server) {
+  const std::string link = server.link();
+  return {server.name, server.game, placesOf(server), noteOf(server),
+          link.empty() ? server.where.text() : link};
+}
+
+Json jsonOf(const FoundServer& server) {
+  Json json = jsonOf(static_cast<const ServerFacts&>(server));
+  json.set("address", server.where.text());
+  json.set("key", server.key.text());
+  json.set("link", server.link().empty() ? Json() : server.link());
+  return json;
+}
 
 int rankOf(const asio::ip::address& address) {
   if (address.is_loopback()) return 3;
@@ -16,6 +63,56 @@ int rankOf(const asio::ip::address& address) {
 }
 
 }  // namespace
+
+std::optional<FoundServers> readServerList(std::string_view text) {
+  auto list = Json::parse(text, kMaxDepth, Json::Duplicates::kKeepLast);
+  if (list && list->object() != nullptr) list = Json::Array{*list};
+  if (!list || list->array() == nullptr) return std::nullopt;
+  FoundServers servers;
+  for (const Json& object : *list->array()) {
+    if (object.object() == nullptr) return std::nullopt;
+    if (const auto server = serverOf(object)) servers.addServer(*server);
+  }
+  return servers;
+}
+
+std::string placesOf(const FoundServer& server) {
+  return std::to_string(server.players) + "/" + std::to_string(server.max_players);
+}
+
+std::string noteOf(const FoundServer& server) {
+  if (!server.isPlayable()) return "version " + std::to_string(server.protocol);
+  if (server.players >= server.max_players) return "full";
+  return server.asks_password ? "password" : "";
+}
+
+std::string serversAsText(const std::vector<FoundServer>& servers) {
+  if (servers.empty()) {
+    std::string text;
+    for (const char* p_line : kNoServersFound) text += std::string(p_line) + "\n";
+    return text;
+  }
+  std::vector<Row> rows{{"NAME", "GAME", "PLAYERS", "NOTE", "SERVER"}};
+  for (const FoundServer& server : servers) rows.push_back(rowOf(server));
+  std::array<std::size_t, 5> widths{};
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columnsOf(row[i]));
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i + 1 < row.size(); ++i)
+      text += row[i] + std::string(widths[i] - columnsOf(row[i]) + 2, ' ');
+    text += row.back() + "\n";
+  }
+  return text;
+}
+
+std::string serversAsJson(const std::vector<FoundServer>& servers) {
+  std::string text = "[";
+  for (const FoundServer& server : servers)
+    text += (text.size() > 1 ? ",\n " : "") + jsonOf(server).toString(Json::Style::kAscii);
+  return text + "]\n";
+}
 
 bool FoundServer::isPlayable() const {
   return protocol == kProtocolVersion;

@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <set>
 #include <system_error>
-#include <utility>
 
 namespace naiad {
 namespace {

@@ -50,12 +50,8 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
 
 void ClientSession::handle(RefusedMessage&& message, Time) {
   if (m_state != State::kGreeting) return reject("a refusal in the middle of the game");
-  m_refused_for_now = message.for_now;
-  m_password_refused = message.password;
-  m_refused_as_full = message.full;
-  m_redirect = std::move(message.redirect);
-  m_redirect_room = std::move(message.redirect_room);
-  finish(State::kRefused, message.sentence.empty() ? "The server refused." : std::move(message.sentence));
+  m_refusal = std::move(message);
+  finish(State::kRefused, m_refusal.sentence.empty() ? "The server refused." : m_refusal.sentence);
 }
 
 void ClientSession::handle(GoodbyeMessage&& message, Time) {

@@ -24,9 +24,8 @@
 #include "client/session/ReceivedWorld.h"
 #include "client/session/ReliableInbox.h"
 #include "client/session/ServerLink.h"
-#include "client/session/StreamLiveness.h"
 #include "client/session/UpdateTiming.h"
-#include "shared/net/base/IdleTimer.h"
+#include "shared/net/base/LinkStats.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/Keyboard.h"
 
@@ -79,7 +78,7 @@ class ClientSession {
   }
 
   /// Pings and time-outs. Call about ten times a second: time between rarer calls does not count as silence
-  /// of the server (IdleTimer.h).
+  /// of the server (IdleTimer).
   void update(Time now);
   /// When update() has something to do before its usual time; nothing if it has not.
   std::optional<Time> nextWake() const { return isOver() ? std::nullopt : m_timing.nextWake(); }
@@ -104,16 +103,8 @@ class ClientSession {
 
   // How the session stands.
   State state() const { return m_state; }
-  /// Refused, but another attempt in a moment may succeed.
-  bool isRefusedForNow() const { return m_refused_for_now; }
-  /// Refused, for the server's password was missing or wrong.
-  bool isPasswordRefused() const { return m_password_refused; }
-  /// Refused, for the server had no place.
-  bool isRefusedAsFull() const { return m_refused_as_full; }
-  /// Refused, and sent to another server: a link, as a stranger wrote it. Empty: none.
-  const std::string& redirect() const { return m_redirect; }
-  /// The room to begin in there; empty: any.
-  const std::string& redirectRoom() const { return m_redirect_room; }
+  /// Once refused: why, and where else to go. Its link is as a stranger wrote it.
+  const RefusedMessage& refusal() const { return m_refusal; }
   /// A session that was lost: the server has said that it is back within this time; 0: it has not.
   std::chrono::seconds returnsIn() const { return m_returns_in; }
   /// Neither waiting for the server nor playing any more.
@@ -129,7 +120,7 @@ class ClientSession {
 
   // What the server says.
   const std::vector<PlayerLine>& players() const { return m_inbox.players(); }
-  const std::deque<ChatEntry>& chat() const { return m_inbox.chat().entries(); }
+  const std::deque<ChatEntry>& chat() const { return m_inbox.chat(); }
   /// As of the last refreshRooms(); empty: not known, or the server has none.
   const std::vector<RoomLine>& rooms() const { return m_rooms; }
   /// Sounds since the last call, oldest first; the newest ReliableInbox::kMaxSounds of them.
@@ -204,11 +195,7 @@ class ClientSession {
   std::vector<RoomLine> m_rooms;
   Time m_rooms_due{};
   State m_state = State::kGreeting;
-  bool m_refused_for_now = false;
-  bool m_password_refused = false;
-  bool m_refused_as_full = false;
-  std::string m_redirect;
-  std::string m_redirect_room;
+  RefusedMessage m_refusal;
   std::string m_sentence;
   std::chrono::seconds m_returns_in{0};
   std::uint64_t m_revision = 0;

@@ -2,7 +2,6 @@
 #include "client/session/ClientSession.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/replica/Limits.h"
 

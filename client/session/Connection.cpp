@@ -1,7 +1,6 @@
 #include "client/session/Connection.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 namespace naiad {
@@ -146,30 +145,26 @@ void Connection::update(Time now) {
     m_pending->update(now);
     checkPending();
   }
-  if (m_state == State::kJoined && m_session->isDetached() && m_rejoin) {
-    m_state = State::kSearching;
-    m_sentence = "The connection to the server was lost.";
-    m_give_up = kGiveUp;
-    m_lost_at = now;
-    m_put_off = false;
-    m_backoff = kFirstBackoff;
-    m_next_attempt = now;
-    ++m_revision;
-  }
+  if (m_state == State::kJoined && m_session->isDetached() && m_rejoin)
+    search("The connection to the server was lost.", kGiveUp, now, now);
   if (m_state == State::kJoined && m_session->isOver()) {
     using S = ClientSession::State;
     if (m_session->state() != S::kLost) return finish(State::kEnded, m_session->sentence());
     if (!m_rejoin) return finish(State::kLost, m_session->sentence());
-    m_state = State::kSearching;
-    m_sentence = m_session->sentence();
-    m_give_up = std::max(kGiveUp, m_session->returnsIn());
-    m_lost_at = now;
-    m_put_off = false;
-    m_backoff = kFirstBackoff;
-    m_next_attempt = now + m_backoff;
-    ++m_revision;
+    search(m_session->sentence(), std::max(kGiveUp, m_session->returnsIn()), now, now + kFirstBackoff);
   }
   if (now >= m_next_attempt) attempt();
+}
+
+void Connection::search(const std::string& why, std::chrono::seconds give_up, Time now, Time first_attempt) {
+  m_state = State::kSearching;
+  m_sentence = why;
+  m_give_up = give_up;
+  m_lost_at = now;
+  m_put_off = false;
+  m_backoff = kFirstBackoff;
+  m_next_attempt = first_attempt;
+  ++m_revision;
 }
 
 void Connection::checkPending() {
@@ -178,26 +173,12 @@ void Connection::checkPending() {
       m_session->isDetached()) {
     m_session->adopt(*m_pending, Clock::now());
     m_pending.reset();
-    m_state = State::kJoined;
-    m_put_off = false;
-    m_sentence.clear();
-    m_busy = false;
-    m_has_asked = false;
-    if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
-    ++m_revision;
-    return;
+    return noteJoined();
   }
   if (m_pending->state() == S::kPlaying && m_pending->hasPicture(Clock::now())) {
     m_session = std::move(m_pending);
     m_joined = m_address;
-    m_state = State::kJoined;
-    m_put_off = false;
-    m_sentence.clear();
-    m_busy = false;
-    m_has_asked = false;
-    if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
-    ++m_revision;
-    return;
+    return noteJoined();
   }
   if (m_pending->isDetached() && !m_pending->isHeard(Clock::now())) {
     m_pending.reset();
@@ -210,13 +191,24 @@ void Connection::checkPending() {
   attemptFailed(over->sentence());
 }
 
+void Connection::noteJoined() {
+  m_state = State::kJoined;
+  m_put_off = false;
+  m_sentence.clear();
+  m_busy = false;
+  m_has_asked = false;
+  if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
+  ++m_revision;
+}
+
 void Connection::checkRefusal(const ClientSession& refused) {
-  if (!refused.redirect().empty() && followRedirect(refused.redirect(), refused.redirectRoom())) return;
+  const RefusedMessage& why = refused.refusal();
+  if (!why.redirect.empty() && followRedirect(why.redirect, why.redirect_room)) return;
   if (m_asks_first && m_state == State::kSearching) return attemptFailed(refused.sentence());
-  if (refused.isRefusedForNow()) return waitForServer(refused.sentence());
-  if (refused.isRefusedAsFull() && askFirstAgain()) return;
+  if (why.for_now) return waitForServer(refused.sentence());
+  if (why.full && askFirstAgain()) return;
   // The player is asked for a password of the server that they have named, and of no other.
-  m_password_refused = refused.isPasswordRefused() && !m_redirected;
+  m_password_refused = why.password && !m_redirected;
   finish(State::kRefused, refused.sentence());
 }
 

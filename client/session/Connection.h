@@ -30,7 +30,6 @@
 #include <string>
 
 #include "client/session/ClientSession.h"
-#include "client/session/ServerTrust.h"
 #include "client/session/StreamOpener.h"
 #include "client/trust/ServerAddress.h"
 #include "client/trust/TokenStore.h"
@@ -111,6 +110,9 @@ class Connection {
   bool isHungUpOn(Time now);
   void retryLater(Time now);
   void tryLater(Time now);
+  /// The session was lost: look for its server.
+  void search(const std::string& why, std::chrono::seconds give_up, Time now, Time first_attempt);
+  void noteJoined();
   void checkPending();
   void checkRefusal(const ClientSession& refused);
   bool followRedirect(const std::string& link, const std::string& room);

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "client/session/StreamOpener.h"
-#include "client/trust/GatewayAddress.h"
+#include "client/trust/ServerAddress.h"
 
 namespace naiad {
 

@@ -1,7 +1,6 @@
 // Connections of programs, which open streams themselves: by TCP, or through a gateway. A page has none of
 // this.
 #include <asio/io_context.hpp>
-#include <utility>
 
 #include "client/session/Connection.h"
 #include "client/session/GatewayStreams.h"

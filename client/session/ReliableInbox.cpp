@@ -14,8 +14,24 @@ void ReliableInbox::takePlayers(PlayersMessage&& message) {
 
 void ReliableInbox::takeChat(ChatMessage&& message, const WelcomeMessage& self, Time now) {
   if (!isNew(message.number)) return;
-  m_chat.addMessage(std::move(message), m_players, self, now);
+  ChatEntry entry{"", df::COLOR_DEFAULT, std::move(message.text), now};
+  if (message.player != 0) entry.name.assign(1, '?');  // has left already
+  for (const PlayerLine& player : m_players) {
+    if (message.player == 0 || player.player != message.player) continue;
+    entry.name = player.name;
+    entry.color = player.color;
+  }
+  if (message.player != 0 && message.player == self.player) {
+    entry.name = self.name;
+    entry.color = self.color;
+  }
+  addLine(std::move(entry));
   ++m_counters.chat_lines;
+}
+
+void ReliableInbox::addLine(ChatEntry entry) {
+  m_chat.push_back(std::move(entry));
+  if (m_chat.size() > kMaxChat) m_chat.pop_front();
 }
 
 void ReliableInbox::takeSounds(SoundsMessage&& message) {

@@ -1,12 +1,119 @@
 #include "client/session/ServerLink.h"
 
+#include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/stream/Framing.h"
+#include "shared/net/stream/TcpListener.h"
 
 namespace naiad {
+
+bool SecondStream::takeAttempt(Time now) {
+  if (m_channel != nullptr || now < m_next_attempt) return false;
+  m_next_attempt = now + m_pause;
+  m_pause = std::min(m_pause * 2, kLastPause);
+  return true;
+}
+
+void SecondStream::start(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
+                         std::function<void(std::string_view bytes)> on_snapshot) {
+  close();
+  m_channel = std::move(channel);
+  m_on_snapshot = std::move(on_snapshot);
+  m_started = m_last_heard = options.now();
+  m_channel->setReceiveLimit(kMaxServerFrame);
+  m_channel->start({[this, now = options.now](std::string_view frame) { receive(frame, now()); },
+                    [this](CloseReason) { close(); }});
+  m_channel->send(helloOf(options).SerializeAsString());
+}
+
+void SecondStream::update(Time now) {
+  if (now - m_last_heard >= kMaxSilence) close();
+}
+
+void SecondStream::receive(std::string_view frame, Time now) {
+  m_last_heard = now;
+  if (now - m_started > m_pause) m_pause = kFirstPause;
+  auto message = readServerMessage(frame);
+  const auto* welcome = message ? std::get_if<WelcomeMessage>(&*message) : nullptr;
+  if (!m_open && welcome != nullptr && welcome->second_stream) {
+    m_open = true;
+    return;
+  }
+  const auto* snapshot = message ? std::get_if<SnapshotMessage>(&*message) : nullptr;
+  if (!m_open || snapshot == nullptr) return close();
+  m_on_snapshot(snapshot->bytes);
+}
+
+bool SecondStream::isRepeat(std::string_view snapshot) {
+  const std::size_t hash = std::hash<std::string_view>()(snapshot);
+  const std::size_t kept = std::min(m_heard, m_hashes.size());
+  const auto end = m_hashes.begin() + static_cast<std::ptrdiff_t>(kept);
+  if (std::find(m_hashes.begin(), end, hash) != end) return true;
+  m_hashes[m_heard++ % m_hashes.size()] = hash;
+  return false;
+}
+
+void SecondStream::send(std::string_view frame) {
+  if (m_open && m_channel->unsentBytes() == 0) m_channel->send(frame);
+}
+
+void SecondStream::close() {
+  m_open = false;
+  if (m_channel == nullptr) return;
+  m_channel->close();
+  m_channel.reset();
+}
+
+SealedDatagrams::SealedDatagrams(std::unique_ptr<DatagramSocket> socket, const Endpoint& server,
+                                 ConnectionId id, Now now, SealLimits limits)
+    : m_socket(std::move(socket)),
+      m_server(server),
+      m_now(std::move(now)),
+      m_link({SealedLink::Role::kClient, id, {}, limits}) {
+  m_link.setServerPath({Endpoint{}, server});
+}
+
+bool SealedDatagrams::startEpoch(const KeyExporter& exporter, AeadId aead, Epoch epoch) {
+  try {
+    return m_link.startEpoch(epoch, deriveDatagramKeys(exporter, aead, m_link.id(), epoch), m_now());
+  } catch (const KeyExportError&) {
+    return false;
+  }
+}
+
+bool SealedDatagrams::takeNewEpochDue() {
+  if (!m_link.wantsNewEpoch() || m_left_epoch == m_link.epoch()) return false;
+  m_left_epoch = m_link.epoch();
+  return true;
+}
+
+void SealedDatagrams::start(std::function<void(std::string_view packet)> on_packet) {
+  m_socket->start([this, on_packet = std::move(on_packet)](const Path& path, std::string_view packet) {
+    const auto payload = m_link.open(path, packet, m_now());
+    if (!payload) return;
+    if (m_link.wantsToSend(m_now())) send({});  // the response to a challenge
+    if (!payload->empty()) on_packet(*payload);
+  });
+}
+
+void SealedDatagrams::send(std::string_view packet) {
+  const auto outgoing = m_link.seal(packet, m_now(), m_socket->nextPacket());
+  if (!outgoing) return;
+  m_socket->send(outgoing->path, outgoing->packet);
+  m_socket->flush();
+}
+
+void SealedDatagrams::reopen() {
+  try {
+    m_socket->reopen();
+  } catch (const ListenError&) {
+    // No port now; the stream goes on, and this is tried again when the next stream is made.
+  }
+}
 
 ServerLink::ServerLink(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
                        SessionCounters& counters)

@@ -5,7 +5,6 @@
 #include "naiad.pb.h"
 #include "proto/ParseErrors.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/datagram/DatagramKeys.h"
 #include "shared/replica/Limits.h"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,6 +14,21 @@
 #include "shared/net/stream/Fingerprint.h"
 
 namespace naiad {
+
+/// How a client makes sure that it talks to the right server.
+struct ServerTrust {
+  bool insecure = false;                   ///< plain TCP, loopback only, no datagrams: for tests
+  std::optional<Fingerprint> fingerprint;  ///< the server's key, if the player gave it
+  std::optional<ShortKey> link_key;        ///< the key of the link that the player followed
+  std::filesystem::path known_servers;     ///< pins; empty: the user's file
+  bool pins = true;                        ///< a server that is trusted is pinned
+  bool stays = false;                      ///< does not go to another server, where this one sends the client
+  /// Before it goes there, it waits for a random time up to this: a server that is sent many clients at once,
+  /// as after another one's end, meets them one by one.
+  std::chrono::milliseconds max_redirect_wait{1000};
+  /// The server is reached through this gateway, which is trusted in its place; the rest is not used.
+  std::optional<GatewayAddress> gateway;
+};
 
 /// Not thread-safe. May be destroyed at any time, in its own callback too; that cancels.
 class StreamOpener {
@@ -25,7 +41,7 @@ class StreamOpener {
   /// Open a stream for a session. `done` is called once, from the event loop, unless cancelled. One at a
   /// time: an attempt under way is cancelled.
   virtual void open(Done done) = 0;
-  /// The same for a second stream beside it (SecondStream.h), independent of the first.
+  /// The same for a second stream beside it (SecondStream), independent of the first.
   virtual void openSecond(Done done) = 0;
   /// Give up; no `done` will be called.
   virtual void cancel() = 0;

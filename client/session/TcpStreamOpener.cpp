@@ -7,7 +7,6 @@
 
 #include "client/trust/KnownServers.h"
 #include "shared/net/base/AddressRange.h"
-#include "shared/net/base/AddressReach.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/stream/JoinLink.h"
 

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "client/session/ServerTrust.h"
 #include "client/session/SessionOptions.h"
 #include "client/session/StreamOpener.h"
 #include "client/trust/ServerAddress.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <variant>
 
-#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/net/stream/VisitorHeader.h"

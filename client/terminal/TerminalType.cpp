@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "client/terminal/BuiltInTerminals.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace naiad {
 
@@ -16,5 +17,10 @@ struct TerminalType {
 /// For the value of TERM; null if it is not set. Throws std::runtime_error, with a sentence for people, if it
 /// names none, or one on which nothing can be drawn, or if there are no descriptions at all.
 TerminalType chooseTerminalType(const char* p_term);
+
+/// One of the descriptions of common terminals that are compiled in, for systems that have none: bare
+/// containers, other Unixes. As ncurses takes it in the variable TERMINFO ("b64:…"); null if there is none of
+/// this name. Lives as long as the program.
+const char* builtInTerminal(std::string_view name);
 
 }  // namespace naiad

@@ -12,8 +12,6 @@
 #include <vector>
 
 #include "shared/net/stream/Fingerprint.h"
-#include "shared/net/stream/PeerFacts.h"
-#include "shared/net/stream/ShortKey.h"
 
 namespace naiad {
 

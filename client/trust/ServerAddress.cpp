@@ -1,11 +1,40 @@
 #include "client/trust/ServerAddress.h"
 
 #include <algorithm>
-#include <charconv>
 
-#include "client/trust/PinLines.h"
+#include "shared/net/base/SafeText.h"
+#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
+namespace {
+
+constexpr std::string_view kPlain = "http://";
+constexpr std::string_view kEncrypted = "https://";
+
+}  // namespace
+
+bool GatewayAddress::isMeant(std::string_view text) {
+  return text.starts_with(kPlain) || text.starts_with(kEncrypted);
+}
+
+std::optional<GatewayAddress> GatewayAddress::parse(const std::string& text) {
+  if (!isMeant(text)) return std::nullopt;
+  GatewayAddress address;
+  address.encrypted = text.starts_with(kEncrypted);
+  const std::string rest = text.substr((address.encrypted ? kEncrypted : kPlain).size());
+  const std::size_t end = rest.find_first_of("/#");
+  if (end != std::string::npos && rest[end] == '/' && end + 1 < rest.size() && rest[end + 1] != '#')
+    return std::nullopt;
+  const auto where = LinkHost::parse(rest.substr(0, end), address.usualPort());
+  if (!where) return std::nullopt;
+  address.host = where->host;
+  address.port = where->port;
+  return address;
+}
+
+std::string GatewayAddress::hostText() const {
+  return LinkHost{host, port}.text(usualPort());
+}
 
 std::optional<ServerAddress> ServerAddress::parse(const std::string& text) {
   ServerAddress address;
@@ -33,18 +62,15 @@ std::optional<ServerAddress> ServerAddress::parse(const std::string& text) {
                          });
   if (!good_host) return std::nullopt;
   if (has_port) {
-    unsigned value = 0;
-    const char* last = port.data() + port.size();
-    const auto [end, error] = std::from_chars(port.data(), last, value);
-    if (error != std::errc{} || end != last || value == 0 || value > 65535) return std::nullopt;
-    address.port = static_cast<std::uint16_t>(value);
+    const auto number = readNumber<std::uint16_t>(port, 1, 65'535);
+    if (!number) return std::nullopt;
+    address.port = *number;
   }
   return address;
 }
 
 std::string ServerAddress::text() const {
-  const bool ipv6 = host.find(':') != std::string::npos;
-  return (ipv6 ? std::string("[") + host + "]" : host) + ":" + std::to_string(port);
+  return LinkHost{host, port}.text(0);
 }
 
 std::string ServerAddress::canonicalText() const {

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "shared/net/base/SafeFile.h"
-#include "shared/net/base/UserDirectory.h"
 
 namespace naiad {
 namespace {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <string>
 #include <utility>
 
 #include "client/terminal/Screen.h"
@@ -174,32 +173,17 @@ void ClientApp::takeSignals() {
   std::array<unsigned char, 64> signals{};
   const ssize_t count = read(m_guard->signalFd(), signals.data(), signals.size());
   for (ssize_t i = 0; i < count; ++i) {
-    switch (signals[static_cast<std::size_t>(i)]) {
-      case SIGINT:
-        m_leaving = true;
-        break;
-      case SIGTERM:
-        m_leaving = true;
-        m_signal = SIGTERM;
-        break;
-      case SIGHUP:
-        noteHangUp();
-        m_signal = SIGHUP;
-        break;
-      case SIGTSTP:
-        if (!m_leaving) suspend();
-        break;
-      case SIGCONT:
-        if (!m_leaving) resume();
-        break;
-      case SIGWINCH:
-        if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
-        m_composer.noteResize(Clock::now());
-        m_dirty = true;
-        break;
-      default:
-        break;
+    const int signal = signals[static_cast<std::size_t>(i)];
+    if (signal == SIGTSTP && !m_leaving) suspend();
+    if (signal == SIGCONT && !m_leaving) resume();
+    if (signal == SIGWINCH) {
+      if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
+      m_composer.noteResize(Clock::now());
+      m_dirty = true;
     }
+    if (signal == SIGHUP) noteHangUp();
+    if (signal == SIGINT || signal == SIGTERM) m_leaving = true;
+    if (signal == SIGTERM || signal == SIGHUP) m_signal = signal;
   }
 }
 

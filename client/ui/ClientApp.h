@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "client/session/Connection.h"
-#include "client/session/ExitCode.h"
+#include "client/session/TrustOptions.h"
 #include "client/terminal/InputDecoder.h"
 #include "client/terminal/TerminalType.h"
 #include "client/ui/ClientControls.h"

@@ -1,7 +1,6 @@
 #include "client/ui/ClientControls.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "shared/net/base/Limits.h"
 #include "shared/values/Canvas.h"
@@ -20,6 +19,13 @@ bool isControl(const KeyEvent& event, Key key) {
 bool isModifierKey(Key key) {
   return key == LEFTSHIFT || key == RIGHTSHIFT || key == LEFTCONTROL || key == RIGHTCONTROL ||
          key == LEFTALT || key == RIGHTALT;
+}
+
+/// How far a key scrolls, where a page has so many lines; 0: it does not.
+int linesDown(Key key, int page) {
+  if (key == UPARROW || key == DOWNARROW) return key == UPARROW ? -1 : 1;
+  if (key == PAGEUP || key == PAGEDOWN) return key == PAGEUP ? -page : page;
+  return 0;
 }
 
 }  // namespace
@@ -46,32 +52,10 @@ ClientControls::Result ClientControls::takeKey(const KeyEvent& event) {
 
 // The game keeps these keys while there is nothing to scroll.
 bool ClientControls::takeScrollKey(Key key) {
-  if (m_shown.max_scroll <= 0) return false;
-  const int page = std::max(m_shown.page - 1, 1);
-  int to = std::min(m_scroll, m_shown.max_scroll);
-  switch (key) {
-    case UPARROW:
-      to -= 1;
-      break;
-    case DOWNARROW:
-      to += 1;
-      break;
-    case PAGEUP:
-      to -= page;
-      break;
-    case PAGEDOWN:
-      to += page;
-      break;
-    case HOME:
-      to = 0;
-      break;
-    case END:
-      to = m_shown.max_scroll;
-      break;
-    default:
-      return false;
-  }
-  m_scroll = std::clamp(to, 0, m_shown.max_scroll);
+  const int step = linesDown(key, std::max(m_shown.page - 1, 1));
+  if (m_shown.max_scroll <= 0 || (step == 0 && key != HOME && key != END)) return false;
+  const int to = std::min(m_scroll, m_shown.max_scroll) + step;
+  m_scroll = key == HOME ? 0 : key == END ? m_shown.max_scroll : std::clamp(to, 0, m_shown.max_scroll);
   return true;
 }
 
@@ -79,20 +63,13 @@ bool ClientControls::takeScrollKey(Key key) {
 ClientControls::Result ClientControls::takeRoomKey(Key key) {
   const int last = std::max(m_shown.rooms - 1, 0);
   m_room_choice = std::clamp(m_room_choice, 0, last);
-  switch (key) {
-    case UPARROW:
-      m_room_choice = std::max(m_room_choice - 1, 0);
-      break;
-    case DOWNARROW:
-      m_room_choice = std::min(m_room_choice + 1, last);
-      break;
-    case RETURN:
-      m_panel = Panel::kNone;
-      return m_shown.rooms > 0 ? Result::kEnterRoom : Result::kHandled;
-    default:
-      return Result::kGame;
+  if (key == RETURN) {
+    m_panel = Panel::kNone;
+    return m_shown.rooms > 0 ? Result::kEnterRoom : Result::kHandled;
   }
-  return Result::kHandled;
+  const int step = linesDown(key, 0);
+  m_room_choice = std::clamp(m_room_choice + step, 0, last);
+  return step != 0 ? Result::kHandled : Result::kGame;
 }
 
 bool ClientControls::insertPasted(const std::u32string& text) {
@@ -114,8 +91,7 @@ ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
   // A held Ctrl-] repeats; that is not its own command.
   if (event.action == KeyEvent::Action::kRepeat) return Result::kHandled;
   m_prefixed = false;
-  const bool question = event.ch == U'?';
-  if (question) return toggle(Panel::kHelp);
+  if (event.ch == U'?') return toggle(Panel::kHelp);
   switch (event.key) {
     case H:
       return toggle(Panel::kHelp);
@@ -148,24 +124,9 @@ ClientControls::Result ClientControls::toggle(Panel panel) {
 }
 
 bool ClientControls::takeHistoryKey(Key key) {
-  const int page = std::max(m_shown.chat_page - 1, 1);
-  int to = std::min(m_chat_scroll, m_shown.max_chat_scroll);
-  switch (key) {
-    case UPARROW:
-      to += 1;
-      break;
-    case DOWNARROW:
-      to -= 1;
-      break;
-    case PAGEUP:
-      to += page;
-      break;
-    case PAGEDOWN:
-      to -= page;
-      break;
-    default:
-      return false;
-  }
+  const int step = linesDown(key, std::max(m_shown.chat_page - 1, 1));
+  if (step == 0) return false;
+  const int to = std::min(m_chat_scroll, m_shown.max_chat_scroll) - step;
   m_chat_scroll = std::clamp(to, 0, m_shown.max_chat_scroll);
   return true;
 }

@@ -3,28 +3,166 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <utility>
 
-#include "client/ui/SidePanel.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/values/Canvas.h"
 
 namespace naiad {
 namespace {
 
-constexpr int kChatRows = 6;
-constexpr std::size_t kMaxOverlayNote = 20;
+// Players, chat and help beside the game, on terminals that have the room.
 
-int columnCount(const std::string& text) {
+// With these the texts are worth reading; beyond the second they only spread out.
+constexpr int kMinPanelColumns = 26;
+constexpr int kMaxPanelColumns = 44;
+constexpr int kMinPanelRows = 20;
+
+int columnsIn(const std::string& text) {
   return static_cast<int>(columnsOf(text));
 }
+
+std::string asUtf8(const std::u32string& text) {
+  std::string utf8;
+  for (const char32_t ch : text) df::appendUtf8(utf8, ch);
+  return utf8;
+}
+
+/// Where the explanation of a line like "Ctrl-] h   this help" begins, for lines that continue it.
+std::size_t indentOf(const std::u32string& line, std::size_t width) {
+  const std::size_t gap = line.find(U"  ");
+  const std::size_t text = gap != std::u32string::npos ? line.find_first_not_of(U' ', gap) : gap;
+  return text != std::u32string::npos && text <= width / 2 ? text : 2;
+}
+
+/// Best first.
+std::vector<PlayerLine> byScore(std::vector<PlayerLine> players) {
+  std::stable_sort(players.begin(), players.end(),
+                   [](const PlayerLine& a, const PlayerLine& b) { return a.score > b.score; });
+  return players;
+}
+
+/// Break a line at blanks so that each part has `width` columns at most; parts after the first are indented
+/// as the explanation in a line like "Ctrl-] h   this help".
+void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_t width) {
+  std::u32string rest = df::decodeUtf8(text);
+  const std::size_t indent = std::min(indentOf(rest, width), width - 1);
+  while (rest.size() > width) {
+    const std::size_t first = rest.find_first_not_of(U' ');
+    std::size_t end = rest.rfind(U' ', width);
+    if (end == std::u32string::npos || end <= std::max(first, indent)) end = width;  // one long word
+    out.push_back(asUtf8(rest.substr(0, end)));
+    const std::size_t next = rest.find_first_not_of(U' ', end);
+    rest = next == std::u32string::npos ? U"" : std::u32string(indent, U' ') + rest.substr(next);
+  }
+  out.push_back(asUtf8(rest));
+}
+
+/// A heading, and a rule to the right edge.
+void drawHeading(Picture& picture, const std::string& title, int x, int y, int width) {
+  int at = picture.write(x, y, title + " ", width, df::COLOR_DEFAULT, Style::kBold);
+  for (; at < x + width; ++at) picture.put(at, y, {U'─'});
+}
+
+int drawPlayerRows(Picture& picture, const ScreenModel& model, int x, int y, int width, int most) {
+  const std::vector<PlayerLine> players = byScore(model.players);
+  drawHeading(picture, "Players", x, y++, width);
+  const int count = static_cast<int>(players.size());
+  const int shown = count <= most ? count : most - 1;
+  for (int i = 0; i < shown; ++i, ++y) {
+    const PlayerLine& player = players[static_cast<std::size_t>(i)];
+    const Style style = player.player == model.self ? Style::kBold : Style::kPlain;
+    const std::string points = std::to_string(player.score);
+    picture.write(x, y, player.name, width - columnsIn(points) - 1, player.color, style);
+    picture.write(x + width - columnsIn(points), y, points, columnsIn(points), df::COLOR_DEFAULT, style);
+  }
+  if (shown < count) picture.write(x, y++, "and " + std::to_string(count - shown) + " more", width);
+  return y + 1;
+}
+
+/// Bottom up; returns the first row above.
+int drawHelpRows(Picture& picture, const ScreenModel& model, int x, int bottom, int width, int most) {
+  std::vector<std::string> lines;
+  for (const std::string& line : model.help) wrapInto(lines, line, static_cast<std::size_t>(width));
+  const std::string all = "Ctrl-] h   all keys";
+  const std::size_t room = static_cast<std::size_t>(std::max(most - 1, 0));
+  if (lines.size() > room) lines.resize(room);
+  lines.push_back(all);
+  int y = bottom - static_cast<int>(lines.size()) + 1;
+  drawHeading(picture, "Help", x, y - 1, width);
+  for (const std::string& line : lines) picture.write(x, y++, line, width);
+  return bottom - static_cast<int>(lines.size()) - 2;
+}
+
+/// A row of a chat entry.
+struct ChatRow {
+  const ChatEntry* p_entry = nullptr;
+  std::string text;
+  bool first = false;  ///< of its entry: the speaker stands before it
+};
+
+/// The last `count` rows and perhaps some before them, in `width` columns; all if there are fewer.
+std::vector<ChatRow> chatRows(const std::vector<ChatEntry>& chat, int width, int count) {
+  std::vector<ChatRow> rows;  // newest first
+  std::vector<std::string> parts;
+  for (auto entry = chat.rbegin(); entry != chat.rend() && static_cast<int>(rows.size()) < count; ++entry) {
+    parts.clear();
+    const std::string speaker = entry->name.empty() ? "* " : entry->name + ": ";
+    wrapInto(parts, speaker + entry->text, static_cast<std::size_t>(std::max(width, 4)));
+    for (std::size_t i = parts.size(); i-- > 0;) rows.push_back({&*entry, std::move(parts[i]), i == 0});
+  }
+  std::reverse(rows.begin(), rows.end());
+  return rows;
+}
+
+void drawChatRow(Picture& picture, const ChatRow& row, int x, int y, int width) {
+  picture.write(x, y, row.text, width);
+  if (!row.first) return;
+  const std::string& name = row.p_entry->name;
+  picture.write(x, y, name.empty() ? "*" : name + ":", width, row.p_entry->color, Style::kBold);
+}
+
+/// Columns of the panel beside the view; 0: there is no room for one. A page of a browser has none.
+int sidePanelColumns(int columns, int rows, const ScreenModel& model) {
+  const int room = columns - model.view.width() - 2;  // of its frame
+  if (model.browser || !model.status_shown || rows < kMinPanelRows || rows < model.view.height() ||
+      room < kMinPanelColumns)
+    return 0;
+  return std::min(room, kMaxPanelColumns);
+}
+
+/// Draw the panel into columns `x` to the right edge, rows 0 to `rows` - 1. `max_scroll`: lines of the chat's
+/// history above those shown, at most.
+void drawSidePanel(Picture& picture, const ScreenModel& model, int x, int rows, int& max_scroll) {
+  const int left = x + 1;
+  const int width = picture.width() - left - 1;
+  const int top = drawPlayerRows(picture, model, left, 0, width, rows / 3);
+  const int bottom = drawHelpRows(picture, model, left, rows - 1, width, rows / 3);
+  drawHeading(picture, "Chat", left, top, width);
+  const int room = bottom - top;
+  // A page more than is shown: so far it can be scrolled on.
+  const std::vector<ChatRow> lines = chatRows(model.history, width, 2 * room + model.chat_scroll);
+  const int count = static_cast<int>(lines.size());
+  max_scroll = std::max(count - room, 0);
+  const int end = count - std::clamp(model.chat_scroll, 0, max_scroll);
+  const int first = std::max(end - room, 0);
+  for (int i = first; i < end; ++i) {
+    drawChatRow(picture, lines[static_cast<std::size_t>(i)], left, top + 1 + i - first, width);
+  }
+  if (count == 0) picture.write(left, top + 1, "Ctrl-] t   say something", width);
+}
+
+constexpr int kChatRows = 6;
+constexpr std::size_t kMaxOverlayNote = 20;
 
 void drawTooSmall(Picture& picture, bool browser) {
   const std::string size = std::to_string(picture.width()) + "x" + std::to_string(picture.height());
   std::vector<std::string> lines = {"Terminal too small", size + ", needs 20x10", "Ctrl-C leaves"};
   if (browser) lines = {"Window too small", size + ", needs 20x10", ""};
-  if (picture.width() < columnCount(lines[0])) lines = {"too small", size, "<20x10"};
+  if (picture.width() < columnsIn(lines[0])) lines = {"too small", size, "<20x10"};
   int y = std::max(0, (picture.height() - 3) / 2);
   for (const std::string& line : lines) {
-    picture.write(std::max(0, (picture.width() - columnCount(line)) / 2), y++, line, picture.width());
+    picture.write(std::max(0, (picture.width() - columnsIn(line)) / 2), y++, line, picture.width());
   }
 }
 
@@ -52,22 +190,22 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
       model.game,
       model.server,
   };
-  const int help_at = picture.width() - columnCount(help) - 1;
+  const int help_at = picture.width() - columnsIn(help) - 1;
   const bool room_for_help = !help.empty() && help_at > 12;
   int end = room_for_help ? help_at - 1 : picture.width();
-  if (const int note_at = end - columnCount(model.note) - 1; !model.note.empty() && note_at > 12) {
+  if (const int note_at = end - columnsIn(model.note) - 1; !model.note.empty() && note_at > 12) {
     picture.write(note_at, y, model.note, end - note_at, df::COLOR_DEFAULT, Style::kReverse);
     end = note_at - 1;
   }
   int x = 1;
-  if (const int name = columnCount(model.self_name); name > 0 && x + name + 2 < end)
+  if (const int name = columnsIn(model.self_name); name > 0 && x + name + 2 < end)
     x = picture.write(x, y, " " + model.self_name + " ", end - x, model.self_color, Style::kReverse) + 2;
   for (const std::string& part : parts) {
     if (part.empty()) continue;
-    if (end - x < columnCount(part)) break;
+    if (end - x < columnsIn(part)) break;
     x = picture.write(x, y, part, end - x, df::COLOR_DEFAULT, Style::kReverse) + 3;
   }
-  if (room_for_help) picture.write(help_at, y, help, columnCount(help), df::COLOR_DEFAULT, Style::kReverse);
+  if (room_for_help) picture.write(help_at, y, help, columnsIn(help), df::COLOR_DEFAULT, Style::kReverse);
 }
 
 /// Beside the view, from the top down.
@@ -101,7 +239,7 @@ bool isBlank(const Picture& picture, int x, int y, int width) {
 
 /// A text in a corner in which the game shows nothing. In none of them: at the lower right if it `must` be.
 bool drawInCorner(Picture& picture, const std::string& text, bool must) {
-  const int width = columnCount(text);
+  const int width = columnsIn(text);
   const int right = std::max(0, picture.width() - width);
   const int bottom = picture.height() - 1;
   const CellPosition corners[] = {{right, bottom}, {right, 0}, {0, bottom}, {0, 0}};
@@ -131,7 +269,7 @@ bool drawStatusOverGame(Picture& picture, const ScreenModel& model) {
 void drawBanner(Picture& picture, const std::string& banner, int row) {
   if (banner.empty()) return;
   const std::string text = std::string(" ").append(banner).append(" ");
-  const int width = std::min(columnCount(text), picture.width());
+  const int width = std::min(columnsIn(text), picture.width());
   picture.write((picture.width() - width) / 2, row, text, width, df::COLOR_DEFAULT, Style::kReverse);
 }
 
@@ -157,7 +295,7 @@ void drawChatOver(Picture& picture, const ScreenModel& model, int bottom, ShownC
   const int end = count - std::clamp(model.chat_scroll, 0, shown.max_chat_scroll);
   for (int i = 0; i < std::min(end, room); ++i) {
     const ChatRow& row = rows[static_cast<std::size_t>(end - 1 - i)];
-    const int width = std::min(columnCount(row.text) + 1, picture.width());
+    const int width = std::min(columnsIn(row.text) + 1, picture.width());
     picture.fill(0, bottom - i, width, 1);
     drawChatRow(picture, row, 0, bottom - i, width);
   }
@@ -175,7 +313,7 @@ void drawSelf(Picture& picture, const ScreenModel& model, const ViewPlacement& p
   picture.put(place.left + x, arrow, {below ? U'▲' : U'▼', model.self_color, Style::kBold});
   if (label < place.top || label >= place.top + place.height) return;
   const std::string text = " you: " + model.self_name + " ";
-  const int width = std::min(columnCount(text), place.width);
+  const int width = std::min(columnsIn(text), place.width);
   const int left = std::clamp(x - width / 2, 0, place.width - width);
   picture.write(place.left + left, label, text, width, model.self_color, Style::kReverse);
 }
@@ -196,7 +334,7 @@ std::string panelKeys(bool scrolls, int room) {
   if (scrolls)
     texts = {"Up, Down, PgUp, PgDn: more   Esc closes", "Up, Down: more  Esc closes", "Up, Down  Esc"};
   for (const std::string& text : texts) {
-    if (columnCount(text) + 2 <= room) return " " + text + " ";
+    if (columnsIn(text) + 2 <= room) return " " + text + " ";
   }
   return "";
 }
@@ -218,7 +356,7 @@ void drawPanel(Picture& picture, const PanelLines& lines, int scroll, ShownContr
   for (int i = 0; i < inside; ++i) lines.draw(i < lines.fixed ? i : i + first, x + 2, y + 1 + i, width - 4);
   const std::string keys =
       lines.keys.empty() ? panelKeys(shown.max_scroll > 0, width - 2) : std::string(lines.keys);
-  picture.write(x + width - 2 - columnCount(keys), y + height - 1, keys, width);
+  picture.write(x + width - 2 - columnsIn(keys), y + height - 1, keys, width);
 }
 
 void drawPlayers(Picture& picture, const ScreenModel& model, ShownControls& shown) {
@@ -283,7 +421,7 @@ void drawHelp(Picture& picture, const ScreenModel& model, ShownControls& shown) 
   PanelLines panel{model.game.empty() ? "Help" : "Help: " + model.game, 0, 0, 0, {}};
   std::vector<std::string> lines;
   for (const std::string& line : whole) wrapInto(lines, line, static_cast<std::size_t>(room));
-  for (const std::string& line : lines) panel.width = std::max(panel.width, columnCount(line));
+  for (const std::string& line : lines) panel.width = std::max(panel.width, columnsIn(line));
   panel.count = static_cast<int>(lines.size());
   panel.draw = [&](int line, int x, int y, int width) {
     picture.write(x, y, lines[static_cast<std::size_t>(line)], width);

@@ -10,7 +10,6 @@
 #include <iterator>
 #include <utility>
 
-#include "client/lan/ServerListText.h"
 #include "client/terminal/Screen.h"
 #include "client/terminal/TerminalGuard.h"
 

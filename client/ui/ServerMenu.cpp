@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
-#include <utility>
 
-#include "client/lan/ServerListText.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {

@@ -1,8 +1,12 @@
 // dfclient: play a game that a dfserver hosts, in this terminal.
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -15,13 +19,10 @@
 #include <variant>
 #include <vector>
 
+#include "client/lan/FoundServers.h"
 #include "client/lan/LanBrowser.h"
 #include "client/lan/ListDownload.h"
-#include "client/lan/ListUrl.h"
-#include "client/lan/ServerListJson.h"
-#include "client/lan/ServerListText.h"
 #include "client/session/TrustOptions.h"
-#include "client/terminal/PasswordPrompt.h"
 #include "client/terminal/TerminalGuard.h"
 #include "client/terminal/TerminalType.h"
 #include "client/trust/SessionFile.h"
@@ -30,6 +31,76 @@
 #include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
+
+namespace naiad {
+namespace {
+
+// Asks for a password on the terminal, unseen.
+
+constexpr std::size_t kMaxPassword = 255;  // bytes
+constexpr char kControlC = 3;
+
+/// No signals from the keyboard: they would end the process and leave the terminal without echo.
+class Unseen {
+ public:
+  explicit Unseen(int terminal) : m_terminal(terminal) {
+    m_changed = tcgetattr(terminal, &m_before) == 0;
+    termios modes = m_before;
+    modes.c_lflag &= ~static_cast<tcflag_t>(ECHO | ISIG);
+    modes.c_cc[VEOL] = kControlC;  // ends the line at once
+    m_changed = m_changed && tcsetattr(terminal, TCSAFLUSH, &modes) == 0;
+  }
+  ~Unseen() {
+    if (m_changed) tcsetattr(m_terminal, TCSAFLUSH, &m_before);
+  }
+  Unseen(const Unseen&) = delete;
+  Unseen& operator=(const Unseen&) = delete;
+  bool isOn() const { return m_changed; }
+
+ private:
+  int m_terminal;
+  bool m_changed = false;
+  termios m_before{};
+};
+
+void write(int terminal, const std::string& text) {
+  // A terminal that takes nothing has gone; reading finds out.
+  if (::write(terminal, text.data(), text.size()) < 0) return;
+}
+
+std::optional<std::string> readLine(int terminal) {
+  std::string line;
+  for (char c = 0; line.size() <= kMaxPassword;) {
+    const ssize_t size = ::read(terminal, &c, 1);
+    if (size < 0 && errno == EINTR) continue;
+    if (size != 1 || c == kControlC) return std::nullopt;
+    if (c == '\n') return line;
+    line.push_back(c);
+  }
+  return std::nullopt;
+}
+
+/// Write `prompt` to the terminal of this process and read a line without echo: what stands before its end,
+/// at most 255 bytes. The modes of the terminal are restored. Nothing if there is no terminal, or on Ctrl-C
+/// or Ctrl-D. Before a TerminalGuard takes the terminal.
+std::optional<std::string> askPassword(const std::string& prompt) {
+  const int terminal = ::open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (terminal < 0) return std::nullopt;
+  std::optional<std::string> line;
+  {
+    const Unseen unseen(terminal);
+    if (unseen.isOn()) {
+      write(terminal, prompt);
+      line = readLine(terminal);
+      write(terminal, "\n");
+    }
+  }
+  ::close(terminal);
+  return line;
+}
+
+}  // namespace
+}  // namespace naiad
 
 namespace {
 
@@ -231,10 +302,8 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
       server,
       {"--list", &line.list, "Print the servers of this network, or of --list-url"},
       {"--json", &line.json, "With --list: as JSON"},
-      {.name = "--list-url",
-       .target = store_url,
-       .help = "List the servers that are in this list on the web (https://…)",
-       .type = "URL"},
+      naiad::typedOption("--list-url", "URL", store_url,
+                         "List the servers that are in this list on the web (https://…)"),
       {.name = "--name",
        .target = &play.session.name,
        .help = "Your name in the game, 1 to 16 characters (default: $USER)",

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "client/terminal/KeyTable.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {
@@ -34,18 +35,6 @@ constexpr std::array kNames = {
     Named{"PageUp", PAGEUP},
     Named{"PageDown", PAGEDOWN},
     Named{"Pause", PAUSE},
-    Named{"F1", F1},
-    Named{"F2", F2},
-    Named{"F3", F3},
-    Named{"F4", F4},
-    Named{"F5", F5},
-    Named{"F6", F6},
-    Named{"F7", F7},
-    Named{"F8", F8},
-    Named{"F9", F9},
-    Named{"F10", F10},
-    Named{"F11", F11},
-    Named{"F12", F12},
 };
 
 /// Keys of which there are two: only `code` says which it is.
@@ -61,10 +50,16 @@ Key find(const Table& table, std::string_view name) {
   return found != table.end() ? found->key : UNDEFINED_KEY;
 }
 
+Key functionKey(std::string_view number) {
+  const auto n = readNumber(number, 1, 12);
+  return n && number[0] != '0' ? static_cast<Key>(F1 + *n - 1) : UNDEFINED_KEY;
+}
+
 KeyEvent keyOf(std::string_view key, std::string_view code) {
   KeyEvent event;
   event.key = find(kSides, code);
   if (event.key == UNDEFINED_KEY) event.key = find(kNames, key);
+  if (event.key == UNDEFINED_KEY && key.starts_with('F')) event.key = functionKey(key.substr(1));
   if (event.key != UNDEFINED_KEY) return event;
   // All that is left are keys that type one character; names have several letters.
   const std::u32string characters = df::decodeUtf8(std::string(key));

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "shared/net/base/RoomName.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/replica/Limits.h"
 
 namespace naiad {
 namespace {
+
+constexpr std::size_t kMaxToken = 64;
 
 SessionOptions sessionOptions(const WebClient::Options& options) {
   SessionOptions session;
@@ -23,6 +25,19 @@ SessionOptions sessionOptions(const WebClient::Options& options) {
 }
 
 }  // namespace
+
+TabTokens::TabTokens(WebPort& port, std::string_view kept)
+    : m_port(port), m_token(kept.size() > 2 * kMaxToken ? "" : bytesOfHex(kept).value_or("")) {}
+
+void TabTokens::save(SavedSession session, Time) {
+  m_token = session.token;
+  m_port.keepToken(hexText(m_token));
+}
+
+void TabTokens::remove() {
+  m_token.clear();
+  m_port.keepToken("");
+}
 
 WebClient::WebClient(WebPort& port, const Options& options, Time now)
     : m_port(port),

@@ -1,7 +1,5 @@
 #include "client/world/DisplayClock.h"
 
-#include <algorithm>
-
 namespace naiad {
 namespace {
 

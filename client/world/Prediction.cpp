@@ -6,7 +6,6 @@
 
 #include "client/world/Surroundings.h"
 #include "shared/replica/Acks.h"
-#include "shared/replica/SteeredCopy.h"
 #include "shared/replica/ViewFollow.h"
 
 namespace naiad {

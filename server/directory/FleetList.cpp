@@ -1,19 +1,83 @@
 #include "server/directory/FleetList.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "shared/fleet/ServerId.h"
+#include "shared/json/Json.h"
+#include "shared/net/stream/Fingerprint.h"
+#include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
-
 namespace {
+
+/// Servers behind so much are listed without their rooms: clients read 1 MiB (ListDownload.h).
+constexpr std::size_t kMaxTextWithRooms = 500'000;
+
+std::uint32_t freePlaces(const Presence& server) {
+  return server.max_players - std::min(server.players, server.max_players);
+}
+
+std::string rowOf(const Presence& server, bool with_rooms) {
+  auto facts = static_cast<const ServerFacts&>(server);
+  if (facts.name.empty()) facts.name = server.id;
+  Json row = jsonOf(facts);
+  row.set("link", linkOf(server));
+  Json::Array rooms;
+  for (const auto& [name, game, players, max_players] : server.rooms)
+    rooms.push_back({{"name", name}, {"game", game}, {"players", players}, {"max_players", max_players}});
+  if (with_rooms && !rooms.empty()) row.set("rooms", std::move(rooms));
+  return row.toString(Json::Style::kAscii);
+}
 
 bool isWished(const PresenceRoom& room, const FleetList::Wish& wish) {
   return (wish.room.empty() || room.name == wish.room) && (wish.game.empty() || room.game == wish.game);
 }
 
 }  // namespace
+
+std::string linkOf(const Presence& server, const std::string& room) {
+  const auto key = Fingerprint::parse(server.key);
+  if (!key || server.host.empty()) return "";
+  return JoinLink{{server.host, server.port}, room, ShortKey::of(*key)}.text();
+}
+
+std::string serverListText(std::vector<Presence> servers) {
+  std::erase_if(servers, [](const Presence& one) { return !one.is_open || linkOf(one).empty(); });
+  std::stable_sort(servers.begin(), servers.end(),
+                   [](const Presence& a, const Presence& b) { return freePlaces(a) > freePlaces(b); });
+  if (servers.size() > kMaxListedServers) servers.resize(kMaxListedServers);
+  std::string text = "[";
+  for (const Presence& server : servers)
+    text += (text.size() > 1 ? ",\n" : "\n") + rowOf(server, text.size() < kMaxTextWithRooms);
+  return text + "\n]\n";
+}
+
+FleetWatch::FleetWatch(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log, Time now,
+                       std::chrono::milliseconds interval)
+    : m_bus(std::move(bus)), m_log(std::move(log)), m_servers(interval), m_connected_at(now) {}
+
+void FleetWatch::update(Time now) {
+  if (const std::string line = m_bus->takeNews(); !line.empty()) m_log(line);
+  for (const BusMessage& message : m_bus->takeMessages()) {
+    if (m_servers.put(message.subject, message.payload, now))
+      logNews(message.subject.substr(presenceSubject("").size()) + " is there", now);
+  }
+  if (m_bus->isConnected()) m_connected_at = now;
+  // Servers cannot be heard without a bus, so their time does not run; it does once that has lasted for too
+  // long.
+  const bool is_blind = m_connected_at != now;
+  if (is_blind && now - m_connected_at < kBlind) return m_servers.forgiveSilence(now);
+  for (const std::string& id : m_servers.removeSilent(now)) logNews(id + " is gone", now);
+}
+
+void FleetWatch::logNews(const std::string& line, Time now) {
+  if (!m_news.takeToken(kNewsRate, now)) {
+    ++m_news_left_out;
+    return;
+  }
+  if (const auto count = std::exchange(m_news_left_out, 0); count > 0)
+    m_log(std::to_string(count) + " more servers came or went");
+  m_log(line);
+}
 
 bool FleetList::put(const std::string& subject, std::string_view payload, Time now) {
   auto presence = Presence::parse(payload);

@@ -1,6 +1,6 @@
 // The servers that have said on the bus that they are there, and which of them a player is sent to.
 //
-// What they say may be wrong in any way: it is read strictly (Presence.h), counts only under the name that
+// What they say may be wrong in any way: it is read strictly (BusPayloads.h), counts only under the name that
 // its subject has, and ends by itself.
 #pragma once
 
@@ -9,15 +9,32 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "shared/fleet/Presence.h"
+#include "host/fleet/Bus.h"
+#include "shared/fleet/BusPayloads.h"
+#include "shared/net/base/TokenBucket.h"
 
 namespace naiad {
+
+// A list of servers for the web, as dfclient --list-url reads it: an array of what dfserver --status-file
+// writes.
+
+/// Servers in a list; with all of them it stays below the 1 MiB that a client takes.
+inline constexpr std::size_t kMaxListedServers = 500;
+
+/// The link to a server, or to a room of it; empty if it is not known where it is, or which key it has.
+std::string linkOf(const Presence& server, const std::string& room = "");
+
+/// A JSON array (RFC 8259), one object to a line, ASCII: the servers that let players in and have a link. If
+/// there are too many, those with most free places; rooms are left out of what would be too long with them.
+std::string serverListText(std::vector<Presence> servers);
 
 struct FleetCounters {
   std::uint64_t heard = 0;       ///< that a server is there
@@ -110,5 +127,38 @@ class FleetList {
 
 /// The least port to which a player is sent: below are services of the system.
 inline constexpr std::uint16_t kLeastFleetPort = 1024;
+
+/// Keeps the list of a fleet's servers by what the bus brings. Not thread-safe. Time is passed in.
+class FleetWatch {
+ public:
+  using Time = FleetList::Time;
+
+  /// While the bus is gone the list stays as it was, for so long: the servers play on, and players still find
+  /// them.
+  static constexpr std::chrono::minutes kBlind{10};
+  /// Lines about servers that come and go: names may come from a server that only pretends.
+  static constexpr BucketRate kNewsRate{5, 100};
+
+  /// `bus` listens to presence. `log`: a line for people. `interval`: as FleetList's.
+  FleetWatch(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log, Time now,
+             std::chrono::milliseconds interval = Presence::kInterval);
+
+  /// Some times a second.
+  void update(Time now);
+
+  FleetList& servers() { return m_servers; }
+  const FleetList& servers() const { return m_servers; }
+  Bus& bus() { return *m_bus; }
+
+ private:
+  void logNews(const std::string& line, Time now);
+
+  std::unique_ptr<Bus> m_bus;
+  std::function<void(const std::string& line)> m_log;
+  FleetList m_servers;
+  Time m_connected_at;
+  TokenBucket m_news;
+  std::uint64_t m_news_left_out = 0;
+};
 
 }  // namespace naiad

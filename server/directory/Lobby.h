@@ -10,13 +10,26 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "server/directory/FleetList.h"
 #include "shared/net/stream/TcpListener.h"
 #include "shared/net/stream/TlsContext.h"
 
 namespace naiad {
+
+/// What the lobby of a fleet says to a client: where to go.
+struct LobbyAnswer {
+  enum class Kind { kSentOn, kNoPlace, kNoGame };
+  Kind kind;
+  std::string frame;  ///< for the client
+};
+
+/// To the first frame of a client; nothing if that is no hello. A place is taken on the server to which it is
+/// sent.
+std::optional<LobbyAnswer> answerHello(std::string_view frame, FleetList& servers);
 
 struct LobbySettings {
   std::string address = "::";                   ///< numeric

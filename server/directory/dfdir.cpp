@@ -1,22 +1,19 @@
 // dfdir: the directory of a fleet. It hears on the bus which servers there are, writes the list of them, and
 // sends players to them.
-#include <asio/ip/address.hpp>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "server/directory/Directory.h"
-#include "shared/fleet/Presence.h"
+#include "shared/fleet/BusPayloads.h"
+#include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/Options.h"
 #include "shared/program/BrokenPipes.h"
-#include "shared/program/OpenFiles.h"
 #include "shared/values/Version.h"
 
 namespace {
@@ -49,18 +46,9 @@ struct CommandLine {
 
 /// ADDRESS:PORT into the settings of the lobby.
 std::string storeListen(const std::string& text, naiad::DirectorySettings& settings) {
-  const std::size_t colon = text.rfind(':');
-  const auto where =
-      colon != std::string::npos ? naiad::LinkHost::parse(text.substr(0, colon)) : std::nullopt;
-  std::error_code error;
-  if (where) asio::ip::make_address(where->host, error);
-  int port = -1;
-  const char* const p_end = text.data() + text.size();
-  const auto read = where ? std::from_chars(text.data() + colon + 1, p_end, port) : std::from_chars_result{};
-  const bool good =
-      where && !error && read.ptr == p_end && port >= 0 && port <= 65'535 && colon + 1 < text.size();
-  if (!good) return "ADDRESS:PORT is wanted, like 0.0.0.0:9875 or [::]:9875; port 0 is any free one";
-  settings.lobby = naiad::LobbySettings{.address = where->host, .port = static_cast<std::uint16_t>(port)};
+  const auto where = naiad::NumericEndpoint::parse(text);
+  if (!where) return "ADDRESS:PORT is wanted, like 0.0.0.0:9875 or [::]:9875; port 0 is any free one";
+  settings.lobby = naiad::LobbySettings{.address = where->address.to_string(), .port = where->port};
   return "";
 }
 
@@ -96,43 +84,31 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .range =
            naiad::OptionRange{naiad::Presence::kLeastInterval.count(), naiad::Presence::kMaxInterval.count()},
        .shows_default = true},
-      {.name = "--list",
-       .target = &settings.list,
-       .help = "Write the list of servers to this file, for a web server and dfclient --list-url",
-       .type = "FILE"},
-      {.name = "--listen",
-       .target =
-           naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
-       .help = "Where players connect to be sent to a server; without it, nowhere",
-       .type = "ADDRESS:PORT"},
-      {.name = "--link-host",
-       .target =
-           naiad::StoreText([&line](const std::string& text) { return storeLinkHost(text, line.link_host); }),
-       .help = "Host, and port if another one leads here, of the link that is printed for players",
-       .type = "HOST[:PORT]"},
-      {.name = "--identity",
-       .target = &settings.identity,
-       .help =
-           "Folder of the lobby's key, made there if there is none (default: naiad in your configuration)",
-       .type = "DIR"},
-      {.name = "--certificate",
-       .target = &settings.certificate,
-       .help = "Certificate of the lobby (PEM), in place of that folder",
-       .type = "FILE"},
-      {.name = "--key", .target = &settings.key, .help = "Its private key (PEM)", .type = "FILE"},
+      naiad::typedOption("--list", "FILE", &settings.list,
+                         "Write the list of servers to this file, for a web server and dfclient --list-url"),
+      naiad::typedOption("--listen", "ADDRESS:PORT", naiad::StoreText([&settings](const std::string& text) {
+                           return storeListen(text, settings);
+                         }),
+                         "Where players connect to be sent to a server; without it, nowhere"),
+      naiad::typedOption("--link-host", "HOST[:PORT]", naiad::StoreText([&line](const std::string& text) {
+                           return storeLinkHost(text, line.link_host);
+                         }),
+                         "Host, and port if another one leads here, of the link that is printed for players"),
+      naiad::typedOption(
+          "--identity", "DIR", &settings.identity,
+          "Folder of the lobby's key, made there if there is none (default: naiad in your configuration)"),
+      naiad::typedOption("--certificate", "FILE", &settings.certificate,
+                         "Certificate of the lobby (PEM), in place of that folder"),
+      naiad::typedOption("--key", "FILE", &settings.key, "Its private key (PEM)"),
       {.name = "--max-per-address",
        .target = &line.max_per_address,
        .help = "Players who may come at once from one IPv4 address or IPv6 network (/64)",
        .range = naiad::OptionRange{1, 20'000},
        .shows_default = true},
-      {.name = "--port-file",
-       .target = &line.port_file,
-       .help = "Write the port number to this file once listening",
-       .type = "FILE"},
-      {.name = "--log-file",
-       .target = &line.log_file,
-       .help = "Append log lines to this file instead of stderr",
-       .type = "FILE"}};
+      naiad::typedOption("--port-file", "FILE", &line.port_file,
+                         "Write the port number to this file once listening"),
+      naiad::typedOption("--log-file", "FILE", &line.log_file,
+                         "Append log lines to this file instead of stderr")};
 }
 
 /// What is missing or does not go together; nothing if all is well.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shared/net/base/SafeText.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
@@ -12,14 +13,6 @@ constexpr std::string_view kHttps = "https://";
 
 std::uint16_t ownPort(bool is_secure) {
   return is_secure ? 443 : 80;
-}
-
-std::string lowerCase(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "server/gateway/SecureSocket.h"
-#include "shared/net/stream/ShortKey.h"
+#include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/TlsContext.h"
 
 namespace naiad {

@@ -7,7 +7,6 @@
 #include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
-#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <utility>
@@ -266,17 +265,10 @@ Gateway::Gateway(GatewaySettings settings, LogLine log)
 Gateway::~Gateway() = default;
 
 bool Gateway::parseListen(std::string_view text, GatewaySettings& settings) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return false;
-  std::string host(text.substr(0, colon));
-  const bool in_brackets = host.starts_with('[') && host.ends_with(']');
-  if (in_brackets) host = host.substr(1, host.size() - 2);
-  error_code error;
-  const auto address = boost::asio::ip::make_address(host, error);
-  const char* const last = text.data() + text.size();
-  const auto [end, wrong] = std::from_chars(text.data() + colon + 1, last, settings.port);
-  if (error || wrong != std::errc{} || end != last || address.is_v6() != in_brackets) return false;
-  settings.address = host;
+  const auto endpoint = NumericEndpoint::parse(text);
+  if (!endpoint) return false;
+  settings.address = endpoint->address.to_string();
+  settings.port = endpoint->port;
   return true;
 }
 

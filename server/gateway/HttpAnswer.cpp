@@ -4,7 +4,6 @@
 #include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <ctime>
-#include <utility>
 
 namespace naiad {
 namespace {
@@ -94,9 +93,7 @@ std::string_view HttpAnswers::pathOf(const WebRequest& request) {
 }
 
 HttpAnswer HttpAnswers::answer(const WebRequest& request) const {
-  if (request.version() != 11) return refusal(505, "HTTP/1.1 is spoken here.\n");
-  if (request.count(http::field::host) != 1 || !m_names.allowsHost(headerOf(request, http::field::host)))
-    return refusal(421, "This server does not go by that name.\n");
+  if (const Refusal* const why = judgeHost(request)) return refusal(why->status, why->sentence);
   if (request.method() != http::verb::get && request.method() != http::verb::head)
     return make(request, kOtherMethod, "Allow: GET, HEAD\r\n" + std::string(kTextType),
                 "GET and HEAD only.\n");
@@ -153,15 +150,20 @@ HttpAnswer HttpAnswers::refusal(int status, std::string_view sentence) const {
   return result;
 }
 
-const HttpAnswers::Refusal* HttpAnswers::judgeUpgrade(const WebRequest& request) const {
+const HttpAnswers::Refusal* HttpAnswers::judgeHost(const WebRequest& request) const {
   static constexpr Refusal kVersion{505, "HTTP/1.1 is spoken here.\n"};
   static constexpr Refusal kHost{421, "This server does not go by that name.\n"};
+  if (request.version() != 11) return &kVersion;
+  const bool is_ours =
+      request.count(http::field::host) == 1 && m_names.allowsHost(headerOf(request, http::field::host));
+  return is_ours ? nullptr : &kHost;
+}
+
+const HttpAnswers::Refusal* HttpAnswers::judgeUpgrade(const WebRequest& request) const {
   static constexpr Refusal kPath{404, "There is no WebSocket here.\n"};
   static constexpr Refusal kOrigin{403, "Only this server's own page may play.\n"};
   static constexpr Refusal kProtocol{400, "The subprotocol naiad.1 is wanted.\n"};
-  if (request.version() != 11) return &kVersion;
-  if (request.count(http::field::host) != 1 || !m_names.allowsHost(headerOf(request, http::field::host)))
-    return &kHost;
+  if (const Refusal* const why = judgeHost(request)) return why;
   if (viewOf(request.target()) != kPlayPath) return &kPath;
   if (request.count(http::field::origin) != 1 ||
       !m_names.allowsOrigin(headerOf(request, http::field::origin)))

@@ -53,6 +53,8 @@ class HttpAnswers {
   static std::string_view pathOf(const WebRequest& request);
 
  private:
+  /// As judgeUpgrade(), of every request.
+  const Refusal* judgeHost(const WebRequest& request) const;
   HttpAnswer fileAnswer(const WebRequest& request, const PageFile& file) const;
   HttpAnswer make(const WebRequest& request, int status, std::string_view headers,
                   std::string_view body) const;

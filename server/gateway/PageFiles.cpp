@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "shared/net/base/SafeFile.h"
+#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 namespace {
@@ -44,25 +45,12 @@ const TypeOfName& typeOf(std::string_view name) {
   return found != kTypes.end() ? *found : kOther;
 }
 
-bool isPlainName(std::string_view name) {
-  return !name.starts_with('.') && std::ranges::all_of(name, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-           c == '_' || c == '-';
-  });
-}
-
 std::string tagOf(const std::string& content) {
   std::array<unsigned char, 32> hash{};
   unsigned int size = 0;
   if (EVP_Digest(content.data(), content.size(), hash.data(), &size, EVP_sha256(), nullptr) != 1)
     throw PageError("The files of the page cannot be hashed.");
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string tag = "\"";
-  for (std::size_t i = 0; i < kTagBytes; ++i) {
-    tag.push_back(kDigits[hash[i] >> 4]);
-    tag.push_back(kDigits[hash[i] & 15]);
-  }
-  return tag + "\"";
+  return "\"" + hexText({reinterpret_cast<const char*>(hash.data()), kTagBytes}) + "\"";
 }
 
 /// Empty where it does not become smaller.
@@ -97,7 +85,7 @@ PageFiles::PageFiles(const fs::path& folder) {
     std::size_t left = kMaxBytes;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
-      if (!entry.is_regular_file() || !isPlainName(name)) continue;
+      if (!entry.is_regular_file() || name.starts_with('.') || !isPlainName(name)) continue;
       if (m_files.size() == kMaxFiles)
         throw PageError(folder.string() + " has more files than a page has (64).");
       std::string content = readSmallFile(entry.path(), left).value_or("");

@@ -4,7 +4,6 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
-#include <array>
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/error.hpp>
 #include <utility>

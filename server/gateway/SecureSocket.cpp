@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/asio/error.hpp>
-#include <string_view>
 
 #include "shared/net/stream/SocketBio.h"
 

@@ -45,7 +45,7 @@ class SecureSocket {
   SecureSocket& operator=(SecureSocket&&) noexcept;
 
   /// TLS from now on; asyncHandshake() comes next. False if out of memory. A server refuses a hello of more
-  /// than 4 KiB (ClientHelloGuard.h).
+  /// than 4 KiB (SocketBio.h).
   bool startTls(ssl_ctx_st* context, Role role);
   bool hasTls() const { return m_tls != nullptr; }
   /// Under TLS: the other end has closed the connection, or it broke; as opposed to what it said being wrong.

@@ -11,7 +11,6 @@
 #include "shared/net/base/SafeFile.h"
 #include "shared/options/Options.h"
 #include "shared/program/BrokenPipes.h"
-#include "shared/program/OpenFiles.h"
 #include "shared/values/Version.h"
 
 namespace {
@@ -71,35 +70,27 @@ fs::path ownPage() {
 std::vector<naiad::Option> optionsOf(WebOptions& web) {
   naiad::GatewaySettings& settings = web.settings;
   return {
-      {.name = "link",
-       .target = naiad::StoreText([&settings](const std::string& text) { return storeLink(text, settings); }),
-       .help = "The link to the server, as dfserver prints it: naiad://HOST[:PORT]#KEY",
-       .type = "LINK"},
-      {.name = "--visitors",
-       .target = &settings.visitors,
-       .help = "The visitors' socket of that server, as in its own --visitors",
-       .type = "SOCKET"},
+      naiad::typedOption("link", "LINK", naiad::StoreText([&settings](const std::string& text) {
+                           return storeLink(text, settings);
+                         }),
+                         "The link to the server, as dfserver prints it: naiad://HOST[:PORT]#KEY"),
+      naiad::typedOption("--visitors", "SOCKET", &settings.visitors,
+                         "The visitors' socket of that server, as in its own --visitors"),
       {.name = "--listen",
        .target =
            naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
        .help = "Where browsers connect; port 0: any free one",
        .type = "ADDRESS:PORT",
        .default_text = web.listen},
-      {.name = "--certificate",
-       .target = &settings.certificate,
-       .help = "Certificate for HTTPS, with those above it, in PEM form",
-       .type = "FILE"},
-      {.name = "--key", .target = &settings.key, .help = "Its private key, in PEM form", .type = "FILE"},
-      {.name = "--origin",
-       .target =
-           naiad::StoreText([&settings](const std::string& text) { return storeOrigin(text, settings); }),
-       .help =
-           "Address by which players reach it, beside its own, like https://play.example; may be repeated",
-       .type = "URL"},
-      {.name = "--page",
-       .target = &settings.page,
-       .help = "Folder of the page's files (default: the one that belongs to this program)",
-       .type = "DIR"},
+      naiad::typedOption("--certificate", "FILE", &settings.certificate,
+                         "Certificate for HTTPS, with those above it, in PEM form"),
+      naiad::typedOption("--key", "FILE", &settings.key, "Its private key, in PEM form"),
+      naiad::typedOption(
+          "--origin", "URL",
+          naiad::StoreText([&settings](const std::string& text) { return storeOrigin(text, settings); }),
+          "Address by which players reach it, beside its own, like https://play.example; may be repeated"),
+      naiad::typedOption("--page", "DIR", &settings.page,
+                         "Folder of the page's files (default: the one that belongs to this program)"),
       {.name = "--name",
        .target = &settings.name,
        .help = "What the page calls the server (default: its host)"},
@@ -113,14 +104,10 @@ std::vector<naiad::Option> optionsOf(WebOptions& web) {
        .help = "Of these, from one IPv4 address or IPv6 network (/64)",
        .range = naiad::OptionRange{1, 20'000},
        .shows_default = true},
-      {.name = "--port-file",
-       .target = &web.port_file,
-       .help = "Write the port number to this file once listening",
-       .type = "FILE"},
-      {.name = "--log-file",
-       .target = &web.log_file,
-       .help = "Append log lines to this file instead of stderr",
-       .type = "FILE"}};
+      naiad::typedOption("--port-file", "FILE", &web.port_file,
+                         "Write the port number to this file once listening"),
+      naiad::typedOption("--log-file", "FILE", &web.log_file,
+                         "Append log lines to this file instead of stderr")};
 }
 
 /// What is missing or does not go together; nothing if all is well.

@@ -24,11 +24,7 @@ constexpr std::uintmax_t kMaxRound = std::uintmax_t{1} << 30;
 
 /// A name of an installed game, and no path: a file may come from a stranger.
 bool isGameName(const std::string& name) {
-  return !name.empty() && name.size() <= 100 && name[0] != '.' &&
-         std::all_of(name.begin(), name.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-                  c == '_' || c == '.';
-         });
+  return !name.empty() && name.size() <= 100 && name[0] != '.' && isPlainName(name);
 }
 
 std::string quoted(const std::string& text) {

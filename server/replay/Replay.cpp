@@ -1,13 +1,135 @@
 #include "server/replay/Replay.h"
 
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
 #include <cstdio>
 #include <utility>
 
 #include "host/rounds/Journals.h"
+#include "host/world/WorldFrame.h"
 #include "host/world/WorldProcess.h"
 #include "shared/net/base/SafeText.h"
 
 namespace naiad {
+namespace {
+
+constexpr std::size_t kMaxPrinted = 4096;
+
+constexpr const char* kEnded = "ended";
+
+/// For a keeper's word of its world's end, which ends all that the world has started first.
+constexpr int kEndMillis = 2000;
+
+}  // namespace
+
+ReplayWorld::ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order)
+    : m_started(launcher.start(order)) {
+  if (receiveFrame()) m_ready = readReady(m_answer);
+  // The keeper has sent it before the world's program was executed.
+  KeeperStart begun;
+  if (m_ready && recv(m_started.keeper, &begun, sizeof begun, MSG_WAITALL) == sizeof begun)
+    m_process = begun.process;
+  if (!m_ready && m_failure.empty()) m_failure = "sent what no world sends";
+}
+
+ReplayWorld::~ReplayWorld() {
+  for (const int one : {m_started.socket, m_started.keeper, m_started.output, m_started.page}) close(one);
+}
+
+std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {
+  if (!m_failure.empty()) return std::nullopt;
+  std::string record;
+  std::string message;
+  m_turns.write(turn, record);  // one of a file, which is not too long
+  appendTurnMessage(record, false, message);
+  if (!send(message) || !receiveFrame()) return std::nullopt;
+  return m_answer;
+}
+
+// What it prints is read meanwhile, or it would wait for us.
+bool ReplayWorld::wait(short events) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (true) {
+    pollfd any[3] = {{m_started.socket, events, 0}, {m_started.output, POLLIN, 0}, {m_also, POLLIN, 0}};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+    if (m_also < 0 && left.count() <= 0) break;
+    if (poll(any, 3, m_also < 0 ? static_cast<int>(left.count()) : -1) < 0) continue;
+    if (any[1].revents != 0) readOutput();
+    if (any[0].revents != 0) return true;
+    if (any[2].revents != 0) break;
+  }
+  m_failure = "did not answer any more";
+  return false;
+}
+
+std::optional<int> ReplayWorld::takeEnd() {
+  pollfd keeper{m_started.keeper, POLLIN, 0};
+  KeeperEnd end;
+  if (m_failure != kEnded || poll(&keeper, 1, kEndMillis) <= 0) return std::nullopt;
+  if (recv(m_started.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
+  return end.status;
+}
+
+void ReplayWorld::readOutput() {
+  std::array<char, 4096> part{};
+  const ssize_t count = read(m_started.output, part.data(), part.size());
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (count <= 0) {
+    close(std::exchange(m_started.output, -1));
+    return;
+  }
+  m_printed.append(part.data(), static_cast<std::size_t>(count));
+  if (m_printed.size() > kMaxPrinted) m_printed.erase(0, m_printed.size() - kMaxPrinted);
+}
+
+bool ReplayWorld::send(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::send(m_started.socket, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      if (!wait(POLLOUT)) return false;
+    } else if (errno != EINTR) {
+      m_failure = kEnded;
+      return false;
+    }
+  }
+  return true;
+}
+
+bool ReplayWorld::receive(char* p_to, std::size_t count) {
+  while (count > 0) {
+    const ssize_t got = recv(m_started.socket, p_to, count, MSG_DONTWAIT);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EAGAIN) {
+      if (!wait(POLLIN)) return false;
+      continue;
+    }
+    if (got <= 0) {
+      m_failure = kEnded;
+      return false;
+    }
+    p_to += got;
+    count -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+bool ReplayWorld::receiveFrame() {
+  char head[kWorldFrameHead];
+  if (!receive(head, sizeof head)) return false;
+  const auto size = loadLittleEndian<std::uint32_t>(head);
+  if (size > kMaxWorldFrame) {
+    m_failure = "sent too long a frame";
+    return false;
+  }
+  m_answer.resize(size);
+  return receive(m_answer.data(), size);
+}
 
 Replay::Replay(const RecordedRound& round, const RoundStage& stage)
     : m_reader(round.read()), m_world(stage.launcher(), stage.order()) {

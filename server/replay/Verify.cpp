@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iomanip>
 #include <ostream>
+#include <utility>
 
 #include "server/replay/Replay.h"
 #include "shared/net/base/Limits.h"
@@ -84,26 +85,14 @@ std::string keyName(df::Keyboard::Key key) {
     return std::string(1, static_cast<char>('1' + key - df::Keyboard::NUM1));
   if (key >= df::Keyboard::F1 && key <= df::Keyboard::F12)
     return "F" + std::to_string(1 + key - df::Keyboard::F1);
-  switch (key) {
-    case df::Keyboard::SPACE:
-      return "space";
-    case df::Keyboard::RETURN:
-      return "return";
-    case df::Keyboard::ESCAPE:
-      return "escape";
-    case df::Keyboard::LEFTARROW:
-      return "left";
-    case df::Keyboard::RIGHTARROW:
-      return "right";
-    case df::Keyboard::UPARROW:
-      return "up";
-    case df::Keyboard::DOWNARROW:
-      return "down";
-    case df::Keyboard::NUM0:
-      return "0";
-    default:
-      return "key-" + std::to_string(static_cast<int>(key));
+  using namespace df::Keyboard;
+  static constexpr std::pair<Key, const char*> kNames[] = {
+      {SPACE, "space"}, {RETURN, "return"},  {ESCAPE, "escape"},    {LEFTARROW, "left"},
+      {UPARROW, "up"},  {DOWNARROW, "down"}, {RIGHTARROW, "right"}, {NUM0, "0"}};
+  for (const auto& [named, p_name] : kNames) {
+    if (named == key) return p_name;
   }
+  return "key-" + std::to_string(static_cast<int>(key));
 }
 
 const char* actionName(df::EventKeyboardAction action) {

@@ -4,10 +4,8 @@
 #include <sys/resource.h>
 
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <string>
-#include <system_error>
 
 #include "server/replay/DebugRound.h"
 #include "server/replay/RecordedRound.h"
@@ -48,10 +46,7 @@ struct ReplayOptions {
 
 std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
   return {
-      {.name = "file",
-       .target = &replay.file,
-       .help = "A round's file, as dfserver --journal writes it",
-       .type = "FILE"},
+      naiad::typedOption("file", "FILE", &replay.file, "A round's file, as dfserver --journal writes it"),
       {.name = "--verify",
        .target = &replay.verify,
        .help = "Execute it again and compare: the ticks and the speed, or the first tick that differs"},

@@ -1,6 +1,9 @@
 #include "shared/admin/AdminCommands.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "shared/options/OptionPages.h"
 
 namespace naiad {
 
@@ -13,114 +16,83 @@ using Place = AdminCommand::Place;
 const AdminArgument kReason{"reason", Kind::kText, false, "Why, in words for players"};
 const AdminArgument kOnePlayer{"player", Kind::kPlayer, true, "Name, beginning of a name, or #ID"};
 
+using Arguments = std::vector<AdminArgument>;
+constexpr bool kOnlyReads = true;
+
+/// A command of every player.
+AdminCommand ofPlayers(std::string name, Place place, std::string help, Arguments arguments = {},
+                       bool only_reads = false) {
+  return {std::move(name), Level::kPlayer, place, std::move(help), std::move(arguments), only_reads};
+}
+
+AdminCommand ofAdmins(std::string name, Place place, std::string help, Arguments arguments = {},
+                      bool only_reads = false) {
+  return {std::move(name), Level::kAdmin, place, std::move(help), std::move(arguments), only_reads};
+}
+
 std::vector<AdminCommand> tableOfCommands() {
   return {
-      {"help",
-       Level::kPlayer,
-       Place::kChat,
-       "List the commands that you may give, or say how to use one",
-       {{"command", Kind::kWord, false, "Name of a command"}}},
-      {"commands", Level::kPlayer, Place::kChat, "As help", {}},
-      {"who", Level::kPlayer, Place::kBoth, "List the players", {}, true},
-      {"rooms",
-       Level::kPlayer,
-       Place::kBoth,
-       "List the rooms of the server, and how many play in each",
-       {},
-       true},
-      {"tell",
-       Level::kPlayer,
-       Place::kBoth,
-       "Send a line to one player alone",
-       {kOnePlayer, {"text", Kind::kText, true, "What they read"}}},
-      {"vote",
-       Level::kPlayer,
-       Place::kChat,
-       "Begin a vote to throw a player out, or agree with the one that is on",
-       {{"what", Kind::kChoice, true, "What is voted on", {"kick"}}, kOnePlayer}},
-      {"admin",
-       Level::kPlayer,
-       Place::kChat,
-       "Get an admin's rights until your connection ends",
-       {{"password", Kind::kSecret, true, "The server's --admin-password"}}},
-      {"status", Level::kAdmin, Place::kBoth, "Tell how the server is", {}, true},
-      {"say",
-       Level::kAdmin,
-       Place::kBoth,
-       "Send a line to all players",
-       {{"text", Kind::kText, true, "What they read"}}},
-      {"kick",
-       Level::kAdmin,
-       Place::kBoth,
-       "End a player's session; they may come again",
-       {kOnePlayer, kReason}},
-      {"ban",
-       Level::kAdmin,
-       Place::kBoth,
-       "Keep a player out, by name and address, or a name, an address or a range of addresses",
-       {{"who", Kind::kTarget, true, "Player, name:NAME, address or ADDRESS/BITS"},
-        {"for", Kind::kSpan, false, "How long, like 30m, 2h or 7d; else for ever"},
-        kReason}},
-      {"allow",
-       Level::kAdmin,
-       Place::kBoth,
-       "Make an exception: no ban holds for these addresses",
-       {{"who", Kind::kTarget, true, "Address or ADDRESS/BITS"},
-        {"for", Kind::kSpan, false, "How long; else for ever"},
-        kReason}},
-      {"unban",
-       Level::kAdmin,
-       Place::kBoth,
-       "Lift a ban or an exception",
-       {{"who", Kind::kTarget, true, "#NUMBER as bans lists it, name:NAME, address or ADDRESS/BITS"}}},
-      {"bans", Level::kAdmin, Place::kBoth, "List bans and exceptions", {}, true},
-      {"scores",
-       Level::kAdmin,
-       Place::kSocket,
-       "List the best scores that are on disk, of one table or of all",
-       {{"table", Kind::kWord, false, "Name of a table of the game"},
-        {"count", Kind::kWord, false, "Rows of a table, at most 10000; else 10"},
-        {"room", Kind::kWord, false, "Of the game that is played in this room", {}, true},
-        {"game", Kind::kWord, false, "Of this game, where rooms play several", {}, true}},
-       true},
-      {"mute", Level::kAdmin, Place::kBoth, "Send a player's lines to nobody", {kOnePlayer}},
-      {"unmute", Level::kAdmin, Place::kBoth, "Let a muted player talk again", {kOnePlayer}},
-      {"password",
-       Level::kAdmin,
-       Place::kBoth,
-       "Change the password that players need; an empty one: none is needed",
-       {{"password", Kind::kSecret, true, "The new one (dfctl reads it from its input if it is left out)"}}},
-      {"set",
-       Level::kAdmin,
-       Place::kBoth,
-       "Change an option of the running server, or list those that can be changed",
-       {{"option", Kind::kWord, false, "Name of the option, without dashes"},
-        {"value", Kind::kText, false, "Its new value"}}},
-      {"reload", Level::kAdmin, Place::kBoth, "Read options, certificate and bans again", {}},
-      {"restart",
-       Level::kAdmin,
-       Place::kBoth,
-       "End the server so that it begins again; players come back by themselves",
-       {{"when",
-         Kind::kChoice,
-         false,
-         "now (so if left out), at-round-end, in SPAN, or keep: the round goes on, if the program that is "
-         "installed plays it the same",
-         {"now", "at-round-end", "in", "keep"}},
-        {"span", Kind::kSpan, false, "With in: how long to wait"}}},
-      {"drain",
-       Level::kAdmin,
-       Place::kBoth,
-       "Let nobody in any more, and end the server once the players have left",
-       {{"span", Kind::kSpan, false, "Wait so long at most"}}},
-      {"stop", Level::kAdmin, Place::kBoth, "End the server now", {kReason}},
-      {"cancel", Level::kAdmin, Place::kBoth, "Call a restart or drain off", {}},
-      {"watch",
-       Level::kAdmin,
-       Place::kSocket,
-       "Print the server's log as it is written, until interrupted",
-       {}},
-      {"ping", Level::kAdmin, Place::kSocket, "Ask whether the server answers", {}, true},
+      ofPlayers("help", Place::kChat, "List the commands that you may give, or say how to use one",
+                {{"command", Kind::kWord, false, "Name of a command"}}),
+      ofPlayers("commands", Place::kChat, "As help"),
+      ofPlayers("who", Place::kBoth, "List the players", {}, kOnlyReads),
+      ofPlayers("rooms", Place::kBoth, "List the rooms of the server, and how many play in each", {},
+                kOnlyReads),
+      ofPlayers("tell", Place::kBoth, "Send a line to one player alone",
+                {kOnePlayer, {"text", Kind::kText, true, "What they read"}}),
+      ofPlayers("vote", Place::kChat, "Begin a vote to throw a player out, or agree with the one that is on",
+                {{"what", Kind::kChoice, true, "What is voted on", {"kick"}}, kOnePlayer}),
+      ofPlayers("admin", Place::kChat, "Get an admin's rights until your connection ends",
+                {{"password", Kind::kSecret, true, "The server's --admin-password"}}),
+      ofAdmins("status", Place::kBoth, "Tell how the server is", {}, kOnlyReads),
+      ofAdmins("say", Place::kBoth, "Send a line to all players",
+               {{"text", Kind::kText, true, "What they read"}}),
+      ofAdmins("kick", Place::kBoth, "End a player's session; they may come again", {kOnePlayer, kReason}),
+      ofAdmins("ban", Place::kBoth,
+               "Keep a player out, by name and address, or a name, an address or a range of addresses",
+               {{"who", Kind::kTarget, true, "Player, name:NAME, address or ADDRESS/BITS"},
+                {"for", Kind::kSpan, false, "How long, like 30m, 2h or 7d; else for ever"},
+                kReason}),
+      ofAdmins("allow", Place::kBoth, "Make an exception: no ban holds for these addresses",
+               {{"who", Kind::kTarget, true, "Address or ADDRESS/BITS"},
+                {"for", Kind::kSpan, false, "How long; else for ever"},
+                kReason}),
+      ofAdmins(
+          "unban", Place::kBoth, "Lift a ban or an exception",
+          {{"who", Kind::kTarget, true, "#NUMBER as bans lists it, name:NAME, address or ADDRESS/BITS"}}),
+      ofAdmins("bans", Place::kBoth, "List bans and exceptions", {}, kOnlyReads),
+      ofAdmins("scores", Place::kSocket, "List the best scores that are on disk, of one table or of all",
+               {{"table", Kind::kWord, false, "Name of a table of the game"},
+                {"count", Kind::kWord, false, "Rows of a table, at most 10000; else 10"},
+                {"room", Kind::kWord, false, "Of the game that is played in this room", {}, true},
+                {"game", Kind::kWord, false, "Of this game, where rooms play several", {}, true}},
+               kOnlyReads),
+      ofAdmins("mute", Place::kBoth, "Send a player's lines to nobody", {kOnePlayer}),
+      ofAdmins("unmute", Place::kBoth, "Let a muted player talk again", {kOnePlayer}),
+      ofAdmins("password", Place::kBoth,
+               "Change the password that players need; an empty one: none is needed",
+               {{"password", Kind::kSecret, true,
+                 "The new one (dfctl reads it from its input if it is left out)"}}),
+      ofAdmins("set", Place::kBoth,
+               "Change an option of the running server, or list those that can be changed",
+               {{"option", Kind::kWord, false, "Name of the option, without dashes"},
+                {"value", Kind::kText, false, "Its new value"}}),
+      ofAdmins("reload", Place::kBoth, "Read options, certificate and bans again"),
+      ofAdmins(
+          "restart", Place::kBoth, "End the server so that it begins again; players come back by themselves",
+          {{"when",
+            Kind::kChoice,
+            false,
+            "now (so if left out), at-round-end, in SPAN, or keep: the round goes on, if the program that is "
+            "installed plays it the same",
+            {"now", "at-round-end", "in", "keep"}},
+           {"span", Kind::kSpan, false, "With in: how long to wait"}}),
+      ofAdmins("drain", Place::kBoth, "Let nobody in any more, and end the server once the players have left",
+               {{"span", Kind::kSpan, false, "Wait so long at most"}}),
+      ofAdmins("stop", Place::kBoth, "End the server now", {kReason}),
+      ofAdmins("cancel", Place::kBoth, "Call a restart or drain off"),
+      ofAdmins("watch", Place::kSocket, "Print the server's log as it is written, until interrupted"),
+      ofAdmins("ping", Place::kSocket, "Ask whether the server answers", {}, kOnlyReads),
   };
 }
 
@@ -136,16 +108,6 @@ std::string placeholder(const AdminArgument& argument) {
   std::string all;
   for (const std::string& one : argument.one_of) all += (all.empty() ? "" : "|") + one;
   return all;
-}
-
-// A line that begins with a dot would be a macro, and a dash a hyphen.
-std::string manText(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '\\' || c == '-') escaped += '\\';
-    escaped += c;
-  }
-  return escaped;
 }
 
 std::string whereGiven(const AdminCommand& command) {
@@ -203,9 +165,9 @@ std::string adminManSection() {
   std::string text = ".SH COMMANDS\n";
   for (const AdminCommand& command : adminCommands()) {
     if (command.place == Place::kChat) continue;
-    text += ".TP\n.B " + manText(adminUsage(command)) + "\n" + manText(command.help) + ".\n";
+    text += ".TP\n.B " + roff(adminUsage(command)) + "\n" + roff(command.help) + ".\n";
     for (const AdminArgument& argument : command.arguments)
-      text += ".br\n\\fI" + manText(upper(argument.name)) + "\\fR: " + manText(argument.help) + ".\n";
+      text += ".br\n\\fI" + roff(upper(argument.name)) + "\\fR: " + roff(argument.help) + ".\n";
   }
   return text;
 }

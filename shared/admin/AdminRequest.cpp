@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "shared/admin/TimeSpan.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
 

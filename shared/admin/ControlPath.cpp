@@ -4,7 +4,7 @@
 #include <string>
 #include <system_error>
 
-#include "shared/net/base/UserDirectory.h"
+#include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 

@@ -1,8 +1,9 @@
 #include "shared/admin/TimeSpan.h"
 
-#include <charconv>
 #include <cstdint>
 #include <ctime>
+
+#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 
@@ -27,12 +28,10 @@ std::int64_t secondsOf(char letter) {
 std::optional<std::chrono::seconds> readTimeSpan(std::string_view text) {
   if (text.size() < 2) return std::nullopt;
   const std::int64_t unit = secondsOf(text.back());
-  const char* const p_end = text.data() + text.size() - 1;
-  std::int64_t count = 0;
-  const auto [p_read, error] = std::from_chars(text.data(), p_end, count);
-  if (unit == 0 || error != std::errc() || p_read != p_end) return std::nullopt;
-  if (count < 1 || count > kMaxTimeSpan.count() / unit) return std::nullopt;
-  return std::chrono::seconds(count * unit);
+  if (unit == 0) return std::nullopt;
+  text.remove_suffix(1);
+  const auto count = readNumber<std::int64_t>(text, 1, kMaxTimeSpan.count() / unit);
+  return count ? std::optional(std::chrono::seconds(*count * unit)) : std::nullopt;
 }
 
 std::string timeSpanText(std::chrono::seconds span) {

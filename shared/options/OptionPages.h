@@ -18,6 +18,9 @@ namespace naiad {
 std::optional<std::string> optionPage(std::string_view kind, const Program& program,
                                       const std::vector<Option>& options);
 
+/// The text in roff, as the pages for man have it.
+std::string roff(std::string_view text);
+
 /// "name = value": what the option is now, as a line for the file of --config, in quotes where it takes some.
 /// A comment for a secret.
 std::string configLine(const Option& option);

@@ -9,10 +9,22 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 namespace naiad {
+
+/// The name that `typed` is the beginning of or takes the fewest changes to become: a character inserted,
+/// left out, replaced, or two swapped. Empty if that would be more than a third of it.
+std::string nearestName(const std::string& typed, const std::vector<std::string>& names);
+
+/// Misspelt variables of the environment would be ignored without notice. A sentence for each variable that
+/// begins with `prefix` and is none of `known`, with the nearest of these. `p_environment`: entries
+/// NAME=VALUE, and a null at the end.
+std::vector<std::string> complainOfUnknownVariables(const char* const* p_environment,
+                                                    const std::string& prefix,
+                                                    const std::vector<std::string>& known);
 
 /// Stores a text; returns what is wrong with it, or nothing.
 using StoreText = std::function<std::string(const std::string& text)>;
@@ -47,6 +59,13 @@ struct Option {
   bool* p_from_environment = nullptr;  ///< becomes true if the variable gave it
   std::string* p_place = nullptr;      ///< becomes "FILE:LINE" if the file of --config gave it
 };
+
+/// One whose value is of this type, as --help names it: "FILE".
+inline Option typedOption(std::string name, std::string type, OptionTarget target, std::string help) {
+  Option option{std::move(name), std::move(target), std::move(help)};
+  option.type = std::move(type);
+  return option;
+}
 
 struct Program {
   std::string name;         ///< "dfserver"

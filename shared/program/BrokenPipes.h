@@ -1,10 +1,15 @@
-// Signals that are not for whoever happens to run: broken pipes, and those that come while threads work.
+// What a process asks of its system before it begins: files, broken pipes, and threads that take no signals.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <thread>
 
 namespace naiad {
+
+/// Raises the limit of open files and sockets to `wanted`, or as far as the system allows. Returns the limit
+/// now, which may be lower than that. Never lowers it.
+std::size_t allowOpenFiles(std::size_t wanted);
 
 /// Unless the process handles SIGPIPE already, a write to a pipe without a reader fails with EPIPE from now
 /// on. Programs that this process starts have the default again.

@@ -6,7 +6,6 @@
 #include "shared/replica/Acks.h"
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/Limits.h"
-#include "shared/replica/MotionCodec.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {

@@ -12,7 +12,7 @@
 #include "Progress.h"
 #include "Records.h"
 #include "ResultLine.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "ResultLine.h"
 #include "Suite.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 
 namespace {
 

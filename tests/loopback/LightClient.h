@@ -13,7 +13,7 @@
 
 #include "naiad.pb.h"
 #include "shared/net/base/Channel.h"
-#include "shared/net/stream/TlsHandshake.h"
+#include "shared/net/stream/TlsStream.h"
 
 namespace naiad::test {
 

@@ -13,15 +13,15 @@
 #include <utility>
 
 #include "ProcessesBelow.h"
-#include "client/bot/BotPlayer.h"
-#include "client/bot/WholePicture.h"
+#include "client/bot/BotScript.h"
+#include "client/bot/TruthRecorder.h"
 #include "client/session/Connection.h"
 #include "host/journal/OpenRound.h"
 #include "host/rounds/Journals.h"
 #include "host/scores/ScoreStore.h"
-#include "server/replay/PictureReel.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Replay.h"
+#include "server/replay/RoundPlayer.h"
 #include "server/replay/Verify.h"
 #include "tests/server/host/admin/Talk.h"
 

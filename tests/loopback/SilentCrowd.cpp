@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "shared/net/stream/TcpConnector.h"
-#include "shared/net/stream/TlsHandshake.h"
+#include "shared/net/stream/TlsStream.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad::test {

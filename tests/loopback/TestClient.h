@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "client/bot/WholePicture.h"
+#include "client/bot/TruthRecorder.h"
 #include "client/session/Connection.h"
 #include "client/trust/SessionFile.h"
 #include "tests/support/Sanitizers.h"

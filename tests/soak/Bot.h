@@ -12,7 +12,7 @@
 #include "Tally.h"
 #include "VirtualHost.h"
 #include "Weather.h"
-#include "client/bot/BotPlayer.h"
+#include "client/bot/BotScript.h"
 #include "client/session/ClientSession.h"
 #include "tests/support/net/LossyLink.h"
 

@@ -324,7 +324,7 @@ function isOtherServer() {
   return key !== "" && server.key !== "" && key !== server.key;
 }
 
-/** As dfclient takes HOST/ROOM (RoomName.h). */
+/** As dfclient takes HOST/ROOM (SafeText.h). */
 function isRoomName(name) {
   return /^[A-Za-z0-9][A-Za-z0-9._-]{0,31}$/.test(name);
 }

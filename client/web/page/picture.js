@@ -137,21 +137,13 @@ export class Picture {
     const middleX = cell - light >> 1;
     const middleY = line - light >> 1;
     const [left, up, right, down] = arm;
+    // Of each line across its direction: how far it is from the middle, and how wide.
+    const across = (kind) => kind === 0 ? [] : kind === 3 ? [[-gap, light], [gap, light]] : [[-(kind - 1) * (light >> 1), light * kind]];
     const horizontal = (from, to, kind) => {
-      if (kind === 3) {
-        context.fillRect(from, middleY - gap, to - from, light);
-        context.fillRect(from, middleY + gap, to - from, light);
-      } else if (kind > 0) {
-        context.fillRect(from, middleY - (kind - 1) * (light >> 1), to - from, light * kind);
-      }
+      for (const [shift, width] of across(kind)) context.fillRect(from, middleY + shift, to - from, width);
     };
     const vertical = (from, to, kind) => {
-      if (kind === 3) {
-        context.fillRect(middleX - gap, from, light, to - from);
-        context.fillRect(middleX + gap, from, light, to - from);
-      } else if (kind > 0) {
-        context.fillRect(middleX - (kind - 1) * (light >> 1), from, light * kind, to - from);
-      }
+      for (const [shift, width] of across(kind)) context.fillRect(middleX + shift, from, width, to - from);
     };
     // Arms reach past the middle by what the others are wide.
     const reachX = up === 3 || down === 3 ? gap : 0;

@@ -21,7 +21,7 @@
 #include "host/rooms/SessionTable.h"
 #include "shared/net/base/PrefixAllowance.h"
 #include "shared/net/stream/JoinLink.h"
-#include "shared/program/LogEvent.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 

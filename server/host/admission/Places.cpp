@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "host/rooms/Rooms.h"
-#include "shared/net/base/RoomName.h"
+#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 

@@ -6,7 +6,6 @@
 #include "host/rooms/SessionTable.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/program/LogText.h"
 

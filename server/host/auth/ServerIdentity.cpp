@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "shared/net/base/SafeFile.h"
-#include "shared/net/base/UserDirectory.h"
 #include "shared/net/stream/TlsContext.h"
 
 namespace naiad {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/fleet/BusSettings.h"
+#include "shared/fleet/BusPayloads.h"
 
 namespace naiad {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/fleet/Bus.h"
-#include "shared/fleet/BusFields.h"
+#include "shared/fleet/BusPayloads.h"
 
 namespace naiad {
 

@@ -6,7 +6,7 @@
 #include "host/loop/HostClients.h"
 #include "host/ops/AdminConsole.h"
 #include "host/rooms/SessionTable.h"
-#include "shared/admin/AdminText.h"
+#include "shared/admin/AdminAnswer.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/program/LogText.h"
 

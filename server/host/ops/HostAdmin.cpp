@@ -13,7 +13,7 @@
 #include "shared/admin/TimeSpan.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 #include "shared/values/Version.h"
 
 namespace naiad {

@@ -12,8 +12,7 @@
 #include "host/loop/HostPart.h"
 #include "host/ops/HostScores.h"
 #include "host/rooms/HostContext.h"
-#include "shared/fleet/Presence.h"
-#include "shared/fleet/SendOn.h"
+#include "shared/fleet/BusPayloads.h"
 
 namespace naiad {
 

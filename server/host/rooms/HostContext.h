@@ -12,7 +12,7 @@
 #include "host/settings/HostOptions.h"
 #include "shared/program/ClientLog.h"
 #include "shared/program/LineLog.h"
-#include "shared/program/LogEvent.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 

@@ -16,7 +16,7 @@
 #include "host/auth/ServerIdentity.h"
 #include "host/world/Repeatable.h"
 #include "host/world/WorldStart.h"
-#include "shared/net/base/UserDirectory.h"
+#include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 

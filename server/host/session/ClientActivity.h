@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-#include "shared/net/base/IdleTimer.h"
+#include "shared/net/base/LinkStats.h"
 
 namespace naiad {
 
@@ -43,7 +43,7 @@ class ClientActivity {
     refill(now);
   }
 
-  /// How long the client has been silent, to a tick (IdleTimer.h).
+  /// How long the client has been silent, to a tick (IdleTimer).
   auto silence(Time now) const { return m_idle.at(now); }
   /// When a frame came last.
   Time lastFrame() const { return m_frame_at; }

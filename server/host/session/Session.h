@@ -246,7 +246,7 @@ class Session {
   void goodbye(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0));
 
   /// Enforce deadlines. Once a tick: time between two calls that are far apart does not count as silence of
-  /// the client (IdleTimer.h).
+  /// the client (IdleTimer).
   void checkDeadlines(Clock::time_point now);
   /// Call `apply(input)` for the inputs that are due in the world's next tick, `tick`.
   template <class Apply>

@@ -14,7 +14,6 @@
 #include <cstdint>
 
 #include "shared/net/base/LinkStats.h"
-#include "shared/net/base/PathProbe.h"
 #include "shared/replica/Acks.h"
 
 namespace naiad {

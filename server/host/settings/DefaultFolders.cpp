@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "shared/net/base/UserDirectory.h"
+#include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 

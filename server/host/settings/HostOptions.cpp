@@ -16,7 +16,6 @@
 #include "host/settings/RoomList.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
-#include "shared/options/UnknownVariables.h"
 
 namespace naiad {
 
@@ -202,7 +201,7 @@ std::vector<Row> tableOf(HostOptions& o) {
           "Name of this server on the bus, of a-z, 0-9 and '-'; default: of the machine and the port"),
       row("--bus-interval", &o.bus_interval_ms,
           "Milliseconds after which the server says again that it is there, as its directory's",
-          OptionRange{50, 60'000}),  // Presence.h
+          OptionRange{50, 60'000}),  // BusPayloads.h
       row("--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it"),
       row("--bus-ca", &o.bus_ca,
           "Certificates (PEM) by which that of a tls:// bus is judged; default: the system's"),

@@ -6,8 +6,7 @@
 #include "host/settings/MetricsAddress.h"
 #include "host/settings/RoomList.h"
 #include "host/settings/SshDoor.h"
-#include "shared/fleet/BusSettings.h"
-#include "shared/fleet/ServerId.h"
+#include "shared/fleet/BusPayloads.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {

@@ -5,9 +5,8 @@
 #include <sstream>
 
 #include "host/settings/GameModule.h"
-#include "shared/net/base/RoomName.h"
 #include "shared/net/base/SafeText.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <system_error>
 
+#include "shared/net/base/SafeText.h"
+
 namespace naiad {
 
 AddressPrefix::AddressPrefix(const Bytes& address) {
@@ -19,14 +21,8 @@ AddressPrefix AddressPrefix::of(const asio::ip::address& address) {
 }
 
 std::optional<AddressPrefix> AddressPrefix::ofEndpoint(std::string_view text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  std::string_view host = text.substr(0, colon);
-  if (host.size() >= 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
-  std::error_code error;
-  const auto address = asio::ip::make_address(std::string(host), error);
-  if (error) return std::nullopt;
-  return of(address);
+  const auto endpoint = NumericEndpoint::parse(text);
+  return endpoint ? std::optional(of(endpoint->address)) : std::nullopt;
 }
 
 AddressPrefix AddressPrefix::wide() const {
@@ -53,6 +49,19 @@ asio::ip::address unmapped(const asio::ip::address& address) {
     return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
   }
   return address;
+}
+
+std::optional<NumericEndpoint> NumericEndpoint::parse(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const auto port = readNumber<std::uint16_t>(text.substr(colon + 1), 0, 65'535);
+  std::string_view host = text.substr(0, colon);
+  const bool in_brackets = host.size() >= 2 && host.starts_with('[') && host.ends_with(']');
+  if (in_brackets) host = host.substr(1, host.size() - 2);
+  std::error_code error;
+  const auto address = asio::ip::make_address(std::string(host), error);
+  if (!port || error || address.is_v6() != in_brackets) return std::nullopt;
+  return NumericEndpoint{address, *port};
 }
 
 }  // namespace naiad

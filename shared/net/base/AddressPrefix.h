@@ -46,4 +46,13 @@ class AddressPrefix {
 /// IPv4 mapped into IPv6 as IPv4, everything else as it is.
 asio::ip::address unmapped(const asio::ip::address& address);
 
+/// "127.0.0.1:40000" or "[::1]:40000": an address, IPv6 in brackets, and a port of 0 … 65535.
+struct NumericEndpoint {
+  asio::ip::address address;
+  std::uint16_t port = 0;
+
+  /// Nothing for other texts.
+  static std::optional<NumericEndpoint> parse(std::string_view text);
+};
+
 }  // namespace naiad

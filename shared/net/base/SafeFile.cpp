@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -107,6 +108,15 @@ void syncDirectoryOf(const fs::path& path) {
 }
 
 }  // namespace
+
+std::optional<std::filesystem::path> userDirectory(const char* variable, const char* fallback) {
+  // Relative paths are to be ignored, says the specification.
+  const char* const chosen = std::getenv(variable);
+  if (chosen && *chosen == '/') return std::filesystem::path(chosen) / "naiad";
+  const char* const home = std::getenv("HOME");
+  if (home && *home == '/') return std::filesystem::path(home) / fallback / "naiad";
+  return std::nullopt;
+}
 
 std::optional<std::string> readSmallFile(const fs::path& path, std::size_t most) {
   const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);

@@ -9,6 +9,11 @@
 
 namespace naiad {
 
+/// Where a user's files of one kind lie (XDG Base Directory Specification 0.8).
+/// $variable/naiad if that is an absolute path, else $HOME/fallback/naiad; nothing if HOME is not set either.
+/// ("XDG_CONFIG_HOME", ".config"), ("XDG_DATA_HOME", ".local/share").
+std::optional<std::filesystem::path> userDirectory(const char* variable, const char* fallback);
+
 /// Throws std::system_error, as all of these, where the system refuses. Nothing if there is no such file.
 /// Also throws if it has more than `most` bytes, or is no regular file: a pipe would be waited for.
 std::optional<std::string> readSmallFile(const std::filesystem::path& path, std::size_t most);

@@ -1,9 +1,27 @@
 #include "shared/net/base/SafeText.h"
 
+#include <algorithm>
+
 #include "shared/net/base/Limits.h"
 #include "shared/values/Canvas.h"
 
 namespace naiad {
+namespace {
+
+bool isLetterOrDigit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+}  // namespace
+
+bool isRoomName(std::string_view name) {
+  return !name.empty() && name.size() <= kMaxRoomName && isLetterOrDigit(name.front()) && isPlainName(name);
+}
+
+bool isPlainName(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return isLetterOrDigit(c) || c == '-' || c == '_' || c == '.'; });
+}
 
 std::string safeText(const std::string& text, std::size_t max_characters) {
   // No character takes more than four bytes, so what lies beyond cannot matter; do not decode it.
@@ -26,6 +44,35 @@ std::string safeName(const std::string& name) {
   safe.erase(0, safe.find_first_not_of(' '));
   safe.erase(safe.find_last_not_of(' ') + 1);
   return safe.empty() ? "player" : safe;
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+std::string hexText(std::string_view bytes) {
+  std::string text;
+  for (const char byte : bytes) {
+    text += "0123456789abcdef"[static_cast<unsigned char>(byte) >> 4];
+    text += "0123456789abcdef"[byte & 15];
+  }
+  return text;
+}
+
+std::optional<std::string> bytesOfHex(std::string_view digits) {
+  if (digits.size() % 2 != 0) return std::nullopt;
+  std::string bytes;
+  for (; !digits.empty(); digits.remove_prefix(2)) {
+    unsigned byte = 0;
+    const auto [p_read, error] = std::from_chars(digits.data(), digits.data() + 2, byte, 16);
+    if (error != std::errc() || p_read != digits.data() + 2) return std::nullopt;
+    bytes += static_cast<char>(byte);
+  }
+  return bytes;
 }
 
 std::size_t columnsOf(const std::string& text) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <asio/ip/address.hpp>
-#include <charconv>
 
 namespace naiad {
 namespace {
@@ -56,17 +55,8 @@ std::string toString(const Path& path) {
 }
 
 std::optional<Endpoint> endpointFromText(std::string_view text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  std::uint16_t port = 0;
-  const std::string_view digits = text.substr(colon + 1);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-  std::string_view address = text.substr(0, colon);
-  if (address.size() >= 2 && address.front() == '[' && address.back() == ']') {
-    address = address.substr(1, address.size() - 2);
-  }
-  return makeEndpoint(address, port);
+  const auto endpoint = NumericEndpoint::parse(text);
+  return endpoint ? makeEndpoint(endpoint->address.to_string(), endpoint->port) : std::nullopt;
 }
 
 }  // namespace naiad

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <optional>
 
+#include "shared/net/base/SafeText.h"
+
 namespace naiad {
 namespace {
 
@@ -17,13 +19,11 @@ std::optional<StatusLine> parseStatusLine(std::string_view line) {
   constexpr std::size_t kStatus = std::string_view("HTTP/1.1 ").size();
   const bool is_1_0 = line.starts_with("HTTP/1.0 ");
   if (!is_1_0 && !line.starts_with("HTTP/1.1 ")) return std::nullopt;
-  unsigned status = 0;
   const std::string_view digits = line.substr(kStatus, 3);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), status);
+  const auto status = readNumber(digits, 100u, 999u);
   const std::string_view rest = line.substr(kStatus + digits.size());
-  if (error != std::errc() || end != digits.data() + digits.size() || status < 100) return std::nullopt;
-  if (!rest.empty() && !rest.starts_with(' ')) return std::nullopt;
-  return StatusLine{is_1_0, status};
+  if (!status || (!rest.empty() && !rest.starts_with(' '))) return std::nullopt;
+  return StatusLine{is_1_0, *status};
 }
 
 /// All of `text`, as a number in this base.

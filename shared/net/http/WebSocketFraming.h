@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include "shared/net/stream/StreamFraming.h"
+#include "shared/net/stream/Framing.h"
 
 namespace naiad {
 

@@ -16,7 +16,7 @@
 #include <string_view>
 
 #include "shared/fleet/ServerFacts.h"
-#include "shared/net/stream/ShortKey.h"
+#include "shared/net/stream/Fingerprint.h"
 
 namespace naiad {
 

@@ -5,30 +5,25 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <optional>
 
+#include "shared/net/base/AddressRange.h"
+
 namespace naiad {
 namespace {
 
-template <class Bytes>
-bool haveSameBegin(const Bytes& a, const Bytes& b, unsigned bits) {
-  for (std::size_t i = 0; i < a.size() && bits > 0; ++i) {
-    const unsigned here = std::min(bits, 8u);
-    const unsigned mask = 0xffu << (8 - here) & 0xffu;
-    if (((a[i] ^ b[i]) & mask) != 0) return false;
-    bits -= here;
-  }
-  return true;
+/// Have both the same first `bits`, of the 32 or 128 of their family?
+bool haveSameBegin(const asio::ip::address& a, const asio::ip::address& b, unsigned bits) {
+  const int length = static_cast<int>(bits) + (a.is_v4() ? 96 : 0);  // of a mapped address
+  return a.is_v4() == b.is_v4() && AddressRange::masked(AddressRange::bytesOf(a), length) ==
+                                       AddressRange::masked(AddressRange::bytesOf(b), length);
 }
 
-bool isIn(const asio::ip::address_v4& address, const char* network, unsigned bits) {
-  return haveSameBegin(address.to_bytes(), asio::ip::make_address_v4(network).to_bytes(), bits);
+bool isIn(const asio::ip::address& address, const char* network, unsigned bits) {
+  return haveSameBegin(address, asio::ip::make_address(network), bits);
 }
 
 bool isLinkLocal6(const asio::ip::address& address) {
@@ -36,10 +31,8 @@ bool isLinkLocal6(const asio::ip::address& address) {
 }
 
 bool isOfPrivateRange(const asio::ip::address& address) {
-  if (address.is_v6()) return (address.to_v6().to_bytes()[0] & 0xfe) == 0xfc;
-  const auto four = address.to_v4();
-  return isIn(four, "10.0.0.0", 8) || isIn(four, "172.16.0.0", 12) || isIn(four, "192.168.0.0", 16) ||
-         isIn(four, "169.254.0.0", 16);
+  return isIn(address, "fc00::", 7) || isIn(address, "10.0.0.0", 8) || isIn(address, "172.16.0.0", 12) ||
+         isIn(address, "192.168.0.0", 16) || isIn(address, "169.254.0.0", 16);
 }
 
 /// Nothing for families other than IP.
@@ -58,15 +51,11 @@ std::optional<asio::ip::address> addressOf(const sockaddr* p_address) {
   return asio::ip::address_v6(bytes);
 }
 
-template <class Bytes>
-unsigned countBits(const Bytes& bytes) {
-  unsigned bits = 0;
-  for (const unsigned char byte : bytes) bits += static_cast<unsigned>(std::popcount(byte));
-  return bits;
-}
-
 unsigned prefixOf(const asio::ip::address& mask) {
-  return mask.is_v4() ? countBits(mask.to_v4().to_bytes()) : countBits(mask.to_v6().to_bytes());
+  unsigned bits = 0;
+  for (const unsigned char byte : AddressRange::bytesOf(mask))
+    bits += static_cast<unsigned>(std::popcount(byte));
+  return mask.is_v4() ? bits - 16 : bits;  // those in front of a mapped address
 }
 
 /// Is this address of the interface one to ask, or answer, from? Systems have no route for IPv6 groups on
@@ -88,9 +77,7 @@ std::optional<LanNetwork> networkOf(const ifaddrs& entry) {
 }  // namespace
 
 bool LanNetwork::contains(const asio::ip::address& other) const {
-  if (other.is_v4() != address.is_v4()) return false;
-  if (address.is_v4()) return haveSameBegin(address.to_v4().to_bytes(), other.to_v4().to_bytes(), prefix);
-  return haveSameBegin(address.to_v6().to_bytes(), other.to_v6().to_bytes(), prefix);
+  return haveSameBegin(address, other, prefix);
 }
 
 std::vector<LanNetwork> lanNetworks() {

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <asio/buffer.hpp>
 #include <cstring>
 #include <sstream>
 #include <utility>
@@ -13,6 +14,12 @@
 
 namespace naiad {
 namespace {
+
+using asio::ip::tcp;
+
+bool mayTryAgain(const std::error_code& error) {
+  return error == asio::error::would_block || error == asio::error::interrupted;
+}
 
 using asio::ip::tcp;
 
@@ -29,6 +36,27 @@ std::string peerOf(const ByteStream::Socket& socket) {
 }
 
 }  // namespace
+
+ByteStream::Progress PlainStream::read(std::span<char> into) {
+  std::error_code error;
+  const std::size_t size = socket().read_some(asio::buffer(into.data(), into.size()), error);
+  if (!error) return {Outcome::kDone, size};
+  if (mayTryAgain(error)) return {Outcome::kWantsRead};
+  return {error == asio::error::eof ? Outcome::kEnd : Outcome::kBroken};
+}
+
+ByteStream::Progress PlainStream::write(std::string_view bytes) {
+  std::error_code error;
+  const std::size_t size = socket().write_some(asio::buffer(bytes), error);
+  if (!error) return {Outcome::kDone, size};
+  return {mayTryAgain(error) ? Outcome::kWantsWrite : Outcome::kBroken};
+}
+
+ByteStream::Outcome PlainStream::end() {
+  std::error_code error;
+  socket().shutdown(tcp::socket::shutdown_send, error);
+  return error ? Outcome::kBroken : Outcome::kDone;
+}
 
 ByteStream::ByteStream(Socket socket, std::string peer) : socket_(std::move(socket)), peer_(std::move(peer)) {
   if (peer_.empty()) peer_ = peerOf(socket_);

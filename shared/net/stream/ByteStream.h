@@ -1,7 +1,8 @@
-// Bytes over a connected socket, without blocking: as they are (PlainStream.h) or in TLS (TlsStream.h).
+// Bytes over a connected socket, without blocking: as they are (PlainStream) or in TLS (TlsStream.h).
 //
-// What StreamConnection needs to know about the difference, and no more. All calls on the thread that runs
-// the socket's io_context. No call blocks or calls back; the caller waits for the socket and tries again.
+// What a channel (TcpChannel.h) needs to know about the difference, and no more. All calls on the thread that
+// runs the socket's io_context. No call blocks or calls back; the caller waits for the socket and tries
+// again.
 #pragma once
 
 #include <asio/generic/stream_protocol.hpp>
@@ -64,5 +65,15 @@ class ByteStream {
 
 /// An address as ByteStream::peer() writes it.
 std::string peerName(const asio::ip::tcp::endpoint& endpoint);
+
+/// Bytes as they are.
+class PlainStream : public ByteStream {
+ public:
+  using ByteStream::ByteStream;
+
+  Progress read(std::span<char> into) override;
+  Progress write(std::string_view bytes) override;
+  Outcome end() override;
+};
 
 }  // namespace naiad

@@ -1,37 +1,76 @@
 #include "shared/net/stream/Fingerprint.h"
 
+#include <algorithm>
+
+#include "shared/net/base/SafeText.h"
+
 namespace naiad {
 namespace {
 
-int digitOf(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
+constexpr std::string_view kDigits = "abcdefghijklmnopqrstuvwxyz234567";
+constexpr std::size_t kBitsPerDigit = 5;
+constexpr std::size_t kLength = 26;  // digits for 128 bits; two bits are left over
+
+int base32DigitOf(char c) {
+  if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::size_t digit = kDigits.find(c);
+  return digit == std::string_view::npos ? -1 : static_cast<int>(digit);
 }
 
 }  // namespace
 
+ShortKey ShortKey::of(const Fingerprint& key) {
+  ShortKey result;
+  std::copy_n(key.bytes().begin(), result.bytes_.size(), result.bytes_.begin());
+  return result;
+}
+
+std::optional<ShortKey> ShortKey::parse(std::string_view text) {
+  if (text.size() != kLength) return std::nullopt;
+  ShortKey result;
+  std::size_t filled = 0;
+  unsigned bits = 0;
+  std::size_t count = 0;
+  for (const char c : text) {
+    const int digit = base32DigitOf(c);
+    if (digit < 0) return std::nullopt;
+    bits = bits << kBitsPerDigit | static_cast<unsigned>(digit);
+    count += kBitsPerDigit;
+    if (count < 8) continue;
+    count -= 8;
+    result.bytes_[filled++] = static_cast<std::uint8_t>(bits >> count);
+    bits &= (1u << count) - 1;
+  }
+  if (bits != 0) return std::nullopt;
+  return result;
+}
+
+std::string ShortKey::text() const {
+  std::string text;
+  unsigned bits = 0;
+  std::size_t count = 0;
+  for (const std::uint8_t byte : bytes_) {
+    bits = bits << 8 | byte;
+    for (count += 8; count >= kBitsPerDigit;) {
+      count -= kBitsPerDigit;
+      text.push_back(kDigits[bits >> count & 31]);
+    }
+    bits &= (1u << count) - 1;
+  }
+  text.push_back(kDigits[bits << (kBitsPerDigit - count) & 31]);
+  return text;
+}
+
 std::optional<Fingerprint> Fingerprint::parse(std::string_view text) {
   Fingerprint result;
-  if (text.size() != 2 * result.bytes_.size()) return std::nullopt;
-  for (std::size_t i = 0; i < result.bytes_.size(); ++i) {
-    const int high = digitOf(text[2 * i]);
-    const int low = digitOf(text[2 * i + 1]);
-    if (high < 0 || low < 0) return std::nullopt;
-    result.bytes_[i] = static_cast<std::uint8_t>(high * 16 + low);
-  }
+  const auto bytes = text.size() == 2 * result.bytes_.size() ? bytesOfHex(text) : std::nullopt;
+  if (!bytes) return std::nullopt;
+  std::copy(bytes->begin(), bytes->end(), result.bytes_.begin());
   return result;
 }
 
 std::string Fingerprint::text() const {
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : bytes_) {
-    text.push_back(kDigits[byte >> 4]);
-    text.push_back(kDigits[byte & 15]);
-  }
-  return text;
+  return hexText({reinterpret_cast<const char*>(bytes_.data()), bytes_.size()});
 }
 
 }  // namespace naiad

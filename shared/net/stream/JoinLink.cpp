@@ -5,7 +5,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "shared/net/base/RoomName.h"
+#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 namespace {
@@ -15,10 +15,6 @@ constexpr std::size_t kMaxLink = 512;  // bytes; the longest good one has some 3
 constexpr std::size_t kMaxHost = 253;  // of a name (RFC 1035 2.3.4)
 constexpr std::size_t kMaxLabel = 63;  // of a part of it
 constexpr std::size_t kMaxPortDigits = 5;
-
-bool isLetterOrDigit(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-}
 
 bool isGraphic(char c) {
   return c > ' ' && c < 0x7f;
@@ -45,10 +41,9 @@ std::optional<std::string> decoded(std::string_view text) {
 
 bool isName(std::string_view host) {
   if (host.ends_with('.')) host.remove_suffix(1);
-  if (host.empty() || host.size() > kMaxHost || host.front() == '-') return false;
+  if (host.empty() || host.size() > kMaxHost || host.front() == '-' || !isPlainName(host)) return false;
   std::size_t label = 0;
   for (const char c : host) {
-    if (c != '.' && c != '-' && c != '_' && !isLetterOrDigit(c)) return false;
     if (c == '.' && label == 0) return false;
     label = c == '.' ? 0 : label + 1;
     if (label > kMaxLabel) return false;
@@ -83,22 +78,19 @@ std::optional<LinkHost> LinkHost::parse(std::string_view text, std::uint16_t def
   }
   if (text.empty()) return result;
   if (text.front() != ':' || text.size() > 1 + kMaxPortDigits) return std::nullopt;
-  const char* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data() + 1, last, result.port);
-  if (error != std::errc{} || end != last || result.port == 0) return std::nullopt;
+  const auto port = readNumber<std::uint16_t>(text.substr(1), 1, 65'535);
+  if (!port) return std::nullopt;
+  result.port = *port;
   return result;
 }
 
-std::string LinkHost::text() const {
+std::string LinkHost::text(std::uint16_t default_port) const {
   const std::string shown = host.find(':') != std::string::npos ? "[" + host + "]" : host;
-  return port == kDefaultPort ? shown : shown + ":" + std::to_string(port);
+  return port == default_port ? shown : shown + ":" + std::to_string(port);
 }
 
 bool JoinLink::isMeant(std::string_view text) {
-  return text.size() >= kScheme.size() &&
-         std::equal(kScheme.begin(), kScheme.end(), text.begin(), [](char wanted, char c) {
-           return wanted == c || (isLetterOrDigit(c) && wanted == (c | 0x20));
-         });
+  return lowerCase(text.substr(0, kScheme.size())) == kScheme;
 }
 
 std::variant<JoinLink, LinkProblem> JoinLink::parse(std::string_view text) {

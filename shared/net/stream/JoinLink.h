@@ -1,7 +1,7 @@
 // The link that leads to a game: naiad://HOST[:PORT][/ROOM]#KEY.
 //
 // HOST is a name or an address (IPv6 in brackets), PORT the default one if it is left out, KEY the short name
-// of the server's key (ShortKey.h). A link comes from strangers, by way of pages, chats and desktops: it
+// of the server's key (ShortKey). A link comes from strangers, by way of pages, chats and desktops: it
 // holds these four and nothing else, each checked strictly. %XX is decoded, as desktops may encode what they
 // pass on (RFC 3986 2.1).
 #pragma once
@@ -13,7 +13,7 @@
 #include <variant>
 
 #include "shared/net/base/Limits.h"
-#include "shared/net/stream/ShortKey.h"
+#include "shared/net/stream/Fingerprint.h"
 
 namespace naiad {
 
@@ -33,7 +33,7 @@ struct LinkHost {
   /// Nothing if it is none of these.
   static std::optional<LinkHost> parse(std::string_view text, std::uint16_t default_port = kDefaultPort);
   /// "game.example", "[::1]:9877": the default port is left out.
-  std::string text() const;
+  std::string text(std::uint16_t default_port = kDefaultPort) const;
 
   friend bool operator==(const LinkHost&, const LinkHost&) = default;
 };

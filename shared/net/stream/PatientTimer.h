@@ -2,7 +2,7 @@
 //
 // A process that gets no processor for a while finds both when it goes on: the answer, which came in the
 // meantime and is not read yet, and its time-out, which is over. So the time is waited for in parts, and a
-// part that took longer than it should counts as what it should have taken (see also IdleTimer.h).
+// part that took longer than it should counts as what it should have taken (see also IdleTimer).
 #pragma once
 
 #include <asio/any_io_executor.hpp>

@@ -7,7 +7,6 @@
 #include <asio/write.hpp>
 #include <utility>
 
-#include "shared/net/stream/PlainStream.h"
 #include "shared/net/stream/TcpChannel.h"
 #include "shared/net/stream/VisitorHeader.h"
 

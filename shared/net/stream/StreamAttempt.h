@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "shared/net/stream/ByteStream.h"
+#include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/PatientTimer.h"
-#include "shared/net/stream/PeerFacts.h"
 #include "shared/net/stream/TlsContext.h"
-#include "shared/net/stream/TlsHandshake.h"
+#include "shared/net/stream/TlsStream.h"
 
 namespace naiad {
 

@@ -1,13 +1,322 @@
 #include "shared/net/stream/TcpChannel.h"
 
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
+
+#include <array>
+#include <asio/post.hpp>
+#include <asio/steady_timer.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "shared/net/base/AddressPrefix.h"
-#include "shared/net/stream/PlainStream.h"
-#include "shared/net/stream/StreamConnection.h"
 
 namespace naiad {
 namespace {
+
+/// Frames (StreamFraming) over a stream of bytes: the one state machine behind every channel on a TCP
+/// socket, encrypted or not. Handlers under way share it, so the channel that started them may go first.
+class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
+ public:
+  /// `stream`: ready for bytes both ways (a handshake is over). `framing`: may have been fed bytes already.
+  StreamConnection(std::unique_ptr<ByteStream> stream, std::unique_ptr<StreamFraming> framing,
+                   const TcpOptions& options);
+
+  void start(ReliableChannel::Callbacks callbacks);
+  void send(std::string_view frame);
+  std::size_t unsentBytes();
+  void close();
+  /// The channel is being destroyed.
+  void abandon();
+
+  const std::string& peer() const { return peer_; }
+  void setReceiveLimit(std::size_t bytes) { framing_->setLimit(bytes); }
+  std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
+
+ private:
+  enum class Phase { kOpen, kClosing, kClosed };
+
+  using Outcome = ByteStream::Outcome;
+
+  void awaitInput(Outcome wish = Outcome::kWantsRead);
+  void onInput();
+  void dispatch(std::string_view bytes);
+  void sendReplies();
+  void onInputEnded(Outcome outcome);
+  void pump();
+  void postPump();
+  void awaitRoom(Outcome wish);
+  void dropWritten();
+  void onWriteFailed();
+  void endStream();
+  void sendEnd();
+  void finish(CloseReason reason, bool cut);
+  void report();
+  std::size_t queuedBytes() const { return queue_.size() - written_; }
+  std::size_t bytesInKernel();
+
+  std::unique_ptr<ByteStream> stream_;
+  asio::steady_timer deadline_;
+  TcpOptions options_;
+  std::string peer_;
+  std::unique_ptr<StreamFraming> framing_;
+  std::shared_ptr<ReliableChannel::Callbacks> callbacks_;  // shared with the call that is running
+  std::string queue_;
+  std::size_t written_ = 0;  // bytes at the front of the queue that the kernel took
+  Phase phase_ = Phase::kOpen;
+  CloseReason reason_ = CloseReason::kLocal;
+  bool pump_posted_ = false;
+  bool reading_ = false;
+  bool awaiting_room_ = false;
+  bool write_failed_ = false;
+  bool counts_unread_ = false;  // the kernel does not know what is unsent, only what is unread
+};
+
+using asio::ip::tcp;
+
+constexpr std::size_t kReadSize = 16'384;      // one read per turn of the loop, for fairness; one TLS record
+constexpr std::size_t kKeptCapacity = 65'536;  // a queue that grew beyond this is given back
+
+tcp::socket::wait_type waitFor(ByteStream::Outcome wish) {
+  return wish == ByteStream::Outcome::kWantsWrite ? tcp::socket::wait_write : tcp::socket::wait_read;
+}
+
+StreamConnection::StreamConnection(std::unique_ptr<ByteStream> stream, std::unique_ptr<StreamFraming> framing,
+                                   const TcpOptions& options)
+    : stream_(std::move(stream)),
+      deadline_(stream_->socket().get_executor()),
+      options_(options),
+      peer_(stream_->peer()),
+      framing_(std::move(framing)) {}
+
+void StreamConnection::start(ReliableChannel::Callbacks callbacks) {
+  if (callbacks_) throw std::logic_error("a channel can be started once");
+  callbacks_ = std::make_shared<ReliableChannel::Callbacks>(std::move(callbacks));
+  if (phase_ == Phase::kClosed) return report();
+  if (framing_->midFrame()) {
+    asio::post(stream_->socket().get_executor(), [self = shared_from_this()] {
+      if (self->phase_ == Phase::kOpen) self->dispatch({});
+    });
+  }
+  awaitInput();
+}
+
+// Input. Waiting for readiness instead of reading into a buffer of its own: an idle connection then holds
+// no memory but a partial frame.
+
+void StreamConnection::awaitInput(Outcome wish) {
+  if (reading_) return;
+  reading_ = true;
+  auto go_on = [self = shared_from_this()](const std::error_code&) {
+    self->reading_ = false;
+    if (self->phase_ != Phase::kClosed) self->onInput();
+  };
+  if (stream_->holdsInput() && wish == Outcome::kWantsRead) {
+    asio::post(stream_->socket().get_executor(), [go_on = std::move(go_on)] { go_on({}); });
+  } else {
+    stream_->socket().async_wait(waitFor(wish), std::move(go_on));
+  }
+}
+
+void StreamConnection::onInput() {
+  std::array<char, kReadSize> buffer;
+  const auto [outcome, size] = stream_->read(buffer);
+  if (outcome == Outcome::kWantsRead || outcome == Outcome::kWantsWrite) {
+    awaitInput(outcome);
+  } else if (outcome != Outcome::kDone) {
+    onInputEnded(outcome);
+  } else {
+    if (phase_ == Phase::kOpen) dispatch({buffer.data(), size});
+    if (phase_ != Phase::kClosed) awaitInput();
+  }
+}
+
+void StreamConnection::dispatch(std::string_view bytes) {
+  const auto callbacks = callbacks_;  // a frame's handler may destroy the channel
+  framing_->feed(bytes);
+  while (phase_ == Phase::kOpen) {
+    const auto frame = framing_->next();
+    if (!frame) break;
+    if (callbacks->on_frame) callbacks->on_frame(*frame);
+  }
+  if (phase_ != Phase::kOpen) return;
+  if (framing_->isBroken()) return finish(CloseReason::kProtocol, false);
+  if (const auto reason = framing_->peerClosed()) {
+    sendEnd();
+    return finish(*reason, false);
+  }
+  sendReplies();
+}
+
+void StreamConnection::sendReplies() {
+  const std::size_t before = queue_.size();
+  framing_->appendReplies(queue_);
+  if (queue_.size() == before) return;
+  queuedBytes() > options_.send_cap ? finish(CloseReason::kOverflow, true) : postPump();
+}
+
+void StreamConnection::onInputEnded(Outcome outcome) {
+  const bool ended = outcome == Outcome::kEnd || outcome == Outcome::kTruncated;
+  if (phase_ == Phase::kClosing) {
+    finish(CloseReason::kLocal, false);
+  } else if (outcome == Outcome::kGarbage || (ended && framing_->midFrame() && !write_failed_)) {
+    finish(CloseReason::kProtocol, false);
+  } else {
+    finish(outcome == Outcome::kEnd && !write_failed_ ? CloseReason::kPeer : CloseReason::kError, false);
+  }
+}
+
+// Output. send() only queues; one posted call hands everything queued in this turn to one write.
+
+void StreamConnection::send(std::string_view frame) {
+  if (phase_ != Phase::kOpen || write_failed_) return;
+  const std::size_t before = queuedBytes();
+  if (before + kFrameHeaderSize + frame.size() > options_.send_cap && frame.size() <= kMaxFramePayload) {
+    finish(CloseReason::kOverflow, true);
+    return;
+  }
+  framing_->append(queue_, frame);
+  postPump();
+}
+
+void StreamConnection::postPump() {
+  if (pump_posted_) return;
+  pump_posted_ = true;
+  asio::post(stream_->socket().get_executor(), [self = shared_from_this()] {
+    self->pump_posted_ = false;
+    self->pump();
+  });
+}
+
+std::size_t StreamConnection::unsentBytes() {
+  if (phase_ == Phase::kClosed || write_failed_) return 0;
+  return queuedBytes() + bytesInKernel();
+}
+
+// Sockets of the file system know SIOCOUTQ alone: the memory of what the other program has not read yet,
+// which is more than its bytes.
+std::size_t StreamConnection::bytesInKernel() {
+  const int socket = stream_->socket().native_handle();
+  int bytes = 0;
+  if (!counts_unread_ && ioctl(socket, SIOCOUTQNSD, &bytes) != 0) counts_unread_ = true;
+  if (counts_unread_ && ioctl(socket, SIOCOUTQ, &bytes) != 0) return 0;
+  return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
+}
+
+std::string StreamConnection::exportSecret(std::string_view label, std::string_view context,
+                                           std::size_t bytes) const {
+  return phase_ == Phase::kClosed ? std::string() : stream_->exportSecret(label, context, bytes);
+}
+
+void StreamConnection::pump() {
+  if (phase_ == Phase::kClosed || write_failed_ || awaiting_room_) return;
+  while (queuedBytes() > 0) {
+    const auto [outcome, size] = stream_->write(std::string_view(queue_).substr(written_));
+    if (outcome == Outcome::kWantsWrite || outcome == Outcome::kWantsRead) {
+      if (written_ > queue_.size() / 2) dropWritten();
+      awaitRoom(outcome);
+      return;
+    }
+    if (outcome != Outcome::kDone) {
+      onWriteFailed();
+      return;
+    }
+    written_ += size;
+  }
+  dropWritten();
+  if (phase_ == Phase::kClosing) endStream();
+}
+
+void StreamConnection::awaitRoom(Outcome wish) {
+  awaiting_room_ = true;
+  stream_->socket().async_wait(waitFor(wish), [self = shared_from_this()](const std::error_code&) {
+    self->awaiting_room_ = false;
+    self->pump();
+  });
+}
+
+void StreamConnection::dropWritten() {
+  queue_.erase(0, written_);
+  written_ = 0;
+  if (queue_.empty() && queue_.capacity() > kKeptCapacity) std::string().swap(queue_);
+}
+
+/// Frames that came before the failure may still wait in the kernel; reading finds the end after them.
+void StreamConnection::onWriteFailed() {
+  write_failed_ = true;
+  if (phase_ == Phase::kClosing) finish(CloseReason::kLocal, false);
+}
+
+// The end.
+
+void StreamConnection::close() {
+  if (phase_ != Phase::kOpen) return;
+  phase_ = Phase::kClosing;
+  deadline_.expires_after(options_.close_timeout);
+  deadline_.async_wait([self = shared_from_this()](const std::error_code& error) {
+    if (!error && self->phase_ == Phase::kClosing) self->finish(CloseReason::kLocal, self->queuedBytes() > 0);
+  });
+  if (write_failed_) return finish(CloseReason::kLocal, false);
+  framing_->appendEnd(queue_);
+  awaitInput();
+  pump();
+}
+
+/// Everything is sent. Closing now would reset the connection if the peer's last bytes are unread, and the
+/// reset could overtake ours; so say that this was all, and read until the peer closes as well.
+void StreamConnection::endStream() {
+  const Outcome outcome = stream_->end();
+  if (outcome == Outcome::kWantsWrite || outcome == Outcome::kWantsRead) {
+    awaitRoom(outcome);
+  } else if (outcome != Outcome::kDone) {
+    finish(CloseReason::kLocal, false);
+  }
+}
+
+void StreamConnection::abandon() {
+  callbacks_.reset();
+  if (phase_ == Phase::kOpen) finish(CloseReason::kLocal, false);
+}
+
+/// `cut`: throw away what the kernel still holds, instead of leaving it there for a peer that does not read.
+void StreamConnection::finish(CloseReason reason, bool cut) {
+  phase_ = Phase::kClosed;
+  reason_ = reason;
+  std::error_code ignored;
+  if (cut) {
+    stream_->socket().set_option(tcp::socket::linger(true, 0), ignored);
+  } else if (reason != CloseReason::kError && !write_failed_) {
+    sendEnd();
+    stream_->end();  // as far as that goes without waiting
+  }
+  stream_->socket().close(ignored);
+  deadline_.cancel();
+  std::string().swap(queue_);
+  written_ = 0;
+  report();
+}
+
+/// Sends the framing's last word, as far as that goes without waiting.
+void StreamConnection::sendEnd() {
+  const std::size_t before = queue_.size();
+  framing_->appendEnd(queue_);
+  if (queue_.size() == before) return;
+  while (queuedBytes() > 0) {
+    const auto [outcome, size] = stream_->write(std::string_view(queue_).substr(written_));
+    if (outcome != Outcome::kDone) return;
+    written_ += size;
+  }
+}
+
+void StreamConnection::report() {
+  if (!callbacks_) return;
+  asio::post(stream_->socket().get_executor(), [self = shared_from_this()] {
+    const auto callbacks = std::move(self->callbacks_);  // none if the channel was destroyed meanwhile
+    if (callbacks && callbacks->on_closed) callbacks->on_closed(self->reason_);
+  });
+}
 
 class FramedChannel : public ReliableChannel {
  public:

@@ -1,9 +1,6 @@
 #include "shared/net/stream/TcpConnector.h"
 
-#include <utility>
-
 #include "shared/net/stream/StreamAttempt.h"
-#include "shared/net/stream/TcpChannel.h"
 
 namespace naiad {
 namespace {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "shared/net/base/Channel.h"
-#include "shared/net/stream/PeerFacts.h"
-#include "shared/net/stream/TcpOptions.h"
+#include "shared/net/stream/Fingerprint.h"
+#include "shared/net/stream/TcpChannel.h"
 #include "shared/net/stream/TlsContext.h"
 
 namespace naiad {

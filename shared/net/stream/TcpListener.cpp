@@ -5,19 +5,15 @@
 #include <sys/socket.h>
 
 #include <asio/io_context.hpp>
-#include <asio/ip/tcp.hpp>
 #include <asio/ip/v6_only.hpp>
 #include <cerrno>
-#include <chrono>
 #include <map>
 #include <sstream>
 #include <utility>
 
-#include "shared/net/base/AddressPrefix.h"
 #include "shared/net/stream/AcceptLoop.h"
 #include "shared/net/stream/HalfOpenLimit.h"
-#include "shared/net/stream/TcpChannel.h"
-#include "shared/net/stream/TlsHandshake.h"
+#include "shared/net/stream/TlsStream.h"
 
 namespace naiad {
 

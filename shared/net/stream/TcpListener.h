@@ -16,7 +16,7 @@
 
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/Channel.h"
-#include "shared/net/stream/TcpOptions.h"
+#include "shared/net/stream/TcpChannel.h"
 #include "shared/net/stream/TlsContext.h"
 
 namespace naiad {

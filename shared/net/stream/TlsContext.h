@@ -37,7 +37,7 @@ class TlsContext {
   /// may name none.
   static std::shared_ptr<const TlsContext> forWebServer(const std::string& certificate_pem,
                                                         const std::string& key_pem);
-  /// Takes any server, and finds out about it (PeerFacts.h). Chains are checked against the system's trust
+  /// Takes any server, and finds out about it (PeerFacts). Chains are checked against the system's trust
   /// store, or the PEM file `trust_file`. Throws TlsError if that file cannot be used.
   static std::shared_ptr<const TlsContext> forClient(const std::string& trust_file = {});
   /// Makes the context of a client of web servers: TLS 1.2 or 1.3, ALPN "http/1.1", which a server need not

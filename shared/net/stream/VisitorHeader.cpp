@@ -1,10 +1,8 @@
 #include "shared/net/stream/VisitorHeader.h"
 
 #include <asio/ip/address.hpp>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <system_error>
 
 #include "shared/net/base/AddressPrefix.h"
 
@@ -79,19 +77,9 @@ std::optional<tcp::endpoint> readVisitorHeader(std::string_view header) {
 }
 
 std::optional<tcp::endpoint> visitorFromText(std::string_view text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  std::string host(text.substr(0, colon));
-  const bool in_brackets = host.starts_with('[') && host.ends_with(']');
-  if (in_brackets) host = host.substr(1, host.size() - 2);
-  std::error_code error;
-  const auto address = unmapped(asio::ip::make_address(host, error));
-  std::uint16_t port = 0;
-  const char* const last = text.data() + text.size();
-  const auto [end, wrong] = std::from_chars(text.data() + colon + 1, last, port);
-  if (error || wrong != std::errc{} || end != last || port == 0 || !isVisitors(address)) return std::nullopt;
-  if (in_brackets == (host.find(':') == std::string::npos)) return std::nullopt;
-  return tcp::endpoint(address, port);
+  const auto endpoint = NumericEndpoint::parse(text);
+  if (!endpoint || endpoint->port == 0 || !isVisitors(unmapped(endpoint->address))) return std::nullopt;
+  return tcp::endpoint(unmapped(endpoint->address), endpoint->port);
 }
 
 std::string visitorHeader(const tcp::endpoint& visitor) {

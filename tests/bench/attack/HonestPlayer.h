@@ -9,7 +9,7 @@
 #include <string>
 
 #include "Relay.h"
-#include "client/bot/BotPlayer.h"
+#include "client/bot/BotScript.h"
 #include "client/bot/TruthRecorder.h"
 #include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"

@@ -23,7 +23,7 @@
 #include "PasswordCrowd.h"
 #include "Phase.h"
 #include "SilentCrowd.h"
-#include "shared/options/NearestName.h"
+#include "shared/options/Options.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "client/bot/BotPlayer.h"
+#include "client/bot/BotScript.h"
 #include "client/session/Connection.h"
 
 namespace bench {

@@ -16,7 +16,6 @@
 #include "CrowdProcess.h"
 #include "Fleet.h"
 #include "shared/program/BrokenPipes.h"
-#include "shared/program/OpenFiles.h"
 
 namespace {
 

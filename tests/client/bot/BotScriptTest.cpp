@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "client/bot/BotPlayer.h"
 #include "client/bot/BotScript.h"
 
 namespace naiad {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "client/bot/WholePicture.h"
+#include "client/bot/TruthRecorder.h"
 
 namespace naiad {
 namespace {

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "client/ctl/Completions.h"
 #include "client/ctl/CtlCommandLine.h"
 #include "shared/admin/AdminCommands.h"
 #include "shared/admin/AdminRequest.h"

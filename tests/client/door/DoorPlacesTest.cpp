@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "client/door/DoorPlaces.h"
-#include "client/door/KeyFolders.h"
 
 namespace naiad {
 namespace {

@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "../../support/HostileTexts.h"
-#include "client/lan/ListUrl.h"
-#include "client/lan/ServerListJson.h"
-#include "client/lan/ServerListText.h"
+#include "client/lan/FoundServers.h"
+#include "client/lan/ListDownload.h"
 #include "shared/json/Json.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "client/lan/ServerListText.h"
+#include "client/lan/FoundServers.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {

@@ -31,7 +31,7 @@ TEST_F(HostileServerTest, ChatIsCutFilteredAndBounded) {
     message.mutable_chat()->set_text("\033]0;owned\007" + std::string(500, 'x'));
     receive(message);
   }
-  EXPECT_EQ(session->chat().size(), ChatLog::kMax);
+  EXPECT_EQ(session->chat().size(), ReliableInbox::kMaxChat);
   EXPECT_EQ(session->chat().back().name, "Bob");
   EXPECT_EQ(session->chat().back().color, df::GREEN);
   EXPECT_EQ(session->chat().back().text.size(), kMaxChatLength);

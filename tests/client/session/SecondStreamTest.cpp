@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ClientSessionFixture.h"
-#include "client/session/SecondStream.h"
+#include "client/session/ServerLink.h"
 
 namespace naiad::test {
 namespace {

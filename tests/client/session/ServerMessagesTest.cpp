@@ -13,7 +13,7 @@
 #include "client/session/ServerMessages.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/base/RoomName.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/replica/Limits.h"
 #include "shared/values/Canvas.h"
 #include "shared/values/SplitMix64.h"

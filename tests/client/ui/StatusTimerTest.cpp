@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "client/ui/StatusTimer.h"
+#include "client/ui/FrameComposer.h"
 
 namespace naiad {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "client/web/WebPort.h"
+#include "client/web/WebStreams.h"
 #include "naiad.pb.h"
 
 namespace naiad::test {

@@ -12,12 +12,7 @@
 #include "Script.h"
 #include "host/fleet/GameServerFacts.h"
 #include "server/directory/FleetList.h"
-#include "server/directory/ServerList.h"
-#include "shared/fleet/BusFields.h"
-#include "shared/fleet/GameResult.h"
-#include "shared/fleet/Presence.h"
-#include "shared/fleet/ServerId.h"
-#include "shared/net/base/RoomName.h"
+#include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/SafeText.h"
 
 namespace naiad::fuzz {

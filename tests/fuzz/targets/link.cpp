@@ -7,7 +7,7 @@
 
 #include "Require.h"
 #include "Script.h"
-#include "client/trust/GatewayAddress.h"
+#include "client/trust/ServerAddress.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad::fuzz {

@@ -15,10 +15,9 @@
 #include <vector>
 
 #include "QuickInterval.h"
-#include "client/lan/ServerListJson.h"
+#include "client/lan/FoundServers.h"
 #include "host/fleet/Bus.h"
-#include "shared/fleet/Presence.h"
-#include "shared/fleet/ServerId.h"
+#include "shared/fleet/BusPayloads.h"
 #include "tests/loopback/GameProgram.h"
 #include "tests/server/host/fleet/NatsServer.h"
 #include "tests/support/RunningProgram.h"

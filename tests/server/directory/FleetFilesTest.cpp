@@ -18,9 +18,7 @@
 
 #include "QuickInterval.h"
 #include "host/fleet/Bus.h"
-#include "shared/fleet/Presence.h"
-#include "shared/fleet/SendOn.h"
-#include "shared/fleet/ServerId.h"
+#include "shared/fleet/BusPayloads.h"
 #include "tests/loopback/GameProgram.h"
 #include "tests/server/host/fleet/NatsServer.h"
 #include "tests/support/RunningProgram.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "server/directory/FleetList.h"
-#include "shared/fleet/ServerId.h"
+#include "shared/fleet/BusPayloads.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {

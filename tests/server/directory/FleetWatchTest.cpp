@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "FakeBus.h"
-#include "server/directory/FleetWatch.h"
-#include "shared/fleet/ServerId.h"
+#include "server/directory/FleetList.h"
+#include "shared/fleet/BusPayloads.h"
 
 namespace naiad {
 namespace {

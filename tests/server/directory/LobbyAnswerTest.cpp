@@ -4,9 +4,9 @@
 #include <string>
 
 #include "naiad.pb.h"
-#include "server/directory/LobbyAnswer.h"
-#include "server/directory/ServerList.h"
-#include "shared/fleet/ServerId.h"
+#include "server/directory/FleetList.h"
+#include "server/directory/Lobby.h"
+#include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/SplitMix64.h"
 

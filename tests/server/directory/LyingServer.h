@@ -10,7 +10,7 @@
 
 #include "host/auth/ServerIdentity.h"
 #include "naiad.pb.h"
-#include "shared/net/stream/ShortKey.h"
+#include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/TcpListener.h"
 
 namespace naiad::test {

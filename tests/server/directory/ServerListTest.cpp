@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "client/lan/FoundServers.h"
 #include "client/lan/ListDownload.h"
-#include "client/lan/ServerListJson.h"
-#include "server/directory/ServerList.h"
+#include "server/directory/FleetList.h"
 
 namespace naiad {
 namespace {

@@ -19,8 +19,8 @@
 
 #include "host/auth/ServerIdentity.h"
 #include "shared/net/base/Channel.h"
-#include "shared/net/stream/ShortKey.h"
-#include "shared/net/stream/TlsHandshake.h"
+#include "shared/net/stream/Fingerprint.h"
+#include "shared/net/stream/TlsStream.h"
 #include "shared/net/stream/VisitorsListener.h"
 
 namespace naiad::test {

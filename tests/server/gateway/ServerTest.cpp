@@ -3,7 +3,7 @@
 
 #include "GatewayRun.h"
 #include "WebClient.h"
-#include "shared/net/stream/ShortKey.h"
+#include "shared/net/stream/Fingerprint.h"
 #include "tests/loopback/BusyWorld.h"
 #include "tests/loopback/TestServer.h"
 

@@ -12,7 +12,6 @@
 #include "host/rounds/Journals.h"
 #include "host/settings/GameModule.h"
 #include "host/world/FixedStart.h"
-#include "server/replay/PictureReel.h"
 #include "server/replay/Replay.h"
 #include "server/replay/RoundPlayer.h"
 #include "server/replay/Verify.h"

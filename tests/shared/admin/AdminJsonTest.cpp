@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminJson.h"
-#include "shared/admin/AdminText.h"
 
 namespace naiad {
 namespace {

@@ -4,11 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "shared/fleet/BusFields.h"
-#include "shared/fleet/GameResult.h"
-#include "shared/fleet/Presence.h"
-#include "shared/fleet/ServerId.h"
-#include "shared/net/base/RoomName.h"
+#include "shared/fleet/BusPayloads.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {

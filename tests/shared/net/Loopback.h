@@ -13,7 +13,7 @@
 
 #include "TestIdentity.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/stream/PlainStream.h"
+#include "shared/net/stream/ByteStream.h"
 #include "shared/net/stream/TcpChannel.h"
 #include "shared/net/stream/TlsStream.h"
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "shared/options/NearestName.h"
 #include "shared/options/Options.h"
 
 namespace naiad {

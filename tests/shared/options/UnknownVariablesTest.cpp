@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "shared/options/UnknownVariables.h"
+#include "shared/options/Options.h"
 
 namespace naiad {
 namespace {

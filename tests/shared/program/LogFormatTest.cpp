@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "shared/program/LogFormat.h"
+#include "shared/program/LineLog.h"
 
 namespace naiad {
 namespace {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "shared/net/stream/Framing.h"
-#include "shared/net/stream/TcpOptions.h"
+#include "shared/net/stream/TcpChannel.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/support/net/LossyLink.h"
 

@@ -19,7 +19,7 @@
 #include "host/loop/HostEndpoint.h"
 #include "host/ops/AdminConsole.h"
 #include "host/world/WorldInProcess.h"
-#include "shared/admin/AdminText.h"
+#include "shared/admin/AdminAnswer.h"
 #include "tests/server/host/rooms/Clients.h"
 #include "tests/support/FakeChannel.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/net/base/AddressReach.h"
+#include "shared/net/base/AddressRange.h"
 
 namespace naiad {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "shared/net/base/IdleTimer.h"
+#include "shared/net/base/LinkStats.h"
 
 namespace naiad {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "shared/net/base/PathProbe.h"
+#include "shared/net/base/LinkStats.h"
 
 namespace naiad {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "shared/net/datagram/ReplayWindow.h"
+#include "shared/net/datagram/Seal.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "shared/net/stream/ClientHelloGuard.h"
+#include "shared/net/stream/SocketBio.h"
 
 namespace naiad {
 namespace {

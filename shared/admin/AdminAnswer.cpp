@@ -1,4 +1,4 @@
-#include "shared/admin/AdminText.h"
+#include "shared/admin/AdminAnswer.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,7 +7,6 @@
 #include "shared/program/LogText.h"
 
 namespace naiad {
-
 namespace {
 
 std::string cellText(const AdminValue& value) {
