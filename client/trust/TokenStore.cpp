@@ -58,7 +58,8 @@ std::optional<SavedSession> readSavedSession(std::string_view text) {
   const auto fingerprint = Fingerprint::parse(*key);
   auto bytes = bytesOfHex(*token);
   constexpr std::int64_t kLatest = std::int64_t{1} << 42;  // ms; later ones do not fit the clock's type
-  if (!fingerprint || !bytes || bytes->empty() || bytes->size() > kMaxToken || *alive > kLatest) return std::nullopt;
+  if (!fingerprint || !bytes || bytes->empty() || bytes->size() > kMaxToken || *alive > kLatest)
+    return std::nullopt;
   return SavedSession{std::string(*server),
                       *fingerprint,
                       std::string(*name),

@@ -57,8 +57,8 @@ fs::path ownFolder() {
   return fs::canonical(info.dli_fname, error).parent_path();
 }
 
-/// How dfclient ends when it has not played (client/session/TrustOptions.h): wrong usage, unreachable, refused,
-/// no terminal.
+/// How dfclient ends when it has not played (client/session/TrustOptions.h): wrong usage, unreachable,
+/// refused, no terminal.
 bool meansFailure(int status) {
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   return code != 0 && code != 4;

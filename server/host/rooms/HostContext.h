@@ -12,7 +12,6 @@
 #include "host/settings/HostOptions.h"
 #include "shared/program/ClientLog.h"
 #include "shared/program/LineLog.h"
-#include "shared/program/LineLog.h"
 
 namespace naiad {
 

@@ -34,10 +34,10 @@ using PathChallenge = std::uint64_t;
 /// Where a session's datagrams go, and how many bytes may go there before that address is validated.
 ///
 /// The path of the newest authentic packet is the current one. A copied packet can be made to come from
-/// anywhere, so a path that has not answered a challenge yet gets at most three times the bytes that came from
-/// it (RFC 9000, 8.1, 8.2 and 9.3). This is no token bucket: bytes refill it, not time. The path validated
-/// last is remembered: a copy that overtakes its original moves the session for one packet only, and coming
-/// back costs nothing.
+/// anywhere, so a path that has not answered a challenge yet gets at most three times the bytes that came
+/// from it (RFC 9000, 8.1, 8.2 and 9.3). This is no token bucket: bytes refill it, not time. The path
+/// validated last is remembered: a copy that overtakes its original moves the session for one packet only,
+/// and coming back costs nothing.
 class PathGuard {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -12,7 +12,8 @@ struct bio_st;
 
 namespace naiad {
 
-/// Looks at what a client sends before its handshake is done, and stops it from making OpenSSL reserve memory.
+/// Looks at what a client sends before its handshake is done, and stops it from making OpenSSL reserve
+/// memory.
 ///
 /// OpenSSL accepts a ClientHello of up to 131,396 bytes and reserves for all of it when its length has come.
 /// An honest one takes a few hundred bytes. The client's hello messages (a second one may follow a

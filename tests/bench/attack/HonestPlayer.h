@@ -11,7 +11,6 @@
 #include "Relay.h"
 #include "client/bot/BotScript.h"
 #include "client/bot/TruthRecorder.h"
-#include "client/bot/WholePicture.h"
 #include "client/session/Connection.h"
 
 namespace bench::attack {
