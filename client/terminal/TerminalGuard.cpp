@@ -31,7 +31,7 @@ constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
 constexpr int kTerminating[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kReported[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
 constexpr int kWriteTimeoutMillis = 1000;  // for a terminal that takes no bytes
-constexpr int kMaxStops = 16;              // of a process in the background; then it ends
+constexpr int kForegroundMillis = 100;     // between two looks whether this is the foreground again
 
 // What the signal handlers read: lock-free and initialised before they are installed.
 termios g_original;
@@ -65,6 +65,17 @@ void restoreNow() {
 bool isInBackground() {
   const pid_t foreground = tcgetpgrp(STDIN_FILENO);
   return foreground > 0 && foreground != getpgrp();
+}
+
+/// Of a process that was continued in the background. It does not stop again: the shell takes it for one that
+/// runs, so a signal that is to end it would not be followed by the one that continues it. False: it is to
+/// end, or whoever could give it the foreground has gone.
+bool waitForForeground(pid_t parent) {
+  while (!g_end_asked && isInBackground()) {
+    if (getppid() != parent) return false;
+    poll(nullptr, 0, kForegroundMillis);
+  }
+  return !g_end_asked;
 }
 
 void dieOf(int signal) {
@@ -207,17 +218,14 @@ bool TerminalGuard::kittyPushed() const {
 }
 
 bool TerminalGuard::stopProcess() {
+  const pid_t parent = getppid();
   install(SIGTSTP, SIG_DFL, 0);
   // The whole group, as the terminal does it: a parent that waits for this process (a script, sudo) must stop
   // as well.
   kill(0, SIGTSTP);
-  // Continued in the background, it waits for the foreground as any program that uses the terminal does.
-  for (int stops = 0; isInBackground() && !g_end_asked; ++stops) {
-    if (stops == kMaxStops) return false;  // nobody can continue it in the foreground
-    kill(0, SIGTTOU);
-  }
+  const bool goes_on = waitForForeground(parent);
   installHandlers();
-  return !g_end_asked;
+  return goes_on;
 }
 
 int TerminalGuard::signalFd() const {

@@ -11,6 +11,7 @@
 #include <random>
 #include <regex>
 #include <string>
+#include <thread>
 
 #include "FakeServer.h"
 #include "PtyTerminal.h"
@@ -55,6 +56,24 @@ int tries() {
 
 class TerminalSignalsTest : public testing::Test {
  protected:
+  PtyTerminal::Options shell() const {
+    PtyTerminal::Options shell = options();
+    shell.command = {"/bin/bash", "--norc", "--noprofile", "--noediting", "-i"};
+    shell.environment["PS1"] = "ready$ ";
+    return shell;
+  }
+  /// Run the client in the shell, and press Ctrl-Z, as the keyboard protocol says it.
+  void playAndSuspend(PtyTerminal& terminal) const {
+    ASSERT_TRUE(terminal.waitFor("ready$ "));
+    terminal.type("echo before-$(stty -g); ");
+    for (const std::string& word : options().command) terminal.type(word + " ");
+    terminal.type("\n");
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    ASSERT_TRUE(terminal.waitFor("\033[>31u"));
+    terminal.forget();
+    terminal.type("\033[122;5u");
+    ASSERT_TRUE(terminal.waitFor("ready$ ")) << terminal.output();
+  }
   PtyTerminal::Options options() const {
     PtyTerminal::Options options;
     options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
@@ -119,21 +138,10 @@ TEST_F(TerminalSignalsTest, InTheServerChooser) {
 
 // What players do most: Ctrl-Z, then kill. The shell's terminal stays the shell's, and the client ends.
 TEST_F(TerminalSignalsTest, AfterControlZ) {
-  for (const std::string kill :
-       {"kill %1", "kill -HUP %1; kill %1; kill -INT %1", "bg >/dev/null; kill %1; kill %1"}) {
-    PtyTerminal::Options shell = options();
-    shell.command = {"/bin/bash", "--norc", "--noprofile", "--noediting", "-i"};
-    shell.environment["PS1"] = "ready$ ";
-    PtyTerminal terminal(shell);
-    ASSERT_TRUE(terminal.waitFor("ready$ "));
-    terminal.type("echo before-$(stty -g); ");
-    for (const std::string& word : options().command) terminal.type(word + " ");
-    terminal.type("\n");
-    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
-    ASSERT_TRUE(terminal.waitFor("\033[>31u"));
-    terminal.forget();
-    terminal.type("\033[122;5u");  // Ctrl-Z, as the keyboard protocol says it
-    ASSERT_TRUE(terminal.waitFor("ready$ ")) << terminal.output();
+  for (const std::string kill : {"kill %1", "kill -HUP %1; kill %1; kill -INT %1",
+                                 "bg >/dev/null; kill %1; kill %1", "bg >/dev/null; sleep .3; kill %1"}) {
+    PtyTerminal terminal(shell());
+    ASSERT_NO_FATAL_FAILURE(playAndSuspend(terminal));
     // `wait` does not wait for a job that is stopped.
     terminal.type(kill + R"sh(; while [ -n "$(jobs -p)" ]; do sleep .02; jobs; done; echo jobs-$((0)))sh"
                          "\n");
@@ -150,6 +158,37 @@ TEST_F(TerminalSignalsTest, AfterControlZ) {
     terminal.type("exit\n");
     EXPECT_NE(terminal.waitForExit(), -1);
   }
+}
+
+TEST_F(TerminalSignalsTest, ContinuedInTheBackgroundItComesBackWithTheForeground) {
+  PtyTerminal terminal(shell());
+  ASSERT_NO_FATAL_FAILURE(playAndSuspend(terminal));
+  terminal.forget();
+  const std::size_t before = terminal.output().size();
+  terminal.type("bg >/dev/null; sleep .5; jobs; echo d''one\n");
+  ASSERT_TRUE(terminal.waitFor("done\r\n")) << terminal.output();
+  EXPECT_EQ(terminal.output().find("NAIAD-HERE", before), std::string::npos)
+      << "it draws on the shell's screen";
+  EXPECT_NE(terminal.output().find("Running"), std::string::npos) << terminal.output();
+  terminal.type("fg\n");
+  EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+}
+
+TEST_F(TerminalSignalsTest, InTheBackgroundItEndsWithTheShell) {
+  PtyTerminal terminal(shell());
+  ASSERT_NO_FATAL_FAILURE(playAndSuspend(terminal));
+  terminal.type("bg >/dev/null; echo client-$!-''$(jobs -p)-e''nd\n");
+  ASSERT_TRUE(terminal.waitFor("-end\r\n")) << terminal.output();
+  const std::string all = terminal.output();
+  std::smatch client;
+  ASSERT_TRUE(std::regex_search(all, client, std::regex("client-[0-9]*-([0-9]+)-end\r"))) << all;
+  terminal.type("exit\n");
+  EXPECT_NE(terminal.waitForExit(), -1);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const pid_t process = std::stoi(client[1]);
+  while (::kill(process, 0) == 0 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));  // before it is asked again
+  EXPECT_NE(::kill(process, 0), 0);
 }
 
 }  // namespace
