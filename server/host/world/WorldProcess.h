@@ -50,7 +50,7 @@ class WorldProcess : public WorldPort {
   WorldProcess(const WorldProcess&) = delete;
   WorldProcess& operator=(const WorldProcess&) = delete;
 
-  bool isReady() const override { return m_state == State::kReady; }
+  bool isReady() const override { return m_state == State::kReady && m_keeper_is != Keeper::kStarting; }
   void tick(const SentTurn& turn) override;
   /// Before the first tick: that of the host's. From there on it counts its own.
   std::uint32_t nextTick() const override { return m_next_tick; }
