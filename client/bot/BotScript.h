@@ -76,7 +76,7 @@ class ScriptPlayer {
  public:
   explicit ScriptPlayer(BotScript script) : m_script(std::move(script)) {}
 
-  /// What to send in this tick.
+  /// Advances the script by one tick. Returns the actions to send in it.
   std::vector<BotAction> tick();
   /// Nothing more will come.
   bool isDone() const { return m_at >= m_script.steps().size() && m_down == df::Keyboard::UNDEFINED_KEY; }

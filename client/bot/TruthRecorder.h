@@ -25,8 +25,8 @@ namespace naiad {
 /// come later: by datagram what is sent after it on the stream overtakes it.
 class WholePicture {
  public:
-  /// A snapshot was applied. `acks`: what has arrived by now, that one included. `before`: number of the
-  /// newest that was sent before this session's.
+  /// Call after a snapshot was applied. `acks`: the snapshots received so far, this one included. `before`:
+  /// the number of the last snapshot before this session.
   void addSnapshot(const SnapshotHeader& header, const AckWindow& acks, std::uint32_t before = 0) {
     if (header.number == acks.newest) {
       m_complete = header.complete;
@@ -35,12 +35,12 @@ class WholePicture {
     m_whole = m_complete && hasAll(acks, before);
   }
   bool isWhole() const { return m_whole; }
-  /// Of the newest snapshot, by number. Late ones do not change it.
+  /// The tick of the snapshot with the highest number; snapshots that arrive late do not change it.
   std::uint32_t tick() const { return m_tick; }
 
  private:
-  /// Those that the window has left count as arrived: the sender took them for lost, and sent what they said
-  /// again, before it called a snapshot complete.
+  /// Snapshots older than the window count as received: before it marks a snapshot as complete, the sender
+  /// treats them as lost and sends their contents again.
   static bool hasAll(const AckWindow& acks, std::uint32_t before) {
     const auto between = static_cast<std::int32_t>(acks.newest - before) - 1;
     if (between <= 0) return between == 0;

@@ -22,7 +22,8 @@ std::string names() {
   return all;
 }
 
-/// What the first argument of a command may be, if that is a choice, and the names of those that have one.
+/// The values that a command's first argument can have, if it is a choice, and the names of its named
+/// arguments.
 std::string choices(const AdminCommand& command) {
   std::string all;
   if (command.arguments.empty()) return all;

@@ -7,12 +7,13 @@
 
 namespace naiad {
 
-/// What a shell completes after "dfctl ", made from the table of commands.
-/// A script for "bash", "zsh" or "fish"; nothing for other shells.
+/// Returns the completion script of dfctl for "bash", "zsh" or "fish", made from the table of commands;
+/// nothing for other shells.
 std::optional<std::string> ctlCompletion(const std::string& shell);
-/// Of dfctl(1), for man: options, commands, environment, exit status.
+/// Returns the sections of the man page dfctl(1): options, commands, environment, exit status.
 std::string ctlManSections();
-/// What `dfctl --option-page KIND` prints for the build: "man", or a script for a shell; nothing for another.
+/// Returns what `dfctl --option-page KIND` prints: the man page's sections for "man", or a completion script
+/// for the name of a shell; nothing for other kinds.
 std::optional<std::string> ctlPage(const std::string& kind);
 
 struct CtlCommandLine {

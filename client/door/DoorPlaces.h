@@ -18,15 +18,15 @@ std::optional<std::string> keyFolderName(std::string_view auth_info);
 
 /// Where a door keeps what belongs to one visitor: a folder for each key that they proved to have, so that
 /// they are known again. In it are their name, and what dfclient keeps to come back to a session. One process
-/// at a time has the use of it.
+/// at a time can use it.
 ///
 /// Keys cost nothing, so there is a limit on folders; those that were not used for a month make room.
 class VisitorFolder {
  public:
   static constexpr std::size_t kMaxFolders = 10'000;
 
-  /// Of the key of this name, in `folder`: made if it is missing, 0700. Null if there are too many already.
-  /// Throws std::system_error.
+  /// Opens the folder in `folder` for the key of this name, and creates it with mode 0700 if it does not
+  /// exist. Returns null if there are already `max_folders`. Throws std::system_error.
   static std::unique_ptr<VisitorFolder> open(const std::filesystem::path& folder, const std::string& name,
                                              std::size_t max_folders = kMaxFolders);
   /// One that goes with this object, for visitors without a key.
