@@ -13,7 +13,7 @@
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/options/Options.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 #include "shared/values/Version.h"
 
 namespace {

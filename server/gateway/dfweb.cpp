@@ -10,7 +10,7 @@
 #include "server/gateway/PageFiles.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/options/Options.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 #include "shared/values/Version.h"
 
 namespace {

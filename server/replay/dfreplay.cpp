@@ -12,7 +12,7 @@
 #include "server/replay/RoundPlayer.h"
 #include "server/replay/Verify.h"
 #include "shared/options/Options.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace {
 

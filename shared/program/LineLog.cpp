@@ -20,8 +20,8 @@
 #include <thread>
 
 #include "shared/json/Json.h"
-#include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 namespace {

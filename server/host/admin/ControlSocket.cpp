@@ -25,7 +25,7 @@
 #include "host/process/WatchFeed.h"
 #include "shared/admin/AdminJson.h"
 #include "shared/net/stream/TcpListener.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 

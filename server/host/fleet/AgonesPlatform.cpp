@@ -15,7 +15,7 @@
 
 #include "host/fleet/SidecarDuties.h"
 #include "shared/net/http/HttpExchange.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 

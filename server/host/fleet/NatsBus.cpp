@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "host/fleet/BusQueue.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 

@@ -24,7 +24,7 @@
 #include "host/process/Watchdog.h"
 #include "host/session/CounterTable.h"
 #include "naiad.pb.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 

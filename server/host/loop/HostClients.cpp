@@ -7,8 +7,8 @@
 #include "host/session/Names.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
-#include "shared/program/BrokenPipes.h"
 #include "shared/program/LogText.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 

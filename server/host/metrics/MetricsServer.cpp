@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "shared/net/http/HttpHead.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "host/process/CrashReport.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 

@@ -31,9 +31,9 @@
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
 #include "proto/ParseErrors.h"
-#include "shared/program/BrokenPipes.h"
 #include "shared/program/LineLog.h"
 #include "shared/program/LogText.h"
+#include "shared/program/ProcessSetup.h"
 #include "shared/values/Version.h"
 
 namespace naiad {

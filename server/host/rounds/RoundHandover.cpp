@@ -20,7 +20,7 @@
 #include "host/rounds/WorldSandbox.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 

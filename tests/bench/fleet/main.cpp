@@ -15,7 +15,7 @@
 #include "Crowd.h"
 #include "CrowdProcess.h"
 #include "Fleet.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "GatewayRun.h"
 #include "WebClient.h"
 #include "shared/net/base/Limits.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad::test {
 namespace {

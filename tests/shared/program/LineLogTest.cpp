@@ -17,9 +17,9 @@
 #include <string>
 #include <string_view>
 
-#include "shared/program/BrokenPipes.h"
 #include "shared/program/LineLog.h"
 #include "shared/program/LogText.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 namespace {

@@ -27,7 +27,7 @@
 #include "engine/world/World.h"
 #include "host/loop/Host.h"
 #include "host/loop/HostEndpoint.h"
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 #include <pthread.h>
 #include <sys/resource.h>

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 
-#include "shared/program/BrokenPipes.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 namespace {
