@@ -9,10 +9,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace naiad {
@@ -62,20 +65,29 @@ void restoreNow() {
   g_taken = 0;
 }
 
-bool isInBackground() {
-  const pid_t foreground = tcgetpgrp(STDIN_FILENO);
-  return foreground > 0 && foreground != getpgrp();
+/// The process that can bring this one's group to the foreground: the parent of the group's leader, or of this
+/// process if the leader has gone.
+pid_t shellOfGroup() {
+  std::ifstream file("/proc/" + std::to_string(getpgrp()) + "/stat");
+  std::string stat;
+  std::getline(file, stat);
+  const std::size_t name_end = stat.rfind(')');
+  pid_t parent = 0;
+  const bool good = name_end != std::string::npos && sscanf(&stat[name_end], ") %*c %d", &parent) == 1;
+  return good ? parent : getppid();
 }
 
 /// Of a process that was continued in the background. It does not stop again: the shell takes it for one that
 /// runs, so a signal that is to end it would not be followed by the one that continues it. False: it is to
-/// end, or whoever could give it the foreground has gone.
-bool waitForForeground(pid_t parent) {
-  while (!g_end_asked && isInBackground()) {
-    if (getppid() != parent) return false;
+/// end, or the shell or the session's terminal has gone.
+bool waitForForeground(pid_t shell) {
+  while (!g_end_asked) {
+    const pid_t foreground = tcgetpgrp(STDIN_FILENO);
+    if (foreground < 0 || shellOfGroup() != shell) return false;
+    if (foreground == getpgrp()) return true;
     poll(nullptr, 0, kForegroundMillis);
   }
-  return !g_end_asked;
+  return false;
 }
 
 void dieOf(int signal) {
@@ -218,12 +230,13 @@ bool TerminalGuard::kittyPushed() const {
 }
 
 bool TerminalGuard::stopProcess() {
-  const pid_t parent = getppid();
+  const pid_t shell = shellOfGroup();
+  const bool has_shell = tcgetpgrp(STDIN_FILENO) > 0;
   install(SIGTSTP, SIG_DFL, 0);
   // The whole group, as the terminal does it: a parent that waits for this process (a script, sudo) must stop
   // as well.
   kill(0, SIGTSTP);
-  const bool goes_on = waitForForeground(parent);
+  const bool goes_on = has_shell ? waitForForeground(shell) : g_end_asked == 0;
   installHandlers();
   return goes_on;
 }

@@ -56,10 +56,10 @@ void bringToFront(pid_t process) {
 /// then its status.
 [[noreturn]] void leadSession(int slave, int report, const PtyTerminal::Options& options) {
   login_tty(slave);
-  const pid_t program = fork();
+  const pid_t program = options.leads ? 0 : fork();
   if (program == 0) {
     close(report);
-    bringToFront(getpid());
+    if (!options.leads) bringToFront(getpid());
     runProgram(options);
   }
   bringToFront(program);
@@ -87,21 +87,27 @@ PtyTerminal::PtyTerminal(const Options& options) : m_answer_kitty(options.answer
   if (m_leader == 0) leadSession(m_slave, report[1], options);
   close(report[1]);
   m_report = report[0];
-  if (::read(m_report, &m_pid, sizeof m_pid) != sizeof m_pid) throw std::runtime_error("no program");
+  m_pid = m_leader;
+  if (!options.leads && ::read(m_report, &m_pid, sizeof m_pid) != sizeof m_pid)
+    throw std::runtime_error("no program");
   fcntl(m_report, F_SETFL, O_NONBLOCK);
 }
 
 PtyTerminal::~PtyTerminal() {
   if (!hasExited()) kill(m_pid, SIGKILL);
-  kill(m_leader, SIGKILL);
-  waitpid(m_leader, nullptr, 0);
+  if (m_pid != m_leader || !m_exited) {
+    kill(m_leader, SIGKILL);
+    waitpid(m_leader, nullptr, 0);
+  }
   close(m_report);
   close(m_slave);
   close(m_master);
 }
 
 bool PtyTerminal::hasExited() {
-  if (!m_exited) m_exited = ::read(m_report, &m_status, sizeof m_status) == sizeof m_status;
+  if (m_exited) return true;
+  m_exited = m_pid == m_leader ? waitpid(m_leader, &m_status, WNOHANG) > 0
+                               : ::read(m_report, &m_status, sizeof m_status) == sizeof m_status;
   return m_exited;
 }
 

@@ -3,15 +3,17 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <regex>
 #include <string>
-#include <thread>
 
 #include "FakeServer.h"
 #include "PtyTerminal.h"
@@ -63,10 +65,12 @@ class TerminalSignalsTest : public testing::Test {
     return shell;
   }
   /// Run the client in the shell, and press Ctrl-Z, as the keyboard protocol says it.
-  void playAndSuspend(PtyTerminal& terminal) const {
+  void playAndSuspend(PtyTerminal& terminal, const std::string& wrapper = "") const {
     ASSERT_TRUE(terminal.waitFor("ready$ "));
     terminal.type("echo before-$(stty -g); ");
-    for (const std::string& word : options().command) terminal.type(word + " ");
+    std::string command;
+    for (const std::string& word : options().command) command += word + " ";
+    terminal.type(wrapper.empty() ? command : wrapper + " '" + command + "; true'");
     terminal.type("\n");
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
     ASSERT_TRUE(terminal.waitFor("\033[>31u"));
@@ -174,22 +178,50 @@ TEST_F(TerminalSignalsTest, ContinuedInTheBackgroundItComesBackWithTheForeground
   EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
 }
 
-TEST_F(TerminalSignalsTest, InTheBackgroundItEndsWithTheShell) {
-  PtyTerminal terminal(shell());
-  ASSERT_NO_FATAL_FAILURE(playAndSuspend(terminal));
-  terminal.type("bg >/dev/null; echo client-$!-''$(jobs -p)-e''nd\n");
-  ASSERT_TRUE(terminal.waitFor("-end\r\n")) << terminal.output();
-  const std::string all = terminal.output();
-  std::smatch client;
-  ASSERT_TRUE(std::regex_search(all, client, std::regex("client-[0-9]*-([0-9]+)-end\r"))) << all;
+/// Is there a dfclient in this session, other than one that has ended and was not waited for?
+bool clientRuns(pid_t session) {
+  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(process.path() / "stat");
+    std::string stat;
+    std::getline(file, stat);  // of what is no process, nothing
+    const std::size_t name = stat.find("(dfclient) ");
+    if (name == std::string::npos) continue;
+    char state = 'Z';
+    pid_t its_session = 0;
+    if (sscanf(&stat[name], "(dfclient) %c %*d %*d %d", &state, &its_session) == 2 &&
+        its_session == session && state != 'Z')
+      return true;
+  }
+  return false;
+}
+
+/// What the client is started by.
+struct Started {
+  bool shell_leads;     ///< the session, so that its terminal ends with it
+  std::string wrapper;  ///< that the shell starts, and that starts the client; empty: none
+};
+
+class TerminalSignalsOfTest : public TerminalSignalsTest, public testing::WithParamInterface<Started> {};
+
+TEST_P(TerminalSignalsOfTest, InTheBackgroundItEndsWithTheShell) {
+  PtyTerminal::Options options = shell();
+  options.leads = GetParam().shell_leads;
+  PtyTerminal terminal(options);
+  ASSERT_NO_FATAL_FAILURE(playAndSuspend(terminal, GetParam().wrapper));
+  const pid_t session = getsid(terminal.pid());
+  terminal.type("bg >/dev/null; echo d''one\n");
+  ASSERT_TRUE(terminal.waitFor("done\r\n")) << terminal.output();
+  ASSERT_TRUE(clientRuns(session));
+  terminal.forget();
   terminal.type("exit\n");
   EXPECT_NE(terminal.waitForExit(), -1);
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  const pid_t process = std::stoi(client[1]);
-  while (::kill(process, 0) == 0 && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));  // before it is asked again
-  EXPECT_NE(::kill(process, 0), 0);
+  EXPECT_TRUE(terminal.waitUntil([session] { return !clientRuns(session); }));
+  EXPECT_EQ(terminal.newOutput().find("NAIAD-HERE"), std::string::npos) << "it draws for nobody";
 }
+
+INSTANTIATE_TEST_SUITE_P(Shells, TerminalSignalsOfTest,
+                         testing::Values(Started{false, ""}, Started{false, "sh -c"}, Started{true, ""},
+                                         Started{true, "sh -c"}));
 
 }  // namespace
 }  // namespace naiad::test
