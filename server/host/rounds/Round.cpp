@@ -62,6 +62,11 @@ void Round::addInput(Input input) {
   m_turn.inputs.push_back(std::move(input));
 }
 
+void Round::endGame() {
+  m_turn.ends_game = true;
+  if (m_p_process == nullptr) m_world->answer().game_over = true;
+}
+
 void Round::notePlayers(const WorldTurn& turn) {
   for (const Input& input : turn.inputs) {
     if (input.kind == df::InputQueue::kJoin) m_players.push_back(input.player);
@@ -288,7 +293,7 @@ void Round::endRecovery(const std::string& problem) {
   if (problem.empty()) return;
   m_unrecovered = WorldEnd{WorldEnd::kNotRecovered, "could not go on: " + problem};
   finish(m_unrecovered->text);
-  m_world->close();
+  close();
 }
 
 // ---- a world that crashed or hangs ------------------------------------------------------------------------
@@ -390,7 +395,7 @@ void Round::endTakeOver(const std::string& problem) {
     m_unrecovered = death.end;
     m_unrecovered->text += ", and another world did not do the same (" + problem + ")";
     finish(m_unrecovered->text);
-    return m_world->close();
+    return close();
   }
   m_p_process->endRepetition();
   m_taken_over = done;

@@ -107,11 +107,12 @@ class Round {
 
   // Input, in the order it came. It counts from nextTick() on.
 
+  /// It comes in the next turn. Keys and clicks beyond kMaxInputs are dropped.
   void addInput(df::InputQueue::Input input);
   /// In the next tick only this player's input comes; 0: all players'.
   void setHeard(std::uint32_t player) { m_turn.heard_player = player; }
-  /// The game is to be over at the end of the next tick.
-  void endGame() { m_turn.ends_game = true; }
+  /// The game is to be over: at the end of the next tick, or if its world is in this process, without one.
+  void endGame();
 
   // Ticks.
 
@@ -159,7 +160,7 @@ class Round {
   /// A line for the log, once: the tick does not end.
   std::optional<std::string> takeWarning();
   /// Let it come to its end; end() says when it has.
-  void close() { m_world->close(); }
+  void close() { m_world->close(std::exchange(m_turn, WorldTurn())); }
   /// Once, when another world has taken over from one that died.
   std::optional<TakeOver> takeTakeOver() { return std::exchange(m_taken_over, std::nullopt); }
 

@@ -9,12 +9,20 @@
 
 namespace naiad {
 
-void applyTurn(const WorldTurn& turn, df::World& world) {
+namespace {
+
+void applyInputs(const WorldTurn& turn, df::World& world) {
   for (const df::InputQueue::Input& input : turn.inputs) world.input().push(input);
+  if (turn.ends_game) world.setGameOver();
+}
+
+}  // namespace
+
+void applyTurn(const WorldTurn& turn, df::World& world) {
+  applyInputs(turn, world);
   if (turn.heard_player != 0 || world.findExtras() != nullptr) {
     world.extras().heard_player = turn.heard_player;
   }
-  if (turn.ends_game) world.setGameOver();
   world.store().setWatched(turn.watched);
 }
 
@@ -65,6 +73,10 @@ void WorldInProcess::notePublished(const Publisher& publisher) {
     m_world.input().setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);
   }
   if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.picture().view());
+}
+
+void WorldInProcess::close(const WorldTurn& rest) {
+  applyInputs(rest, m_world);
 }
 
 }  // namespace naiad

@@ -31,6 +31,7 @@ class WorldInProcess : public WorldPort {
   std::uint32_t ticksBefore() const override { return 0; }
   const df::WorldView& view() const override;
   void notePublished(const Publisher& publisher) override;
+  void close(const WorldTurn& rest) override;
 
  private:
   df::World& m_world;

@@ -233,7 +233,7 @@ void WorldProcess::takeReady() {
 
 // ---- its end ----------------------------------------------------------------------------------------------
 
-void WorldProcess::close() {
+void WorldProcess::close(const WorldTurn& /*rest*/) {
   m_expected = true;
   hangUp();
 }

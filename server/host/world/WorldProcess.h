@@ -58,7 +58,7 @@ class WorldProcess : public WorldPort {
   const df::WorldView& view() const override { return m_view; }
   void checkProcess(std::uint32_t tick) override;
   std::optional<WorldEnd> end() const override { return m_end; }
-  void close() override;
+  void close(const WorldTurn& rest = {}) override;
 
   /// A line for the log, once: the tick does not end.
   std::optional<std::string> takeWarning() { return std::exchange(m_warning, std::nullopt); }

@@ -4,6 +4,7 @@
 
 #include "DisplayManager.h"
 #include "EventKeyboard.h"
+#include "EventPlayer.h"
 #include "EventStep.h"
 #include "GameManager.h"
 #include "LogManager.h"
@@ -14,6 +15,8 @@
 using namespace df;
 
 bool over = false;
+int quit_at = 0;
+std::string guests;  // who came and went, in all runs
 
 class Walker : public Object {
  public:
@@ -31,7 +34,10 @@ class Walker : public Object {
     if (p_e->getType() != KEYBOARD_EVENT) return 0;
     const EventKeyboard* p_k = (const EventKeyboard*)p_e;
     if (p_k->getKeyboardAction() != KEY_PRESSED) return 1;
-    if (p_k->getKey() == Keyboard::Q) GM.setGameOver();
+    if (p_k->getKey() == Keyboard::Q) {
+      quit_at = GM.getStepCount();
+      GM.setGameOver();
+    }
     if (p_k->getKey() == Keyboard::X) over = true;
     if (p_k->getKey() == Keyboard::C) abort();
     if (p_k->getKey() == Keyboard::RIGHTARROW) {
@@ -70,9 +76,24 @@ class Title : public Object {
   bool seen = false;
 };
 
+// Somebody who counts the players, as the games of several do.
+class Usher : public Object {
+ public:
+  Usher() {
+    registerInterest(JOIN_EVENT);
+    registerInterest(LEAVE_EVENT);
+  }
+  int eventHandler(const Event* p_e) {
+    if (p_e->getType() == JOIN_EVENT) guests += "+" + std::to_string(((const EventJoin*)p_e)->getPlayer());
+    if (p_e->getType() == LEAVE_EVENT) guests += "-" + std::to_string(((const EventLeave*)p_e)->getPlayer());
+    return 1;
+  }
+};
+
 int main() {
   GM.startUp();
   LM.setFlush(true);
+  if (getenv("LONE_USHER") != NULL) new Usher;
   if (getenv("LONE_TITLE") != NULL) {
     new Title;
     GM.run();
@@ -80,6 +101,8 @@ int main() {
   new Walker;
   std::cout << "before the game" << std::endl;
   GM.run();
+  if (getenv("LONE_USHER") != NULL)
+    std::cout << "guests " << guests << ", ticks after q: " << GM.getStepCount() - quit_at << std::endl;
   std::cout << "after the game, walker " << WM.objectsOfType("Walker").getCount() << std::endl;
   GM.shutDown();
   return 0;

@@ -52,7 +52,7 @@ class FakeWorld : public WorldPort {
   std::optional<WorldEnd> end() const override {
     return m_closed && m_ends ? std::optional(WorldEnd()) : std::nullopt;
   }
-  void close() override { m_closed = true; }
+  void close(const WorldTurn& /*rest*/) override { m_closed = true; }
   void answer(int ticks) {
     while (ticks-- > 0) reportTick();
   }

@@ -37,7 +37,7 @@ class DoorPort : public WorldPort {
   std::uint32_t nextTick() const override { return m_view.tick + 1; }
   const df::WorldView& view() const override { return m_view; }
   std::optional<WorldEnd> end() const override { return ended; }
-  void close() override { ended = WorldEnd(); }
+  void close(const WorldTurn& /*rest*/) override { ended = WorldEnd(); }
 
   std::size_t count(df::InputQueue::Kind kind, std::uint32_t player) const {
     return static_cast<std::size_t>(std::count_if(inputs.begin(), inputs.end(), [&](const auto& input) {
