@@ -49,8 +49,6 @@ void makeFolder(const fs::path& path) {
   fs::permissions(path, fs::perms::owner_all);
 }
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMaxAddress = 64;  // bytes of "[IPv6]:PORT"
 
 /// An open file; closed at the end, and unlocked with that.
@@ -98,7 +96,7 @@ std::optional<std::string> keyFolderName(std::string_view auth_info) {
     std::array<unsigned char, 32> hash{};
     if (EVP_Digest(line.data(), line.size(), hash.data(), nullptr, EVP_sha256(), nullptr) != 1)
       return std::nullopt;
-    return hexText({reinterpret_cast<const char*>(hash.data()), hash.size()});
+    return hexText(hash);
   }
   return std::nullopt;
 }

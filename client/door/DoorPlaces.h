@@ -1,5 +1,5 @@
-// How many visitors a door has at a time, in all and from one place: one locked file for each, in a folder. A
-// process that ends, however it ends, gives its place back.
+// What a door keeps for a visitor, and how many it has at a time, in all and from one place: one locked file
+// for each, in a folder. A process that ends, however it ends, gives its place back.
 #pragma once
 
 #include <sys/types.h>
@@ -35,6 +35,7 @@ class VisitorFolder {
   VisitorFolder(const VisitorFolder&) = delete;
   VisitorFolder& operator=(const VisitorFolder&) = delete;
 
+  /// Of the folder.
   const std::filesystem::path& path() const { return m_path; }
   /// Have the use of it, while this lives. False: another process has it.
   bool take();
@@ -42,6 +43,7 @@ class VisitorFolder {
   pid_t holder() const;
   /// The name that they played under; empty if there is none.
   std::string name() const;
+  /// name() is this from now on. Throws std::system_error.
   void keepName(const std::string& name) const;
 
  private:

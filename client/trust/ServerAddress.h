@@ -1,4 +1,4 @@
-// HOST[:PORT] as people type it.
+// HOST[:PORT] as people type it, and the address of a gateway's page.
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,7 @@ std::string tagOf(const std::string& content) {
   unsigned int size = 0;
   if (EVP_Digest(content.data(), content.size(), hash.data(), &size, EVP_sha256(), nullptr) != 1)
     throw PageError("The files of the page cannot be hashed.");
-  return "\"" + hexText({reinterpret_cast<const char*>(hash.data()), kTagBytes}) + "\"";
+  return "\"" + hexText({hash.data(), kTagBytes}) + "\"";
 }
 
 /// Empty where it does not become smaller.

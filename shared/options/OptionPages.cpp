@@ -4,6 +4,7 @@
 #include <sstream>
 
 namespace naiad {
+
 std::string roff(std::string_view text) {
   std::string escaped;
   bool begins = true;  // of a line, where . and ' are commands
@@ -176,7 +177,7 @@ std::string fishCompletion(const Program& program, const std::vector<Option>& op
   return file.str();
 }
 
-// ---- roff -------------------------------------------------------------------------------------------------
+// ---- the page for man -------------------------------------------------------------------------------------
 
 std::string defaultOf(const Option& option) {
   if (!option.default_text.empty()) return option.default_text;

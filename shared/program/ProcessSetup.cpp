@@ -29,13 +29,17 @@ void surviveBrokenPipes() {
 }
 
 std::thread startWithoutSignals(std::function<void()> job) {
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(std::move(job));
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return thread;
+  // Also when no thread can be started.
+  struct Blocked {
+    Blocked() {
+      sigset_t all;
+      sigfillset(&all);
+      pthread_sigmask(SIG_SETMASK, &all, &before);
+    }
+    ~Blocked() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
+    sigset_t before;
+  } const blocked;
+  return std::thread(std::move(job));
 }
 
 }  // namespace naiad

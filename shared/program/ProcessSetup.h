@@ -1,4 +1,4 @@
-// What a process asks of its system before it begins: files, broken pipes, and threads that take no signals.
+// What a process asks of its system: many open files, no signals of broken pipes, threads without signals.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,8 @@ std::size_t allowOpenFiles(std::size_t wanted);
 /// on. Programs that this process starts have the default again.
 void surviveBrokenPipes();
 
-/// Runs `job` on a thread that takes no signals: they are for the threads that were there before.
+/// Runs `job` on a thread that takes no signals: they are for the threads that were there before. Throws
+/// std::system_error if there can be no thread.
 std::thread startWithoutSignals(std::function<void()> job);
 
 }  // namespace naiad

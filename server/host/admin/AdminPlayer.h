@@ -1,4 +1,4 @@
-// A player as commands see it.
+// Who gives a command, and a player as commands see them.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What waits for a bus: bounded, the oldest goes first.
+// What came from a bus, and what waits for one, both bounded.
 #pragma once
 
 #include <cstddef>
@@ -48,6 +48,7 @@ class BusInbox {
   std::uint64_t m_ignored = 0;
 };
 
+/// What waits for a bus: bounded, the oldest goes first.
 /// Not thread-safe.
 class BusQueue {
  public:

@@ -12,7 +12,7 @@
 #include <new>
 #include <system_error>
 
-#include "host/world/BuildId.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/values/FastHash.h"
 
 namespace naiad {

@@ -22,7 +22,6 @@ class HostClients;
 class HostEndpoint;
 class RoundHandover;
 
-/// Reads a running server's options again.
 /// What was read, and what takes time to make of it.
 struct Reloaded {
   std::string problem;  ///< why nothing can be made of it; empty: it is good
@@ -31,7 +30,8 @@ struct Reloaded {
   std::optional<ServerIdentity> identity;  ///< of --certificate and --key: the files may be new
 };
 
-/// Files may be slow, and a password takes 0.1 s to hash: both happen on a thread of its own.
+/// Reads a running server's options again. Files may be slow, and a password takes 0.1 s to hash: both happen
+/// on a thread of its own.
 class Reload {
  public:
   /// Throws what says why it cannot.

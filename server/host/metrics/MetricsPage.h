@@ -29,16 +29,16 @@ struct ProcessFacts {
   static ProcessFacts read();
 };
 
+/// The families of metrics that these are.
 void writeProcess(Exposition& out, const ProcessFacts& facts);
-
-// All that a host says of itself at one moment, as plain values: made by the thread that ticks once a second,
-// and never changed.
 
 /// Upper bounds of buckets.
 inline constexpr std::array<double, 10> kRoundTripBounds{0.001, 0.005, 0.01, 0.025, 0.05,
                                                          0.1,   0.2,   0.4,  0.8,   2};
 inline constexpr std::array<double, 9> kLossBounds{0, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
 
+/// All that a host says of itself at one moment, as plain values: made by the thread that ticks once a
+/// second, and never changed.
 struct MetricsSnapshot {
   Counters counters;
   PasswordCheck::Counters passwords;

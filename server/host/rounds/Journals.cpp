@@ -27,6 +27,7 @@
 #include "host/settings/GameModule.h"
 #include "host/world/BuildId.h"
 #include "host/world/Repeatable.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/values/Version.h"
 
 namespace naiad {

@@ -9,6 +9,8 @@
 #include <functional>
 #include <utility>
 
+#include "shared/net/base/SafeText.h"
+
 namespace naiad {
 
 namespace {
@@ -77,16 +79,6 @@ std::string findId(std::function<bool(const dl_phdr_info& info)> is_wanted) {
 }
 
 }  // namespace
-
-std::string hexText(std::span<const std::uint8_t> bytes) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : bytes) {
-    text.push_back(kDigits[byte >> 4]);
-    text.push_back(kDigits[byte & 15]);
-  }
-  return text;
-}
 
 std::string buildIdOf(const std::string& file) {
   return findId([&file](const dl_phdr_info& info) {

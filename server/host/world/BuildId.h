@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <string>
 
 namespace naiad {
@@ -17,9 +15,6 @@ inline constexpr std::size_t kShownBuildId = 8;
 /// The id that the linker wrote into a file that this process has loaded, in hex: another build has another.
 /// `file`: how its name begins, as "libc.so". Empty if there is no such file, or no id in it.
 std::string buildIdOf(const std::string& file);
-
-/// Two digits, in lower case, of each byte.
-std::string hexText(std::span<const std::uint8_t> bytes);
 
 /// That of libdragonfly.so, with which this code came. Any thread.
 const std::string& ownBuildId();

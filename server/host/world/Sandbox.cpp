@@ -22,7 +22,9 @@ namespace naiad {
 
 namespace {
 
-// The same numbers on all architectures.
+// Landlock: the files that a world's process may open, and nothing else of the file system. The kernel's
+// interface is used directly, by numbers, which are the same on all architectures: the headers of a machine
+// may be older than its kernel.
 constexpr long kCreateRuleset = 444;
 constexpr long kAddRule = 445;
 constexpr long kRestrictSelf = 446;
@@ -69,10 +71,6 @@ struct [[gnu::packed]] PathBeneath {
 std::size_t sizeOf(int version) {
   return (version >= 6 ? 3 : version >= 4 ? 2 : 1) * sizeof(std::uint64_t);
 }
-
-// Landlock: the files that a world's process may open, and nothing else of the file system.
-//
-// The kernel's interface is used directly, by numbers: the headers of a machine may be older than its kernel.
 
 inline constexpr int kLandlockHoldsTruncation = 3;
 inline constexpr int kLandlockScopesSignals = 6;

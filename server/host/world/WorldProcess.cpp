@@ -269,6 +269,8 @@ std::chrono::nanoseconds WorldProcess::patience() const {
     case State::kEnding:
       return kEndTime;
     case State::kReady:
+      if (m_keeper_is == Keeper::kStarting) return kStartTime;
+      break;
     case State::kEnded:
       break;
   }

@@ -1,4 +1,5 @@
-// The key of limits per address: an IPv4 address, or an IPv6 network of 64 bits.
+// The key of limits per address: an IPv4 address, or an IPv6 network of 64 bits. And an address with its
+// port.
 #pragma once
 
 #include <array>

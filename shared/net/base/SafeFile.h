@@ -1,4 +1,5 @@
-// Small files that matter: whole or not there, and, if wanted, for their owner alone.
+// Small files that matter: whole or not there, and, if wanted, for their owner alone; and where a user has
+// them.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +10,9 @@
 
 namespace naiad {
 
-/// Where a user's files of one kind lie (XDG Base Directory Specification 0.8).
-/// $variable/naiad if that is an absolute path, else $HOME/fallback/naiad; nothing if HOME is not set either.
-/// ("XDG_CONFIG_HOME", ".config"), ("XDG_DATA_HOME", ".local/share").
-std::optional<std::filesystem::path> userDirectory(const char* variable, const char* fallback);
-
-/// Throws std::system_error, as all of these, where the system refuses. Nothing if there is no such file.
-/// Also throws if it has more than `most` bytes, or is no regular file: a pipe would be waited for.
+/// Throws std::system_error, as all that use files here, where the system refuses. Nothing if there is no
+/// such file. Also throws if it has more than `most` bytes, or is no regular file: a pipe would be waited
+/// for.
 std::optional<std::string> readSmallFile(const std::filesystem::path& path, std::size_t most);
 
 /// Replace or make the file, mode 0600, so that a reader finds either the old or the new one, after a crash
@@ -47,5 +44,10 @@ class FileLock {
  private:
   int file_;
 };
+
+/// Where a user's files of one kind lie (XDG Base Directory Specification 0.8).
+/// $variable/naiad if that is an absolute path, else $HOME/fallback/naiad; nothing if HOME is not set either.
+/// ("XDG_CONFIG_HOME", ".config"), ("XDG_DATA_HOME", ".local/share").
+std::optional<std::filesystem::path> userDirectory(const char* variable, const char* fallback);
 
 }  // namespace naiad

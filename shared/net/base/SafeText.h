@@ -3,14 +3,16 @@
 
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 namespace naiad {
 
-/// Names of a server's rooms, as operators, players and links write them: characters.
+/// Characters of a room's name, as operators, players and links write it.
 inline constexpr std::size_t kMaxRoomName = 32;
 /// Rooms of a server.
 inline constexpr std::size_t kMaxRooms = 64;
@@ -39,9 +41,13 @@ bool isPlainName(std::string_view text);
 
 /// Bytes as lower-case hexadecimal digits, and back: digits of either case, and nothing else.
 std::string hexText(std::string_view bytes);
+inline std::string hexText(std::span<const std::uint8_t> bytes) {
+  return hexText(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
 std::optional<std::string> bytesOfHex(std::string_view digits);
 
-/// The number that the whole text is, in decimal digits; nothing beyond the bounds.
+/// The number that the whole text is, in decimal digits, with a '-' before one that is negative; nothing
+/// beyond the bounds.
 template <class Number>
 std::optional<Number> readNumber(std::string_view text, Number least, Number most) {
   Number number{};

@@ -2,7 +2,8 @@
 //
 // The nonce is the IV with the 64-bit sequence number, big-endian, XORed into its last eight bytes (RFC 9001,
 // 5.3). The header as sent is the associated data; its last two bytes are the low bits of the sequence
-// number. Both classes keep OpenSSL's context with the expanded key, so that a packet costs no allocation.
+// number. Sealer and Opener keep OpenSSL's context with the expanded key, so that a packet costs no
+// allocation.
 #pragma once
 
 #include <array>
@@ -31,7 +32,9 @@ class ReplayWindow {
 
   enum class Verdict : std::uint8_t { kNew, kSeen, kTooOld };
 
+  /// Changes nothing.
   Verdict check(std::uint64_t sequence) const;
+  /// The number was kNew, and what it stands in has proved authentic.
   void mark(std::uint64_t sequence);
 
   /// One more than the newest number marked; 0 before the first.

@@ -21,8 +21,6 @@ bool mayTryAgain(const std::error_code& error) {
   return error == asio::error::would_block || error == asio::error::interrupted;
 }
 
-using asio::ip::tcp;
-
 constexpr int kNotSentLowWater = 4096;  // bytes the kernel takes beyond what it could send
 
 std::string peerOf(const ByteStream::Socket& socket) {

@@ -70,7 +70,7 @@ std::optional<Fingerprint> Fingerprint::parse(std::string_view text) {
 }
 
 std::string Fingerprint::text() const {
-  return hexText({reinterpret_cast<const char*>(bytes_.data()), bytes_.size()});
+  return hexText(bytes_);
 }
 
 }  // namespace naiad

@@ -1,5 +1,5 @@
-// OpenSSL's way to a non-blocking socket. Its own BIO for sockets raises SIGPIPE, and cannot be asked why it
-// failed.
+// OpenSSL's way to a non-blocking socket, and the guard in it. OpenSSL's own BIO for sockets raises SIGPIPE,
+// and cannot be asked why it failed.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // What comes from the bus, and from a sidecar: read within its bounds, or refused; and written out again it
 // is the same.
 //
-//   input   0 a presence, 1 a result, 2 the sidecar's answer, 3 a line of its watch,
+//   input   0 a presence, 1 a result or players sent on, 2 the sidecar's answer, 3 a line of its watch,
 //           4 what a directory hears, a line "SUBJECT PAYLOAD" each (1) | the text
 #include <algorithm>
 #include <chrono>
@@ -45,6 +45,14 @@ void requireResult(const std::string& text) {
   REQUIRE(result->points >= -1'000'000'000'000'000 && result->points <= 1'000'000'000'000'000);
   REQUIRE(!result->table.empty() && result->table.size() <= 32);
   REQUIRE(GameResult::parse(result->payload()) == result);
+}
+
+void requireSendOn(const std::string& text) {
+  const auto send_on = SendOn::parse(text);
+  if (!send_on) return;
+  REQUIRE(isServerId(send_on->to));
+  const auto again = SendOn::parse(send_on->payload());
+  REQUIRE(again && again->to == send_on->to && again->link == send_on->link);
 }
 
 void requireFacts(const std::string& text, bool is_line) {
@@ -118,6 +126,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       break;
     case 1:
       requireResult(text);
+      requireSendOn(text);
+      REQUIRE(isServerId(serverIdOf(text)));
       break;
     case 4:
       requireDirectory(text);

@@ -1,4 +1,4 @@
-// Addresses that strangers write: links to games, keys in them, and addresses of pages. What is taken has
+// Addresses that strangers write: links to games, keys, and addresses of servers and pages. What is taken has
 // only the parts it may have, and its own text means the same.
 //
 //   input   the text
@@ -64,6 +64,23 @@ void readPage(const std::string& text) {
           again->encrypted == address->encrypted);
 }
 
+/// Its text means the same, and so does the one spelling that each server has.
+void readServer(const std::string& text) {
+  const auto address = ServerAddress::parse(text);
+  if (!address) return;
+  REQUIRE(!address->host.empty() && address->port != 0);
+  REQUIRE(ServerAddress::parse(address->text()) == address);
+  const auto canonical = ServerAddress::parse(address->canonicalText());
+  REQUIRE(!canonical || canonical->canonicalText() == address->canonicalText());
+}
+
+void readFingerprint(std::string_view text) {
+  const auto key = Fingerprint::parse(text);
+  if (!key) return;
+  REQUIRE(text.size() == 64 && Fingerprint::parse(key->text()) == key);
+  REQUIRE(ShortKey::parse(ShortKey::of(*key).text()) == ShortKey::of(*key));
+}
+
 }  // namespace
 }  // namespace naiad::fuzz
 
@@ -73,5 +90,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::readLink(text);
   fuzz::readKey(text);
   fuzz::readPage(text);
+  fuzz::readServer(text);
+  fuzz::readFingerprint(text);
   return 0;
 }

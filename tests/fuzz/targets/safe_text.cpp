@@ -44,5 +44,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string all;
   for (const char32_t ch : df::decodeUtf8(text)) df::appendUtf8(all, ch);
   REQUIRE(df::decodeUtf8(all) == df::decodeUtf8(text));
+
+  if (isRoomName(text)) REQUIRE(isPlainName(text) && !text.empty() && text.size() <= kMaxRoomName);
+  if (isPlainName(text)) REQUIRE(safeText(text, text.size()) == text);
+  REQUIRE(lowerCase(lowerCase(text)) == lowerCase(text));
+  REQUIRE(bytesOfHex(hexText(text)) == text);
+  if (const auto bytes = bytesOfHex(text)) REQUIRE(hexText(*bytes) == lowerCase(text));
   return 0;
 }

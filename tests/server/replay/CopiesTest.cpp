@@ -87,7 +87,7 @@ class CopiesTest : public FrailRound {
     const std::vector<pid_t> copies = find(kCopy);
     return std::all_of(copies.begin(), copies.end(), [](pid_t copy) { return statusOf(copy).state == "S"; });
   }
-  /// The first copy of the world that goes on is made once its keeper has ended what was left.
+  /// Plays until there is a copy: of a world that took over only once its keeper has ended what was left.
   void playToACopy() {
     for (int i = 0; i < 1000 && find(kCopy).empty(); ++i) play(1);
     EXPECT_FALSE(find(kCopy).empty());

@@ -1,6 +1,8 @@
 // The host's end of a world's process, with processes that are no worlds: /bin/sh plays them, on
 // descriptor 3.
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <asio/io_context.hpp>
@@ -159,6 +161,37 @@ TEST_F(WorldProcessTest, OfAnotherBuildNothingIsReadAndItIsEnded) {
 
 TEST_F(WorldProcessTest, OneThatHangsUpAndStaysIsKilled) {
   EXPECT_EQ(play("exec 3>&-; exec sleep 100").why, WorldEnd::kCrashed);
+}
+
+// Without it nobody could look at the process, or make a copy of it.
+TEST_F(WorldProcessTest, IsReadyOnceItsKeeperHasNamedItsProcess) {
+  int world_ends[2];
+  int keeper_ends[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, world_ends), 0);
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, keeper_ends), 0);
+  asio::io_context io;
+  StartedWorld started;
+  started.socket = world_ends[0];
+  started.keeper = keeper_ends[0];
+  WorldProcess world(io, started);
+  const auto look = [&] {
+    io.restart();
+    io.run_for(std::chrono::milliseconds(5));
+    world.checkProcess(1);
+    return world.isReady();
+  };
+  const std::string frame = readyFrame();
+  ASSERT_EQ(write(world_ends[1], frame.data(), frame.size()), static_cast<ssize_t>(frame.size()));
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(look());
+  const KeeperStart start{0, getpid()};
+  ASSERT_EQ(write(keeper_ends[1], &start, sizeof start), static_cast<ssize_t>(sizeof start));
+  bool ready = false;
+  for (int i = 0; i < 1000 && !ready; ++i) ready = look();
+  EXPECT_TRUE(ready);
+  const KeeperEnd end;  // of all
+  EXPECT_EQ(write(keeper_ends[1], &end, sizeof end), static_cast<ssize_t>(sizeof end));
+  close(world_ends[1]);
+  close(keeper_ends[1]);
 }
 
 TEST_F(WorldProcessTest, AProgramThatIsNotThereIsAnError) {

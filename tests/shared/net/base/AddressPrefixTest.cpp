@@ -24,7 +24,8 @@ TEST(AddressPrefix, IsTheFirstHalfOfAnIPv6Address) {
 TEST(AddressPrefix, IsReadFromTheNameOfAPeer) {
   EXPECT_EQ(AddressPrefix::ofEndpoint("192.0.2.1:40000"), of("192.0.2.1"));
   EXPECT_EQ(AddressPrefix::ofEndpoint("[2001:db8:1:2::1]:9"), of("2001:db8:1:2::2"));
-  for (const char* text : {"", "unknown", "virtual:server", ":", "[]:1"}) {
+  for (const char* text :
+       {"", "unknown", "virtual:server", ":", "[]:1", "192.0.2.1:junk", "::1:80", "[192.0.2.1]:80"}) {
     EXPECT_FALSE(AddressPrefix::ofEndpoint(text)) << text;
   }
 }
