@@ -65,8 +65,8 @@ void restoreNow() {
   g_taken = 0;
 }
 
-/// The process that can bring this one's group to the foreground: the parent of the group's leader, or of this
-/// process if the leader has gone.
+/// The process that can bring this one's group to the foreground: the parent of the group's leader, or of
+/// this process if the leader has gone.
 pid_t shellOfGroup() {
   std::ifstream file("/proc/" + std::to_string(getpgrp()) + "/stat");
   std::string stat;

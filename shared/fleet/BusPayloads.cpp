@@ -29,9 +29,7 @@ bool isTable(const std::string& table) {
 }
 
 bool isRound(const std::string& round) {
-  return round.size() == kRoundDigits && std::all_of(round.begin(), round.end(), [](char c) {
-           return (c >= 'a' && c <= 'f') || (c >= '0' && c <= '9');
-         });
+  return round.size() == kRoundDigits && round.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
 constexpr std::int64_t kSendOnFormat = 1;
@@ -39,11 +37,6 @@ constexpr std::size_t kMaxLink = 512;
 
 bool isGameWord(std::string_view game) {
   return !game.empty() && game.size() <= PresenceRoom::kMaxGame && isPlainName(game);
-}
-
-std::string entryOf(const PresenceRoom& room) {
-  return room.name + "=" + room.game + ":" + std::to_string(room.players) + "/" +
-         std::to_string(room.max_players);
 }
 
 /// What is in front of `mark`, which goes with it; nothing, and `text` stays, if there is none.
@@ -125,10 +118,8 @@ std::string BusFields::line(std::string_view name, std::size_t most) {
 }
 
 std::string BusFields::word(std::string_view name, std::size_t most) {
-  const std::string* const p_value = m_object[name].text();
-  const bool good = p_value != nullptr && p_value->size() <= most &&
-                    std::all_of(p_value->begin(), p_value->end(), [](char c) { return c > ' ' && c <= '~'; });
-  if (good) return *p_value;
+  std::string text = line(name, most);
+  if (std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; })) return text;
   m_ok = false;
   return "";
 }
@@ -215,8 +206,8 @@ std::string roomsText(const std::vector<PresenceRoom>& rooms) {
   std::string text;
   for (const PresenceRoom& room : rooms) {
     if (!isGameWord(room.game)) continue;
-    std::string entry(text.empty() ? "" : " ");
-    entry += entryOf(room);
+    const std::string entry = (text.empty() ? "" : " ") + room.name + "=" + room.game + ":" +
+                              std::to_string(room.players) + "/" + std::to_string(room.max_players);
     if (text.size() + entry.size() > kMaxRoomsText) break;
     text += entry;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <memory>
 #include <utility>
 
 namespace naiad {
@@ -29,16 +30,13 @@ void surviveBrokenPipes() {
 }
 
 std::thread startWithoutSignals(std::function<void()> job) {
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
   // Also when no thread can be started.
-  struct Blocked {
-    Blocked() {
-      sigset_t all;
-      sigfillset(&all);
-      pthread_sigmask(SIG_SETMASK, &all, &before);
-    }
-    ~Blocked() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
-    sigset_t before;
-  } const blocked;
+  const std::shared_ptr<void> restored(nullptr,
+                                       [&](void*) { pthread_sigmask(SIG_SETMASK, &before, nullptr); });
   return std::thread(std::move(job));
 }
 

@@ -331,7 +331,8 @@ TEST_F(OwnMain, WithoutTheOperatorsLibraryItIsPlayedAllTheSame) {
   ann->type("\035t/help\r");
   EXPECT_TRUE(ann->waitFor("no commands")) << ann->output();
   const std::string log = read("log");
-  const std::string warning = "no scores, bans, dfctl, metrics, local network or bus: libdragonfly-ops.so.0";
+  const std::string warning = "no scores, bans, dfctl, metrics, local network or bus: " +
+                              (m_home / "lib/libdragonfly-ops.so.0").string();
   EXPECT_NE(log.find(warning), std::string::npos) << log;
   EXPECT_EQ(log.find(warning), log.rfind(warning)) << "once";
 }

@@ -52,10 +52,7 @@ class Admission {
   void setOthers(FindOther find_other) { m_find_other = std::move(find_other); }
 
   /// The world whose window and help go into welcomes. Before the first hello.
-  void setWorld(const df::World& world) {
-    m_p_world = &world;
-    reservePlayers(world.input().newestPlayer());
-  }
+  void setWorld(const df::World& world) { m_p_world = &world; }
 
   /// While a round is executed again, a hello waits for so long before the client hears how far that is, …
   static constexpr std::chrono::milliseconds kRecoveryWait{1000};

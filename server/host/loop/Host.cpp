@@ -34,20 +34,19 @@ constexpr std::chrono::milliseconds kLate{5};
 constexpr std::chrono::milliseconds kMinService{5};  ///< for sockets, however late the tick is
 constexpr int kMinHandlers = 16;                     ///< the same; one handler may serve many messages
 constexpr std::chrono::seconds kDrainTime{1};
-constexpr std::chrono::milliseconds kDrainStep{10};   ///< between two looks at worlds that end
-constexpr std::chrono::seconds kFirstPlayerTime{60};  ///< --exit-when-empty before the first player joins
-constexpr std::chrono::milliseconds kRestTime{400};   ///< between two ticks while no world ticks
-constexpr int kLongestFrameMillis = 1000;             ///< as --frame-time
-constexpr int kExitHung = 1;                          ///< as for a game that fails
+constexpr std::chrono::milliseconds kDrainStep{10};  ///< between two looks at worlds that end
+constexpr double kFirstPlayerSeconds = 60;           ///< --exit-when-empty before the first player joins
+constexpr std::chrono::milliseconds kRestTime{400};  ///< between two ticks while no world ticks
+constexpr int kLongestFrameMillis = 1000;            ///< as --frame-time
+constexpr int kExitHung = 1;                         ///< as for a game that fails
 constexpr const char* kShuttingDown = "The server is shutting down.";  // as Ending says it
 
 // As if the signal had not been handled: its sender sees that it was.
 void endBySignal(int signal) {
   ::signal(signal, SIG_DFL);
-  sigset_t one;
-  sigemptyset(&one);
-  sigaddset(&one, signal);
-  pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+  sigset_t none;
+  sigemptyset(&none);
+  pthread_sigmask(SIG_SETMASK, &none, nullptr);
   ::kill(getpid(), signal);
 }
 
@@ -114,6 +113,7 @@ void Host::beginGame(df::World& world) {
   crash::setWorld(world);
   adoptSettings(world);
   m_clients->admission().setWorld(world);
+  m_clients->admission().reservePlayers(world.input().newestPlayer());
   m_clients->rooms().open(world);
   m_empty_since = Clock::now();
 }
@@ -227,20 +227,17 @@ void Host::sweep() {
 bool Host::isDeserted(Clock::time_point now) const {
   const double exit_when_empty = m_context->options.exit_when_empty;
   if (exit_when_empty <= 0 || m_clients->sessions().connected() > 0) return false;
-  const std::chrono::duration<double> patience(exit_when_empty);
-  const bool ever_joined = m_context->counters.joined > 0;
-  return now - m_empty_since >
-         (ever_joined ? patience : std::max<std::chrono::duration<double>>(patience, kFirstPlayerTime));
+  const double first = m_context->counters.joined > 0 ? 0 : kFirstPlayerSeconds;
+  return now - m_empty_since > std::chrono::duration<double>(std::max(exit_when_empty, first));
 }
 
 bool Host::isOver() const {
   const int ticks = m_context->options.ticks;
   const bool counted_out = ticks > 0 && m_context->counters.ticks >= static_cast<std::uint64_t>(ticks);
-  const Clock::time_point now = Clock::now();
   const Ending& ending = m_context->ending;
   // A player whose connection broke may come back, so they are waited for, too.
-  const bool is_due = ending.plan() && ending.isDue(now, m_clients->sessions().playing() == 0);
-  return m_clients->rooms().isOver() || is_due || counted_out || isDeserted(now);
+  const bool is_due = ending.plan() && ending.isDue(Clock::now(), m_clients->sessions().playing() == 0);
+  return m_clients->rooms().isOver() || is_due || counted_out || isDeserted(Clock::now());
 }
 
 // Players of a round that is kept lose the server, as if it had been killed.

@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 
 #include <filesystem>
-#include <string>
 
 #include "host/rooms/HostContext.h"
 
@@ -11,21 +10,12 @@ namespace naiad {
 
 namespace {
 
-constexpr const char* kLibrary = "libdragonfly-ops.so.0";
-
-/// Beside the library that this code is in. RUNPATH says the same, but the address sanitizer calls dlopen()
-/// for a game that is compiled with it, and then the RUNPATH of the sanitizer's library counts.
-std::string besideThis() {
-  Dl_info info{};
-  const bool known =
-      dladdr(reinterpret_cast<const void*>(&besideThis), &info) != 0 && info.dli_fname != nullptr;
-  return known ? std::filesystem::path(info.dli_fname).replace_filename(kLibrary).string() : kLibrary;
-}
-
-/// Null: it cannot be loaded (dlerror). It stays for as long as the process.
+/// Null: it cannot be loaded (dlerror). It stays for as long as the process. It lies beside the library that
+/// this code is in: where a game has the address sanitizer, dlopen() does not look there by itself.
 MakeOperatorParts* load() {
-  void* handle = dlopen(besideThis().c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) handle = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
+  Dl_info own{};
+  std::filesystem::path path = dladdr(reinterpret_cast<const void*>(&load), &own) != 0 ? own.dli_fname : "";
+  void* const handle = dlopen(path.replace_filename("libdragonfly-ops.so.0").c_str(), RTLD_NOW | RTLD_LOCAL);
   return handle != nullptr ? reinterpret_cast<MakeOperatorParts*>(dlsym(handle, kMakeOperatorParts))
                            : nullptr;
 }

@@ -127,7 +127,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     case 1:
       requireResult(text);
       requireSendOn(text);
-      REQUIRE(isServerId(serverIdOf(text)));
+      REQUIRE(naiad::isServerId(naiad::serverIdOf(text)));
       break;
     case 4:
       requireDirectory(text);
