@@ -77,9 +77,8 @@ std::int64_t HostileWriter::centered(Kind kind, std::int64_t most) {
 }
 
 void HostileWriter::zeros(std::uint64_t count) {
-  for (; count > 0; count -= std::min<std::uint64_t>(count, 64)) {
+  for (; count > 0; count -= std::min<std::uint64_t>(count, 64))
     m_out.bits(0, static_cast<int>(std::min<std::uint64_t>(count, 64)));
-  }
 }
 
 void HostileWriter::cell(std::int64_t origin) {

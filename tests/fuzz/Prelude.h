@@ -35,9 +35,8 @@ inline std::string preludeSnapshot() {
   writer.beginSnapshot({1, kPreludeTick, 0, true, false, 0, 0}, 0, {});
   writer.write(WorldRecord{{{}, {df::fromCells(120), df::fromCells(50)}}, 40, 20, df::BLACK});
   writer.write(ViewRecord{{df::fromCells(3), 0}, true, 0, 1});
-  for (std::uint32_t slot = 1; slot <= kOriginSlots; ++slot) {
+  for (std::uint32_t slot = 1; slot <= kOriginSlots; ++slot)
     writer.write(OriginRecord{slot, preludeOrigin(slot)});
-  }
   writer.write(TextRecord{1, 2, 0, df::GREEN, "Score 7"});
   for (std::uint32_t id = 0; id < 6; ++id) {
     ObjectState state;

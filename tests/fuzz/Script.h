@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "shared/values/SplitMix64.h"
+
 namespace naiad::fuzz {
 
 class Script {
@@ -19,9 +21,8 @@ class Script {
   template <std::unsigned_integral Number>
   Number number() {
     Number value = 0;
-    for (std::size_t i = 0; i < sizeof value && !m_left.empty(); ++i, m_left.remove_prefix(1)) {
+    for (std::size_t i = 0; i < sizeof value && !m_left.empty(); ++i, m_left.remove_prefix(1))
       value = static_cast<Number>(value | Number{static_cast<unsigned char>(m_left[0])} << (8 * i));
-    }
     return value;
   }
   std::uint8_t byte() { return number<std::uint8_t>(); }
@@ -56,6 +57,18 @@ class Exactly {
   std::size_t m_size;
   char* m_bytes;
 };
+
+/// Gives the stream to `take` in pieces: all at once (0), byte by byte (1), or of random sizes below `how`.
+template <class Take>
+void forEachPiece(std::string_view stream, std::uint8_t how, Take take) {
+  SplitMix64 random(how);
+  while (!stream.empty()) {
+    const std::size_t size = how == 0 ? stream.size() : how == 1 ? 1 : random.below(how);
+    const Exactly piece(stream.substr(0, size));
+    stream.remove_prefix(piece.view().size());
+    take(piece.view());
+  }
+}
 
 }  // namespace naiad::fuzz
 

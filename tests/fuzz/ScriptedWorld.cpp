@@ -216,9 +216,8 @@ void ScriptedWorld::tick() {
   const auto draw = [this](df::ObjectKey key, df::FixedVector at, const std::vector<df::DrawCommand>& look) {
     m_view.drawn.push_back(
         {key, static_cast<std::uint32_t>(m_view.commands.size()), static_cast<std::uint32_t>(look.size())});
-    for (const df::DrawCommand& command : look) {
+    for (const df::DrawCommand& command : look)
       m_view.commands.push_back({at + command.position, command.ch, command.color});
-    }
   };
   if (!m_loose.empty()) draw({}, {}, m_loose);
   for (const Thing* thing : alive) {

@@ -19,6 +19,7 @@
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/support/ServerMessageSamples.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -235,65 +236,11 @@ void controls(Folder folder) {
 }
 
 void serverMessages(Folder folder) {
-  wire::ServerMessage message;
-  message.mutable_refused()->set_reason(wire::Refused::FULL);
-  message.mutable_refused()->set_sentence("The game is full.");
-  folder.add(message.SerializeAsString());
-  wire::Welcome& welcome = *message.mutable_welcome();
-  welcome.set_player(1);
-  welcome.set_name("Ann");
-  welcome.set_game("hello");
-  welcome.set_tick_micros(33333);
-  welcome.set_view_width(80);
-  welcome.set_view_height(24);
-  welcome.set_color(2);
-  welcome.set_server("dfserver 0.1");
-  welcome.add_help("Arrows move.");
-  welcome.set_tick(1000);
-  folder.add(message.SerializeAsString());
-  message.set_snapshot("0123");
-  folder.add(message.SerializeAsString());
-  wire::PlayerEntry& entry = *message.mutable_players()->add_players();
-  entry.set_player(1);
-  entry.set_name("Ann");
-  entry.set_color(3);
-  entry.set_score(-5);
-  entry.set_rtt_millis(40);
-  *message.mutable_players()->add_players() = entry;
-  folder.add(message.SerializeAsString());
-  message.mutable_chat()->set_player(1);
-  message.mutable_chat()->set_text("hello");
-  folder.add(message.SerializeAsString());
-  message.mutable_pong()->set_token(7);
-  folder.add(message.SerializeAsString());
-  message.mutable_goodbye()->set_sentence("Bye.");
-  folder.add(message.SerializeAsString());
-  wire::Sound& sound = *message.mutable_sounds()->add_sounds();
-  sound.set_label("theme");
-  sound.set_action(wire::Sound::PAUSE);
-  sound.set_music(true);
-  sound.set_player(1);
-  *message.mutable_sounds()->add_sounds() = sound;
-  message.set_number(4);
-  folder.add(message.SerializeAsString());
-  message.clear_number();
-  wire::Entered& entered = *message.mutable_entered();
-  entered.set_player(2);
-  entered.set_room("arcade");
-  entered.set_game("hello");
-  entered.set_view_width(80);
-  entered.set_view_height(24);
-  entered.add_help("Arrows move.");
-  entered.set_tick(1000);
-  entered.set_world_epoch(1);
-  folder.add(message.SerializeAsString());
-  wire::RoomEntry& room = *message.mutable_rooms()->add_rooms();
-  room.set_name("arcade");
-  room.set_game("hello");
-  room.set_players(3);
-  room.set_max_players(8);
-  *message.mutable_rooms()->add_rooms() = room;
-  folder.add(message.SerializeAsString());
+  for (wire::ServerMessage& message : test::serverMessages("Ann", 2)) {
+    folder.add(message.SerializeAsString());
+    message.set_number(4);
+    folder.add(message.SerializeAsString());
+  }
 }
 
 constexpr std::size_t kDatagram = 0x2000, kTick = 0x4000, kHello = 0x8000;  // see targets/client_message.cpp
@@ -449,20 +396,11 @@ void wireMessages(Folder folder) {
   client.set_number(70000);
   folder.add(kHello + hello.SerializeAsString());
   folder.add(kClient + client.SerializeAsString());
-  wire::ServerMessage server;
-  wire::PlayerEntry& entry = *server.mutable_players()->add_players();
-  entry.set_name("Ann");
-  entry.set_score(-5);
-  *server.mutable_players()->add_players() = entry;
-  folder.add(kList + server.players().SerializeAsString());
-  folder.add(kServer + server.SerializeAsString());
-  wire::Welcome& welcome = *server.mutable_welcome();
-  welcome.set_connection_id(7);
-  welcome.add_help("Arrows move.");
-  welcome.mutable_continuation()->set_input(3);
-  folder.add(kServer + server.SerializeAsString());
-  server.mutable_sounds()->add_sounds()->set_action(wire::Sound::STOP);
-  folder.add(kServer + server.SerializeAsString() + server.SerializeAsString());
+  for (const wire::ServerMessage& server : test::serverMessages("Ann", 2)) {
+    folder.add(kServer + server.SerializeAsString());
+    if (server.has_players()) folder.add(kList + server.players().SerializeAsString());
+    if (server.has_sounds()) folder.add(kServer + server.SerializeAsString() + server.SerializeAsString());
+  }
   folder.add(kHello + std::string("\x48\x01\x4A\x02\x80\x01\x08\x01\xFB\x01\x58\x01\xFC\x01\xFF"));
   folder.add(kHello + std::string("\x1A\x03\xED\xA0\x80\xCA\x80\x80\x80\x00\x01\x05", 12));
 }

@@ -105,9 +105,7 @@ void requireSameWhenWrittenAgain(const Snapshot& snapshot) {
 
 std::size_t glyphsIn(const Records& records) {
   std::size_t count = 0;
-  for (const ObjectRecord& record : records.objects) {
-    count += record.state.look.sequence.glyphCount();
-  }
+  for (const ObjectRecord& record : records.objects) count += record.state.look.sequence.glyphCount();
   return count;
 }
 

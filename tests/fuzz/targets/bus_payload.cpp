@@ -8,8 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "host/fleet/GameServerFacts.h"
 #include "server/directory/FleetList.h"
 #include "shared/fleet/BusPayloads.h"
@@ -114,26 +113,26 @@ void requireDirectory(std::string_view text) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad::fuzz;
-  if (size == 0) return 0;
-  const std::string text(reinterpret_cast<const char*>(data + 1), size - 1);
-  switch (data[0] % 5) {
+void tryInput(Script script) {
+  if (script.atEnd()) return;
+  const std::size_t what = script.below(5);
+  const std::string text = script.rest();
+  switch (what) {
     case 0:
       requirePresence(text);
       break;
     case 1:
       requireResult(text);
       requireSendOn(text);
-      REQUIRE(naiad::isServerId(naiad::serverIdOf(text)));
+      REQUIRE(isServerId(serverIdOf(text)));
       break;
     case 4:
       requireDirectory(text);
       break;
     default:
-      requireFacts(text, data[0] % 5 == 3);
+      requireFacts(text, what == 3);
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz

@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "FakeSealed.h"
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "host/session/Session.h"
 #include "naiad.pb.h"
 #include "proto/ParseErrors.h"
@@ -171,12 +170,10 @@ class Play {
 };
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  naiad::silenceParseErrors();
-  naiad::fuzz::Script script(data, size);
-  naiad::fuzz::Play play;
+void tryInput(Script script) {
+  silenceParseErrors();
+  Play play;
   while (!script.atEnd()) {
     const auto head = script.number<std::uint16_t>();
     if ((head & 0x4000) != 0) play.tick();
@@ -190,5 +187,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       play.hear(script.bytes(length));
     }
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz

@@ -1,8 +1,7 @@
 // Declared controls, and the exact state of what a player steers.
 //
 //   input   0 table, 1 state (1) | tick (4) | the bytes
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/Limits.h"
 
@@ -25,9 +24,8 @@ void tryRecord(std::string_view bytes, std::uint32_t tick) {
   REQUIRE(record->tick == tick && record->slot < kMaxSlots);
   REQUIRE(record->state.silence <= df::kMaxControlTicks);
   for (const std::uint16_t wait : record->state.wait) REQUIRE(wait <= df::kMaxControlTicks);
-  for (const df::Fixed pull : {record->state.x.pull, record->state.y.pull}) {
+  for (const df::Fixed pull : {record->state.x.pull, record->state.y.pull})
     REQUIRE(pull >= -df::kMaxControlReach && pull <= df::kMaxControlReach);
-  }
   std::string written;
   writeControlRecord(written, *record);
   REQUIRE(written.size() <= kMaxControlRecordBytes);
@@ -35,18 +33,16 @@ void tryRecord(std::string_view bytes, std::uint32_t tick) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
+void tryInput(Script script) {
   const bool table = !script.flag();
   const auto tick = script.number<std::uint32_t>();
-  const fuzz::Exactly bytes(script.rest());
+  const Exactly bytes(script.rest());
   if (table) {
-    fuzz::tryTable(bytes.view());
+    tryTable(bytes.view());
   } else {
-    fuzz::tryRecord(bytes.view(), tick);
+    tryRecord(bytes.view(), tick);
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz

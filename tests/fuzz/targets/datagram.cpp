@@ -9,8 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/net/datagram/DatagramGate.h"
 #include "shared/net/datagram/Seal.h"
 #include "shared/net/datagram/SealedLink.h"
@@ -211,10 +210,9 @@ class Play {
 };
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  naiad::fuzz::Script script(data, size);
-  naiad::fuzz::Play(script).run();
-  return 0;
+void tryInput(Script script) {
+  Play(script).run();
 }
+
+}  // namespace naiad::fuzz

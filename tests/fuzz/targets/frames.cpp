@@ -7,10 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/net/stream/Framing.h"
-#include "shared/values/SplitMix64.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -42,41 +40,32 @@ Outcome expected(std::string_view stream, std::size_t limit, std::size_t later) 
 }
 
 Outcome cut(std::string_view stream, std::size_t limit, std::size_t later, std::uint8_t how) {
-  SplitMix64 random(how);
   FrameReader reader(limit);
   Outcome outcome;
   const std::size_t most = std::max(limit, later) + kFrameHeaderSize;
-  for (std::string_view left = stream; !left.empty();) {
-    const std::size_t size = how == 0   ? left.size()
-                             : how == 1 ? 1
-                                        : std::min<std::size_t>(left.size(), random.below(how));
-    const Exactly piece(left.substr(0, size));
-    left.remove_prefix(size);
-    reader.feed(piece.view());
+  forEachPiece(stream, how, [&](std::string_view piece) {
+    reader.feed(piece);
     while (const auto frame = reader.next()) {
       outcome.frames.emplace_back(*frame);
       reader.setLimit(later);
       REQUIRE(reader.buffered() <= most);
     }
     REQUIRE(reader.buffered() <= most);
-  }
+  });
   outcome.error = reader.error();
   outcome.mid_frame = reader.midFrame();
   return outcome;
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
+void tryInput(Script script) {
   const std::size_t limit = script.number<std::uint16_t>();
   const std::size_t later = script.number<std::uint16_t>();
   const std::uint8_t how = script.byte();
   const std::string stream = script.rest();
-  const fuzz::Outcome outcome = fuzz::cut(stream, limit, later, how);
-  REQUIRE(outcome == fuzz::expected(stream, limit, later));
+  const Outcome outcome = cut(stream, limit, later, how);
+  REQUIRE(outcome == expected(stream, limit, later));
 
   std::string written;
   for (const std::string& frame : outcome.frames) appendFrame(written, frame);
@@ -87,5 +76,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   } catch (const std::length_error&) {
     REQUIRE(stream.empty() || stream.size() >= 64);
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz

@@ -4,8 +4,7 @@
 //   input   the file
 #include <algorithm>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "client/door/GamesList.h"
 
 namespace naiad::fuzz {
@@ -40,25 +39,24 @@ bool isSame(const OfferedGame& one, const OfferedGame& other) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  const std::string text = fuzz::Script(data, size).rest();
+void tryInput(Script script) {
+  const std::string text = script.rest();
   const GamesList list = GamesList::parse(text);
   if (!list.problem.empty()) {
     REQUIRE(list.games.empty() && list.problem.starts_with("line "));
-    return 0;
+    return;
   }
-  REQUIRE(list.games.size() == fuzz::linesWithGames(text));
+  REQUIRE(list.games.size() == linesWithGames(text));
   REQUIRE(list.games.size() <= GamesList::kMaxGames);
   std::string written;
   for (const OfferedGame& game : list.games) {
-    fuzz::requireGame(game);
+    requireGame(game);
     written +=
         game.name + " " + game.link.text() + " " + game.socket + (game.wants_password ? " password\n" : "\n");
   }
   const GamesList again = GamesList::parse(written);
-  REQUIRE(std::ranges::equal(again.games, list.games, fuzz::isSame));
-  return 0;
+  REQUIRE(std::ranges::equal(again.games, list.games, isSame));
 }
+
+}  // namespace naiad::fuzz

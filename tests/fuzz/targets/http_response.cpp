@@ -8,10 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/net/http/HttpResponseReader.h"
-#include "shared/values/SplitMix64.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -208,23 +206,16 @@ void requireHead(const HttpHead& head) {
 }
 
 Outcome cut(std::string_view stream, const HttpLimits& limits, Ending ending, std::uint8_t how) {
-  SplitMix64 random(how);
   HttpResponseReader reader(limits);
   Outcome outcome;
-  bool pops = (how & 1) != 0;
-  for (std::string_view left = stream; !left.empty();) {
-    const std::size_t size = how == 0   ? left.size()
-                             : how == 1 ? 1
-                                        : std::min<std::size_t>(left.size(), random.below(how));
-    const Exactly piece(left.substr(0, size));
-    left.remove_prefix(size);
-    std::string_view bytes = piece.view();
-    reader.feed(bytes);
-    REQUIRE(reader.isDone() || reader.error() != HttpError::kNone || bytes.empty());
-    if (reader.isDone()) outcome.behind += bytes;
+  const bool pops = (how & 1) != 0;
+  forEachPiece(stream, how, [&](std::string_view piece) {
+    reader.feed(piece);
+    REQUIRE(reader.isDone() || reader.error() != HttpError::kNone || piece.empty());
+    if (reader.isDone()) outcome.behind += piece;
     REQUIRE(reader.body().size() <= limits.body);
     if (pops) outcome.body += reader.popBody();
-  }
+  });
   if (ending != Ending::kOpen) reader.feedEnd(ending == Ending::kInOrder);
   outcome.body += reader.body();
   outcome.done = reader.isDone();
@@ -235,22 +226,20 @@ Outcome cut(std::string_view stream, const HttpLimits& limits, Ending ending, st
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
+void tryInput(Script script) {
   HttpLimits limits;
   limits.head = script.number<std::uint16_t>();
   limits.body = script.number<std::uint16_t>();
   const std::uint8_t how = script.byte();
-  const auto ending = static_cast<fuzz::Ending>(script.below(3));
+  const auto ending = static_cast<Ending>(script.below(3));
   const std::string stream = script.rest();
-  fuzz::Outcome outcome = fuzz::cut(stream, limits, ending, how);
-  fuzz::Outcome expected = fuzz::Oracle(stream, limits, ending).read();
+  Outcome outcome = cut(stream, limits, ending, how);
+  Outcome expected = Oracle(stream, limits, ending).read();
   REQUIRE(outcome.done == expected.done && outcome.error == expected.error);
-  if (!outcome.done) return 0;
+  if (!outcome.done) return;
   REQUIRE(outcome == expected);
   (void)HttpRequestLine::parse(stream.substr(0, stream.find("\r\n")));
-  return 0;
 }
+
+}  // namespace naiad::fuzz

@@ -5,8 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "client/terminal/InputDecoder.h"
 
 namespace naiad::fuzz {
@@ -49,34 +48,32 @@ void append(Events& all, const Events& events) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
+void tryInput(Script script) {
   using namespace std::chrono_literals;
   static constexpr std::array<std::chrono::milliseconds, 4> kPauses = {0ms, 10ms, 100ms, 1000ms};
-  fuzz::Script script(data, size);
   InputDecoder whole;
   InputDecoder bytewise;
-  fuzz::Events events;
-  fuzz::Events same;
+  Events events;
+  Events same;
   InputDecoder::Time now{1h};
   while (!script.atEnd()) {
     const std::uint8_t head = script.byte();
     const std::string bytes = script.bytes(head & 63);
     now += kPauses[head >> 6];
-    fuzz::append(events, whole.feed(bytes, now));
-    fuzz::append(same, bytewise.flush(now));
-    for (const char c : bytes) fuzz::append(same, bytewise.feed({&c, 1}, now));
+    append(events, whole.feed(bytes, now));
+    append(same, bytewise.flush(now));
+    for (const char c : bytes) append(same, bytewise.feed({&c, 1}, now));
     REQUIRE(whole.pendingBytes() <= 64);
     REQUIRE(whole.deadline() == bytewise.deadline());
   }
   REQUIRE(events == same);
 
   now += 1h;
-  fuzz::append(events, whole.flush(now));
+  append(events, whole.flush(now));
   REQUIRE(!whole.deadline() && whole.pendingBytes() == 0);
   const auto last = whole.feed("a", now);
   REQUIRE(last == InputDecoder().feed("a", now) && last.size() == 1);
-  return 0;
 }
+
+}  // namespace naiad::fuzz

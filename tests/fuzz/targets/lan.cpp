@@ -2,8 +2,7 @@
 // answer is never longer than a query.
 //
 //   input   a packet
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/lan/LanMessage.h"
 
@@ -25,15 +24,14 @@ void checkAnswer(const LanAnswer& answer) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  const fuzz::Exactly packet({reinterpret_cast<const char*>(data), size});
+void tryInput(Script script) {
+  const Exactly packet(script.rest());
   const auto nonce = readLanQuery(packet.view());
   const auto answer = readLanAnswer(packet.view());
   REQUIRE(!nonce || !answer);
   if (nonce) REQUIRE(writeLanQuery(*nonce) == packet.view());
-  if (answer) fuzz::checkAnswer(*answer);
-  return 0;
+  if (answer) checkAnswer(*answer);
 }
+
+}  // namespace naiad::fuzz

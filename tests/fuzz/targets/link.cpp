@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "client/trust/ServerAddress.h"
 #include "shared/net/stream/JoinLink.h"
 
@@ -82,15 +81,14 @@ void readFingerprint(std::string_view text) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  const std::string text = fuzz::Script(data, size).rest();
-  fuzz::readLink(text);
-  fuzz::readKey(text);
-  fuzz::readPage(text);
-  fuzz::readServer(text);
-  fuzz::readFingerprint(text);
-  return 0;
+void tryInput(Script script) {
+  const std::string text = script.rest();
+  readLink(text);
+  readKey(text);
+  readPage(text);
+  readServer(text);
+  readFingerprint(text);
 }
+
+}  // namespace naiad::fuzz

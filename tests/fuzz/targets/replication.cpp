@@ -3,13 +3,15 @@
 //
 //   input   when to send again 1 | steps: see ScriptedLink::run() and ScriptedWorld::happen()
 #include "ScriptedLink.h"
+#include "Target.h"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
-  fuzz::ScriptedLink link(static_cast<Resend>(script.below(3)));
+namespace naiad::fuzz {
+
+void tryInput(Script script) {
+  ScriptedLink link(static_cast<Resend>(script.below(3)));
   link.run(script, 200);
   link.heal(40);
   link.requireSame();
-  return 0;
 }
+
+}  // namespace naiad::fuzz

@@ -4,8 +4,7 @@
 //           TURN chunk (1) | bytes
 //
 // In 1 and 2 the checksums are right, as in a file by somebody who can compute them.
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "host/journal/DfrReader.h"
 #include "host/journal/DfrWriter.h"
 #include "shared/replica/Bytes.h"
@@ -35,9 +34,8 @@ void tryFile(std::string_view bytes) {
     // A record has two bytes at least, and no file unpacks to more than 64 times its size.
     REQUIRE(++records <= (64 * bytes.size() + kMaxDfrPayload) / 2);
     if (const auto* p_turn = std::get_if<WorldTurn>(&*record)) tryAgain(*p_turn);
-    if (const auto* p_picture = std::get_if<RecordedPicture>(&*record)) {
+    if (const auto* p_picture = std::get_if<RecordedPicture>(&*record))
       REQUIRE(p_picture->canvas.width() <= 400 && p_picture->canvas.height() <= 150);
-    }
   }
   REQUIRE(!reader.next());
   REQUIRE(reader.facts().size() <= kMaxDfrFacts);
@@ -63,11 +61,8 @@ std::string turnsOf(Script& script) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad::fuzz;
-  Script script(data, size);
+void tryInput(Script script) {
   switch (script.below(3)) {
     case 0:
       tryFile(script.rest());
@@ -79,5 +74,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       tryFile(turnsOf(script));
       break;
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz

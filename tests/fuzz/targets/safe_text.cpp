@@ -2,8 +2,7 @@
 // length, and stays as it is when cleaned again.
 //
 //   input   characters at most 1 | the text
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/values/Canvas.h"
@@ -24,20 +23,17 @@ void requireSafe(const std::string& text, std::size_t most) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
+void tryInput(Script script) {
   const std::size_t most = script.byte();
   const std::string text = script.rest();
 
   const std::string safe = safeText(text, most);
-  fuzz::requireSafe(safe, most);
+  requireSafe(safe, most);
   REQUIRE(safeText(safe, most) == safe);
 
   const std::string name = safeName(text);
-  fuzz::requireSafe(name, kMaxNameLength);
+  requireSafe(name, kMaxNameLength);
   REQUIRE(!name.empty() && name.front() != ' ' && name.back() != ' ');
   REQUIRE(safeName(name) == name);
 
@@ -50,5 +46,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   REQUIRE(lowerCase(lowerCase(text)) == lowerCase(text));
   REQUIRE(bytesOfHex(hexText(text)) == text);
   if (const auto bytes = bytesOfHex(text)) REQUIRE(hexText(*bytes) == lowerCase(text));
-  return 0;
 }
+
+}  // namespace naiad::fuzz

@@ -2,8 +2,7 @@
 // terminal.
 //
 //   input   a frame's payload
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "client/session/ServerMessages.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
@@ -67,13 +66,11 @@ template <class Other>
 void requireGood(const Other&) {}  // nothing in it can be wrong, or somebody else reads it
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
-  const fuzz::Exactly frame(script.rest());
+void tryInput(Script script) {
+  const Exactly frame(script.rest());
   const auto message = readServerMessage(frame.view());
-  if (message) std::visit([](const auto& value) { fuzz::requireGood(value); }, *message);
-  return 0;
+  if (message) std::visit([](const auto& value) { requireGood(value); }, *message);
 }
+
+}  // namespace naiad::fuzz

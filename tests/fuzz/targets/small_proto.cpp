@@ -4,8 +4,7 @@
 //   input   which message (1) | its bytes
 #include <tuple>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "naiad.twins.h"
 #include "proto/ParseErrors.h"
 
@@ -36,14 +35,13 @@ void compareOne(std::size_t which, std::string_view bytes, const std::tuple<Twin
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  naiad::silenceParseErrors();
-  naiad::fuzz::Script script(data, size);
+void tryInput(Script script) {
+  silenceParseErrors();
   const std::size_t which = script.byte();
   const std::string bytes = script.rest();
-  const naiad::test::naiad_twins::In<std::tuple>* all = nullptr;
-  naiad::fuzz::compareOne(which, bytes, all);
-  return 0;
+  const test::naiad_twins::In<std::tuple>* all = nullptr;
+  compareOne(which, bytes, all);
 }
+
+}  // namespace naiad::fuzz

@@ -5,20 +5,21 @@
 //           tick 1000)
 //           then for each snapshot: length + 2^14·draw a far tick + 2^15·again (2) | the snapshot
 #include "Prelude.h"
-#include "Script.h"
 #include "SnapshotChecks.h"
+#include "Target.h"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
+namespace naiad::fuzz {
+
+void tryInput(Script script) {
   constexpr std::uint32_t kSoon = 3;
   constexpr std::uint32_t kFar = 0x7FFFFFF0;
-  fuzz::Script script(data, size);
   const std::uint8_t flags = script.byte();
-  Replica replica = (flags & 1) != 0 ? fuzz::preludeReplica() : Replica(fuzz::kPreludeTick);
+  Replica replica = (flags & 1) != 0 ? preludeReplica() : Replica(kPreludeTick);
   while (!script.atEnd()) {
     const auto head = script.number<std::uint16_t>();
-    fuzz::receiveAndCheck(replica, script.bytes(head & 0x3FFF), (head & 0x8000) != 0);
-    fuzz::drawAndCheck(replica, replica.newest().tick + ((head & 0x4000) != 0 ? kFar : kSoon));
+    receiveAndCheck(replica, script.bytes(head & 0x3FFF), (head & 0x8000) != 0);
+    drawAndCheck(replica, replica.newest().tick + ((head & 0x4000) != 0 ? kFar : kSoon));
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz

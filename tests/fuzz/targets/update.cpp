@@ -3,8 +3,7 @@
 //   input   newest snapshot, tick and input known (4 each) | 0 raw, 1 numbers for HostileWriter (1) | the
 //   update
 #include "HostileWriter.h"
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/UpdateCodec.h"
 
@@ -29,20 +28,18 @@ bool same(const ClientUpdate& a, const ClientUpdate& b) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
+void tryInput(Script script) {
   UpdateContext context;
   context.snapshot = script.number<std::uint32_t>();
   context.tick = script.number<std::uint32_t>();
   context.input = script.number<std::uint32_t>();
-  const fuzz::Exactly bytes(script.flag() ? fuzz::HostileWriter(script).update() : script.rest());
+  const Exactly bytes(script.flag() ? HostileWriter(script).update() : script.rest());
   const auto update = readUpdate(bytes.view(), context);
-  if (!update) return 0;
-  fuzz::requireGood(*update);
+  if (!update) return;
+  requireGood(*update);
   const auto again = readUpdate(writeUpdate(*update), context);
-  REQUIRE(again && fuzz::same(*update, *again));
-  return 0;
+  REQUIRE(again && same(*update, *again));
 }
+
+}  // namespace naiad::fuzz

@@ -2,8 +2,7 @@
 // that limits can count, and is read alike however it is written.
 //
 //   input   a header; and, as another door's program writes it, the same bytes as a text
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/net/stream/VisitorHeader.h"
 
 namespace naiad::fuzz {
@@ -45,11 +44,11 @@ void readText(std::string_view text) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string bytes = naiad::fuzz::Script(data, size).rest();
-  naiad::fuzz::readHeader(bytes);
-  naiad::fuzz::readText(bytes);
-  return 0;
+void tryInput(Script script) {
+  const std::string bytes = script.rest();
+  readHeader(bytes);
+  readText(bytes);
 }
+
+}  // namespace naiad::fuzz

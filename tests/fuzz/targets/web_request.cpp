@@ -13,8 +13,7 @@
 #include <fstream>
 #include <optional>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "server/gateway/HttpAnswer.h"
 #include "shared/json/Json.h"
 
@@ -137,19 +136,17 @@ void quote(const std::string& text) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
+void tryInput(Script script) {
   const std::uint8_t what = script.byte();
   const std::string text = script.rest();
   if (what == 0) {
-    fuzz::readOrigin(text);
+    readOrigin(text);
   } else if (what == 1) {
-    fuzz::quote(text);
+    quote(text);
   } else {
-    fuzz::serve(text);
+    serve(text);
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz

@@ -9,10 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "shared/net/http/WebSocketFraming.h"
-#include "shared/values/SplitMix64.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -114,16 +112,10 @@ WebSocketFraming makeFraming(std::size_t limit) {
 }
 
 Outcome cut(std::string_view stream, std::size_t limit, std::uint8_t how) {
-  SplitMix64 random(how);
   WebSocketFraming framing = makeFraming(limit);
   Outcome outcome;
-  for (std::string_view left = stream; !left.empty();) {
-    const std::size_t size = how == 0   ? left.size()
-                             : how == 1 ? 1
-                                        : std::min<std::size_t>(left.size(), random.below(how));
-    const Exactly piece(left.substr(0, size));
-    left.remove_prefix(size);
-    framing.feed(piece.view());
+  forEachPiece(stream, how, [&](std::string_view piece) {
+    framing.feed(piece);
     while (const auto message = framing.next()) {
       REQUIRE(message->size() <= limit);
       outcome.messages.emplace_back(*message);
@@ -131,7 +123,7 @@ Outcome cut(std::string_view stream, std::size_t limit, std::uint8_t how) {
     std::string reply;
     framing.appendReplies(reply);
     if (!reply.empty()) outcome.last_ping = writtenPayload(reply, 0x8a);
-  }
+  });
   outcome.error = framing.error();
   outcome.close_code = framing.closeCode();
   outcome.close_reason = framing.closeReason();
@@ -151,28 +143,26 @@ Outcome cut(std::string_view stream, std::size_t limit, std::uint8_t how) {
 }
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
+void tryInput(Script script) {
   const std::size_t limit = script.number<std::uint16_t>();
   const std::uint8_t how = script.byte();
   const std::string stream = script.rest();
-  const fuzz::Outcome outcome = fuzz::cut(stream, limit, how);
-  REQUIRE(outcome == fuzz::expected(stream, limit));
+  const Outcome outcome = cut(stream, limit, how);
+  REQUIRE(outcome == expected(stream, limit));
 
-  WebSocketFraming writer = fuzz::makeFraming(limit);
+  WebSocketFraming writer = makeFraming(limit);
   for (const std::string& message : outcome.messages) {
     std::string written;
     writer.append(written, message);
-    REQUIRE(fuzz::writtenPayload(written, 0x82) == message);
+    REQUIRE(writtenPayload(written, 0x82) == message);
   }
   if (limit % 64 == 0) {  // seldom, because it takes time
     std::string written;
     const std::string longest(0x10000, stream.empty() ? 'x' : stream[0]);
     writer.append(written, longest);
-    REQUIRE(fuzz::writtenPayload(written, 0x82) == longest);
+    REQUIRE(writtenPayload(written, 0x82) == longest);
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz

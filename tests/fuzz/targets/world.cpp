@@ -4,8 +4,7 @@
 //   input   0 turn, 1 answers (1) | turn: the fields of its message; answers: each length (2) | fields
 //
 // The fields of a turn are read as what a game has set up, too.
-#include "Require.h"
-#include "Script.h"
+#include "Target.h"
 #include "engine/world/WorldExtras.h"
 #include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
@@ -69,9 +68,8 @@ class Host {
   bool take(std::string_view bytes) {
     const auto answer = readAnswer(bytes, m_views, m_view);
     if (!answer) return false;
-    for (const WorldPicture& picture : answer->pictures) {
+    for (const WorldPicture& picture : answer->pictures)
       REQUIRE(picture.canvas.width() <= kMaxViewWidth && picture.canvas.height() <= kMaxViewHeight);
-    }
     if (!answer->has_view) return true;
     check();
     m_publisher.update(m_view);
@@ -93,15 +91,12 @@ class Host {
  private:
   void check() const {
     REQUIRE(m_view.view_width >= kMinViewWidth && m_view.view_width <= kMaxViewWidth);
-    for (const df::DrawCommand& command : m_view.commands) {
+    for (const df::DrawCommand& command : m_view.commands)
       REQUIRE(df::isDrawable(command.ch) && command.color >= df::BLACK && command.color <= df::WHITE);
-    }
-    for (const df::DrawnObject& drawn : m_view.drawn) {
+    for (const df::DrawnObject& drawn : m_view.drawn)
       REQUIRE(std::uint64_t{drawn.first} + drawn.count <= m_view.commands.size());
-    }
-    for (const df::PublishedLook& told : m_view.looks) {
+    for (const df::PublishedLook& told : m_view.looks)
       REQUIRE(told.drawn < m_view.drawn.size() && told.p_look->selector.fits(told.p_look->sequence.size()));
-    }
     REQUIRE(m_view.notes.size() <= df::WorldExtras::kMaxNotes);
     for (const df::PlayerFacts& player : m_view.players) {
       REQUIRE(player.id != 0);
@@ -116,22 +111,20 @@ class Host {
 };
 
 }  // namespace
-}  // namespace naiad::fuzz
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace naiad;
-  fuzz::Script script(data, size);
+void tryInput(Script script) {
   if (!script.flag()) {
-    const fuzz::Exactly bytes(script.rest());
-    fuzz::tryTurn(bytes.view());
-    fuzz::tryReady(bytes.view());
-    return 0;
+    const Exactly bytes(script.rest());
+    tryTurn(bytes.view());
+    tryReady(bytes.view());
+    return;
   }
-  fuzz::Host host;
+  Host host;
   for (bool goes_on = true; goes_on && !script.atEnd();) {
     const auto length = script.number<std::uint16_t>();
-    const fuzz::Exactly bytes(script.bytes(length));
+    const Exactly bytes(script.bytes(length));
     goes_on = host.take(bytes.view());
   }
-  return 0;
 }
+
+}  // namespace naiad::fuzz
