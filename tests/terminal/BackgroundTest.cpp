@@ -1,10 +1,7 @@
 // The colour behind a game, on the terminal of the real dfclient.
 #include <gtest/gtest.h>
 
-#include <string>
-
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 #include "shared/replica/SnapshotCodec.h"
 
 namespace naiad::test {
@@ -22,21 +19,12 @@ wire::ServerMessage onBlue() {
   return message;
 }
 
-class BackgroundTest : public testing::Test {
- protected:
-  PtyTerminal::Options options() const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
-    return options;
-  }
-
-  FakeServer server;
-};
+using BackgroundTest = FakeServerFixture;
 
 TEST_F(BackgroundTest, IsTheTerminalsOwnUntilTheGameWantsAnother) {
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
-  EXPECT_EQ(terminal.output().find("\033[44m"), std::string::npos);
+  EXPECT_FALSE(has(terminal.output(), "\033[44m"));
   terminal.forget();
   server.send(onBlue());
   EXPECT_TRUE(terminal.waitFor("\033[44m")) << terminal.output();
@@ -53,7 +41,7 @@ TEST_F(BackgroundTest, IsNoneWithoutColours) {
   chat.mutable_chat()->set_text("after-that");
   server.send(chat);
   ASSERT_TRUE(terminal.waitFor("after-that")) << terminal.output();
-  EXPECT_EQ(terminal.output().find("\033[44m"), std::string::npos);
+  EXPECT_FALSE(has(terminal.output(), "\033[44m"));
 }
 
 }  // namespace

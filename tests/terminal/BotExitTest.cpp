@@ -1,43 +1,19 @@
 // The real dfbot: it says ok only if the server was there to the end, and if it has compared what it should.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
-#include <filesystem>
 #include <fstream>
 #include <memory>
 
-#include "PtyTerminal.h"
+#include "HomeFixture.h"
 
 namespace naiad::test {
 namespace {
 
-class BotExitTest : public testing::Test {
+class BotExitTest : public HomeFixture {
  protected:
   BotExitTest() {
-    std::string name = std::filesystem::temp_directory_path() / "naiad-bot-XXXXXX";
-    m_home = mkdtemp(name.data());
-    PtyTerminal::Options options;
-    options.command = {programPath("dfserver"),
-                       "--game",
-                       "hello",
-                       "--insecure",
-                       "--address",
-                       "127.0.0.1",
-                       "--port",
-                       "0",
-                       "--seed",
-                       "1",
-                       "--port-file",
-                       file("port"),
-                       "--truth",
-                       file("truth")};
-    m_server = std::make_unique<PtyTerminal>(options);
-  }
-  ~BotExitTest() override {
-    m_server.reset();
-    std::filesystem::remove_all(m_home);
+    serve("hello", {"--insecure", "--seed", "1", "--port-file", file("port"), "--truth", file("truth")});
   }
 
   std::string file(const char* name) const { return m_home / name; }
@@ -45,11 +21,8 @@ class BotExitTest : public testing::Test {
   std::unique_ptr<PtyTerminal> join(const std::vector<std::string>& more) {
     std::string port;
     EXPECT_TRUE(m_server->waitUntil([&] { return static_cast<bool>(std::ifstream(file("port")) >> port); }));
-    PtyTerminal::Options options;
-    options.command = {programPath("dfbot"), "127.0.0.1:" + port, "--insecure", "--quiet"};
-    options.command.insert(options.command.end(), more.begin(), more.end());
-    options.columns = 300;
-    auto bot = std::make_unique<PtyTerminal>(options);
+    auto bot = std::make_unique<PtyTerminal>(
+        inHome({programPath("dfbot"), "127.0.0.1:" + port, "--insecure", "--quiet"}, more));
     EXPECT_TRUE(m_server->waitFor("\"bot\" joined")) << m_server->output();
     return bot;
   }
@@ -63,22 +36,13 @@ class BotExitTest : public testing::Test {
     }));
   }
   static void expectEnd(PtyTerminal& bot, int code, const std::string& sentence) {
-    const int status = bot.waitForExit();
-    EXPECT_TRUE(WIFEXITED(status)) << bot.output();
-    EXPECT_EQ(WEXITSTATUS(status), code) << bot.output();
-    EXPECT_NE(bot.output().find(sentence), std::string::npos) << bot.output();
-    EXPECT_EQ(bot.output().find("bot ok") != std::string::npos, code == 0) << bot.output();
+    HomeFixture::expectEnd(bot, code, sentence);
+    EXPECT_EQ(has(bot.output(), "bot ok"), code == 0) << bot.output();
   }
-
-  std::filesystem::path m_home;
-  std::unique_ptr<PtyTerminal> m_server;
 };
 
 TEST_F(BotExitTest, AFolderIsNoScript) {
-  PtyTerminal::Options options;
-  options.command = {programPath("dfbot"), "127.0.0.1:1", "--insecure", "--script", m_home.string()};
-  options.columns = 300;
-  PtyTerminal bot(options);
+  PtyTerminal bot(inHome({programPath("dfbot"), "127.0.0.1:1", "--insecure", "--script", m_home.string()}));
   expectEnd(bot, 2, "dfbot: --script: " + m_home.string() + " is a folder");
 }
 

@@ -1,31 +1,24 @@
 // The real dfclient, and a server that has no time for it at first.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
 
 #include <atomic>
 #include <string>
 
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 
 namespace naiad::test {
 namespace {
 
-class BusyServerTest : public testing::Test {
+class BusyServerTest : public FakeServerFixture {
  protected:
   /// Refuses so many hellos.
   void refuse(int times, wire::Refused::Reason reason) {
-    server.onWelcome([this, times, reason](wire::ServerMessage& message) {
-      if (++hellos > times) return;
+    server.onWelcome([hellos = hellos, times, reason](wire::ServerMessage& message) {
+      if (++*hellos > times) return;
       message.mutable_refused()->set_reason(reason);
       message.mutable_refused()->set_sentence("Not now, please.");
     });
-  }
-  PtyTerminal::Options options() const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
-    return options;
   }
   static int count(const std::string& text, const std::string& what) {
     int found = 0;
@@ -33,15 +26,14 @@ class BusyServerTest : public testing::Test {
     return found;
   }
 
-  std::atomic<int> hellos = 0;
-  FakeServer server;
+  std::shared_ptr<std::atomic<int>> hellos = std::make_shared<std::atomic<int>>(0);
 };
 
 TEST_F(BusyServerTest, IsAskedAgainAndItsSentenceIsShownOnce) {
   refuse(3, wire::Refused::BUSY);
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
-  EXPECT_EQ(hellos, 4);
+  EXPECT_EQ(*hellos, 4);
   EXPECT_EQ(count(terminal.output(), "dfclient: Not now, please. (Trying again; Ctrl-C ends.)"), 1)
       << terminal.output();
 }
@@ -49,10 +41,9 @@ TEST_F(BusyServerTest, IsAskedAgainAndItsSentenceIsShownOnce) {
 TEST_F(BusyServerTest, OtherRefusalsAreFinal) {
   refuse(3, wire::Refused::FULL);
   PtyTerminal terminal(options());
-  const int status = terminal.waitForExit();
-  EXPECT_EQ(WEXITSTATUS(status), 3);
-  EXPECT_EQ(hellos, 1);
-  EXPECT_NE(terminal.output().find("dfclient: Not now, please.\r\n"), std::string::npos) << terminal.output();
+  EXPECT_TRUE(exits(terminal, 3));
+  EXPECT_EQ(*hellos, 1);
+  EXPECT_TRUE(has(terminal.output(), "dfclient: Not now, please.\r\n"));
 }
 
 TEST_F(BusyServerTest, ControlCEndsTheWait) {
@@ -60,9 +51,7 @@ TEST_F(BusyServerTest, ControlCEndsTheWait) {
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("Trying again"));
   terminal.type("\x03");
-  const int status = terminal.waitForExit();
-  EXPECT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(WTERMSIG(status), SIGINT);
+  EXPECT_TRUE(diesOf(terminal, SIGINT));
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 #include <chrono>
 #include <vector>
 
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 #include "shared/values/Keyboard.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/support/CellsAt.h"
@@ -40,13 +39,8 @@ std::vector<ObjectState> pileOf(int count) {
   return pile;
 }
 
-class CrowdedWorldTest : public testing::Test {
+class CrowdedWorldTest : public FakeServerFixture {
  protected:
-  PtyTerminal::Options options() const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
-    return options;
-  }
   /// The world is there, and the client still hears a key.
   void show(PtyTerminal& terminal, const std::vector<ObjectState>& objects,
             const df::ControlTable* p_table = nullptr, const ControlRecord* p_control = nullptr) {
@@ -59,8 +53,6 @@ class CrowdedWorldTest : public testing::Test {
     terminal.type("x");
     ASSERT_TRUE(server.heardKey(df::Keyboard::X, df::KEY_PRESSED));
   }
-
-  FakeServer server;
 };
 
 TEST_F(CrowdedWorldTest, ControlCLeavesAPile) {
@@ -95,8 +87,7 @@ TEST_F(CrowdedWorldTest, ASignalEndsItWhileItPredictsAmongThousandsOfLargeLooks)
   show(terminal, objects, &table, &control);
   const auto asked = std::chrono::steady_clock::now();
   terminal.signal(SIGTERM);
-  const int status = terminal.waitForExit();
-  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_TRUE(diesOf(terminal, SIGTERM));
   EXPECT_LT(std::chrono::steady_clock::now() - asked, kSoon);
   EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes()));
 }

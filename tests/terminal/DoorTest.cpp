@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -14,15 +12,12 @@
 
 #include "PtyTerminal.h"
 #include "tests/support/RunProgram.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// One that was free just now.
 std::string freePort() {
@@ -53,17 +48,8 @@ std::vector<std::string> zeroEnded(const fs::path& path) {
 class DoorTest : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = fs::temp_directory_path() / "naiad-sshdoor-XXXXXX";
-    m_home = mkdtemp(name.data());
     if (firstLine("PATH=$PATH:/usr/sbin command -v sshd").empty() || firstLine("command -v ssh").empty())
       GTEST_SKIP() << "no sshd here: openssh-server is not installed";
-  }
-  void TearDown() override {
-    m_visitors.clear();
-    m_door.reset();
-    m_server.reset();
-    std::error_code ignored;
-    fs::remove_all(m_home, ignored);
   }
 
   std::unique_ptr<PtyTerminal> run(const std::vector<std::string>& command,
@@ -87,10 +73,8 @@ class DoorTest : public testing::Test {
     m_server = run({programPath("dfserver"), "--game", "hello", "--address", "127.0.0.1", "--port", "0",
                     "--identity", m_home / "identity", "--visitors", m_home / "hello.visitors"});
     ASSERT_TRUE(m_server->waitFor("From elsewhere")) << m_server->output();
-    const std::string& said = m_server->output();
-    const std::size_t begin = said.find("naiad://");
-    ASSERT_NE(begin, std::string::npos) << said;
-    m_link = said.substr(begin, said.find_first_of("\r\n", begin) - begin);
+    m_link = linkIn(m_server->output());
+    ASSERT_TRUE(m_link.starts_with("naiad://")) << m_server->output();
     for (int i = 0; i < 5 && !m_door; ++i) openAt(freePort(), options);
     ASSERT_TRUE(m_door);
     makeKey("ann");
@@ -113,21 +97,10 @@ class DoorTest : public testing::Test {
   }
 
   std::vector<std::string> ssh(const std::string& key, const std::vector<std::string>& options = {}) const {
-    std::vector<std::string> command{firstLine("command -v ssh"),
-                                     "-F",
-                                     "none",
-                                     "-p",
-                                     m_port,
-                                     "-i",
-                                     m_home / key,
-                                     "-o",
-                                     "IdentitiesOnly=yes",
-                                     "-o",
-                                     "BatchMode=yes",
-                                     "-o",
-                                     "StrictHostKeyChecking=accept-new",
-                                     "-o",
-                                     "UserKnownHostsFile=" + (m_home / "known_hosts").string()};
+    std::vector<std::string> command{firstLine("command -v ssh"), "-F", "none", "-p", m_port};
+    command.insert(command.end(), {"-i", m_home / key, "-o", "IdentitiesOnly=yes", "-o", "BatchMode=yes"});
+    command.insert(command.end(), {"-o", "StrictHostKeyChecking=accept-new", "-o",
+                                   "UserKnownHostsFile=" + (m_home / "known_hosts").string()});
     command.insert(command.end(), options.begin(), options.end());
     command.push_back(firstLine("id -un") + "@127.0.0.1");
     return command;
@@ -155,7 +128,7 @@ class DoorTest : public testing::Test {
   }
   static void expectEnd(PtyTerminal& program, const std::string& sentence) {
     program.waitForExit();
-    EXPECT_TRUE(has(program.output(), sentence)) << program.output();
+    EXPECT_TRUE(has(program.output(), sentence));
   }
   bool serverSays(const std::string& text) { return m_server->waitFor(text); }
   /// The dfclient of this door that plays under this name; 0 if there is none.
@@ -172,12 +145,12 @@ class DoorTest : public testing::Test {
   bool isEmpty() const {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       const std::vector<std::string> words = zeroEnded(entry.path() / "cmdline");
-      if (words.size() > 2 && words[0].ends_with("/dfdoor") && has(words[2], m_home)) return false;
+      if (words.size() > 2 && words[0].ends_with("/dfdoor") && has(words[2], m_home.string())) return false;
     }
     return true;
   }
 
-  fs::path m_home;
+  TempFolder m_home;
   std::string m_link;
   std::string m_port;
   std::unique_ptr<PtyTerminal> m_server;
@@ -193,11 +166,11 @@ TEST_F(DoorTest, TwoVisitorsPlayOneGameFromWhereTheyAre) {
   PtyTerminal* ann = play("ann", {"-b", "127.0.0.2"});
   NAIAD_SKIP_WITHOUT(ann);
   EXPECT_TRUE(serverSays("\"ann\" joined")) << m_server->output();
-  EXPECT_TRUE(has(m_server->output(), "127.0.0.2:")) << m_server->output();
+  EXPECT_TRUE(has(m_server->output(), "127.0.0.2:"));
   PtyTerminal* bob = play("bob", {"-b", "127.0.0.3"});
   ASSERT_NE(bob, nullptr);
   EXPECT_TRUE(serverSays("\"bob\" joined")) << m_server->output();
-  EXPECT_TRUE(has(m_server->output(), "127.0.0.3:")) << m_server->output();
+  EXPECT_TRUE(has(m_server->output(), "127.0.0.3:"));
   bob->forget();
   ann->type("\035t");
   ann->type("greetings\r");
@@ -231,7 +204,7 @@ TEST_F(DoorTest, ALineThatBreaksCostsNothing) {
   ASSERT_TRUE(again->waitFor("Your name? [ann]")) << again->output();
   again->type("\r");
   EXPECT_TRUE(serverSays("\"ann\" is back, with another client")) << m_server->output();
-  EXPECT_FALSE(has(m_server->output(), "\"ann\" left")) << m_server->output();
+  EXPECT_FALSE(has(m_server->output(), "\"ann\" left"));
 }
 
 /// The old line is dead, but nobody has noticed it yet.
@@ -259,12 +232,12 @@ TEST_F(DoorTest, NoCommandRuns) {
       words.push_back("--");
       words.push_back(command);
       const auto visitor = run(words);
-      const int status = visitor->waitForExit();
+      visitor->waitForExit();
       if (has(m_door->output(), "Operation not permitted"))
         GTEST_SKIP() << "this sshd gives no terminals here";
-      EXPECT_TRUE(has(visitor->output(), "This door runs no commands")) << visitor->output();
-      EXPECT_FALSE(has(visitor->output(), "uid=") || has(visitor->output(), "pwned-42")) << visitor->output();
-      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;
+      EXPECT_TRUE(has(visitor->output(), "This door runs no commands"));
+      EXPECT_FALSE(has(visitor->output(), "uid=") || has(visitor->output(), "pwned-42"));
+      EXPECT_TRUE(exits(*visitor, 2));
     }
   }
   auto words = ssh("ann", {"-s"});
@@ -280,7 +253,7 @@ TEST_F(DoorTest, NothingIsForwarded) {
   const std::string server = m_link.substr(m_link.find("//") + 2, m_link.find('#') - m_link.find("//") - 2);
   const auto direct = run(ssh("ann", {"-W", server}));
   EXPECT_NE(direct->waitForExit(), 0);
-  EXPECT_TRUE(has(direct->output(), "prohibited") || has(direct->output(), "failed")) << direct->output();
+  EXPECT_TRUE(has(direct->output(), "prohibited") || has(direct->output(), "failed"));
   const auto remote = run(ssh("ann", {"-N", "-o", "ExitOnForwardFailure=yes", "-R", "0:" + server}));
   EXPECT_NE(remote->waitForExit(), 0) << remote->output();
 }
@@ -389,9 +362,8 @@ TEST_F(DoorTest, IsRemovedWithAllThatItMade) {
 TEST_F(DoorTest, AnInstalledOneIsSoundAndLeavesNothing) {
   const std::string place = m_home / "root";
   door({"install", "--root", place});
-  std::ifstream file(place + "/etc/naiad/door/sshd_config");
   std::stringstream text;
-  text << file.rdbuf();
+  text << std::ifstream(place + "/etc/naiad/door/sshd_config").rdbuf();
   for (const char* line : {"\nAllowUsers play\n", "\nDisableForwarding yes\n", "\nPermitEmptyPasswords no\n",
                            "\nPermitUserRC no\n", "\nPermitUserEnvironment no\n", "\nMaxSessions 1\n",
                            "\nForceCommand exec /usr/lib/naiad-door/dfdoor "})

@@ -107,7 +107,7 @@ bool FakeServer::heardInput(const std::function<bool(const Input&)>& wanted) {
   return hasReceived([&wanted](const wire::ClientMessage& message) {
     const auto update =
         message.what_case() == wire::ClientMessage::kUpdate ? readUpdate(message.update(), {}) : std::nullopt;
-    return update && std::any_of(update->inputs.begin(), update->inputs.end(), wanted);
+    return update && std::ranges::any_of(update->inputs, wanted);
   });
 }
 

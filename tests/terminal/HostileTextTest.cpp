@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 #include "shared/values/Canvas.h"
 #include "tests/support/HostileTexts.h"
 
@@ -89,23 +87,16 @@ std::vector<std::string> gathered() {
   return rows;
 }
 
-class HostileTextTest : public testing::Test {
+class HostileTextTest : public FakeServerFixture {
  protected:
-  PtyTerminal::Options options() const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
-    return options;
-  }
   /// What the client may write by itself is what it writes with an honest server.
   static void expectHarmless(const PtyTerminal& terminal, const char* what) {
     const Terminal seen(terminal.output());
     EXPECT_EQ(seen.strange(), "") << what;
     for (const char* sequence :
          {"\033]", "\033P", "\033_", "\033c", "\033[6n", "\033[200~", "\033[>c", "OWNED\007"})
-      EXPECT_EQ(terminal.output().find(sequence), std::string::npos) << what;
+      EXPECT_FALSE(has(terminal.output(), sequence)) << what;
   }
-
-  FakeServer server;
 };
 
 TEST_F(HostileTextTest, ChatAndNamesOfEveryClassReachTheTerminalHarmless) {

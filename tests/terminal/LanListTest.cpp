@@ -1,8 +1,6 @@
 // The real programs: dfclient without a server lists those of the network, here of loopback, and joins.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <chrono>
@@ -10,7 +8,7 @@
 #include <fstream>
 #include <memory>
 
-#include "PtyTerminal.h"
+#include "HomeFixture.h"
 #include "client/lan/LanBrowser.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/lan/LanSocket.h"
@@ -24,51 +22,21 @@ namespace fs = std::filesystem;
 constexpr const char* kDown = "\033[B";
 constexpr const char* kHome = "\033[H";
 
-class LanListTest : public testing::Test {
+class LanListTest : public HomeFixture {
  protected:
-  LanListTest() {
-    std::string name = fs::temp_directory_path() / "naiad-lan-XXXXXX";
-    m_home = mkdtemp(name.data());
-    m_name = m_home.filename().string().substr(6);  // "lan-…": other tests may list their servers beside ours
-  }
-  ~LanListTest() override {
-    m_server.reset();
-    fs::remove_all(m_home);
-  }
+  ~LanListTest() override { m_server.reset(); }
 
-  void serve(const std::vector<std::string>& more = {}, const std::string& password = "") {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfserver"),
-                       "--game",
-                       "hello",
-                       "--address",
-                       "127.0.0.1",
-                       "--port",
-                       "0",
-                       "--identity",
-                       m_home / "identity",
-                       "--server-name",
-                       m_name};
-    const std::vector<std::string> lan = more.empty() ? std::vector<std::string>{"--lan", "on"} : more;
-    options.command.insert(options.command.end(), lan.begin(), lan.end());
-    options.environment["NAIAD_PASSWORD"] = password;
-    options.columns = 200;
-    m_server = std::make_unique<PtyTerminal>(options);
-    ASSERT_TRUE(m_server->waitFor("From elsewhere")) << m_server->output();
-    const std::string& said = m_server->output();
-    const std::size_t begin = said.find("naiad://");
-    m_link = said.substr(begin, said.find_first_of("\r\n", begin) - begin);
+  void serve(const std::string& lan = "on", const std::string& password = "") {
+    HomeFixture::serve("hello", {"--server-name", m_name, "--lan", lan}, password);
   }
   std::string key() const { return m_link.substr(m_link.find('#') + 1); }
   std::string address() const { return m_link.substr(8, m_link.find('#') - 8); }
 
   std::unique_ptr<PtyTerminal> client(const std::vector<std::string>& more = {},
                                       const std::map<std::string, std::string>& environment = {}) {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), "--name", "ann", "--known-servers", m_home / "known"};
-    options.command.insert(options.command.end(), more.begin(), more.end());
-    options.environment = environment;
-    options.environment["XDG_STATE_HOME"] = m_home / "state";
+    PtyTerminal::Options options =
+        inHome({programPath("dfclient"), "--name", "ann", "--known-servers", m_home / "known"}, more);
+    options.environment.insert(environment.begin(), environment.end());
     options.environment.emplace("NAIAD_SERVER", "");
     options.columns = 160;
     return std::make_unique<PtyTerminal>(options);
@@ -85,11 +53,12 @@ class LanListTest : public testing::Test {
     }
     return false;
   }
-  static void expectEnd(PtyTerminal& program, int code, const std::string& sentence) {
-    const int status = program.waitForExit();
-    EXPECT_TRUE(WIFEXITED(status)) << program.output();
-    EXPECT_EQ(WEXITSTATUS(status), code) << program.output();
-    EXPECT_NE(program.output().find(sentence), std::string::npos) << program.output();
+  /// The server lets ann in, who plays and leaves.
+  void expectPlays(PtyTerminal& ann) {
+    ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann.output();
+    ASSERT_TRUE(ann.waitFor(" player")) << ann.output();
+    ann.type("\003");
+    expectEnd(ann, 0, "");
   }
   std::string listOnce(const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"--list"};
@@ -108,10 +77,8 @@ class LanListTest : public testing::Test {
   }
 
   LanLock m_lock;
-  fs::path m_home;
-  std::string m_name;
-  std::string m_link;
-  std::unique_ptr<PtyTerminal> m_server;
+  /// "test-…": other tests may list their servers beside ours.
+  const std::string m_name = m_home.path().filename().string().substr(6);
 };
 
 TEST_F(LanListTest, EnterJoinsTheChosenServerAndPinsItsKey) {
@@ -119,10 +86,7 @@ TEST_F(LanListTest, EnterJoinsTheChosenServerAndPinsItsKey) {
   const auto ann = client();
   ASSERT_TRUE(choose(*ann)) << ann->output();
   ann->type("\r");
-  ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();
-  ASSERT_TRUE(ann->waitFor(" player")) << ann->output();
-  ann->type("\003");
-  expectEnd(*ann, 0, "");
+  expectPlays(*ann);
   EXPECT_TRUE(sameModes(ann->originalModes(), ann->currentModes()));
   EXPECT_TRUE(fs::exists(m_home / "known"));
 }
@@ -147,52 +111,44 @@ TEST_F(LanListTest, ThePinCountsMoreThanTheList) {
   expectEnd(*ann, 3, "HAS CHANGED");
   m_server->signal(SIGTERM);
   m_server->waitForExit();
-  EXPECT_EQ(m_server->output().find("\"ann\""), std::string::npos) << m_server->output();
+  EXPECT_FALSE(has(m_server->output(), "\"ann\""));
 }
 
 TEST_F(LanListTest, ThePasswordIsAskedForAndTheOneInTheEnvironmentIsNotSent) {
-  serve({}, "xyzzy");
+  serve("on", "xyzzy");
   const auto ann = client({}, {{"NAIAD_PASSWORD", "ambient"}});
   ASSERT_TRUE(choose(*ann)) << ann->output();
-  EXPECT_NE(ann->output().find("password"), std::string::npos) << ann->output();
+  EXPECT_TRUE(has(ann->output(), "password"));
   ann->type("\r");
   ASSERT_TRUE(ann->waitFor("Password of ")) << ann->output();
   ann->type("xyzzy\r");
-  ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();
-  ASSERT_TRUE(ann->waitFor(" player")) << ann->output();
-  ann->type("\003");
-  expectEnd(*ann, 0, "");
+  expectPlays(*ann);
 }
 
 TEST_F(LanListTest, TextAndJsonNameTheLink) {
   serve();
-  EXPECT_NE(listUntilFound().find(m_link), std::string::npos);
+  EXPECT_TRUE(has(listUntilFound(), m_link));
   const std::string json = listUntilFound({"--json"});
-  EXPECT_NE(
-      json.find("\"name\": \"" + m_name + "\", \"game\": \"hello\", \"players\": 0, \"max_players\": 64"),
-      std::string::npos)
+  EXPECT_TRUE(has(json, R"("name": ")" + m_name + R"(", "game": "hello", "players": 0, "max_players": 64)"))
       << json;
-  EXPECT_NE(json.find("\"link\": \"" + m_link + "\""), std::string::npos) << json;
+  EXPECT_TRUE(has(json, R"("link": ")" + m_link + "\"")) << json;
 }
 
 TEST_F(LanListTest, AServerOnLoopbackAloneIsNotListedUnlessAsked) {
-  serve({"--lan", "auto"});
-  EXPECT_EQ(listOnce().find(m_name), std::string::npos);
+  serve("auto");
+  EXPECT_FALSE(has(listOnce(), m_name));
 }
 
 TEST_F(LanListTest, AServerThatHidesIsNotListed) {
-  serve({"--lan", "off"});
-  EXPECT_EQ(listOnce().find(m_name), std::string::npos);
+  serve("off");
+  EXPECT_FALSE(has(listOnce(), m_name));
 }
 
 TEST_F(LanListTest, WithNaiadServerItJoinsAndListsNothing) {
   serve();
   const auto ann = client({}, {{"NAIAD_SERVER", m_link}});
-  ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann->output();
-  ASSERT_TRUE(ann->waitFor(" player")) << ann->output();
-  EXPECT_EQ(ann->output().find("Servers of this network"), std::string::npos);
-  ann->type("\003");
-  expectEnd(*ann, 0, "");
+  expectPlays(*ann);
+  EXPECT_FALSE(has(ann->output(), "Servers of this network"));
 }
 
 TEST_F(LanListTest, WithoutATerminalAServerIsRequired) {
@@ -266,13 +222,10 @@ TEST_F(LanListTest, NothingOfAHostileAnswerSteersTheTerminal) {
                                   "31m\xff"),
                         writeLanAnswer(fakeAnswer(nonce, 3, "marker"))};
     });
-    return ann->output().find("marker") != std::string::npos &&
-           ann->output().find("evil") != std::string::npos;
+    return has(ann->output(), "marker") && has(ann->output(), "evil");
   })) << ann->output();
-  EXPECT_EQ(ann->output().find("\033]0;OWNED"), std::string::npos);
-  EXPECT_EQ(ann->output().find("\033[2Jevil"), std::string::npos);
-  EXPECT_EQ(ann->output().find("\xC2\x9B"), std::string::npos);
-  EXPECT_EQ(ann->output().find('\xff'), std::string::npos);
+  for (const char* hostile : {"\033]0;OWNED", "\033[2Jevil", "\xC2\x9B", "\xff"})
+    EXPECT_FALSE(has(ann->output(), hostile)) << hostile;
   ann->type("q");
   expectEnd(*ann, 0, "");
 }
@@ -290,11 +243,11 @@ TEST_F(LanListTest, AnswersWithAnotherNonceAreNone) {
   })) << ann->output();
   ann->type("q");
   expectEnd(*ann, 0, "");
-  EXPECT_EQ(ann->output().find("forged"), std::string::npos);
+  EXPECT_FALSE(has(ann->output(), "forged"));
 }
 
 TEST_F(LanListTest, AServerThatSaysItWantsNoPasswordGetsNoneFromTheEnvironment) {
-  serve({"--lan", "off"}, "xyzzy");
+  serve("off", "xyzzy");
   FakeLanServer fake;
   const auto ann = client({}, {{"NAIAD_PASSWORD", "xyzzy"}});
   ASSERT_TRUE(ann->waitUntil([&] {

@@ -2,7 +2,6 @@
 // alone in a terminal, without one, headless, and loaded by dfserver. Real processes, terminals and sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <filesystem>
@@ -10,7 +9,7 @@
 #include <memory>
 #include <sstream>
 
-#include "PtyTerminal.h"
+#include "HomeFixture.h"
 
 namespace naiad::test {
 namespace {
@@ -23,14 +22,9 @@ constexpr const char* kRight = "\033[C";
 // of a line of chat the part that is not as in the line before.
 constexpr const char* kCtrlC = "\x03";
 
-class OwnMain : public testing::Test {
+class OwnMain : public HomeFixture {
  protected:
-  OwnMain() {
-    std::string name = fs::temp_directory_path() / "naiad-lone-XXXXXX";
-    m_home = mkdtemp(name.data());
-    configure("");
-  }
-  ~OwnMain() override { fs::remove_all(m_home); }
+  OwnMain() { configure(""); }
 
   /// Lines of df-config.txt.
   void configure(const std::string& lines) {
@@ -39,10 +33,7 @@ class OwnMain : public testing::Test {
         << lines;
   }
   PtyTerminal::Options inHome(std::vector<std::string> command) const {
-    PtyTerminal::Options options;
-    for (const char* kind : {"CONFIG", "DATA", "STATE"}) {
-      options.environment["XDG_" + std::string(kind) + "_HOME"] = m_home / kind;
-    }
+    PtyTerminal::Options options = HomeFixture::inHome(std::move(command));
     options.environment["DRAGONFLY_CONFIG"] = m_home / "df-config.txt";
     options.environment["NAIAD_PORT"] = "0";
     options.environment["NAIAD_JOIN_FILE"] = m_home / "join";
@@ -51,13 +42,18 @@ class OwnMain : public testing::Test {
     options.environment["DF_COMPAT"] = "";
     options.environment["USER"] = "ann";
     options.columns = 120;
-    options.command = std::move(command);
     return options;
   }
   std::unique_ptr<PtyTerminal> start(std::map<std::string, std::string> environment = {}) const {
     PtyTerminal::Options options = inHome({programPath("lone_game")});
     for (auto& [name, value] : environment) options.environment[name] = value;
     return std::make_unique<PtyTerminal>(options);
+  }
+  /// With its player in the game.
+  std::unique_ptr<PtyTerminal> startPlaying() const {
+    auto game = start();
+    EXPECT_TRUE(game->waitFor("WALKED-0")) << game->output();
+    return game;
   }
   std::unique_ptr<PtyTerminal> startServer(std::map<std::string, std::string> environment = {}) const {
     environment["NAIAD_LOCAL_CLIENT"] = "false";
@@ -79,22 +75,14 @@ class OwnMain : public testing::Test {
     text << std::ifstream(m_home / file).rdbuf();
     return text.str();
   }
-  static bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-  }
   static void expectOrderlyEnd(PtyTerminal& game) {
-    const int status = game.waitForExit();
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << game.output();
-    EXPECT_TRUE(has(game.output(), "after the game, walker 1")) << game.output();
+    expectEnd(game, 0, "after the game, walker 1");
     EXPECT_TRUE(sameModes(game.originalModes(), game.currentModes()));
   }
-
-  fs::path m_home;
 };
 
 TEST_F(OwnMain, InATerminalItIsPlayedThere) {
-  auto game = start();
-  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  auto game = startPlaying();
   EXPECT_TRUE(has(game->output(), "before the game"));
   EXPECT_TRUE(has(game->output(), "Join from this machine with: dfclient naiad://127.0.0.1:"));
   game->forget();
@@ -105,8 +93,8 @@ TEST_F(OwnMain, InATerminalItIsPlayedThere) {
   expectOrderlyEnd(*game);
   EXPECT_FALSE(has(game->output(), "printed in step")) << "it would spoil the picture";
   const std::string log = read("game.log");
-  EXPECT_TRUE(has(log, "printed in step 1")) << log;
-  EXPECT_TRUE(has(log, "\"ann\" joined")) << log;
+  EXPECT_TRUE(has(log, "printed in step 1"));
+  EXPECT_TRUE(has(log, "\"ann\" joined"));
 }
 
 TEST_F(OwnMain, PlaysOnAfterATitleWithARunOfItsOwn) {
@@ -129,7 +117,7 @@ TEST_F(OwnMain, PlayersOfOneRunLeaveBeforeThoseOfTheNextCome) {
   ASSERT_TRUE(game->waitFor("$")) << game->output() << ": the key is not the new player's";
   game->type("q");
   expectOrderlyEnd(*game);
-  EXPECT_TRUE(has(game->output(), "guests +1-1+2, ticks after q: 0\r\n")) << game->output();
+  EXPECT_TRUE(has(game->output(), "guests +1-1+2, ticks after q: 0\r\n"));
 }
 
 TEST_F(OwnMain, LeavingAtTheTitleEndsTheSession) {
@@ -140,35 +128,36 @@ TEST_F(OwnMain, LeavingAtTheTitleEndsTheSession) {
   EXPECT_FALSE(has(game->output(), "WALKED-"));
 }
 
-TEST_F(OwnMain, EndsWhenItsPlayerLeaves) {
-  auto game = start();
-  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
-  game->type(kCtrlC);
-  expectOrderlyEnd(*game);
-}
-
-TEST_F(OwnMain, EndsItsClientWhenItIsOver) {
-  auto game = start();
-  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
-  game->type("x");
-  expectOrderlyEnd(*game);
+TEST_F(OwnMain, EndsInOrderWithItsPlayer) {
+  struct {
+    const char* name;
+    const char* configuration;
+    const char* key;
+  } const rows[] = {{"the player leaves", "", kCtrlC},
+                    {"the game is over", "", "x"},
+                    {"one player has no next round", "on_game_over:restart,\n", "x"},
+                    {"its own client knows the password", "password:sesame,\n", "q"}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.name);
+    configure(row.configuration);
+    auto game = startPlaying();
+    game->type(row.key);
+    expectOrderlyEnd(*game);
+  }
 }
 
 TEST_F(OwnMain, LeavesTheTerminalInOrderWhenItCrashes) {
-  auto game = start();
-  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  auto game = startPlaying();
   game->forget();
   game->type("c");
-  const int status = game->waitForExit();
-  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT) << status;
+  EXPECT_TRUE(diesOf(*game, SIGABRT));
   // The client ends after the game, by itself.
   EXPECT_TRUE(game->waitForLater("\033[?1049l")) << game->output();
   EXPECT_TRUE(game->waitForOriginalModes());
 }
 
 TEST_F(OwnMain, GoesOnForOthersUntilTheyHaveLeft) {
-  auto game = start();
-  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
+  auto game = startPlaying();
   auto bob = join("bob");
   game->type("q");
   ASSERT_TRUE(game->waitFor("1 still playing")) << game->output();
@@ -180,21 +169,13 @@ TEST_F(OwnMain, GoesOnForOthersUntilTheyHaveLeft) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, ItsOwnClientKnowsThePassword) {
-  configure("password:sesame,\n");
-  auto game = start();
-  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
-  game->type("q");
-  expectOrderlyEnd(*game);
-}
-
 TEST_F(OwnMain, OneKeyDoesNotEndTheGameForAll) {
   auto game = startServer();
   auto ann = join("ann");
   auto bob = join("bob");
   bob->type("q");
   EXPECT_EQ(WEXITSTATUS(bob->waitForExit()), 4);
-  EXPECT_TRUE(has(bob->output(), "For you, the game is over.")) << bob->output();
+  EXPECT_TRUE(has(bob->output(), "For you, the game is over."));
   ann->type("q");  // no player is at the server's own terminal, so it waits for the next one
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
   auto carl = join("carl");
@@ -220,7 +201,7 @@ void walkAgain(PtyTerminal& player) {
     player.type(kRight);
     player.read(800ms);
   }
-  EXPECT_NE(player.newOutput().find('$'), std::string::npos) << player.output();
+  EXPECT_TRUE(has(player.newOutput(), "$")) << player.output();
 }
 
 TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
@@ -237,26 +218,16 @@ TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
   walkAgain(*ann);
   const std::string log = read("game.log");  // of the server and of both rounds
   EXPECT_EQ(log.find("\"ann\" joined"), log.rfind("\"ann\" joined")) << log;
-  EXPECT_TRUE(has(log, "the round is over")) << log;
+  EXPECT_TRUE(has(log, "the round is over"));
   EXPECT_FALSE(has(ann->newOutput(), "Server lost")) << ann->output();
   game->signal(SIGTERM);
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, ThereIsNoNextRoundForThePlayerInItsTerminalAlone) {
-  configure("on_game_over:restart,\n");
-  auto game = start();
-  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
-  game->type("x");
-  expectOrderlyEnd(*game);
-}
-
 TEST_F(OwnMain, ModulesHaveRoundsToo) {
-  PtyTerminal::Options options =
-      inHome({programPath("dfserver"), "--game", programPath("../lib/lone_module.so"), "--address",
-              "127.0.0.1", "--on-game-over", "restart"});
-  PtyTerminal server(options);
+  PtyTerminal server(inHome({programPath("dfserver"), "--game", programPath("../lib/lone_module.so"),
+                             "--address", "127.0.0.1", "--on-game-over", "restart"}));
   ASSERT_TRUE(server.waitFor("From elsewhere")) << server.output();
   auto ann = join("ann");
   ann->type(kRight);
@@ -293,15 +264,14 @@ TEST_F(OwnMain, TheFirstPlaysAndTheOthersWaitForTheirTurn) {
 }
 
 TEST_F(OwnMain, WithoutATerminalItIsAServerThatASignalEnds) {
-  PtyTerminal::Options options = inHome(
+  PtyTerminal shell(inHome(
       {"/bin/sh", "-c", "\"$0\" </dev/null >\"$1\" 2>&1 & pid=$!; trap 'kill -TERM $pid' TERM; wait; wait",
-       programPath("lone_game"), m_home / "out"});
-  PtyTerminal shell(options);
+       programPath("lone_game"), m_home / "out"}));
   ASSERT_TRUE(shell.waitUntil([this] { return has(read("join"), "fingerprint"); }));
   auto ann = join("ann");
   shell.signal(SIGTERM);
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
-  EXPECT_TRUE(has(ann->output(), "The server is shutting down.")) << ann->output();
+  EXPECT_TRUE(has(ann->output(), "The server is shutting down."));
   EXPECT_NE(shell.waitForExit(), -1);
   EXPECT_TRUE(has(read("out"), "after the game, walker 1")) << read("out");
 }
@@ -333,7 +303,7 @@ TEST_F(OwnMain, WithoutTheOperatorsLibraryItIsPlayedAllTheSame) {
   const std::string log = read("log");
   const std::string warning = "no scores, bans, dfctl, metrics, local network or bus: " +
                               (m_home / "lib/libdragonfly-ops.so.0").string();
-  EXPECT_NE(log.find(warning), std::string::npos) << log;
+  EXPECT_TRUE(has(log, warning));
   EXPECT_EQ(log.find(warning), log.rfind(warning)) << "once";
 }
 
@@ -368,8 +338,8 @@ TEST_F(OwnMain, ListensOnLoopbackAloneUnlessAskedOtherwise) {
   constexpr const char* kAlone = "From elsewhere nobody can join: it listens on 127.0.0.1:";
   EXPECT_TRUE(has(startServer({{"NAIAD_ADDRESS", ""}})->output(), kAlone));
   const std::string open = startServer({{"NAIAD_ADDRESS", ""}, {"NAIAD_PUBLIC", "1"}})->output();
-  EXPECT_FALSE(has(open, kAlone)) << open;
-  EXPECT_TRUE(has(open, "Listening on every address of this machine, port ")) << open;
+  EXPECT_FALSE(has(open, kAlone));
+  EXPECT_TRUE(has(open, "Listening on every address of this machine, port "));
 }
 
 TEST_F(OwnMain, TheEndOfItsTerminalEndsItInOrder) {
@@ -377,7 +347,7 @@ TEST_F(OwnMain, TheEndOfItsTerminalEndsItInOrder) {
   auto ann = join("ann");
   game->signal(SIGHUP);
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
-  EXPECT_TRUE(has(ann->output(), "The server is shutting down.")) << ann->output();
+  EXPECT_TRUE(has(ann->output(), "The server is shutting down."));
   expectOrderlyEnd(*game);
 }
 
@@ -398,9 +368,8 @@ TEST_F(OwnMain, APortThatIsTakenMattersOnlyIfItWasAskedFor) {
 }
 
 TEST_F(OwnMain, IsAModuleOfDfserverToo) {
-  PtyTerminal::Options options = inHome(
-      {programPath("dfserver"), "--game", programPath("../lib/lone_module.so"), "--address", "127.0.0.1"});
-  PtyTerminal server(options);
+  PtyTerminal server(inHome(
+      {programPath("dfserver"), "--game", programPath("../lib/lone_module.so"), "--address", "127.0.0.1"}));
   ASSERT_TRUE(server.waitFor("From elsewhere")) << server.output();
   EXPECT_FALSE(has(server.output(), "compat is on"));
   auto ann = join("ann");

@@ -3,6 +3,7 @@
 // It can answer the kitty keyboard protocol's query, which the usual terminal multiplexers do not.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/types.h>
 #include <termios.h>
 
@@ -11,6 +12,8 @@
 #include <map>
 #include <string>
 #include <vector>
+
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 
@@ -82,6 +85,13 @@ class PtyTerminal {
 
 /// Do two sets of modes make a terminal behave alike?
 bool sameModes(const termios& a, const termios& b);
+
+/// The program ends by itself with this code, or by this signal, within a minute.
+testing::AssertionResult exits(PtyTerminal& program, int code);
+testing::AssertionResult diesOf(PtyTerminal& program, int signal);
+
+/// The link for this machine in what a dfserver prints.
+std::string linkIn(const std::string& output);
 
 /// Path of a built program: the environment variable named like the program in upper case, else the build.
 std::string programPath(const std::string& name);

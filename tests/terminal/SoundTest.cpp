@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <string>
 
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 
 namespace naiad::test {
 namespace {
 
-class TerminalSoundTest : public testing::Test {
+class TerminalSoundTest : public FakeServerFixture {
  protected:
-  PtyTerminal::Options options(const std::string& mode) const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
+  PtyTerminal::Options with(const std::string& mode) const {
+    PtyTerminal::Options options = this->options();
     if (!mode.empty()) options.command.insert(options.command.end(), {"--sound", mode});
     return options;
   }
@@ -32,22 +30,18 @@ class TerminalSoundTest : public testing::Test {
     server.send(chat);
     ASSERT_TRUE(terminal.waitFor("that-was-loud")) << terminal.output();
   }
-  static auto bells(const PtyTerminal& terminal) {
-    return std::count(terminal.output().begin(), terminal.output().end(), '\a');
-  }
-
-  FakeServer server;
+  static auto bells(const PtyTerminal& terminal) { return std::ranges::count(terminal.output(), '\a'); }
 };
 
 TEST_F(TerminalSoundTest, IsANoteUnlessSomethingElseIsWanted) {
-  PtyTerminal terminal(options(""));
+  PtyTerminal terminal(with(""));
   play(terminal);
   EXPECT_TRUE(terminal.waitFor("sound: pew"));
   EXPECT_EQ(bells(terminal), 0);
 }
 
 TEST_F(TerminalSoundTest, RingsTheBellOnceHoweverManyThereAre) {
-  PtyTerminal terminal(options("bell"));
+  PtyTerminal terminal(with("bell"));
   play(terminal);
   EXPECT_TRUE(terminal.waitFor("sound: pew"));
   EXPECT_TRUE(terminal.waitFor("\a"));
@@ -55,9 +49,9 @@ TEST_F(TerminalSoundTest, RingsTheBellOnceHoweverManyThereAre) {
 }
 
 TEST_F(TerminalSoundTest, IsNothingIfSwitchedOff) {
-  PtyTerminal terminal(options("off"));
+  PtyTerminal terminal(with("off"));
   play(terminal);
-  EXPECT_EQ(terminal.output().find("pew"), std::string::npos);
+  EXPECT_FALSE(has(terminal.output(), "pew"));
   EXPECT_EQ(bells(terminal), 0);
 }
 

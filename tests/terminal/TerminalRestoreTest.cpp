@@ -3,41 +3,31 @@
 #include <signal.h>
 #include <sys/wait.h>
 
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 #include "shared/values/Keyboard.h"
 
 namespace naiad::test {
 namespace {
 
-class TerminalRestoreTest : public testing::Test {
+class TerminalRestoreTest : public FakeServerFixture {
  protected:
-  PtyTerminal::Options options() const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
-    return options;
-  }
-
   /// Join, and wait until the picture is on the screen and the modes are set.
   static void join(PtyTerminal& terminal) {
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
     ASSERT_TRUE(terminal.waitFor("\033[?u")) << terminal.output();
-    EXPECT_NE(terminal.output().find("\033[?1049h"), std::string::npos);
-    EXPECT_NE(terminal.output().find("\033[?1003h"), std::string::npos);
+    EXPECT_TRUE(has(terminal.output(), "\033[?1049h"));
+    EXPECT_TRUE(has(terminal.output(), "\033[?1003h"));
     EXPECT_FALSE(sameModes(terminal.originalModes(), terminal.currentModes())) << "raw mode is on";
     terminal.forget();
   }
 
   static void expectRestored(PtyTerminal& terminal) {
     const std::string after = terminal.newOutput();
-    EXPECT_NE(after.find("\033[?1049l"), std::string::npos) << "the alternate screen was left";
-    EXPECT_NE(after.find("\033[?1003l"), std::string::npos) << "mouse reports are off";
-    EXPECT_NE(after.find("\033[?1006l"), std::string::npos);
-    EXPECT_NE(after.find("\033[?2004l"), std::string::npos) << "bracketed paste is off";
+    // The alternate screen, mouse reports, bracketed paste.
+    for (const char* mode : {"1049", "1003", "1006", "2004"})
+      EXPECT_TRUE(has(after, "\033[?" + std::string(mode) + "l")) << mode;
     EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes())) << "termios is as before";
   }
-
-  FakeServer server;
 };
 
 TEST_F(TerminalRestoreTest, AfterLeaving) {
@@ -46,9 +36,7 @@ TEST_F(TerminalRestoreTest, AfterLeaving) {
   terminal.type("\x1d");
   ASSERT_TRUE(terminal.waitFor("q leave"));
   terminal.type("q");
-  const int status = terminal.waitForExit();
-  EXPECT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_TRUE(exits(terminal, 0));
   EXPECT_TRUE(server.hasReceived([](const wire::ClientMessage& m) { return m.has_leave(); }));
   expectRestored(terminal);
 }
@@ -57,9 +45,7 @@ TEST_F(TerminalRestoreTest, AfterControlC) {
   PtyTerminal terminal(options());
   join(terminal);
   terminal.type("\x03");
-  const int status = terminal.waitForExit();
-  EXPECT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_TRUE(exits(terminal, 0));
   expectRestored(terminal);
 }
 
@@ -68,9 +54,7 @@ TEST_F(TerminalRestoreTest, AfterSignalsThatEndIt) {
     PtyTerminal terminal(options());
     join(terminal);
     terminal.signal(number);
-    const int status = terminal.waitForExit();
-    EXPECT_TRUE(WIFSIGNALED(status)) << "the parent sees the signal";
-    EXPECT_EQ(WTERMSIG(status), number);
+    EXPECT_TRUE(diesOf(terminal, number)) << "the parent sees the signal";
     expectRestored(terminal);
   }
 }
@@ -86,9 +70,7 @@ TEST_F(TerminalRestoreTest, AfterACrash) {
     ASSERT_TRUE(terminal.waitUntil([&] { return terminal.output().find("\033[>31u") != std::string::npos; }))
         << "the keyboard mode is set";
     terminal.signal(number);
-    const int status = terminal.waitForExit();
-    EXPECT_TRUE(WIFSIGNALED(status)) << "it still dies of it";
-    EXPECT_EQ(WTERMSIG(status), number);
+    EXPECT_TRUE(diesOf(terminal, number)) << "it still does";
     expectRestored(terminal);
     const std::string after = terminal.newOutput();
     EXPECT_LT(after.find("\033[<u"), after.find("\033[?1049l"))
@@ -102,8 +84,7 @@ TEST_F(TerminalRestoreTest, AfterTheServersGoodbye) {
   wire::ServerMessage goodbye;
   goodbye.mutable_goodbye()->set_sentence("Closing time.");
   server.send(goodbye);
-  const int status = terminal.waitForExit();
-  EXPECT_EQ(WEXITSTATUS(status), 4);
+  EXPECT_TRUE(exits(terminal, 4));
   expectRestored(terminal);
   const std::string after = terminal.newOutput();
   EXPECT_LT(after.rfind("\033[?1049l"), after.find("Closing time.")) << "said on the normal screen";
@@ -171,7 +152,7 @@ TEST_F(TerminalRestoreTest, NoServer) {
   with.command[1] = "127.0.0.1:1";
   PtyTerminal terminal(with);
   EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 1);
-  EXPECT_EQ(terminal.output().find("\033"), std::string::npos) << "the terminal was not touched";
+  EXPECT_FALSE(has(terminal.output(), "\033")) << "the terminal was not touched";
 }
 
 }  // namespace

@@ -2,12 +2,10 @@
 // the terminal.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,8 +13,7 @@
 #include <regex>
 #include <string>
 
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad::test {
@@ -56,7 +53,7 @@ int tries() {
   return std::getenv("NAIAD_LONG_TESTS") != nullptr ? 300 : 20 / kShare;
 }
 
-class TerminalSignalsTest : public testing::Test {
+class TerminalSignalsTest : public FakeServerFixture {
  protected:
   PtyTerminal::Options shell() const {
     PtyTerminal::Options shell = options();
@@ -79,8 +76,7 @@ class TerminalSignalsTest : public testing::Test {
     ASSERT_TRUE(terminal.waitFor("ready$ ")) << terminal.output();
   }
   PtyTerminal::Options options() const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
+    PtyTerminal::Options options = FakeServerFixture::options();
     options.answer_kitty = true;
     return options;
   }
@@ -92,7 +88,6 @@ class TerminalSignalsTest : public testing::Test {
     EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes())) << attempt;
   }
 
-  FakeServer server;
   std::mt19937 random{4711};
 };
 
@@ -173,7 +168,7 @@ TEST_F(TerminalSignalsTest, ContinuedInTheBackgroundItComesBackWithTheForeground
   ASSERT_TRUE(terminal.waitFor("done\r\n")) << terminal.output();
   EXPECT_EQ(terminal.output().find("NAIAD-HERE", before), std::string::npos)
       << "it draws on the shell's screen";
-  EXPECT_NE(terminal.output().find("Running"), std::string::npos) << terminal.output();
+  EXPECT_TRUE(has(terminal.output(), "Running"));
   terminal.type("fg\n");
   EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
 }
@@ -216,7 +211,7 @@ TEST_P(TerminalSignalsOfTest, InTheBackgroundItEndsWithTheShell) {
   terminal.type("exit\n");
   EXPECT_NE(terminal.waitForExit(), -1);
   EXPECT_TRUE(terminal.waitUntil([session] { return !clientRuns(session); }));
-  EXPECT_EQ(terminal.newOutput().find("NAIAD-HERE"), std::string::npos) << "it draws for nobody";
+  EXPECT_FALSE(has(terminal.newOutput(), "NAIAD-HERE")) << "it draws for nobody";
 }
 
 INSTANTIATE_TEST_SUITE_P(Shells, TerminalSignalsOfTest,

@@ -6,8 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad::test {
@@ -21,11 +20,10 @@ int residentMegabytes(pid_t process) {
   return -1;
 }
 
-class TerminalSizeTest : public testing::Test {
+class TerminalSizeTest : public FakeServerFixture {
  protected:
-  PtyTerminal::Options options(int columns, int rows) const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
+  PtyTerminal::Options sized(int columns, int rows) const {
+    PtyTerminal::Options options = this->options();
     options.columns = columns;
     options.rows = rows;
     return options;
@@ -34,8 +32,6 @@ class TerminalSizeTest : public testing::Test {
     terminal.type("\x03");
     EXPECT_NE(terminal.waitForExit(), -1);
   }
-
-  FakeServer server;
 };
 
 constexpr int kMegabytes = 40;  ///< resident, of a client on any terminal
@@ -44,7 +40,7 @@ constexpr std::pair<int, int> kLarge[] = {{65535, 65535}, {3000, 250}, {65535, 1
 TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
   for (const auto& [columns, rows] : kLarge) {
-    PtyTerminal terminal(options(columns, rows));
+    PtyTerminal terminal(sized(columns, rows));
     ASSERT_TRUE(terminal.waitFor("\033[?u")) << columns << " x " << rows;
     EXPECT_LT(residentMegabytes(terminal.pid()), kMegabytes) << columns << " x " << rows;
     leave(terminal);
@@ -53,7 +49,7 @@ TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
 
 TEST_F(TerminalSizeTest, AWindowThatGrowsDuringTheGameTakesBoundedMemory) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
-  PtyTerminal terminal(options(100, 30));
+  PtyTerminal terminal(sized(100, 30));
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
   for (const auto& [columns, rows] : kLarge) {
     terminal.resize(columns, rows);
@@ -71,7 +67,7 @@ TEST_F(TerminalSizeTest, AWindowThatGrowsDuringTheGameTakesBoundedMemory) {
 // Not every description of a terminal has a size.
 TEST_F(TerminalSizeTest, IsTheTerminalsOwnWhateverItsType) {
   for (const char* type : {"linux", "vt100", "xterm-256color", "tmux-256color"}) {
-    PtyTerminal::Options typed = options(100, 30);
+    PtyTerminal::Options typed = sized(100, 30);
     typed.environment["TERM"] = type;
     typed.environment["COLUMNS"] = "40";  // of another terminal, which somebody has exported
     typed.environment["LINES"] = "10";
@@ -88,7 +84,7 @@ TEST_F(TerminalSizeTest, IsTheTerminalsOwnWhateverItsType) {
 TEST_F(TerminalSizeTest, ColumnsAndLinesAreBoundedLikewise) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
   for (const char* number : {"30000", "99999999999999999999", "-5", "x"}) {
-    PtyTerminal::Options without = options(0, 0);
+    PtyTerminal::Options without = sized(0, 0);
     without.environment["COLUMNS"] = number;
     without.environment["LINES"] = number;
     PtyTerminal terminal(without);

@@ -2,22 +2,18 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "FakeServer.h"
-#include "PtyTerminal.h"
+#include "FakeServerFixture.h"
 
 namespace naiad::test {
 namespace {
 
-class TerminalTypeTest : public testing::Test {
+class TerminalTypeTest : public FakeServerFixture {
  protected:
   PtyTerminal::Options with(const std::string& term) const {
-    PtyTerminal::Options options;
-    options.command = {programPath("dfclient"), server.address(), "--insecure", "--name", "Ada"};
+    PtyTerminal::Options options = this->options();
     options.environment["TERM"] = term;
     return options;
   }
-
-  FakeServer server;
 };
 
 TEST_F(TerminalTypeTest, OneThatIsNotKnownIsDrawnAsXterm) {
@@ -35,15 +31,15 @@ TEST_F(TerminalTypeTest, OneThatIsNotKnownIsDrawnAsXterm) {
 TEST_F(TerminalTypeTest, AKnownOneIsUsedWithoutAWord) {
   PtyTerminal terminal(with("xterm"));
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
-  EXPECT_EQ(terminal.output().find("not known"), std::string::npos);
+  EXPECT_FALSE(has(terminal.output(), "not known"));
 }
 
 TEST_F(TerminalTypeTest, WhereNothingCanBeDrawnTheServerIsNotAsked) {
   for (const char* p_term : {"dumb", "unknown", ""}) {
     PtyTerminal terminal(with(p_term));
     EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 5) << terminal.output();
-    EXPECT_NE(terminal.output().find("dfclient: TERM"), std::string::npos) << terminal.output();
-    EXPECT_EQ(terminal.output().find("\033"), std::string::npos) << "the terminal was not touched";
+    EXPECT_TRUE(has(terminal.output(), "dfclient: TERM"));
+    EXPECT_FALSE(has(terminal.output(), "\033")) << "the terminal was not touched";
   }
   EXPECT_EQ(server.connections(), 0);
 }
@@ -52,7 +48,7 @@ TEST_F(TerminalTypeTest, ItsNameIsShownHarmless) {
   PtyTerminal terminal(with("x\033]0;OWNED\007" + std::string(300, 'y')));
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
   ASSERT_TRUE(terminal.waitFor("is not known")) << terminal.output();
-  EXPECT_EQ(terminal.output().find("\033]"), std::string::npos);
+  EXPECT_FALSE(has(terminal.output(), "\033]"));
 }
 
 TEST_F(TerminalTypeTest, DarkBlueIsDrawnBright) {
@@ -66,8 +62,7 @@ TEST_F(TerminalTypeTest, DarkBlueIsDrawnBright) {
     terminal.forget();
     server.sendWorld({state});
     ASSERT_TRUE(terminal.waitFor("WV")) << terminal.output();
-    EXPECT_NE(terminal.output().find(p_sequence), std::string::npos)
-        << ::testing::PrintToString(terminal.newOutput());
+    EXPECT_TRUE(has(terminal.output(), p_sequence)) << ::testing::PrintToString(terminal.newOutput());
   }
 }
 
