@@ -98,9 +98,8 @@ std::size_t Judge::bytesKept() const {
   std::size_t bytes = 0;
   for (const auto& [player, account] : m_accounts) {
     bytes += sizeof account + account.waiting.size() * sizeof(Waiting);
-    for (const Truth& truth : account.truths) {
+    for (const Truth& truth : account.truths)
       bytes += static_cast<std::size_t>(truth.picture.width() * truth.picture.height()) * sizeof(df::Cell);
-    }
   }
   return bytes;
 }

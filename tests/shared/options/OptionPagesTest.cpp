@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "shared/options/OptionPages.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -109,9 +110,7 @@ TEST_F(OptionPagesTest, CompletionsKnowWordsAndFiles) {
 
 // Bash itself completes.
 TEST_F(OptionPagesTest, BashCompletes) {
-  namespace fs = std::filesystem;
-  std::string folder = testing::TempDir() + "naiad-pages-XXXXXX";
-  const fs::path base = mkdtemp(folder.data());
+  const test::TempFolder base;
   std::ofstream(base / "completion") << page("bash");
   std::ofstream(base / "try")
       << "set -eu; source \"$1/completion\"\n"
@@ -121,10 +120,8 @@ TEST_F(OptionPagesTest, BashCompletes) {
   const std::string command =
       "bash " + (base / "try").string() + " " + base.string() + " >" + (base / "said").string();
   EXPECT_EQ(std::system(command.c_str()), 0);
-  std::ostringstream said;
-  said << std::ifstream(base / "said").rdbuf();
-  EXPECT_EQ(said.str(), "--port --players --password\nfirst\ntogether\ntogether first\n\n\n");
-  fs::remove_all(base);
+  EXPECT_EQ(test::contentOf(base / "said"),
+            "--port --players --password\nfirst\ntogether\ntogether first\n\n\n");
 }
 
 TEST_F(OptionPagesTest, EachLineOfTheExampleIsADefault) {

@@ -10,24 +10,15 @@
 #include <vector>
 
 #include "shared/options/Options.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
 
-namespace fs = std::filesystem;
-
 class OptionsTest : public testing::Test {
  protected:
-  OptionsTest() {
-    std::string folder = testing::TempDir() + "naiad-options-XXXXXX";
-    base = mkdtemp(folder.data());
-    config = base / "naiad.conf";
-    unsetenv("OPTIONS_TEST_PORT");
-  }
-  ~OptionsTest() override {
-    fs::remove_all(base);
-    unsetenv("OPTIONS_TEST_PORT");
-  }
+  OptionsTest() { unsetenv("OPTIONS_TEST_PORT"); }
+  ~OptionsTest() override { unsetenv("OPTIONS_TEST_PORT"); }
 
   /// What is on stderr.
   std::string parse(std::vector<std::string> words) {
@@ -56,12 +47,15 @@ class OptionsTest : public testing::Test {
   }
   /// What is said of a line of the file.
   std::string ofLine(int number, const std::string& text) const {
-    return "dfthing: " + config.string() + ":" + std::to_string(number) + ": " + text +
-           "\nRun dfthing --help for more information.\n";
+    return said(config.string() + ":" + std::to_string(number) + ": " + text);
+  }
+  /// An error of the program's, with where to find help.
+  static std::string said(const std::string& text) {
+    return "dfthing: " + text + "\nRun dfthing --help for more information.\n";
   }
 
-  fs::path base;
-  fs::path config;
+  test::TempFolder base;
+  const std::filesystem::path config = base / "naiad.conf";
   Parsed result = Parsed::kDone;
   int port = 1;
   int players = 2;
@@ -73,8 +67,6 @@ class OptionsTest : public testing::Test {
   bool secret = false;
   bool from_environment = false;
 };
-
-constexpr const char* kHelp = "\nRun dfthing --help for more information.\n";
 
 TEST_F(OptionsTest, OneThatJoinsMayBeGivenSeveralTimes) {
   EXPECT_EQ(parse({"--thing", "a=1", "--thing=b,c"}), "");
@@ -89,13 +81,12 @@ TEST_F(OptionsTest, OneThatJoinsMayBeGivenSeveralTimes) {
 
 TEST_F(OptionsTest, AnUnknownOptionIsNamedWithTheNearestOne) {
   EXPECT_EQ(parse({"--max-player", "3"}),
-            std::string("dfthing: there is no option --max-player; did you mean --max-players?") + kHelp);
+            said("there is no option --max-player; did you mean --max-players?"));
   EXPECT_EQ(result, Parsed::kUsageError);
-  EXPECT_EQ(parse({"--maxplayers=3"}),
-            std::string("dfthing: there is no option --maxplayers; did you mean --max-players?") + kHelp);
-  EXPECT_EQ(parse({"--config-file=x"}), std::string("dfthing: there is no option --config-file") + kHelp);
-  EXPECT_EQ(parse({"--secre"}), std::string("dfthing: there is no option --secre") + kHelp) << "hidden";
-  EXPECT_EQ(parse({"what"}), std::string("dfthing: unexpected argument \"what\"") + kHelp);
+  EXPECT_EQ(parse({"--maxplayers=3"}), said("there is no option --maxplayers; did you mean --max-players?"));
+  EXPECT_EQ(parse({"--config-file=x"}), said("there is no option --config-file"));
+  EXPECT_EQ(parse({"--secre"}), said("there is no option --secre")) << "hidden";
+  EXPECT_EQ(parse({"what"}), said("unexpected argument \"what\""));
 }
 
 TEST_F(OptionsTest, AProgramEndsWith2AfterWrongUsageAndWith0AfterHelp) {
@@ -105,11 +96,9 @@ TEST_F(OptionsTest, AProgramEndsWith2AfterWrongUsageAndWith0AfterHelp) {
 }
 
 TEST_F(OptionsTest, AValueOutOfRangeIsNamedWithItsOption) {
-  EXPECT_EQ(parse({"--port", "70000"}),
-            std::string("dfthing: --port: Value 70000 not in range 0 to 65535") + kHelp);
+  EXPECT_EQ(parse({"--port", "70000"}), said("--port: Value 70000 not in range 0 to 65535"));
   setenv("OPTIONS_TEST_PORT", "70000", 1);
-  EXPECT_EQ(parse({}),
-            std::string("dfthing: OPTIONS_TEST_PORT: Value 70000 not in range 0 to 65535") + kHelp);
+  EXPECT_EQ(parse({}), said("OPTIONS_TEST_PORT: Value 70000 not in range 0 to 65535"));
   EXPECT_EQ(result, Parsed::kUsageError);
 }
 
@@ -129,11 +118,11 @@ TEST_F(OptionsTest, AFileIsReadLineByLine) {
 }
 
 TEST_F(OptionsTest, EachWrongLineOfTheFileIsNamed) {
-  const std::string file = "dfthing: " + config.string();
+  const std::string file = config.string();
   EXPECT_EQ(parseFile("prot = 1\nmax-players = 3\nport = 70000\n\nquite\n"),
-            file + ":1: there is no option \"prot\"; did you mean port?\n" + file +
-                ":3: port: Value 70000 not in range 0 to 65535\n" + file +
-                ":5: there is no option \"quite\"; did you mean quiet?" + kHelp);
+            said(file + ":1: there is no option \"prot\"; did you mean port?\ndfthing: " + file +
+                 ":3: port: Value 70000 not in range 0 to 65535\ndfthing: " + file +
+                 ":5: there is no option \"quite\"; did you mean quiet?"));
   EXPECT_EQ(result, Parsed::kUsageError);
 }
 
@@ -149,7 +138,7 @@ TEST_F(OptionsTest, APageIsPrintedWhateverElseIsWanted) {
   EXPECT_EQ(parse({"--option-page", "bash"}), "");
   EXPECT_EQ(result, Parsed::kDone);
   EXPECT_NE(testing::internal::GetCapturedStdout().find("complete -F _dfthing dfthing"), std::string::npos);
-  EXPECT_EQ(parse({"--option-page", "pdf"}), std::string("dfthing: there is no page \"pdf\"") + kHelp);
+  EXPECT_EQ(parse({"--option-page", "pdf"}), said("there is no page \"pdf\""));
 }
 
 TEST_F(OptionsTest, CommandLineAndEnvironmentCountMoreThanTheFile) {
@@ -183,10 +172,9 @@ TEST_F(OptionsTest, AnErrorInAFileHasItsFileAndLine) {
 
 TEST_F(OptionsTest, APipeIsNotWaitedFor) {
   ASSERT_EQ(mkfifo(config.c_str(), 0600), 0);
-  EXPECT_EQ(parse({"--config", config.string()}),
-            "dfthing: --config: " + config.string() + " is not a regular file" + kHelp);
-  EXPECT_EQ(parse({"--config", (base / "none").string()}),
-            "dfthing: --config: " + (base / "none").string() + " cannot be read" + kHelp);
+  EXPECT_EQ(parse({"--config", config}), said("--config: " + config.string() + " is not a regular file"));
+  const std::string none = base / "none";
+  EXPECT_EQ(parse({"--config", none}), said("--config: " + none + " cannot be read"));
 }
 
 TEST(NearestName, IsTheOneWithTheFewestChanges) {

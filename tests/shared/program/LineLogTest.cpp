@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -20,6 +19,8 @@
 #include "shared/program/LineLog.h"
 #include "shared/program/LogText.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -30,19 +31,9 @@ using Clock = std::chrono::steady_clock;
 
 class LineLogTest : public testing::Test {
  protected:
-  LineLogTest() {
-    std::string name = testing::TempDir() + "naiad-log-XXXXXX";
-    base = mkdtemp(name.data());
-    path = base / "log";
-    surviveBrokenPipes();
-  }
-  ~LineLogTest() override { fs::remove_all(base); }
+  LineLogTest() { surviveBrokenPipes(); }
 
-  std::string read() const {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-  }
+  std::string read() const { return test::contentOf(path); }
   bool comes(const std::string& part) const {
     for (const auto end = Clock::now() + 30s; Clock::now() < end; usleep(1000)) {
       if (read().find(part) != std::string::npos) return true;
@@ -50,17 +41,16 @@ class LineLogTest : public testing::Test {
     return false;
   }
 
-  fs::path base;
-  fs::path path;
+  test::TempFolder base;
+  const fs::path path = base / "log";
 };
 
 /// The sum of what the log says of lost lines.
 long linesLost(const std::string& text) {
   constexpr std::string_view kSaid = " log line";
   long lost = 0;
-  for (std::size_t at = text.find(kSaid); at != std::string::npos; at = text.find(kSaid, at + 1)) {
+  for (std::size_t at = text.find(kSaid); at != std::string::npos; at = text.find(kSaid, at + 1))
     lost += std::stol(text.substr(text.find_last_of(" \n", at - 1) + 1));
-  }
   return lost;
 }
 
@@ -219,11 +209,7 @@ TEST_F(LineLogTest, RotationsLoseNoLine) {
     log("end");
     ASSERT_TRUE(comes("end"));
   }
-  for (int file = 0; file < kFiles; ++file) {
-    std::ostringstream text;
-    text << std::ifstream(base / ("log." + std::to_string(file))).rdbuf();
-    all += text.str();
-  }
+  for (int file = 0; file < kFiles; ++file) all += test::contentOf(base / ("log." + std::to_string(file)));
   all += read();
   std::size_t at = 0;
   for (int i = 0; i < kFiles * kLines && at != std::string::npos; ++i)

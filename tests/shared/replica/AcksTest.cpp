@@ -17,11 +17,14 @@ TEST(Acks, KnowNothingAtFirst) {
   EXPECT_FALSE(acks.has(0xFFFFFFFF));
 }
 
-TEST(Acks, BitIOfTheMaskIsNewestMinusOneMinusI) {
-  AckWindow acks;
-  for (const std::uint32_t number : {1u, 2u, 5u, 4u}) acks.addReceived(number);
-  EXPECT_EQ(acks.newest, 5u);
-  EXPECT_EQ(acks.mask, 0b1101u);
+TEST(Acks, BitIOfTheMaskIsNewestMinusOneMinusIWhateverComesTwice) {
+  for (const auto& [received, newest, mask] :
+       {std::tuple{std::vector{1u, 2u, 5u, 4u}, 5u, 0b1101u}, {{1, 3, 3, 1}, 3, 0b10}}) {
+    AckWindow acks;
+    for (const std::uint32_t number : received) acks.addReceived(number);
+    EXPECT_EQ(acks.newest, newest);
+    EXPECT_EQ(acks.mask, mask);
+  }
 }
 
 TEST(Acks, AgreeWithASetOfTheLast65Numbers) {
@@ -48,13 +51,6 @@ TEST(Acks, AgreeWithASetOfTheLast65Numbers) {
   }
 }
 
-TEST(Acks, DuplicatesChangeNothing) {
-  AckWindow acks;
-  for (const std::uint32_t number : {1u, 3u, 3u, 1u}) acks.addReceived(number);
-  EXPECT_EQ(acks.newest, 3u);
-  EXPECT_EQ(acks.mask, 0b10u);
-}
-
 TEST(Acks, RememberAcrossTheWrap) {
   AckWindow acks;
   acks.newest = 0xFFFFFFFE;
@@ -68,16 +64,6 @@ TEST(Acks, RememberAcrossTheWrap) {
   EXPECT_FALSE(acks.has(1));
   EXPECT_TRUE(isNewer(2, 0xFFFFFFFF));
   EXPECT_FALSE(isNewer(0xFFFFFFFF, 2));
-}
-
-TEST(Acks, AJumpOfTheWholeWindowKeepsTheLastBit) {
-  AckWindow acks;
-  acks.addReceived(1);
-  acks.addReceived(65);
-  EXPECT_TRUE(acks.has(1));
-  acks.addReceived(66);
-  EXPECT_FALSE(acks.has(1));
-  EXPECT_TRUE(acks.has(65));
 }
 
 TEST(Acks, TheFirstMayBeAny) {

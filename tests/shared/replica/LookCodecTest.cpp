@@ -42,6 +42,17 @@ std::string write(const Look& look, LookForm form = {}) {
   return out.bytes();
 }
 
+/// A look that is spelled out, up to the number of its glyphs, or of its frames.
+BitWriter beginSpelled(bool has_one_frame) {
+  BitWriter out;
+  out.flag(true);
+  out.bits(2, 2);
+  out.flag(false);
+  out.flag(has_one_frame);
+  if (has_one_frame) out.flag(false);
+  return out;
+}
+
 Look word(const char* text, df::Color color = df::GREEN) {
   Appearance glyphs;
   for (int x = 0; *text != '\0'; ++text, x += 256)
@@ -160,24 +171,14 @@ TEST(LookCodec, GlyphsThatWalkTooFarAreRefused) {
 TEST(LookCodec, TheLargestAppearanceFitsAndALargerOneIsRefused) {
   Look look{{Appearance(kMaxGlyphs, Glyph{0, 0, U'#', df::RED})}, 2};
   EXPECT_EQ(read(write(look)).look, look);
-  BitWriter out;
-  out.flag(true);
-  out.bits(2, 2);
-  out.flag(false);
-  out.flag(true);
-  out.flag(false);
+  BitWriter out = beginSpelled(true);
   out.golomb(kMaxGlyphs + 1, 3);
   for (int i = 0; i < 200'000; ++i) out.flag(false);
   EXPECT_FALSE(read(out.bytes()).whole);
 }
 
 TEST(LookCodec, ACountThatIsOnlyClaimedCostsNothing) {
-  BitWriter out;
-  out.flag(true);
-  out.bits(2, 2);
-  out.flag(false);
-  out.flag(true);
-  out.flag(false);
+  BitWriter out = beginSpelled(true);
   out.golomb(kMaxGlyphs, 3);
   const Met met = read(out.bytes());
   EXPECT_FALSE(met.whole);
@@ -188,11 +189,7 @@ TEST(LookCodec, ACountThatIsOnlyClaimedCostsNothing) {
 TEST(LookCodec, FramesShareTheLimitOfGlyphs) {
   const Appearance half(kMaxGlyphs / 2, Glyph{0, 0, U'#', df::RED});
   const auto bytes = [](const Appearance& a, const Appearance& b) {
-    BitWriter out;
-    out.flag(true);
-    out.bits(2, 2);
-    out.flag(false);
-    out.flag(false);
+    BitWriter out = beginSpelled(false);
     out.golomb(0, 3);
     out.bits(0b001, 3);
     for (const Appearance& appearance : {a, b}) {
@@ -216,11 +213,7 @@ TEST(LookCodec, FramesShareTheLimitOfGlyphs) {
 
 TEST(LookCodec, TheLongestSequenceFitsAndALongerOneIsRefused) {
   const auto isRead = [](std::size_t count) {
-    BitWriter out;
-    out.flag(true);
-    out.bits(2, 2);
-    out.flag(false);
-    out.flag(false);
+    BitWriter out = beginSpelled(false);
     out.golomb(count - 2, 3);
     out.bits(0b001, 3);
     for (std::size_t i = 0; i < count; ++i) out.golomb(0, 3);

@@ -63,9 +63,8 @@ TEST(Motion, ExtremesWrapWithoutTrapping) {
   const Fixed most = std::numeric_limits<Fixed>::max();
   const Fixed least = std::numeric_limits<Fixed>::min();
   const Motion m{0, {most, least}, {most, least}, {least, most}};
-  for (const std::uint32_t tick : {0u, 1u, 0x7FFFFFFFu, 0x80000001u, 0xFFFFFFFFu}) {
+  for (const std::uint32_t tick : {0u, 1u, 0x7FFFFFFFu, 0x80000001u, 0xFFFFFFFFu})
     EXPECT_EQ(positionAt(rebase(m, tick), 0), m.position) << tick;
-  }
   EXPECT_EQ(positionAt(m, 0x80000000u), positionAt(m, 0x80000000u));  // half a turn away: any answer will do
 }
 

@@ -62,9 +62,8 @@ inline ControlRecord randomControlRecord(SplitMix64& rng, std::uint32_t tick) {
   record.state.x = {randomFixed(rng, df::kMaxControlReach), rng.below(2) == 0};
   record.state.y = {randomFixed(rng, df::kMaxControlReach), rng.below(2) == 0};
   record.state.silence = static_cast<std::uint16_t>(rng.below(df::kMaxControlTicks + 1));
-  for (std::uint16_t& wait : record.state.wait) {
+  for (std::uint16_t& wait : record.state.wait)
     wait = static_cast<std::uint16_t>(rng.below(2) == 0 ? 0 : rng.below(df::kMaxControlTicks + 1));
-  }
   return record;
 }
 

@@ -91,9 +91,8 @@ TEST(Utf8, AnyBytesDecode) {
 }
 
 TEST(Drawable, LetsOrdinaryCharactersThrough) {
-  for (const char32_t ch : std::u32string(U" ~aéΩд│█●⠿→≈")) {
+  for (const char32_t ch : std::u32string(U" ~aéΩд│█●⠿→≈"))
     EXPECT_TRUE(isDrawable(ch)) << std::hex << static_cast<std::uint32_t>(ch);
-  }
 }
 
 TEST(Drawable, StopsWhatWouldDisturbATerminal) {

@@ -185,9 +185,8 @@ TEST(LossyDatagramLink, LossLeavesTheFateOfOtherPacketsAlone) {
   clean.sendMany(500, 1ms);
   lossy.sendMany(500, 1ms);
   EXPECT_LT(lossy.arrivals.size(), clean.arrivals.size());
-  for (const LinkArrival& arrival : lossy.arrivals) {
+  for (const LinkArrival& arrival : lossy.arrivals)
     EXPECT_NE(std::find(clean.arrivals.begin(), clean.arrivals.end(), arrival), clean.arrivals.end());
-  }
 }
 
 TEST(LossyDatagramLink, EveryPacketIsAccountedFor) {

@@ -119,9 +119,8 @@ struct VirtualStreamLink::State : std::enable_shared_from_this<State> {
 void VirtualStreamLink::State::send(Side& side, std::string_view frame) {
   if (frame.empty() || frame.size() > kMaxFramePayload) throw std::length_error("no size for a frame");
   if (side.phase != Phase::kOpen) return;
-  if (side.queued + kFrameHeaderSize + frame.size() > TcpOptions{}.send_cap) {
+  if (side.queued + kFrameHeaderSize + frame.size() > TcpOptions{}.send_cap)
     return finish(side, CloseReason::kOverflow);
-  }
   ++side.counters.sent;
   push(side, Kind::kFrame, frame);
 }
@@ -179,9 +178,7 @@ void VirtualStreamLink::State::transmit(Side& side, const Item& item, Time retry
   after(delay, [&side, &receiver, item](State& state) {
     const auto place = receiver.arrived.emplace(item.number, item).first;
     const auto before = static_cast<std::uint64_t>(std::distance(receiver.arrived.begin(), place));
-    if (item.kind == Kind::kFrame && receiver.consumed + before + 1 != item.number) {
-      ++side.counters.reordered;
-    }
+    if (item.kind == Kind::kFrame && receiver.consumed + before + 1 != item.number) ++side.counters.reordered;
     state.consume(receiver);
   });
 }

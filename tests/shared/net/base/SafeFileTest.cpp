@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shared/net/base/SafeFile.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
@@ -17,16 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SafeFileTest : testing::Test {
-  SafeFileTest() {
-    std::string name = testing::TempDir() + "naiad-file-XXXXXX";
-    base = mkdtemp(name.data());
-    path = base / "file";
-  }
-  ~SafeFileTest() override { fs::remove_all(base); }
-  std::ptrdiff_t filesThere() const { return std::distance(fs::directory_iterator(base), {}); }
+  std::ptrdiff_t filesThere() const { return std::distance(fs::directory_iterator(base.path()), {}); }
 
-  fs::path base;
-  fs::path path;
+  test::TempFolder base;
+  const fs::path path = base / "file";
 };
 
 TEST_F(SafeFileTest, ReplacesWholeAndForItsOwnerAlone) {

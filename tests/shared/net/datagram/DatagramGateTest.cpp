@@ -49,6 +49,21 @@ struct Guest {
   std::vector<std::string> heard;
 };
 
+using Guests = std::vector<std::unique_ptr<Guest>>;
+
+Guests twentyGuests(DatagramGate& gate) {
+  Guests guests;
+  for (std::uint64_t i = 1; i <= 20; ++i) guests.push_back(std::make_unique<Guest>(gate, i));
+  return guests;
+}
+
+/// Forged packets that reached a session's cryptography.
+std::uint64_t forgedForAll(const Guests& guests) {
+  std::uint64_t sum = 0;
+  for (const auto& guest : guests) sum += guest->server.counters().forged;
+  return sum;
+}
+
 std::string forgedFor(ConnectionId id, SplitMix64& rng) {
   std::string packet(40, '\0');
   for (char& byte : packet) byte = static_cast<char>(rng.next());
@@ -177,8 +192,7 @@ TEST(DatagramGate, FloodFromOnePrefixStaysThere) {
   DatagramGateRates rates;
   rates.prefix = {.per_second = 1, .burst = 50};
   DatagramGate gate(rates);
-  std::vector<std::unique_ptr<Guest>> guests;
-  for (std::uint64_t i = 1; i <= 20; ++i) guests.push_back(std::make_unique<Guest>(gate, i));
+  const auto guests = twentyGuests(gate);
   SplitMix64 rng(3);
   const Path attacker = pathFrom("203.0.113.1");
   for (int i = 0; i < 10'000; ++i) {
@@ -186,9 +200,7 @@ TEST(DatagramGate, FloodFromOnePrefixStaysThere) {
     path.remote.port = static_cast<std::uint16_t>(rng.next());
     gate.receive(path, forgedFor({1 + rng.below(10)}, rng), guests[0]->now);
   }
-  std::uint64_t forged = 0;
-  for (const auto& guest : guests) forged += guest->server.counters().forged;
-  EXPECT_EQ(forged, 50u);
+  EXPECT_EQ(forgedForAll(guests), 50u);
   EXPECT_GT(gate.counters().prefix_flood, 0u);
   for (std::size_t i = 10; i < 20; ++i) {
     guests[i]->say("first");
@@ -200,16 +212,12 @@ TEST(DatagramGate, StrangersHaveOneLimitInAll) {
   DatagramGateRates rates;
   rates.strangers = {.per_second = 10, .burst = 100};
   DatagramGate gate(rates);
-  std::vector<std::unique_ptr<Guest>> guests;
-  for (std::uint64_t i = 1; i <= 20; ++i) guests.push_back(std::make_unique<Guest>(gate, i));
+  const auto guests = twentyGuests(gate);
   guests[0]->settle();
   SplitMix64 rng(3);
-  for (int i = 0; i < 10'000; ++i) {
+  for (int i = 0; i < 10'000; ++i)
     gate.receive(anywhere(rng), forgedFor({1 + rng.below(20)}, rng), guests[0]->now);
-  }
-  std::uint64_t forged = 0;
-  for (const auto& guest : guests) forged += guest->server.counters().forged;
-  EXPECT_EQ(forged, 98u);  // settling took two
+  EXPECT_EQ(forgedForAll(guests), 98u);  // settling took two
   EXPECT_GT(gate.counters().stranger_flood, 0u);
   for (int i = 0; i < 100; ++i) guests[0]->say("unharmed");
   EXPECT_EQ(guests[0]->heard.size(), 100u);

@@ -1,30 +1,30 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <span>
 
 #include "SealKit.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/net/datagram/DatagramKeys.h"
 
 namespace naiad::test {
 namespace {
 
-// Made with HMAC-SHA256 and a few lines of Python, from exporter_master_secret 00 01 … 1f.
-TEST(DatagramKeys, KnownAnswersOfAes) {
-  const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kKnownId, 0x13);
-  EXPECT_EQ(toHex(keys.client.key.data(), 16), "4bf58675aeb5d26a6fb351d2ba56c3d4");
-  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "84784d40194d0940a7028eaf");
-  EXPECT_EQ(toHex(keys.server.key.data(), 16), "8ebd5d909a24e84b1f9686b6ddfe75f1");
-  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "d644bd65fb79bc54285b075c");
+/// Key and initial vector.
+std::string hexOf(const SealKey& key, std::size_t key_size) {
+  return hexText(std::span(key.key).first(key_size)) + " " + hexText(key.iv);
 }
 
-TEST(DatagramKeys, KnownAnswersOfChaCha) {
-  const DatagramKeys keys = deriveDatagramKeys(knownExporter(), AeadId::kChaCha20Poly1305, kKnownId, 0x13);
-  EXPECT_EQ(toHex(keys.client.key.data(), 32),
-            "1bc0cc8be1216a553b07211a30a06e3986c4f21d15c63c5cd08f3cde5ea50e01");
-  EXPECT_EQ(toHex(keys.client.iv.data(), 12), "d891b999d7072a7ac76783af");
-  EXPECT_EQ(toHex(keys.server.key.data(), 32),
-            "2ac40823402de6c8644557c32cc7898c0d4c1faa52c9aaca408106344d118137");
-  EXPECT_EQ(toHex(keys.server.iv.data(), 12), "14a508dfd5a797fd08477130");
+// Made with HMAC-SHA256 and a few lines of Python, from exporter_master_secret 00 01 … 1f.
+TEST(DatagramKeys, KnownAnswers) {
+  const DatagramKeys aes = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kKnownId, 0x13);
+  EXPECT_EQ(hexOf(aes.client, 16), "4bf58675aeb5d26a6fb351d2ba56c3d4 84784d40194d0940a7028eaf");
+  EXPECT_EQ(hexOf(aes.server, 16), "8ebd5d909a24e84b1f9686b6ddfe75f1 d644bd65fb79bc54285b075c");
+  const DatagramKeys chacha = deriveDatagramKeys(knownExporter(), AeadId::kChaCha20Poly1305, kKnownId, 0x13);
+  EXPECT_EQ(hexOf(chacha.client, 32),
+            "1bc0cc8be1216a553b07211a30a06e3986c4f21d15c63c5cd08f3cde5ea50e01 d891b999d7072a7ac76783af");
+  EXPECT_EQ(hexOf(chacha.server, 32),
+            "2ac40823402de6c8644557c32cc7898c0d4c1faa52c9aaca408106344d118137 14a508dfd5a797fd08477130");
 }
 
 TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
@@ -38,7 +38,7 @@ TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
   };
   deriveDatagramKeys(spy, AeadId::kChaCha20Poly1305, kKnownId, 0x13);
   EXPECT_EQ(label, "EXPERIMENTAL-naiad-datagram");
-  EXPECT_EQ(toHex(context), "0400000002efcdab896745230113000000");
+  EXPECT_EQ(hexText(context), "0400000002efcdab896745230113000000");
   EXPECT_EQ(asked, 88u);
 }
 
@@ -50,8 +50,8 @@ TEST(DatagramKeys, NoTwoSessionsEpochsOrCiphersShareKeys) {
         const DatagramKeys keys = deriveDatagramKeys(knownExporter(), aead, id, epoch);
         for (const SealKey* key : {&keys.client, &keys.server}) {
           EXPECT_EQ(key->aead, aead);
-          all.insert(toHex(key->key.data(), 16));
-          all.insert(toHex(key->iv.data(), 12));
+          all.insert(hexText(std::span(key->key).first(16)));
+          all.insert(hexText(key->iv));
         }
       }
     }

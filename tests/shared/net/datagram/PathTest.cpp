@@ -16,9 +16,8 @@ TEST(Endpoint, PrintsAsPeopleWriteIt) {
 }
 
 TEST(Endpoint, RefusesWhatIsNoNumericAddress) {
-  for (const char* text : {"", "localhost", "1.2.3", "1.2.3.4:5", "::1::2", "256.0.0.1"}) {
+  for (const char* text : {"", "localhost", "1.2.3", "1.2.3.4:5", "::1::2", "256.0.0.1"})
     EXPECT_FALSE(makeEndpoint(text, 1)) << text;
-  }
 }
 
 TEST(Endpoint, MappedAddressIsTheIPv4Address) {
@@ -38,9 +37,8 @@ TEST(Endpoint, KnowsAnyAddress) {
 TEST(Endpoint, EveryPartDistinguishes) {
   const Endpoint base = *makeEndpoint("fe80::1%1", 5);
   std::unordered_set<Endpoint> all{base};
-  for (const char* other : {"fe80::1%2", "fe80::2%1", "fe80:0:0:1::1%1", "::ffff:1.2.3.4"}) {
+  for (const char* other : {"fe80::1%2", "fe80::2%1", "fe80:0:0:1::1%1", "::ffff:1.2.3.4"})
     all.insert(*makeEndpoint(other, 5));
-  }
   all.insert(*makeEndpoint("fe80::1%1", 6));
   EXPECT_EQ(all.size(), 6u);
   std::unordered_set<Path> paths{{base, base}, {base, {}}, {{}, base}, {{}, {}}, {base, base}};

@@ -12,9 +12,8 @@ using Verdict = ReplayWindow::Verdict;
 
 /// What the window should say, from all that was ever marked.
 Verdict plainly(const std::set<std::uint64_t>& marked, std::uint64_t sequence) {
-  if (marked.contains(sequence)) {
+  if (marked.contains(sequence))
     return *marked.rbegin() - sequence < ReplayWindow::kSize ? Verdict::kSeen : Verdict::kTooOld;
-  }
   const bool old = !marked.empty() && *marked.rbegin() >= sequence + ReplayWindow::kSize;
   return old ? Verdict::kTooOld : Verdict::kNew;
 }
@@ -89,9 +88,8 @@ TEST(RestoreSequence, WhateverIsNearComesBack) {
 }
 
 TEST(RestoreSequence, IsNeverBelowZero) {
-  for (std::uint32_t wire = 0; wire <= 0xffff; ++wire) {
+  for (std::uint32_t wire = 0; wire <= 0xffff; ++wire)
     ASSERT_EQ(restoreSequence(0, static_cast<std::uint16_t>(wire)), wire);
-  }
 }
 
 }  // namespace

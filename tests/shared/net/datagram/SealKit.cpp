@@ -33,9 +33,8 @@ std::string hkdfExpand(std::string secret, std::string info, std::size_t size) {
       OSSL_PARAM_construct_octet_string(OSSL_KDF_PARAM_INFO, info.data(), info.size()),
       OSSL_PARAM_construct_end()};
   std::string out(size, '\0');
-  if (EVP_KDF_derive(context.get(), reinterpret_cast<unsigned char*>(out.data()), size, parameters) != 1) {
+  if (EVP_KDF_derive(context.get(), reinterpret_cast<unsigned char*>(out.data()), size, parameters) != 1)
     throw std::runtime_error("HKDF failed");
-  }
   return out;
 }
 
@@ -50,28 +49,6 @@ std::string expandLabel(const std::string& secret, std::string_view label, std::
 }
 
 }  // namespace
-
-std::string toHex(const unsigned char* bytes, std::size_t size) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (std::size_t i = 0; i < size; ++i) {
-    text += kDigits[bytes[i] >> 4];
-    text += kDigits[bytes[i] & 15];
-  }
-  return text;
-}
-
-std::string toHex(std::string_view bytes) {
-  return toHex(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-}
-
-std::string fromHex(std::string_view digits) {
-  std::string bytes;
-  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
-    bytes += static_cast<char>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16));
-  }
-  return bytes;
-}
 
 KeyExporter tlsExporter(std::string secret) {
   return [secret = std::move(secret)](std::string_view label, std::string_view context, std::size_t bytes) {

@@ -1,4 +1,4 @@
-// What the tests of sealed datagrams share: hex, and a TLS 1.3 exporter without the TLS.
+// What the tests of sealed datagrams share: a TLS 1.3 exporter without the TLS.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,6 @@
 #include "shared/net/datagram/DatagramKeys.h"
 
 namespace naiad::test {
-
-std::string toHex(std::string_view bytes);
-std::string fromHex(std::string_view digits);
-std::string toHex(const unsigned char* bytes, std::size_t size);
 
 /// RFC 8446, 7.5, with SHA-256, for a connection whose exporter_master_secret is `secret`.
 KeyExporter tlsExporter(std::string secret);

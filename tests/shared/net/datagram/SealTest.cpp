@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "SealKit.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/net/datagram/Seal.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/support/AllocationCount.h"
@@ -62,6 +63,15 @@ std::string openPlainly(const SealKey& key, std::uint64_t sequence, std::string_
   return EVP_DecryptFinal_ex(context.get(), bytes + text.size(), &written) == 1 ? text : "<forged>";
 }
 
+/// Both ends of the client's direction.
+struct Ends {
+  explicit Ends(AeadId aead) : keys(knownKeys(aead)) {}
+
+  DatagramKeys keys;
+  Sealer sealer{keys.client};
+  Opener opener{keys.client};
+};
+
 struct KnownAnswer {
   AeadId aead;
   SealDirection direction;
@@ -98,7 +108,7 @@ TEST(Seal, KnownAnswers) {
     for (int number = 0; number <= 258; ++number) {
       const std::string payload = number == 0 ? "hello"s : number == 258 ? "\0world"s : ""s;
       const std::string packet = sealWith(sealer, payload, known.direction);
-      if (number < 2 || number == 258) packets.push_back(toHex(packet));
+      if (number < 2 || number == 258) packets.push_back(hexText(packet));
     }
     EXPECT_EQ(packets, known.packets);
   }
@@ -121,16 +131,14 @@ TEST(Seal, PlainEvpOpensWhatWasSealed) {
 
 TEST(Seal, OpensAcrossManyWrapsOfTheNumberOnTheWire) {
   for (const AeadId aead : kBothAeads) {
-    const DatagramKeys keys = knownKeys(aead);
-    Sealer sealer(keys.client);
-    Opener opener(keys.client);
+    Ends ends(aead);
     SplitMix64 rng(2);
     std::uint64_t next_kept = 0;
     for (std::uint64_t number = 0; number < 300'000; ++number) {
-      const std::string packet = sealWith(sealer, "x");
+      const std::string packet = sealWith(ends.sealer, "x");
       if (number != next_kept) continue;
       std::uint64_t restored = 0;
-      ASSERT_EQ(openWith(opener, packet, nullptr, &restored), OpenResult::kOpened) << number;
+      ASSERT_EQ(openWith(ends.opener, packet, nullptr, &restored), OpenResult::kOpened) << number;
       ASSERT_EQ(restored, number);
       next_kept += 1 + rng.below(rng.below(50) == 0 ? 32'000 : 10);
     }
@@ -138,56 +146,48 @@ TEST(Seal, OpensAcrossManyWrapsOfTheNumberOnTheWire) {
 }
 
 TEST(Seal, EveryPacketOpensOnceInAnyOrder) {
-  const DatagramKeys keys = knownKeys(AeadId::kChaCha20Poly1305);
-  Sealer sealer(keys.client);
-  Opener opener(keys.client);
+  Ends ends(AeadId::kChaCha20Poly1305);
   std::vector<std::string> packets;
-  for (int i = 0; i < 1000; ++i) packets.push_back(sealWith(sealer, std::to_string(i)));
+  for (int i = 0; i < 1000; ++i) packets.push_back(sealWith(ends.sealer, std::to_string(i)));
   SplitMix64 rng(4);
   std::vector<int> opened(packets.size());
   for (int i = 0; i < 20'000; ++i) {
     const auto chosen = rng.below(packets.size());
     std::string payload;
-    const OpenResult result = openWith(opener, packets[chosen], &payload);
+    const OpenResult result = openWith(ends.opener, packets[chosen], &payload);
     ASSERT_EQ(result, opened[chosen] ? OpenResult::kReplayed : OpenResult::kOpened);
     if (result == OpenResult::kOpened) {
       EXPECT_EQ(payload, std::to_string(chosen));
     }
     opened[chosen] = 1;
   }
-  EXPECT_EQ(opener.failures(), 0u);
+  EXPECT_EQ(ends.opener.failures(), 0u);
 }
 
 TEST(Seal, EveryFlippedBitIsRefusedAndHarmsNothing) {
   for (const AeadId aead : kBothAeads) {
-    const DatagramKeys keys = knownKeys(aead);
-    Sealer sealer(keys.client);
-    Opener opener(keys.client);
-    const std::string packet = sealWith(sealer, "a payload of some length");
+    Ends ends(aead);
+    const std::string packet = sealWith(ends.sealer, "a payload of some length");
     for (std::size_t bit = 0; bit < 8 * packet.size(); ++bit) {
       std::string changed = packet;
       changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ 1 << bit % 8);
-      ASSERT_EQ(openWith(opener, changed), OpenResult::kForged) << "bit " << bit;
+      ASSERT_EQ(openWith(ends.opener, changed), OpenResult::kForged) << "bit " << bit;
     }
-    EXPECT_EQ(opener.failures(), 8 * packet.size());
+    EXPECT_EQ(ends.opener.failures(), 8 * packet.size());
     EXPECT_EQ(ERR_peek_error(), 0u);  // TLS on the same thread would take it for its own
-    EXPECT_EQ(openWith(opener, packet), OpenResult::kOpened);
+    EXPECT_EQ(openWith(ends.opener, packet), OpenResult::kOpened);
   }
 }
 
 TEST(Seal, ShortenedAndLengthenedPacketsAreRefused) {
   for (const AeadId aead : kBothAeads) {
-    const DatagramKeys keys = knownKeys(aead);
-    Sealer sealer(keys.client);
-    Opener opener(keys.client);
-    const std::string packet = sealWith(sealer, "a payload of some length");
-    for (std::size_t size = kHeader + kSealTagSize; size < packet.size(); ++size) {
-      ASSERT_EQ(openWith(opener, packet.substr(0, size)), OpenResult::kForged) << size;
-    }
-    for (std::size_t more = 1; more < 40; ++more) {
-      ASSERT_EQ(openWith(opener, packet + std::string(more, '\0')), OpenResult::kForged) << more;
-    }
-    EXPECT_EQ(openWith(opener, packet), OpenResult::kOpened);
+    Ends ends(aead);
+    const std::string packet = sealWith(ends.sealer, "a payload of some length");
+    for (std::size_t size = kHeader + kSealTagSize; size < packet.size(); ++size)
+      ASSERT_EQ(openWith(ends.opener, packet.substr(0, size)), OpenResult::kForged) << size;
+    for (std::size_t more = 1; more < 40; ++more)
+      ASSERT_EQ(openWith(ends.opener, packet + std::string(more, '\0')), OpenResult::kForged) << more;
+    EXPECT_EQ(openWith(ends.opener, packet), OpenResult::kOpened);
   }
 }
 
@@ -205,27 +205,23 @@ TEST(Seal, OtherKeysOpenNothing) {
 }
 
 TEST(Seal, ForgedNumbersDoNotMoveTheWindow) {
-  const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
-  Sealer sealer(keys.client);
-  Opener opener(keys.client);
-  const std::string packet = sealWith(sealer, "real");
+  Ends ends(AeadId::kAes128Gcm);
+  const std::string packet = sealWith(ends.sealer, "real");
   for (const char high : {'\x10', '\x40', '\x7f'}) {
     std::string forged = packet;
     forged[kHeader - 1] = high;
-    EXPECT_EQ(openWith(opener, forged), OpenResult::kForged);
+    EXPECT_EQ(openWith(ends.opener, forged), OpenResult::kForged);
   }
-  EXPECT_EQ(openWith(opener, packet), OpenResult::kOpened);
+  EXPECT_EQ(openWith(ends.opener, packet), OpenResult::kOpened);
 }
 
 TEST(Seal, PacketsBehindTheWindowAreTooOld) {
-  const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
-  Sealer sealer(keys.client);
-  Opener opener(keys.client);
-  const std::string first = sealWith(sealer, "0"), second = sealWith(sealer, "1");
-  for (std::uint64_t i = 2; i < ReplayWindow::kSize; ++i) sealWith(sealer, "lost");
-  ASSERT_EQ(openWith(opener, sealWith(sealer, "newest")), OpenResult::kOpened);
-  EXPECT_EQ(openWith(opener, first), OpenResult::kTooOld);
-  EXPECT_EQ(openWith(opener, second), OpenResult::kOpened);
+  Ends ends(AeadId::kAes128Gcm);
+  const std::string first = sealWith(ends.sealer, "0"), second = sealWith(ends.sealer, "1");
+  for (std::uint64_t i = 2; i < ReplayWindow::kSize; ++i) sealWith(ends.sealer, "lost");
+  ASSERT_EQ(openWith(ends.opener, sealWith(ends.sealer, "newest")), OpenResult::kOpened);
+  EXPECT_EQ(openWith(ends.opener, first), OpenResult::kTooOld);
+  EXPECT_EQ(openWith(ends.opener, second), OpenResult::kOpened);
 }
 
 TEST(Seal, StopsBeforeItsLimit) {
@@ -269,16 +265,14 @@ TEST(Seal, SealersMoveAndAreNeverCopied) {
 TEST(Seal, PacketsCostNoAllocation) {
   if (!canCountAllocations()) GTEST_SKIP() << "sanitizers bring their own allocator";
   for (const AeadId aead : kBothAeads) {
-    const DatagramKeys keys = knownKeys(aead);
-    Sealer sealer(keys.client);
-    Opener opener(keys.client);
+    Ends ends(aead);
     char packet[kMaxDatagram] = {}, payload[kMaxDatagram];
     const auto one = [&](bool forge) {
       const std::size_t prefix = writeSealedPrefix(SealDirection::kClientToServer, 0, kKnownId, packet);
-      const std::size_t size = sealer.seal(packet, prefix, 100);
+      const std::size_t size = ends.sealer.seal(packet, prefix, 100);
       packet[50] = static_cast<char>(packet[50] ^ (forge ? 1 : 0));
       std::uint64_t sequence = 0;
-      return opener.open({packet, size}, kHeader, payload, sequence) ==
+      return ends.opener.open({packet, size}, kHeader, payload, sequence) ==
              (forge ? OpenResult::kForged : OpenResult::kOpened);
     };
     ASSERT_TRUE(one(false) && one(true));

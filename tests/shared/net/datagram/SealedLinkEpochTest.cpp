@@ -84,9 +84,8 @@ TEST(SealedLinkEpoch, ManyEpochsFollowEachOther) {
 TEST(SealedLinkEpoch, EpochsOnlyGoForwardAndNotTooFar) {
   LinkPair pair;
   EXPECT_TRUE(pair.client.startEpoch(15, pair.keys(15), pair.now));
-  for (const Epoch epoch : {0u, 14u, 15u, 31u, 0xffffffffu}) {
+  for (const Epoch epoch : {0u, 14u, 15u, 31u, 0xffffffffu})
     EXPECT_FALSE(pair.client.startEpoch(epoch, pair.keys(epoch), pair.now)) << epoch;
-  }
   EXPECT_EQ(pair.client.epoch(), 15u);
   EXPECT_TRUE(pair.client.startEpoch(30, pair.keys(30), pair.now));
 }

@@ -146,9 +146,8 @@ TEST(SealedLink, RandomPacketsDoNoHarm) {
   const std::uint64_t opened = pair.server.counters().opened;
   for (int i = 0; i < 100'000; ++i) {
     std::string packet = rng.below(2) ? model : std::string(rng.below(1300), '\0');
-    for (std::uint64_t flips = 1 + rng.below(20); flips > 0 && !packet.empty(); --flips) {
+    for (std::uint64_t flips = 1 + rng.below(20); flips > 0 && !packet.empty(); --flips)
       packet[rng.below(packet.size())] = static_cast<char>(rng.next());
-    }
     if (packet == model) continue;
     ASSERT_EQ(pair.toServer(packet), "<refused>");
     ASSERT_EQ(pair.toClient(packet), "<refused>");

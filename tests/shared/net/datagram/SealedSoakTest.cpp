@@ -170,9 +170,7 @@ TEST(SealedSoak, RoamingNewKeysAndForgersOverABadNetwork) {
     EXPECT_GT(player->epoch, 3u);
     EXPECT_EQ(player->server.counters().malformed + player->client.counters().malformed, 0u);
   }
-  for (const Endpoint& victim : victims) {
-    EXPECT_LE(world.ledger.to[victim], 3 * world.ledger.from[victim]);
-  }
+  for (const Endpoint& victim : victims) EXPECT_LE(world.ledger.to[victim], 3 * world.ledger.from[victim]);
 }
 
 TEST(SealedSoak, StolenAddressesGetThreeTimesTheirBytesAndTheSessionGoesOn) {
@@ -217,9 +215,8 @@ TEST(SealedSoak, ForgersAreNeverSentAnything) {
   for (int i = 0; i < 50'000; ++i) {
     std::string packet(rng.below(1300) + 1, '\0');
     for (char& byte : packet) byte = static_cast<char>(rng.next());
-    if (rng.below(2) && packet.size() > 11) {
+    if (rng.below(2) && packet.size() > 11)
       writeSealedPrefix(SealDirection::kClientToServer, 0, {1 + rng.below(3)}, packet.data());
-    }
     if (packet.size() > kMaxDatagram) packet.resize(kMaxDatagram);
     world.network.spoof(forger, kServer, packet);
     world.clock.advanceBy(100us);

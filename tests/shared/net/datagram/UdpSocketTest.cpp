@@ -31,6 +31,12 @@ struct Peer {
     socket.flush();
   }
 
+  /// To where the newest packet came from.
+  void reply(std::string_view packet) {
+    socket.send(received.back().path, packet);
+    socket.flush();
+  }
+
   UdpSocket socket;
   std::vector<Received> received;
 };
@@ -50,8 +56,7 @@ TEST_F(UdpSocketTest, CarriesPacketsBothWays) {
   ASSERT_TRUE(arrive(context, server, 1));
   EXPECT_EQ(server.received[0].packet, "up");
   EXPECT_EQ(server.received[0].path, (Path{server.at("127.0.0.1"), client.at("127.0.0.1")}));
-  server.socket.send(server.received[0].path, "down");
-  server.socket.flush();
+  server.reply("down");
   ASSERT_TRUE(arrive(context, client, 1));
   EXPECT_EQ(client.received[0].packet, "down");
   EXPECT_EQ(client.received[0].path.remote, server.at("127.0.0.1"));
@@ -60,30 +65,22 @@ TEST_F(UdpSocketTest, CarriesPacketsBothWays) {
 }
 
 TEST_F(UdpSocketTest, RepliesLeaveFromTheAddressThatWasAddressed) {
-  Peer server(context, {.address = "0.0.0.0"}), client(context, {.address = "127.0.0.1"});
-  for (const char* address : {"127.0.0.2", "127.0.0.1", "127.3.4.5"}) {
-    client.received.clear();
-    server.received.clear();
-    client.send(server.at(address), "x");
-    ASSERT_TRUE(arrive(context, server, 1));
-    EXPECT_EQ(server.received[0].path.local, server.at(address));
-    server.socket.send(server.received[0].path, "y");
-    server.socket.flush();
-    ASSERT_TRUE(arrive(context, client, 1));
-    EXPECT_EQ(client.received[0].path.remote, server.at(address));
+  for (const bool is_ipv6 : {false, true}) {
+    if (is_ipv6 && !haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 here";
+    const char* const own = is_ipv6 ? "::1" : "127.0.0.1";
+    Peer server(context, {.address = is_ipv6 ? "::" : "0.0.0.0"}), client(context, {.address = own});
+    for (const char* address :
+         is_ipv6 ? std::vector{"::1"} : std::vector{"127.0.0.2", "127.0.0.1", "127.3.4.5"}) {
+      client.received.clear();
+      server.received.clear();
+      client.send(server.at(address), "x");
+      ASSERT_TRUE(arrive(context, server, 1));
+      EXPECT_EQ(server.received[0].path, (Path{server.at(address), client.at(own)}));
+      server.reply("y");
+      ASSERT_TRUE(arrive(context, client, 1));
+      EXPECT_EQ(client.received[0].path.remote, server.at(address));
+    }
   }
-}
-
-TEST_F(UdpSocketOnIPv6, RepliesLeaveFromTheAddressThatWasAddressed) {
-  if (!haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 here";
-  Peer server(context, {.address = "::"}), client(context, {.address = "::1"});
-  client.send(server.at("::1"), "x");
-  ASSERT_TRUE(arrive(context, server, 1));
-  EXPECT_EQ(server.received[0].path, (Path{server.at("::1"), client.at("::1")}));
-  server.socket.send(server.received[0].path, "y");
-  server.socket.flush();
-  ASSERT_TRUE(arrive(context, client, 1));
-  EXPECT_EQ(client.received[0].path.remote, server.at("::1"));
 }
 
 TEST_F(UdpSocketOnIPv6, DualStackServesBothFamilies) {
@@ -169,9 +166,8 @@ TEST_F(UdpSocketTest, PacketsMadeInItsMemoryArriveBesideCopies) {
     client.socket.send(path, in_place ? std::string_view(memory, packet.size()) : packet);
   }
   ASSERT_TRUE(arrive(context, server, 2 * kUdpBatch));
-  for (std::size_t i = 0; i < 2 * kUdpBatch; ++i) {
+  for (std::size_t i = 0; i < 2 * kUdpBatch; ++i)
     EXPECT_EQ(server.received[i].packet, "packet " + std::to_string(i));
-  }
 }
 
 TEST_F(UdpSocketTest, OneWakeUpReadsABoundedNumber) {
@@ -184,8 +180,7 @@ TEST_F(UdpSocketTest, OneWakeUpReadsABoundedNumber) {
 }
 
 TEST_F(UdpSocketTest, AClosedPortIsNoError) {
-  std::uint16_t free_port = 0;
-  { free_port = Peer(context, {}).socket.localEndpoint().port; }
+  const std::uint16_t free_port = Peer(context, {}).socket.localEndpoint().port;
   Peer server(context, {}), client(context, {});
   for (int i = 0; i < 10; ++i) client.send(*makeEndpoint("127.0.0.1", free_port), "x");
   runReady(context);
@@ -253,8 +248,7 @@ TEST_F(UdpSocketTest, ReopenedClientComesFromAnotherPort) {
     ASSERT_TRUE(arrive(context, server, i + 1));
     EXPECT_EQ(server.received[i].path.remote, client.at("127.0.0.1"));
     ports.insert(server.received[i].path.remote.port);
-    server.socket.send(server.received[i].path, "y");
-    server.socket.flush();
+    server.reply("y");
     ASSERT_TRUE(arrive(context, client, i + 1));
   }
   EXPECT_GT(ports.size(), 1u);
@@ -293,9 +287,8 @@ TEST_F(UdpSocketTest, PortInUseIsSaidInASentence) {
 }
 
 TEST_F(UdpSocketTest, BadAddressesAreSaidInASentence) {
-  for (const char* address : {"localhost", "", "192.0.2.77"}) {
+  for (const char* address : {"localhost", "", "192.0.2.77"})
     EXPECT_THROW(UdpSocket(context, {.address = address}), ListenError) << address;
-  }
 }
 
 /// What the kernel says about the socket that is bound to `local`.

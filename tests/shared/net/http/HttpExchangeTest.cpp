@@ -11,6 +11,7 @@
 
 #include "shared/net/http/HttpExchange.h"
 #include "tests/shared/net/Loopback.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad::test {
 namespace {
@@ -65,6 +66,12 @@ struct HttpExchangeTest : testing::Test {
     ASSERT_EQ(peer->write(bytes).outcome, ByteStream::Outcome::kDone);
     runReady(context);
   }
+  /// Accept, read the request, and answer it with these bytes.
+  void respond(std::string_view bytes) {
+    accept();
+    readRequest();
+    answer(bytes);
+  }
   End end() {
     EXPECT_TRUE(runUntil(context, [&] { return ended.has_value(); }));
     return ended ? ended->end : End::kTimedOut;
@@ -101,9 +108,7 @@ TEST_F(HttpExchangeTest, RequestsWithABodySayHowLongItIs) {
 
 TEST_F(HttpExchangeTest, EndOfTheConnectionEndsABodyWithoutLength) {
   run(plain());
-  accept();
-  readRequest();
-  answer("HTTP/1.1 200 OK\r\n\r\nall");
+  respond("HTTP/1.1 200 OK\r\n\r\nall");
   peer.reset();
   EXPECT_EQ(end(), End::kAnswered);
   EXPECT_EQ(exchange->answer().body(), "all");
@@ -111,9 +116,7 @@ TEST_F(HttpExchangeTest, EndOfTheConnectionEndsABodyWithoutLength) {
 
 TEST_F(HttpExchangeTest, TruncatedAnswerIsABadOne) {
   run(plain());
-  accept();
-  readRequest();
-  answer("HTTP/1.1 200 OK\r\nContent-Length: 4\r\n\r\nall");
+  respond("HTTP/1.1 200 OK\r\nContent-Length: 4\r\n\r\nall");
   peer.reset();
   EXPECT_EQ(end(), End::kBadAnswer);
 }
@@ -126,9 +129,7 @@ TEST_F(HttpExchangeTest, AnswersOfOtherProtocolsAndLongOnesAreRefused) {
   ended.reset();
   exchange = std::make_shared<HttpExchange>(context, HttpLimits{.head = 1000, .body = 100});
   run(plain());
-  accept();
-  readRequest();
-  answer("HTTP/1.1 200 OK\r\n\r\n" + std::string(101, 'x'));
+  respond("HTTP/1.1 200 OK\r\n\r\n" + std::string(101, 'x'));
   EXPECT_EQ(end(), End::kTooLong);
 }
 
@@ -161,9 +162,7 @@ TEST_F(HttpExchangeTest, HostWithoutAnAddressIsNotFound) {
 
 TEST_F(HttpExchangeTest, SwitchedProtocolGetsTheStreamAndWhatCameBehindTheAnswer) {
   run(plain());
-  accept();
-  readRequest();
-  answer("HTTP/1.1 101 Switching\r\nUpgrade: x\r\n\r\nfirst");
+  respond("HTTP/1.1 101 Switching\r\nUpgrade: x\r\n\r\nfirst");
   ASSERT_EQ(end(), End::kAnswered);
   EXPECT_EQ(exchange->bytesBehind(), "first");
   const auto stream = exchange->releaseStream();
@@ -193,9 +192,7 @@ TEST_F(HttpExchangeTest, AnswerWithoutEndIsHandedOverPieceByPieceAndHasTime) {
 TEST_F(HttpExchangeTest, AnswerWithoutEndNeedsStatus200) {
   int pieces = 0;
   run(plain(), seconds(20), [&](std::string_view) { return ++pieces > 0; });
-  accept();
-  readRequest();
-  answer("HTTP/1.1 500 No\r\n\r\nx");
+  respond("HTTP/1.1 500 No\r\n\r\nx");
   EXPECT_EQ(end(), End::kBadAnswer);
   EXPECT_EQ(ended->detail, "status 500");
   EXPECT_EQ(pieces, 0);
@@ -208,9 +205,7 @@ TEST_F(HttpExchangeTest, HandlerOfTheBodyMayCancel) {
     exchange->cancel();
     return true;
   });
-  accept();
-  readRequest();
-  answer("HTTP/1.1 200 OK\r\n\r\na");
+  respond("HTTP/1.1 200 OK\r\n\r\na");
   ASSERT_TRUE(runUntil(context, [&] { return called; }));
   peer.reset();
   context.restart();
@@ -232,18 +227,12 @@ TEST_F(HttpExchangeTest, EventLoopMayEndWhileItRuns) {
 /// Adds an authority that the system is told to trust.
 struct HttpsExchange : HttpExchangeTest {
   HttpsExchange() {
-    std::string path = std::filesystem::temp_directory_path() / "naiad-trust-XXXXXX";
-    EXPECT_NE(mkdtemp(path.data()), nullptr);
-    folder = path;
     std::ofstream(folder / "trusted.pem") << authority.certificate;
     setenv("SSL_CERT_FILE", (folder / "trusted.pem").c_str(), 1);
     client_context = TlsContext::forWebClient();
     serve(TestIdentity::make("localhost", &authority));
   }
-  ~HttpsExchange() override {
-    unsetenv("SSL_CERT_FILE");
-    std::filesystem::remove_all(folder);
-  }
+  ~HttpsExchange() override { unsetenv("SSL_CERT_FILE"); }
   void serve(const TestIdentity& identity) {
     server_context = TlsContext::forWebServer(identity.certificate, identity.key);
   }
@@ -251,16 +240,14 @@ struct HttpsExchange : HttpExchangeTest {
     return {host, acceptor.local_endpoint().port(), client_context};
   }
 
-  std::filesystem::path folder;
+  TempFolder folder;
   TestIdentity authority = TestIdentity::make("authority.test");
   std::shared_ptr<const TlsContext> client_context;
 };
 
 TEST_F(HttpsExchange, ServerWithAGoodCertificateIsAsked) {
   run(https());
-  accept();
-  readRequest();
-  answer("HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\nok");
+  respond("HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\nok");
   EXPECT_EQ(end(), End::kAnswered);
   EXPECT_EQ(exchange->answer().body(), "ok");
 }
@@ -293,9 +280,7 @@ TEST_F(HttpsExchange, CertificateThatIsNotGoodGetsNoRequest) {
 
 TEST_F(HttpsExchange, BodyThatEndsWithoutCloseNotifyIsTruncated) {
   run(https());
-  accept();
-  readRequest();
-  answer("HTTP/1.1 200 OK\r\n\r\nhalf");
+  respond("HTTP/1.1 200 OK\r\n\r\nhalf");
   peer->socket().close();
   EXPECT_EQ(end(), End::kBadAnswer);
 }

@@ -29,9 +29,8 @@ TEST(Fingerprint, OtherTextsAreRefused) {
   const std::string good = of(testIdentity()).text();
   std::string wrong = good;
   wrong[10] = 'g';
-  for (const std::string& text : {std::string(), good.substr(1), good + "0", " " + good.substr(1), wrong}) {
+  for (const std::string& text : {std::string(), good.substr(1), good + "0", " " + good.substr(1), wrong})
     EXPECT_FALSE(Fingerprint::parse(text)) << text;
-  }
 }
 
 TEST(Fingerprint, IsTheHashOfTheSubjectPublicKeyInfo) {

@@ -64,15 +64,19 @@ class HalfOpenLimitTest : public testing::Test {
     return admitted;
   }
 
+  /// Hellos of `count` networks that have none.
+  void expectRoomFor(int count) {
+    for (int i = 0; i < count; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+  }
+
   HalfOpenLimit limit{{}};  // 256, 64 of a prefix
   Id newest = 0;
 };
 
 TEST_F(HalfOpenLimitTest, SilentOnesOfFourAddressesMakeRoomForEveryNewcomer) {
   for (int i = 0; i < 64; ++i) {
-    for (const char* from : {"198.51.100.1", "198.51.101.1", "198.51.102.1", "198.51.103.1"}) {
+    for (const char* from : {"198.51.100.1", "198.51.101.1", "198.51.102.1", "198.51.103.1"})
       EXPECT_EQ(come(of(from)), 0u);
-    }
   }
   EXPECT_EQ(limit.count(), 256u);
   EXPECT_EQ(come(of("192.0.2.1")), 1u) << "the oldest of all, since they are equally crowded";
@@ -123,19 +127,17 @@ TEST_F(HalfOpenLimitTest, HellosOfFourAddressesLeavePlacesForNewcomers) {
                                         of("198.51.103.1")};
   flood(four, 1000);
   EXPECT_LE(limit.count(), 208u) << "of 256: each may have as many as all leave";
-  for (int i = 0; i < 40; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+  expectRoomFor(40);
 }
 
 TEST_F(HalfOpenLimitTest, HellosOfManyNetworksOfFourCustomersLeavePlacesForNewcomers) {
   std::vector<AddressPrefix> many;
   for (int customer = 0; customer < 4; ++customer) {
-    for (int network = 0; network < 200; ++network) {
-      many.push_back(customersNetwork(customer, network));
-    }
+    for (int network = 0; network < 200; ++network) many.push_back(customersNetwork(customer, network));
   }
   flood(many, 10);
   EXPECT_LE(limit.count(), 240u) << "one customer after the other: the first has half, the next a quarter, …";
-  for (int i = 0; i < 10; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+  expectRoomFor(10);
 }
 
 TEST_F(HalfOpenLimitTest, NineNetworksThatFillUpOneAfterTheOtherTakeAllPlaces) {
@@ -153,14 +155,14 @@ TEST_F(HalfOpenLimitTest, HellosThatBeginFirstAndFinishTogetherLeavePlacesForNew
   beginAndFinishTogether({of("198.51.100.1"), of("198.51.100.2"), of("198.51.100.3"), of("198.51.100.4")});
   EXPECT_EQ(limit.count(), 128u) << "one network has half of the places";
   EXPECT_FALSE(comeWithHello(of("198.51.100.5")));
-  for (int i = 0; i < 40; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+  expectRoomFor(40);
 }
 
 TEST_F(HalfOpenLimitTest, HellosOfFourNetworksThatFinishTogetherLeavePlacesForNewcomers) {
   beginAndFinishTogether(
       {customersNetwork(1, 0), customersNetwork(2, 0), customersNetwork(3, 0), customersNetwork(4, 0)});
   EXPECT_LE(limit.count(), 208u);
-  for (int i = 0; i < 40; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+  expectRoomFor(40);
 }
 
 TEST_F(HalfOpenLimitTest, AHelloThatIsRefusedLeavesItsPlace) {
@@ -184,7 +186,7 @@ TEST_F(HalfOpenLimitTest, ManyMachinesOfOneNetworkFit) {
 }
 
 TEST_F(HalfOpenLimitTest, IsFullWhenAllHaveGreeted) {
-  for (int i = 0; i < 256; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
+  expectRoomFor(256);
   EXPECT_EQ(limit.judge(of("203.0.113.1")).kind, Kind::kFull);
   limit.release(7);
   EXPECT_TRUE(comeWithHello(of("203.0.113.1")));

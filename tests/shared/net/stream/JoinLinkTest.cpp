@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <sstream>
 
 #include "shared/net/stream/JoinLink.h"
 
@@ -119,32 +120,12 @@ TEST(JoinLink, EachFaultHasItsSentence) {
 }
 
 TEST(JoinLink, HostsThatAreNoneAreRefused) {
-  for (const std::string& host : {std::string(),
-                                  std::string("-oProxyCommand=x"),
-                                  std::string("%2dv"),
-                                  std::string("."),
-                                  std::string("a..b"),
-                                  std::string(".a"),
-                                  std::string(64, 'a'),
-                                  std::string("a:"),
-                                  std::string("a:0"),
-                                  std::string("a:65536"),
-                                  std::string("a:+1"),
-                                  std::string("a:000001"),
-                                  std::string("a:1:2"),
-                                  std::string("::1"),
-                                  std::string("[::1"),
-                                  std::string("[]"),
-                                  std::string("[::1]9"),
-                                  std::string("[127.0.0.1]"),
-                                  std::string("[fe80::1%25eth0]"),
-                                  std::string("a;b"),
-                                  std::string("a$b"),
-                                  std::string("a`b"),
-                                  std::string("a,b"),
-                                  std::string("a*")}) {
-    EXPECT_FALSE(parse("naiad://" + host + "#" + kKey)) << host;
-  }
+  EXPECT_FALSE(parse("naiad://#" + kKey));
+  EXPECT_FALSE(parse("naiad://" + std::string(64, 'a') + "#" + kKey));
+  std::istringstream hosts(
+      "-oProxyCommand=x %2dv . a..b .a a: a:0 a:65536 a:+1 a:000001 a:1:2 ::1 [::1 [] [::1]9 [127.0.0.1] "
+      "[fe80::1%25eth0] a;b a$b a`b a,b a*");
+  for (std::string host; hosts >> host;) EXPECT_FALSE(parse("naiad://" + host + "#" + kKey)) << host;
 }
 
 // Its parts are used elsewhere, for texts that may hold any byte: addresses of pages, for one.

@@ -85,13 +85,6 @@ TEST_P(TcpChannelEndTest, OrderlyEndOfThePeerIsReportedOnce) {
   EXPECT_EQ(recorder.closings, 1);
 }
 
-TEST_P(TcpChannelEndTest, ResetByThePeerIsAnError) {
-  connect({});
-  peerResets();
-  EXPECT_TRUE(runUntilClosed());
-  EXPECT_EQ(recorder.closed, CloseReason::kError);
-}
-
 TEST_P(TcpChannelEndTest, FramesFromBeforeAResetAreStillDelivered) {
   connect({});
   peerSends("\x05\0hello"s);
@@ -109,15 +102,6 @@ TEST_P(TcpChannelEndTest, SendingToAPeerThatWentAwayEndsTheChannel) {
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kError);
   EXPECT_EQ(channel->unsentBytes(), 0u);
-}
-
-TEST_P(TcpChannelEndTest, StreamThatEndsWithinAFrameBreaksTheProtocol) {
-  connect({});
-  peerSends("\x05\0hel"s);
-  peerEnds();
-  EXPECT_TRUE(runUntilClosed());
-  EXPECT_TRUE(recorder.frames.empty());
-  EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
 }
 
 TEST_P(TcpChannelEndTest, MayBeDestroyedInItsFrameCallback) {
@@ -196,21 +180,32 @@ TEST_P(TcpChannelEndTest, KnowsItsPeersAddressAfterTheEndToo) {
   EXPECT_EQ(channel->peerAddress(), expected);
 }
 
-TEST_P(TcpChannelEndTest, EndWithoutAWordBetweenFramesIsAnErrorInTls) {
-  connect({});
-  peerSends("\x05\0hello"s);
-  peerVanishes();
-  EXPECT_TRUE(runUntilClosed());
-  EXPECT_EQ(recorder.frames, std::vector{"hello"s});
-  EXPECT_EQ(recorder.closed, encrypted() ? CloseReason::kError : CloseReason::kPeer);
-}
-
-TEST_P(TcpChannelEndTest, EndWithoutAWordWithinAFrameBreaksTheProtocol) {
-  connect({});
-  peerSends("\x05\0hel"s);
-  peerVanishes();
-  EXPECT_TRUE(runUntilClosed());
-  EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
+TEST_P(TcpChannelEndTest, TheReasonIsHowThePeerEndedAndWhere) {
+  const std::vector<std::string> none, hello{"hello"};
+  const CloseReason torn_off = encrypted() ? CloseReason::kError : CloseReason::kPeer;
+  const struct {
+    const char* name;
+    std::string sent;
+    void (TcpFixture::*end)();
+    std::vector<std::string> frames;
+    CloseReason reason;
+  } rows[] = {
+      {"a reset", "", &TcpFixture::peerResets, none, CloseReason::kError},
+      {"within a frame", "\x05\0hel"s, &TcpFixture::peerEnds, none, CloseReason::kProtocol},
+      {"without a word between frames", "\x05\0hello"s, &TcpFixture::peerVanishes, hello, torn_off},
+      {"without a word within one", "\x05\0hel"s, &TcpFixture::peerVanishes, none, CloseReason::kProtocol},
+      {"an empty frame", "\0\0"s, &TcpFixture::peerEnds, none, CloseReason::kProtocol}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.name);
+    channel.reset();
+    recorder = {};
+    connect({});
+    peerSends(row.sent);
+    (this->*row.end)();
+    EXPECT_TRUE(runUntilClosed());
+    EXPECT_EQ(recorder.frames, row.frames);
+    EXPECT_EQ(recorder.closed, row.reason);
+  }
 }
 
 }  // namespace

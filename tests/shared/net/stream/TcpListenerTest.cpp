@@ -39,9 +39,8 @@ TEST_F(TcpListenerTest, GivesAChannelForEachConnection) {
   std::vector<tcp::socket> clients;
   for (int i = 0; i < 20; ++i) clients.push_back(connectTo(listener));
   EXPECT_TRUE(runUntil(context, [&] { return channels.size() == 20; }));
-  for (std::size_t i = 0; i < channels.size(); ++i) {
+  for (std::size_t i = 0; i < channels.size(); ++i)
     EXPECT_EQ(channels[i]->peerAddress(), "127.0.0.1:" + std::to_string(clients[i].local_endpoint().port()));
-  }
   EXPECT_EQ(listener.failedAccepts(), 0u);
 }
 

@@ -17,7 +17,26 @@
 
 namespace naiad::test {
 
-struct TlsFixture : testing::Test {
+/// What a connector makes.
+struct ConnectFixture : testing::Test {
+  TcpConnector::Done done() {
+    return [this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
+      channel = std::move(made);
+      error = sentence;
+      ++calls;
+    };
+  }
+  bool runUntilDone() {
+    return runUntil(context, [&] { return calls > 0; });
+  }
+
+  asio::io_context context;
+  std::unique_ptr<ReliableChannel> channel;
+  std::string error;
+  int calls = 0;
+};
+
+struct TlsFixture : ConnectFixture {
   /// Silent connections are accepted at once, so that tests of them need not wait for the kernel.
   TlsFixture() { tls.defer_accept = std::chrono::seconds(0); }
   void listen(const std::string& address = "127.0.0.1") {
@@ -37,6 +56,11 @@ struct TlsFixture : testing::Test {
     socket.connect({asio::ip::make_address("127.0.0.1"), listener->port()});
     return socket;
   }
+  std::vector<tcp::socket> knockTimes(int times) {
+    std::vector<tcp::socket> sockets;
+    for (int i = 0; i < times; ++i) sockets.push_back(knock());
+    return sockets;
+  }
   /// The server has hung up on it.
   static bool isOver(tcp::socket& socket) {
     std::error_code error;
@@ -45,16 +69,6 @@ struct TlsFixture : testing::Test {
     while (socket.read_some(asio::buffer(in), error) > 0) {
     }
     return error != asio::error::would_block;
-  }
-  TcpConnector::Done done() {
-    return [this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
-      channel = std::move(made);
-      error = sentence;
-      ++calls;
-    };
-  }
-  bool runUntilDone() {
-    return runUntil(context, [&] { return calls > 0; });
   }
   /// Connect as a client does, and wait until both ends have a channel.
   void join(const std::string& host = "127.0.0.1") {
@@ -66,14 +80,10 @@ struct TlsFixture : testing::Test {
   }
   const TcpListener::Counters& counters() const { return listener->counters(); }
 
-  asio::io_context context;
   TlsListening tls;
   std::unique_ptr<TcpListener> listener;
   std::vector<std::unique_ptr<ReliableChannel>> accepted;
   TcpConnector connector{context, {.receive_limit = kMaxServerFrame}, testClientContext()};
-  std::unique_ptr<ReliableChannel> channel;
-  std::string error;
-  int calls = 0;
 };
 
 }  // namespace naiad::test

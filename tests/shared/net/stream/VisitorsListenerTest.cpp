@@ -17,6 +17,7 @@
 #include "shared/net/stream/VisitorsListener.h"
 #include "tests/shared/net/Loopback.h"
 #include "tests/shared/net/NoDescriptorsLeft.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad::test {
 namespace {
@@ -29,12 +30,7 @@ const tcp::endpoint kVisitor(asio::ip::make_address("192.0.2.7"), 50312);
 
 class VisitorsListenerTest : public testing::Test {
  protected:
-  VisitorsListenerTest() {
-    std::string name = testing::TempDir() + "naiad-visitors-XXXXXX";
-    m_folder = mkdtemp(name.data());
-    m_options.path = m_folder / "visitors";
-  }
-  ~VisitorsListenerTest() override { fs::remove_all(m_folder); }
+  VisitorsListenerTest() { m_options.path = m_folder / "visitors"; }
 
   void listen() {
     m_listener.emplace(m_context, m_options, [this](ByteStream::Socket socket, const tcp::endpoint& visitor) {
@@ -76,7 +72,7 @@ class VisitorsListenerTest : public testing::Test {
   }
 
   asio::io_context m_context;
-  fs::path m_folder;
+  TempFolder m_folder;
   VisitorsListening m_options;
   std::optional<VisitorsListener> m_listener;
   std::vector<ByteStream::Socket> m_sockets;
