@@ -7,6 +7,7 @@
 #include "client/bot/TruthRecorder.h"
 #include "shared/replica/Replica.h"
 #include "shared/replica/TruthFile.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -14,10 +15,7 @@ namespace {
 class TruthFileTest : public testing::Test {
  protected:
   void TearDown() override { std::remove(path.c_str()); }
-  std::string contents() const {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string contents() const { return test::contentOf(path); }
   void put(const std::string& text) const { std::ofstream(path, std::ios::binary) << text; }
 
   std::string path = testing::TempDir() + "naiad-truth-" + std::to_string(getpid());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/door/DoorPlaces.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
@@ -18,12 +19,7 @@ using Refusal = DoorPlace::Refusal;
 
 class DoorFolder : public testing::Test {
  protected:
-  DoorFolder() {
-    std::string name = testing::TempDir() + "naiad-door-XXXXXX";
-    folder = mkdtemp(name.data());
-  }
-  ~DoorFolder() override { fs::remove_all(folder); }
-  fs::path folder;
+  test::TempFolder folder;
 };
 
 class DoorPlaces : public DoorFolder {

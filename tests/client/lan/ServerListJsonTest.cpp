@@ -87,39 +87,8 @@ TEST(ServerListJson, EscapesAreReadAndTextsMadeSafe) {
 }
 
 TEST(ServerListJson, WhatIsNoJsonIsNoList) {
-  for (const char* p_text : {"",
-                             " ",
-                             "<html>",
-                             "1",
-                             "\"a\"",
-                             "null",
-                             "[",
-                             "[1]",
-                             "[{}",
-                             "[{}]]",
-                             "[{}]x",
-                             "{",
-                             "{\"a\"}",
-                             "{\"a\":}",
-                             "{\"a\":1,}",
-                             "[{},]",
-                             "{a:1}",
-                             "{\"a\":tru}",
-                             "{\"a\":+1}",
-                             "{\"a\":1.}",
-                             "{\"a\":.5}",
-                             "{\"a\":01}",
-                             "{\"a\":1e}",
-                             "{\"a\":\"\n\"}",
-                             "{\"a\":\"\\x\"}",
-                             "{\"a\":\"\\u12\"}",
-                             "{\"a\":\"\\u12g4\"}",
-                             "{\"a\":\"\\ud83d\\u\"}",
-                             "{\"a\":\"\\ud83dx\"}",
-                             "{\"a\":\"\xff\"}",
-                             "{\"a\":\"",
-                             "{\"a\":\"\\",
-                             "{\"a\":'b'}"})
+  for (const char* p_text :
+       {"", "<html>", "1", "\"a\"", "null", "[1]", "[{}", "[{}]x", "{\"a\":1,}", "{a:1}"})
     EXPECT_FALSE(readServerList(p_text)) << p_text;
 }
 

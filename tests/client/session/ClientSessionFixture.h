@@ -14,6 +14,17 @@
 
 namespace naiad::test {
 
+/// A snapshot with no record but that of the first origin slot, if it is set.
+inline wire::ServerMessage bareSnapshot(const SnapshotHeader& header, std::uint32_t slot = 0,
+                                        bool sets_origin = false) {
+  SnapshotWriter out;
+  out.beginSnapshot(header, slot, {});
+  if (sets_origin) out.write(OriginRecord{1, {}});
+  wire::ServerMessage message;
+  message.set_snapshot(out.finish());
+  return message;
+}
+
 class ClientSessionFixture : public testing::Test {
  protected:
   void SetUp() override {

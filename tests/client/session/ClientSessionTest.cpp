@@ -190,12 +190,7 @@ TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
     SnapshotHeader header;
     header.number = number;
     header.tick = 100;
-    SnapshotWriter out;
-    out.beginSnapshot(header, slot, {});
-    if (sets) out.write(OriginRecord{1, {}});
-    wire::ServerMessage message;
-    message.set_snapshot(out.finish());
-    return message;
+    return test::bareSnapshot(header, slot, sets);
   };
   receive(bare(1, 0, true));
   receive(bare(3, 0, true));
@@ -321,11 +316,7 @@ TEST_F(ClientSessionTest, AWorldSentAgainContinuesTheNumbers) {
   header.has_input = true;
   header.input = 40'001;
   header.input_tick = 13;
-  SnapshotWriter out;
-  out.beginSnapshot(header, 0, {});
-  wire::ServerMessage message;
-  message.set_snapshot(out.finish());
-  receive(message);
+  receive(test::bareSnapshot(header));
   EXPECT_EQ(session->counters().resets, 1u);
   EXPECT_EQ(session->replica().aliveCount(), 0u);
   EXPECT_EQ(session->replica().newest().number, 40'002u);
@@ -344,11 +335,7 @@ TEST_F(ClientSessionTest, AWorldSeveralResetsLaterIsAccepted) {
     header.tick = number;
     header.epoch = static_cast<std::uint8_t>(epoch);
     header.complete = true;
-    SnapshotWriter out;
-    out.beginSnapshot(header, 0, {});
-    wire::ServerMessage message;
-    message.set_snapshot(out.finish());
-    receive(message);
+    receive(test::bareSnapshot(header));
     EXPECT_EQ(session->counters().resets, resets)
         << "55 is late, of the epoch before; 70 begins the world after next";
   }
@@ -426,13 +413,6 @@ TEST_F(ClientSessionTest, SoundsAreHandedOnOnce) {
   for (int i = 0; i < 100; ++i) receive(message);
   EXPECT_EQ(session->takeSounds().size(), ReliableInbox::kMaxSounds);
   EXPECT_EQ(session->counters().sounds, 101u);
-}
-
-TEST_F(ClientSessionTest, SoundsBeforeTheWelcomeEndIt) {
-  wire::ServerMessage message;
-  message.mutable_sounds();
-  receive(message);
-  expectRejected();
 }
 
 }  // namespace

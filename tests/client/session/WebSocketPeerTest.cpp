@@ -13,6 +13,7 @@
 #include "tests/shared/net/Recorder.h"
 #include "tests/support/RunProgram.h"
 #include "tests/support/RunningProgram.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad::test {
 namespace {
@@ -24,14 +25,8 @@ class WebSocketPeer : public testing::Test {
   void SetUp() override {
     if (runProgram("/usr/bin/python3 -c 'import websockets' 2>/dev/null").first != 0)
       GTEST_SKIP() << "/usr/bin/python3 has no module websockets (Debian: python3-websockets)";
-    std::string path = std::filesystem::temp_directory_path() / "naiad-peer-XXXXXX";
-    ASSERT_NE(mkdtemp(path.data()), nullptr);
-    folder = path;
   }
-  void TearDown() override {
-    unsetenv("SSL_CERT_FILE");
-    if (!folder.empty()) std::filesystem::remove_all(folder);
-  }
+  void TearDown() override { unsetenv("SSL_CERT_FILE"); }
 
   void start(const std::string& subprotocol = "naiad.1", const std::string& scheme = "http",
              const std::vector<std::string>& more = {}) {
@@ -64,7 +59,7 @@ class WebSocketPeer : public testing::Test {
     return recorder.closed;
   }
 
-  std::filesystem::path folder;
+  TempFolder folder;
   std::unique_ptr<RunningProgram> peer;
   std::string origin;
   asio::io_context context;

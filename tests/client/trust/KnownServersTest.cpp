@@ -10,6 +10,7 @@
 
 #include "client/trust/KnownServers.h"
 #include "shared/net/base/SafeFile.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
@@ -29,17 +30,9 @@ PeerFacts verified(char digit) {
 }
 
 struct KnownServersTest : testing::Test {
-  KnownServersTest() {
-    std::string name = testing::TempDir() + "naiad-servers-XXXXXX";
-    base = mkdtemp(name.data());
-    path = base / "share" / "naiad" / "known_servers";
-    servers.emplace(path);
-  }
-  ~KnownServersTest() override { fs::remove_all(base); }
-
   Trust admit(const PeerFacts& facts, const std::optional<Fingerprint>& given = {},
               const std::string& host = "game.test") {
-    return servers->admit(host, 9876, facts, given).trust;
+    return servers.admit(host, 9876, facts, given).trust;
   }
   std::string content() const { return readSmallFile(path, 10'000'000).value_or("(missing)"); }
   void write(const std::string& text) const {
@@ -47,22 +40,25 @@ struct KnownServersTest : testing::Test {
     std::ofstream(path) << text;
   }
 
-  fs::path base;
-  fs::path path;
-  std::optional<KnownServers> servers;
+  test::TempFolder base;
+  const fs::path path = base / "share" / "naiad" / "known_servers";
+  KnownServers servers{path};
 };
 
-TEST_F(KnownServersTest, FirstUsePinsAndTheSameKeyIsTrusted) {
+TEST_F(KnownServersTest, FirstUsePinsForTheOwnerAloneAndTheSameKeyIsTrusted) {
   EXPECT_EQ(admit(selfSigned('a')), Trust::kFirstUse);
   EXPECT_EQ(content(), "game.test:9876 " + std::string(64, 'a') + "\n");
+  struct stat facts {};
+  ASSERT_EQ(stat(path.c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 0777U, 0600U);
   EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
-  EXPECT_TRUE(servers->problems().empty());
+  EXPECT_TRUE(servers.problems().empty());
 }
 
 TEST_F(KnownServersTest, ChangedKeyIsRefusedLoudlyAndStaysRefused) {
   admit(selfSigned('a'));
   for (int i = 0; i < 2; ++i) {
-    const Verdict verdict = servers->admit("game.test", 9876, selfSigned('b'), {});
+    const Verdict verdict = servers.admit("game.test", 9876, selfSigned('b'), {});
     EXPECT_EQ(verdict.trust, Trust::kChanged);
     EXPECT_FALSE(verdict.accepted());
     EXPECT_NE(verdict.sentence.find("THE KEY OF game.test:9876 HAS CHANGED"), std::string::npos);
@@ -72,7 +68,7 @@ TEST_F(KnownServersTest, ChangedKeyIsRefusedLoudlyAndStaysRefused) {
 }
 
 TEST_F(KnownServersTest, JudgingWritesNothing) {
-  EXPECT_EQ(servers->judge("game.test", 9876, selfSigned('a'), {}).trust, Trust::kFirstUse);
+  EXPECT_EQ(servers.judge("game.test", 9876, selfSigned('a'), {}).trust, Trust::kFirstUse);
   EXPECT_EQ(content(), "(missing)");
 }
 
@@ -88,7 +84,7 @@ TEST_F(KnownServersTest, GivenFingerprintCountsMostAndIsPinned) {
 
 TEST_F(KnownServersTest, AShortKeyOfALinkIsEnoughAndTheWholeKeyIsPinned) {
   const auto admitBy = [this](const PeerFacts& facts, char digit) {
-    return servers->admit("game.test", 9876, facts, {}, ShortKey::of(key(digit)));
+    return servers.admit("game.test", 9876, facts, {}, ShortKey::of(key(digit)));
   };
   EXPECT_EQ(admitBy(selfSigned('a'), 'b').trust, Trust::kLinkUnequal);
   EXPECT_EQ(admitBy(verified('a'), 'b').trust, Trust::kLinkUnequal);
@@ -107,11 +103,11 @@ TEST_F(KnownServersTest, AShortKeyOfALinkIsEnoughAndTheWholeKeyIsPinned) {
 TEST_F(KnownServersTest, ALinkReplacesNoPinAndAFingerprintDoes) {
   admit(selfSigned('a'));
   const auto link = ShortKey::of(key('b'));
-  const Verdict verdict = servers->admit("game.test", 9876, selfSigned('b'), {}, link);
+  const Verdict verdict = servers.admit("game.test", 9876, selfSigned('b'), {}, link);
   EXPECT_EQ(verdict.trust, Trust::kChanged);
   EXPECT_NE(verdict.sentence.find("HAS CHANGED"), std::string::npos);
   EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
-  EXPECT_EQ(servers->admit("game.test", 9876, selfSigned('b'), key('b'), link).trust, Trust::kGivenEqual);
+  EXPECT_EQ(servers.admit("game.test", 9876, selfSigned('b'), key('b'), link).trust, Trust::kGivenEqual);
   EXPECT_EQ(admit(selfSigned('b')), Trust::kPinned);
 }
 
@@ -124,7 +120,7 @@ TEST_F(KnownServersTest, ChainIsTrustedAndGuardsAgainstALesserCertificateLater) 
 
 TEST_F(KnownServersTest, ServersAreDistinguishedByHostAndPort) {
   admit(selfSigned('a'));
-  EXPECT_EQ(servers->admit("game.test", 9877, selfSigned('b'), {}).trust, Trust::kFirstUse);
+  EXPECT_EQ(servers.admit("game.test", 9877, selfSigned('b'), {}).trust, Trust::kFirstUse);
   EXPECT_EQ(admit(selfSigned('c'), {}, "other.test"), Trust::kFirstUse);
   EXPECT_EQ(admit(selfSigned('d'), {}, "2001:db8::1"), Trust::kFirstUse);
   EXPECT_EQ(admit(selfSigned('d'), {}, "2001:DB8::1"), Trust::kPinned);
@@ -137,7 +133,7 @@ TEST_F(KnownServersTest, MalformedLinesAreKeptAndReported) {
                              "\nOld.test:9876 \t" + std::string(64, 'e') + " \nx.test:9 " +
                              std::string(64, 'b') + " more";
   write(before);
-  const auto problems = servers->problems();
+  const auto problems = servers.problems();
   ASSERT_EQ(problems.size(), 4u);
   EXPECT_EQ(problems[0].substr(0, 7), "Line 3 ");
   EXPECT_EQ(problems[1].substr(0, 7), "Line 4 ");
@@ -146,13 +142,6 @@ TEST_F(KnownServersTest, MalformedLinesAreKeptAndReported) {
   EXPECT_EQ(admit(selfSigned('e'), {}, "old.test"), Trust::kPinned);
   EXPECT_EQ(admit(selfSigned('c')), Trust::kFirstUse);
   EXPECT_EQ(content(), before + "\ngame.test:9876 " + std::string(64, 'c') + "\n");
-}
-
-TEST_F(KnownServersTest, FileIsForItsOwnerAlone) {
-  admit(selfSigned('a'));
-  struct stat facts {};
-  ASSERT_EQ(stat(path.c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777U, 0600U);
 }
 
 TEST_F(KnownServersTest, KnownServersAreNotWrittenAgain) {
@@ -166,7 +155,7 @@ TEST_F(KnownServersTest, KnownServersAreNotWrittenAgain) {
 TEST_F(KnownServersTest, UnusableFileGivesASentence) {
   fs::create_directories(path);  // a directory where the file should be
   EXPECT_THROW(admit(selfSigned('a')), KnownServersError);
-  EXPECT_THROW(servers->problems(), KnownServersError);
+  EXPECT_THROW(servers.problems(), KnownServersError);
 }
 
 TEST_F(KnownServersTest, ThreadsLoseNoPinOfEachOther) {
@@ -175,9 +164,8 @@ TEST_F(KnownServersTest, ThreadsLoseNoPinOfEachOther) {
   for (int t = 0; t < kThreads; ++t) {
     threads.emplace_back([&, t] {
       const KnownServers own(path);
-      for (int i = 0; i < kServers; ++i) {
+      for (int i = 0; i < kServers; ++i)
         own.admit("t" + std::to_string(t) + "-" + std::to_string(i), 1, selfSigned('a'), {});
-      }
     });
   }
   for (std::thread& thread : threads) thread.join();

@@ -9,6 +9,8 @@
 #include <memory>
 
 #include "client/trust/SessionFile.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -24,13 +26,6 @@ Fingerprint keyOf(char digit) {
 
 class SessionFileTest : public testing::Test {
  protected:
-  SessionFileTest() {
-    std::string name = fs::temp_directory_path() / "naiad-sessions-XXXXXX";
-    home = mkdtemp(name.data());
-    directory = home / "state" / "naiad" / "sessions";
-  }
-  ~SessionFileTest() override { fs::remove_all(home); }
-
   std::unique_ptr<SessionFile> open(const std::string& server = kServer,
                                     const std::optional<std::string>& name = std::nullopt) {
     return std::make_unique<SessionFile>(directory, server, name, now);
@@ -49,16 +44,12 @@ class SessionFileTest : public testing::Test {
     }
     return found;
   }
-  static std::string content(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   static void put(const fs::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
   }
 
-  fs::path home;
-  fs::path directory;
+  test::TempFolder home;
+  const fs::path directory = home / "state" / "naiad" / "sessions";
   SessionFile::Time now{std::chrono::hours(24 * 365 * 50)};
 };
 
@@ -142,7 +133,7 @@ TEST_F(SessionFileTest, LeavingInOrderRemovesTheFile) {
 TEST_F(SessionFileTest, DamagedFilesAreReportedAndRemoved) {
   leave("token");
   const fs::path path = files()[0];
-  const std::string good = content(path);
+  const std::string good = test::contentOf(path);
   std::vector<std::string> bad = {"",
                                   "x",
                                   good.substr(1),
@@ -171,7 +162,7 @@ TEST_F(SessionFileTest, DamagedFilesAreReportedAndRemoved) {
 
 TEST_F(SessionFileTest, EveryByteThatChangesIsNoticedOrHarmless) {
   leave("token");
-  const std::string good = content(files()[0]);
+  const std::string good = test::contentOf(files()[0]);
   for (std::size_t i = 0; i < good.size(); ++i) {
     std::string text = good;
     text[i] = static_cast<char>(text[i] ^ 0x55);

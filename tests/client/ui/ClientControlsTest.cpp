@@ -15,6 +15,12 @@ KeyEvent typed(Key key, char32_t ch) {
   return {key, ch};
 }
 
+/// The prefix, and this key.
+Result command(ClientControls& controls, Key key, char32_t ch) {
+  controls.takeKey(kPrefix);
+  return controls.takeKey(typed(key, ch));
+}
+
 TEST(ClientControls, OrdinaryKeysGoToTheGame) {
   ClientControls controls;
   EXPECT_EQ(controls.takeKey(typed(Q, U'q')), Result::kGame);
@@ -29,24 +35,19 @@ TEST(ClientControls, PrefixOpensCommands) {
   EXPECT_EQ(controls.takeKey(typed(P, U'p')), Result::kHandled);
   EXPECT_FALSE(controls.prefixed());
   EXPECT_EQ(controls.panel(), Panel::kPlayers);
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(SLASH, U'?'));
+  command(controls, SLASH, U'?');
   EXPECT_EQ(controls.panel(), Panel::kHelp);
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(H, U'h'));
+  command(controls, H, U'h');
   EXPECT_EQ(controls.panel(), Panel::kNone);
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(S, U's'));
+  command(controls, S, U's');
   EXPECT_EQ(controls.status(), StatusMode::kNever);
-  controls.takeKey(kPrefix);
-  EXPECT_EQ(controls.takeKey(typed(Q, U'q')), Result::kLeave);
+  EXPECT_EQ(command(controls, Q, U'q'), Result::kLeave);
 }
 
 TEST(ClientControls, TheStatusKeyChangesWhatIsSeen) {
   ClientControls controls;
   const auto press = [&controls] {
-    controls.takeKey(kPrefix);
-    controls.takeKey(typed(S, U's'));
+    command(controls, S, U's');
     return controls.status();
   };
   EXPECT_EQ(controls.status(), StatusMode::kAuto);
@@ -59,8 +60,7 @@ TEST(ClientControls, TheStatusKeyChangesWhatIsSeen) {
 TEST(ClientControls, KeysScrollAPanelThatDoesNotFit) {
   ClientControls controls;
   EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame);
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(H, U'h'));
+  command(controls, H, U'h');
   controls.noteShown({.status = true, .max_scroll = 0, .page = 20});
   EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame) << "all of it is seen";
   controls.noteShown({.status = true, .max_scroll = 30, .page = 20});
@@ -85,8 +85,7 @@ TEST(ClientControls, KeysScrollAPanelThatDoesNotFit) {
 
 TEST(ClientControls, TheListOfRoomsHasAChoiceThatReturnTakes) {
   ClientControls controls;
-  controls.takeKey(kPrefix);
-  EXPECT_EQ(controls.takeKey(typed(R, U'r')), Result::kHandled);
+  EXPECT_EQ(command(controls, R, U'r'), Result::kHandled);
   EXPECT_EQ(controls.panel(), Panel::kRooms);
   controls.noteShown({.rooms = 3});
   EXPECT_EQ(controls.takeKey({UPARROW}), Result::kHandled);
@@ -101,8 +100,7 @@ TEST(ClientControls, TheListOfRoomsHasAChoiceThatReturnTakes) {
 
 TEST(ClientControls, WithoutRoomsReturnClosesTheirList) {
   ClientControls controls;
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(R, U'r'));
+  command(controls, R, U'r');
   controls.noteShown({.rooms = 0});
   EXPECT_EQ(controls.takeKey({RETURN}), Result::kHandled);
   EXPECT_EQ(controls.panel(), Panel::kNone);
@@ -111,8 +109,7 @@ TEST(ClientControls, WithoutRoomsReturnClosesTheirList) {
 TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
   ClientControls controls;
   EXPECT_FALSE(controls.insertPasted(U"secret"));
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(T, U't'));
+  command(controls, T, U't');
   EXPECT_EQ(controls.chatText(), "");
   controls.takeKey(typed(X, U'x'));
   EXPECT_TRUE(controls.insertPasted(U"y\x202Ez ü"));
@@ -124,8 +121,7 @@ TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
 
 TEST(ClientControls, PrefixTwiceClosesEverything) {
   ClientControls controls;
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(P, U'p'));
+  command(controls, P, U'p');
   controls.takeKey(kPrefix);
   EXPECT_EQ(controls.takeKey(kPrefix), Result::kHandled);
   EXPECT_FALSE(controls.prefixed());
@@ -146,15 +142,13 @@ TEST(ClientControls, ModifiersAndRepeatsAreNoCommands) {
 TEST(ClientControls, ControlCLeavesAndControlZSuspendsAlways) {
   ClientControls controls;
   EXPECT_EQ(controls.takeKey({Z, 0, KeyEvent::Action::kPress, kControl}), Result::kSuspend);
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(T, U't'));
+  command(controls, T, U't');
   EXPECT_EQ(controls.takeKey({C, 0, KeyEvent::Action::kPress, kControl}), Result::kLeave);
 }
 
 TEST(ClientControls, ChatLineTakesText) {
   ClientControls controls;
-  controls.takeKey(kPrefix);
-  EXPECT_EQ(controls.takeKey(typed(T, U't')), Result::kOpened);
+  EXPECT_EQ(command(controls, T, U't'), Result::kOpened);
   EXPECT_TRUE(controls.chatOpen());
   for (const char32_t ch : std::u32string(U"hüx")) controls.takeKey({UNDEFINED_KEY, ch});
   controls.takeKey({BACKSPACE});
@@ -167,19 +161,16 @@ TEST(ClientControls, ChatLineTakesText) {
 
 TEST(ClientControls, EmptyOrEscapedChatSaysNothing) {
   ClientControls controls;
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(C, U'c'));
+  command(controls, C, U'c');
   EXPECT_EQ(controls.takeKey({RETURN}), Result::kClosed);
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(C, U'c'));
+  command(controls, C, U'c');
   controls.takeKey(typed(X, U'x'));
   EXPECT_EQ(controls.takeKey({ESCAPE}), Result::kClosed);
 }
 
 TEST(ClientControls, ChatIsBounded) {
   ClientControls controls;
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(T, U't'));
+  command(controls, T, U't');
   for (int i = 0; i < 1000; ++i) controls.takeKey(typed(X, U'x'));
   EXPECT_EQ(controls.chatText().size(), kMaxChatLength);
 }
@@ -188,8 +179,7 @@ TEST(ClientControls, KeysScrollTheChatWhileItsLineIsOpen) {
   ClientControls controls;
   controls.noteShown({.max_chat_scroll = 20, .chat_page = 6});
   EXPECT_EQ(controls.takeKey({UPARROW}), Result::kGame);
-  controls.takeKey(kPrefix);
-  controls.takeKey(typed(T, U't'));
+  command(controls, T, U't');
   EXPECT_EQ(controls.takeKey({UPARROW}), Result::kHandled);
   EXPECT_EQ(controls.chatScroll(), 1);
   controls.takeKey({PAGEUP});

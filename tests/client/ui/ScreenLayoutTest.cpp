@@ -24,16 +24,26 @@ ScreenModel model(int width = 80, int height = 24) {
   return m;
 }
 
-bool contains(const Picture& picture, const std::string& text) {
+ScreenModel modelWith(Panel panel) {
+  ScreenModel m = model();
+  m.panel = panel;
+  return m;
+}
+
+/// The first row with this text; −1 if there is none.
+int rowWith(const Picture& picture, const std::string& text) {
   for (int y = 0; y < picture.height(); ++y) {
-    if (picture.rowText(y).find(text) != std::string::npos) return true;
+    if (picture.rowText(y).find(text) != std::string::npos) return y;
   }
-  return false;
+  return -1;
+}
+
+bool contains(const Picture& picture, const std::string& text) {
+  return rowWith(picture, text) >= 0;
 }
 
 TEST(ScreenLayout, RoomsAreListedWithTheirPlayersAndTheChosenOneStandsOut) {
-  ScreenModel m = model();
-  m.panel = Panel::kRooms;
+  ScreenModel m = modelWith(Panel::kRooms);
   m.room = "lobby";
   m.rooms = {{"lobby", "lobby", 2, 64, false}, {"arcade", "saucershoot", 0, 8, true}};
   m.room_choice = 1;
@@ -41,19 +51,15 @@ TEST(ScreenLayout, RoomsAreListedWithTheirPlayersAndTheChosenOneStandsOut) {
   EXPECT_EQ(layout.shown.rooms, 2);
   EXPECT_TRUE(contains(layout.picture, "* lobby "));
   EXPECT_TRUE(contains(layout.picture, "arcade           saucershoot         0/8    asleep"));
-  for (int y = 0; y < 24; ++y) {
-    const std::string row = layout.picture.rowText(y);
-    if (row.find("arcade") == std::string::npos) continue;
-    for (int x = 0; x < 80; ++x) {
-      if (layout.picture.at(x, y).ch != U'a') continue;
-      EXPECT_EQ(layout.picture.at(x, y).style, Style::kReverse);
-    }
+  const int y = rowWith(layout.picture, "arcade");
+  for (int x = 0; x < 80; ++x) {
+    if (layout.picture.at(x, y).ch != U'a') continue;
+    EXPECT_EQ(layout.picture.at(x, y).style, Style::kReverse);
   }
 }
 
 TEST(ScreenLayout, MoreRoomsThanFitShowTheChosenOne) {
-  ScreenModel m = model();
-  m.panel = Panel::kRooms;
+  ScreenModel m = modelWith(Panel::kRooms);
   m.room = "room-0";
   for (int i = 0; i < 64; ++i) m.rooms.push_back({"room-" + std::to_string(i), "hello", 0, 8, false});
   for (int choice = 0; choice < 64; ++choice) {
@@ -63,9 +69,7 @@ TEST(ScreenLayout, MoreRoomsThanFitShowTheChosenOne) {
 }
 
 TEST(ScreenLayout, AServerWithoutRoomsSaysSo) {
-  ScreenModel m = model();
-  m.panel = Panel::kRooms;
-  EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "This server has no rooms."));
+  EXPECT_TRUE(contains(layOut(modelWith(Panel::kRooms), 80, 24).picture, "This server has no rooms."));
 }
 
 TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
@@ -121,9 +125,8 @@ TEST(ScreenLayout, ColumnsBesideTheViewHoldTheStatusIfThereIsNoRow) {
   EXPECT_EQ(layout.placement.width, 80);
   EXPECT_EQ(layout.picture.at(layout.placement.left, 0).ch, U'A');
   EXPECT_EQ(layout.picture.at(layout.placement.left + 79, 23).ch, U'Z');
-  for (const char* text : {"42 ms", "2 players", "0 pts", "Ctrl-] h", "sound: fir"}) {
+  for (const char* text : {"42 ms", "2 players", "0 pts", "Ctrl-] h", "sound: fir"})
     EXPECT_TRUE(contains(layout.picture, text)) << text;
-  }
   EXPECT_FALSE(layOut(m, 90, 24).placement.status_side);
 }
 
@@ -220,70 +223,48 @@ TEST(ScreenLayout, AnySizeIsSafe) {
 }
 
 TEST(ScreenLayout, PlayersAreListedByScore) {
-  ScreenModel m = model();
-  m.panel = Panel::kPlayers;
-  const Picture picture = layOut(m, 100, 30).picture;
-  int ada = -1;
-  int bob = -1;
-  for (int y = 0; y < 29; ++y) {
-    if (picture.rowText(y).find("Ada") != std::string::npos) ada = y;
-    if (picture.rowText(y).find("Bob") != std::string::npos) bob = y;
-  }
+  const Picture picture = layOut(modelWith(Panel::kPlayers), 100, 30).picture;
+  const int bob = rowWith(picture, "Bob");
   EXPECT_GE(bob, 0);
-  EXPECT_EQ(ada, bob + 1);
+  EXPECT_EQ(rowWith(picture, "Ada"), bob + 1);
   EXPECT_TRUE(contains(picture, "70"));
 }
 
-TEST(ScreenLayout, HelpShowsTheGamesLinesAndTheClientsKeys) {
-  ScreenModel m = model();
-  m.panel = Panel::kHelp;
+TEST(ScreenLayout, HelpShowsTheGamesLinesTheClientsKeysAndWhetherReleasesAreReported) {
+  ScreenModel m = modelWith(Panel::kHelp);
   m.help = {"Space fires."};
   const Picture picture = layOut(m, 80, 24).picture;
-  EXPECT_TRUE(contains(picture, "Space fires."));
-  EXPECT_TRUE(contains(picture, "leave the game"));
-}
-
-TEST(ScreenLayout, HelpSaysWhetherTheTerminalReportsKeyReleases) {
-  ScreenModel m = model();
-  m.panel = Panel::kHelp;
-  EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "guessed"));
+  for (const char* text : {"Space fires.", "leave the game", "guessed"})
+    EXPECT_TRUE(contains(picture, text)) << text;
   m.key_releases = true;
   EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "exact"));
 }
 
 TEST(ScreenLayout, HelpIsWholeInANarrowTerminal) {
-  ScreenModel m = model();
-  m.panel = Panel::kHelp;
+  ScreenModel m = modelWith(Panel::kHelp);
   // 76 characters, the most that a server may send.
   m.help = {"This line of the game is as long as any can be, and here is its very end: END",
             "arrows or WASD   move the paddle, which is yours alone, and hold it where you want"};
   for (const int columns : {80, 76, 60, 40}) {
     const ScreenLayout layout = layOut(m, columns, 40);
     EXPECT_EQ(layout.shown.max_scroll, 0) << columns;
-    EXPECT_TRUE(contains(layout.picture, "END")) << columns;
-    EXPECT_TRUE(contains(layout.picture, "want")) << columns;
-    EXPECT_TRUE(contains(layout.picture, "Esc closes")) << columns;
-    EXPECT_TRUE(contains(layout.picture, "close the help")) << columns;
+    for (const char* text : {"END", "want", "Esc closes", "close the help"})
+      EXPECT_TRUE(contains(layout.picture, text)) << columns << text;
   }
 }
 
 TEST(ScreenLayout, LinesThatContinueOneStandUnderItsText) {
-  ScreenModel m = model();
-  m.panel = Panel::kHelp;
-  m.help = {};
-  const Picture picture = layOut(m, 50, 40).picture;
+  const Picture picture = layOut(modelWith(Panel::kHelp), 50, 40).picture;
   // "Ctrl-] t   say something to all players (c does the same)"
-  int row = 0;
-  while (row < 40 && picture.rowText(row).find("say something") == std::string::npos) ++row;
-  ASSERT_LT(row, 39);
+  const int row = rowWith(picture, "say something");
+  ASSERT_TRUE(row >= 0 && row < 39);
   const std::u32string first = df::decodeUtf8(picture.rowText(row));
   const std::u32string next = df::decodeUtf8(picture.rowText(row + 1));
   EXPECT_EQ(next.find(U"does"), first.find(U"say")) << picture.rowText(row + 1);
 }
 
 TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
-  ScreenModel m = model();
-  m.panel = Panel::kHelp;
+  ScreenModel m = modelWith(Panel::kHelp);
   for (int i = 0; i < 24; ++i) m.help.push_back("line " + std::to_string(i) + ".");
   ScreenLayout layout = layOut(m, 76, 24);
   EXPECT_TRUE(contains(layout.picture, "line 0."));
@@ -302,8 +283,7 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
 }
 
 TEST(ScreenLayout, PlayersScrollUnderTheirHead) {
-  ScreenModel m = model();
-  m.panel = Panel::kPlayers;
+  ScreenModel m = modelWith(Panel::kPlayers);
   for (std::uint32_t i = 0; i < 64; ++i)
     m.players.push_back({10 + i, "p" + std::to_string(i), df::RED, -1, 5});
   ScreenLayout layout = layOut(m, 80, 24);
@@ -342,13 +322,10 @@ TEST(AsciiFallback, MapsACharacterToASimilarOne) {
 
 /// Is the text there, in this colour?
 bool containsIn(const Picture& picture, const std::string& text, df::Color color, Style style) {
-  for (int y = 0; y < picture.height(); ++y) {
-    const std::size_t at = picture.rowText(y).find(text);
-    if (at == std::string::npos) continue;
-    const PictureCell cell = picture.at(static_cast<int>(at), y);
-    return cell.color == color && cell.style == style;
-  }
-  return false;
+  const int y = rowWith(picture, text);
+  if (y < 0) return false;
+  const PictureCell cell = picture.at(static_cast<int>(picture.rowText(y).find(text)), y);
+  return cell.color == color && cell.style == style;
 }
 
 TEST(ScreenLayout, TheStatusLineBeginsWithThePlayersNameInTheirColour) {

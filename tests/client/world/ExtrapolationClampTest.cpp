@@ -190,9 +190,8 @@ TEST_F(CrowdedSpotTest, DoesNotTakeTheWorkThatOthersNeed) {
 }
 
 TEST_F(CrowdedSpotTest, OfLargeObjectsIsBoundedToo) {
-  for (int i = 0; i < 3'000; ++i) {
+  for (int i = 0; i < 3'000; ++i)
     add(cellsAt(i % 50, i % 20), cellsAt(0.1, 0.1), df::HARD, {cellsAt(-50, -50), cellsAt(100, 100)});
-  }
   const ExtrapolationClamp clamp(replica, kKnown, kKnown + 8);
   EXPECT_LE(clamp.work(), ExtrapolationClamp::kMaxWork + 1'000);
 }

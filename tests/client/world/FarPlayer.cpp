@@ -96,14 +96,11 @@ void FarPlayer::receive(const SnapshotSender::Packet& packet) {
 }
 
 void FarPlayer::draw() {
-  for (; !m_down.empty() && m_down.front().arrives <= tick(); m_down.pop_front()) {
+  for (; !m_down.empty() && m_down.front().arrives <= tick(); m_down.pop_front())
     receive(m_down.front().packet);
-  }
   while (!m_pending.empty() && m_pending.front().id <= m_acknowledged) m_pending.pop_front();
   const bool lost = isLost();
-  if (!lost) {
-    m_up.push_back({tick() + m_delays.up, {m_pending.begin(), m_pending.end()}, m_acks});
-  }
+  if (!lost) m_up.push_back({tick() + m_delays.up, {m_pending.begin(), m_pending.end()}, m_acks});
   prediction.run(replica, shownTick());
   if (!prediction.isActive() || tick() < compared_from) return;
   const ExtrapolationClamp clamp(replica, tick(), tick());

@@ -67,14 +67,20 @@ class PredictionTest : public testing::Test {
     return record;
   }
   void press(std::uint32_t id, df::Keyboard::Key key, df::EventKeyboardAction action, std::uint32_t tick) {
-    press(prediction, id, key, action, tick);
+    prediction.addInput({.id = id,
+                         .tick = tick,
+                         .action = static_cast<std::uint8_t>(action),
+                         .key = static_cast<std::uint8_t>(key)});
   }
-  static void press(Prediction& p, std::uint32_t id, df::Keyboard::Key key, df::EventKeyboardAction action,
-                    std::uint32_t tick) {
-    p.addInput({.id = id,
-                .tick = tick,
-                .action = static_cast<std::uint8_t>(action),
-                .key = static_cast<std::uint8_t>(key)});
+  /// Where D leads the own ship in the first tick, in a world of it and another object.
+  FixedVector afterOneStep(const ObjectRecord& own, const ObjectRecord& other) {
+    replica = Replica();
+    prediction = Prediction();
+    apply(replica, 1, objects({own, other}));
+    prediction.setTable(table);
+    prediction.applyControl(state(kFirstTick, 0, cells(10, 10)));
+    press(1, D, KEY_PRESSED, kFirstTick + 1);
+    return at(kFirstTick + 1);
   }
   FixedVector at(std::uint32_t tick) {
     prediction.run(replica, tick);
@@ -173,14 +179,8 @@ TEST_F(PredictionTest, TheOrderOfCreationDecidesWhichObjectsHaveMoved) {
   table.rows[0] = {D, KEY_PRESSED, df::ControlEffect::kVelocity, true, true, cells(1, 0)};
   prediction.setTable(table);
   for (const auto& [slot, wanted] : {std::pair{kOwnSlot - 1, 11}, {kOwnSlot + 1, 10}}) {
-    Replica around;
-    apply(around, 1, objects({object(kOwnSlot, cells(10, 10)), object(slot, cells(12, 10), cells(1, 0))}));
-    Prediction ship;
-    ship.setTable(table);
-    ship.applyControl(state(kFirstTick, 0, cells(10, 10)));
-    press(ship, 1, D, KEY_PRESSED, kFirstTick + 1);
-    ship.run(around, kFirstTick + 1);
-    EXPECT_EQ(ship.position(), cells(wanted, 10)) << "slot " << slot;
+    const auto block = object(slot, cells(12, 10), cells(1, 0));
+    EXPECT_EQ(afterOneStep(object(kOwnSlot, cells(10, 10)), block), cells(wanted, 10)) << "slot " << slot;
   }
 }
 
@@ -194,14 +194,8 @@ TEST_F(PredictionTest, HardBlocksAndSoftBlocksOnlyNoSoft) {
                                                     {df::HARD, true, df::SPECTRAL, 11}}) {
     ObjectRecord me = object(kOwnSlot, cells(10, 10), {}, own);
     me.state.body.no_soft = no_soft;
-    Replica around;
-    apply(around, 1, objects({me, object(1, cells(12, 10), {}, other)}));
-    Prediction ship;
-    ship.setTable(table);
-    ship.applyControl(state(kFirstTick, 0, cells(10, 10)));
-    press(ship, 1, D, KEY_PRESSED, kFirstTick + 1);
-    ship.run(around, kFirstTick + 1);
-    EXPECT_EQ(ship.position(), cells(wanted, 10)) << own << no_soft << other;
+    EXPECT_EQ(afterOneStep(me, object(1, cells(12, 10), {}, other)), cells(wanted, 10))
+        << own << no_soft << other;
   }
 }
 
@@ -226,9 +220,8 @@ TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
   EXPECT_EQ(prediction.position(), (FixedVector{kFar, -kFar}));
   EXPECT_EQ(prediction.velocity(), record.velocity);
   const ExtrapolationClamp clamp(replica, kFirstTick, kFirstTick + 8);
-  for (const auto& [slot, entry] : replica.entries()) {
+  for (const auto& [slot, entry] : replica.entries())
     EXPECT_EQ(clamp.positionOf(entry.state), positionAt(entry.state.motion, kFirstTick + 8));
-  }
 }
 
 TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
