@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include <asio/io_context.hpp>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>

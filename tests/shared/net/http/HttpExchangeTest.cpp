@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
