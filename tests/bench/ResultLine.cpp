@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 namespace bench {
-
 namespace {
 
 constexpr int kDigits = 4;

@@ -9,7 +9,6 @@
 #include "physics/geometry/Index.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kIterations = 10;
@@ -91,8 +90,7 @@ class Avbd : public ContactSolver {
     for (Moving& body : m_bodies) body.contacts.clear();
     for (ContactPair& pair : scene.pairs) {
       const Vec2 tangent = naiad::physics::perpendicular(pair.normal);
-      for (int i = 0; i < pair.count; ++i) {
-        ContactPoint& point = pair.points[at(i)];
+      for (ContactPoint& point : pair.used()) {
         const ContactArms arms = armsOf(scene, pair, point);
         const Vec2 between =
             (scene.bodies[at(pair.b)].position + arms.b) - (scene.bodies[at(pair.a)].position + arms.a);
@@ -227,5 +225,4 @@ class Avbd : public ContactSolver {
 const RegisteredMethod method({"avbd", "AVBD", "1", Method::Kind::CANDIDATE, makeContacts<Avbd>});
 
 }  // namespace
-
 }  // namespace lab

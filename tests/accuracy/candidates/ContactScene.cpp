@@ -8,7 +8,6 @@
 #include "physics/geometry/Index.h"
 
 namespace lab {
-
 namespace {
 
 namespace physics = naiad::physics;
@@ -39,12 +38,11 @@ double addShapes(const Body& body, ContactBody& made) {
     physics::ConvexShape own;
     if (shape.kind == Shape::Kind::CIRCLE) {
       physics::makeCircle(shape.radius, from(shape.centre), own);
-      inertia = shape.radius * shape.radius / 2;
     } else {
       physics::makeBox(shape.half.x, shape.half.y, from(shape.centre), {}, 0, own);
-      inertia = dot(shape.half, shape.half) / 3;
     }
     made.shapes.push_back(own);
+    inertia = inertiaOf(shape);
   }
   made.turned.resize(made.shapes.size());
   return inertia;
@@ -186,8 +184,9 @@ void ContactScene::findPair(int a, int b, double reach) {
         const physics::ManifoldPoint& found = manifold.points[at(p)];
         ContactPoint& point = pair.points[at(p)];
         point.id = found.id;
-        for (int q = 0; p_before != nullptr && q < p_before->count; ++q) {
-          if (p_before->points[at(q)].id == found.id) point = p_before->points[at(q)];
+        if (p_before != nullptr) {
+          const auto same = std::ranges::find(p_before->used(), found.id, &ContactPoint::id);
+          if (same != p_before->used().end()) point = *same;
         }
         point.gap = found.separation;
         // Who sticks keeps the places that stick.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "Method.h"
@@ -59,8 +60,11 @@ struct ContactPair {
   Vec2 normal;  ///< from a to b
   double friction = 0;
   int count = 0;
-  std::array<ContactPoint, 2> points;
+  std::array<ContactPoint, 2> points;  ///< the first `count`
   naiad::physics::ReferenceFace reference;
+
+  std::span<ContactPoint> used() { return {points.data(), static_cast<std::size_t>(count)}; }
+  std::span<const ContactPoint> used() const { return {points.data(), static_cast<std::size_t>(count)}; }
 };
 
 struct ContactScene {

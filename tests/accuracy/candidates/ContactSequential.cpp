@@ -8,7 +8,6 @@
 #include "ContactScene.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kReach = 0.02;  // m: gaps that are looked at
@@ -49,8 +48,7 @@ class Sequential : public ContactSolver {
     for (ContactPair& pair : scene.pairs) {
       const bool is_held = !scene.bodies[static_cast<std::size_t>(pair.a)].isPushed() ||
                            !scene.bodies[static_cast<std::size_t>(pair.b)].isPushed();
-      for (int i = 0; i < pair.count; ++i) {
-        ContactPoint& point = pair.points[static_cast<std::size_t>(i)];
+      for (ContactPoint& point : pair.used()) {
         const double gap = gapOf(scene, pair, point, armsOf(scene, pair, point));
         const ContactArms arms = leversOf(scene, pair, point);
         Softness soft;
@@ -69,8 +67,7 @@ class Sequential : public ContactSolver {
         point.normal_impulse = now;
       }
       const Vec2 tangent = naiad::physics::perpendicular(pair.normal);
-      for (int i = 0; i < pair.count; ++i) {
-        ContactPoint& point = pair.points[static_cast<std::size_t>(i)];
+      for (ContactPoint& point : pair.used()) {
         const ContactArms arms = leversOf(scene, pair, point);
         const double most = pair.friction * point.normal_impulse;
         const double change = -point.tangent_mass * dot(speedOf(scene, pair, arms), tangent);
@@ -89,8 +86,7 @@ class Sequential : public ContactSolver {
   void warm(ContactScene& scene) const {
     for (const ContactPair& pair : scene.pairs) {
       const Vec2 tangent = naiad::physics::perpendicular(pair.normal);
-      for (int i = 0; i < pair.count; ++i) {
-        const ContactPoint& point = pair.points[static_cast<std::size_t>(i)];
+      for (const ContactPoint& point : pair.used()) {
         push(scene, pair, leversOf(scene, pair, point),
              point.normal_impulse * pair.normal + point.tangent_impulse * tangent);
       }
@@ -111,8 +107,7 @@ class Projecting : public Sequential {
     constexpr double kPart = 0.2;      // of the overlap that a sub-step undoes
     constexpr double kFarthest = 0.2;  // m
     for (const ContactPair& pair : scene.pairs) {
-      for (int i = 0; i < pair.count; ++i) {
-        const ContactPoint& point = pair.points[static_cast<std::size_t>(i)];
+      for (const ContactPoint& point : pair.used()) {
         const ContactArms arms = armsOf(scene, pair, point);
         const double overlap = -kPart * (gapOf(scene, pair, point, arms) + kSlop);
         if (overlap <= 0) continue;
@@ -144,5 +139,4 @@ const RegisteredMethod soft_step({"soft_step", "soft step", "1", Method::Kind::C
                                   makeContacts<SoftStep>});
 
 }  // namespace
-
 }  // namespace lab

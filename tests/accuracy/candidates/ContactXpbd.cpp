@@ -6,7 +6,6 @@
 #include "ContactScene.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kReach = 0.02;  // m: gaps that are looked at
@@ -35,8 +34,8 @@ class ContactXpbd : public ContactSolver {
     scene.kick(h);
     scene.drift(h);
     for (ContactPair& pair : scene.pairs) {
-      for (int i = 0; i < pair.count; ++i) part(scene, pair, pair.points[static_cast<std::size_t>(i)]);
-      for (int i = 0; i < pair.count; ++i) stick(scene, pair, pair.points[static_cast<std::size_t>(i)]);
+      for (ContactPoint& point : pair.used()) part(scene, pair, point);
+      for (const ContactPoint& point : pair.used()) stick(scene, pair, point);
     }
     for (std::size_t i = 0; i < m_before.size(); ++i) {
       ContactBody& body = scene.bodies[i];
@@ -45,8 +44,8 @@ class ContactXpbd : public ContactSolver {
       body.spin = (body.angle - m_before[i].angle) / h;
     }
     for (const ContactPair& pair : scene.pairs) {
-      for (int i = 0; i < pair.count; ++i) calm(scene, pair, pair.points[static_cast<std::size_t>(i)]);
-      for (int i = 0; i < pair.count; ++i) rub(scene, pair, pair.points[static_cast<std::size_t>(i)], h);
+      for (const ContactPoint& point : pair.used()) calm(scene, pair, point);
+      for (const ContactPoint& point : pair.used()) rub(scene, pair, point, h);
     }
   }
 
@@ -101,5 +100,4 @@ const RegisteredMethod method({"xpbd_contacts", "XPBD contacts", "1", Method::Ki
                                makeContacts<ContactXpbd>});
 
 }  // namespace
-
 }  // namespace lab

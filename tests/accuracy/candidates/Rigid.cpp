@@ -6,7 +6,6 @@
 #include "physics/rigid/RigidWorld.h"
 
 namespace lab {
-
 namespace {
 
 namespace physics = naiad::physics;
@@ -69,12 +68,11 @@ class Rigid : public Simulation {
         physics::ConvexShape made;
         if (shape.kind == Shape::Kind::CIRCLE) {
           physics::makeCircle(shape.radius, down(shape.centre), made);
-          inertia = shape.radius * shape.radius / 2;
         } else {
           physics::makeBox(shape.half.x, shape.half.y, down(shape.centre), {}, 0, made);
-          inertia = dot(shape.half, shape.half) / 3;
         }
         shapes.push_back(made);
+        inertia = inertiaOf(shape);
       }
       physics::RigidBody rigid;
       rigid.place = m_origin + down(body.position);
@@ -104,5 +102,4 @@ const RegisteredMethod method({"rigid", "rigid solver alone", "1", Method::Kind:
                                }});
 
 }  // namespace
-
 }  // namespace lab

@@ -13,7 +13,6 @@
 #include "physics/soft/SoftWorld.h"
 
 namespace lab {
-
 namespace {
 
 namespace physics = naiad::physics;
@@ -204,5 +203,4 @@ const RegisteredMethod euler({"soft_euler", "soft, Euler", "1", Method::Kind::CA
 const RegisteredMethod projected({"soft_xpbd", "soft, XPBD", "1", Method::Kind::CANDIDATE, make<Projected>});
 
 }  // namespace
-
 }  // namespace lab

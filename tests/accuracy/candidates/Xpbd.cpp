@@ -6,7 +6,6 @@
 #include "Method.h"
 
 namespace lab {
-
 namespace {
 
 class Xpbd : public Simulation {
@@ -95,5 +94,4 @@ const RegisteredMethod method({"xpbd", "XPBD rods", "1", Method::Kind::CANDIDATE
                                }});
 
 }  // namespace
-
 }  // namespace lab

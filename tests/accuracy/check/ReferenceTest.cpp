@@ -8,7 +8,6 @@
 #include "Systems.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kAgree = 1e-9;
@@ -191,5 +190,4 @@ TEST(Reference, DerivativesAreThoseOfTheEquations) {
 }
 
 }  // namespace
-
 }  // namespace lab

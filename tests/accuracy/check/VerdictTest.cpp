@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <string>
 
@@ -11,7 +10,6 @@
 #include "Records.h"
 
 namespace lab {
-
 namespace {
 
 std::vector<std::string> problemIds() {
@@ -21,22 +19,6 @@ std::vector<std::string> problemIds() {
 }
 
 class Verdicts : public testing::TestWithParam<std::string> {};
-
-// Targets that the product is known to miss: how far it is from them today, so that it gets no farther. What
-// is met after all goes from this list.
-struct Miss {
-  const char* level;
-  const char* metric;
-  double most;
-};
-constexpr std::array<Miss, 0> kMisses = {};
-
-const Miss* findMiss(const std::string& level, const std::string& metric) {
-  const auto* found = std::find_if(kMisses.begin(), kMisses.end(), [&](const Miss& miss) {
-    return level == miss.level && metric == miss.metric;
-  });
-  return found == kMisses.end() ? nullptr : found;
-}
 
 // Thousands of bodies for long.
 bool takesLong(const Case& its_case) {
@@ -56,12 +38,8 @@ void expectTargets(const Method& level, const Case& its_case) {
     const Metric& metric = its_case.metrics[i];
     const double target = metric.targetOf(level);
     if (target < 0) continue;
-    const std::string name = metricName(its_case, metric);
-    const Miss* p_miss = findMiss(level.name, name);
-    EXPECT_LE(judged.errors[i], p_miss == nullptr ? target : p_miss->most)
-        << level.name << ' ' << name << ' ' << judged.reason;
-    if (p_miss == nullptr) continue;
-    EXPECT_GT(judged.errors[i], target) << level.name << ' ' << name << " is met";
+    EXPECT_LE(judged.errors[i], target)
+        << level.name << ' ' << metricName(its_case, metric) << ' ' << judged.reason;
   }
 }
 
@@ -87,5 +65,4 @@ std::string nameOf(const testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(All, Verdicts, testing::ValuesIn(problemIds()), nameOf);
 
 }  // namespace
-
 }  // namespace lab

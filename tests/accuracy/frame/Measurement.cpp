@@ -17,7 +17,6 @@
 #include "ElapsedTime.h"
 
 namespace lab {
-
 namespace {
 
 // A run that takes less is repeated on fresh copies of the scene until it does not: the clock's own reading

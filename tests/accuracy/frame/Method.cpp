@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace lab {
-
 namespace {
 
 // Made by the first that registers, whichever that is; a deque, for others keep pointers into it.

@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace lab {
-
 namespace {
 
 std::vector<ProblemEntry>& registry() {

@@ -10,7 +10,6 @@
 #include "ResultLine.h"
 
 namespace lab {
-
 namespace {
 
 std::FILE* open(const std::string& path) {
@@ -32,32 +31,15 @@ std::string quoted(const std::string& text) {
   return json + '"';
 }
 
+// In the order of the enumerations.
 const char* nameOf(Problem::Kind kind) {
-  switch (kind) {
-    case Problem::Kind::DIAGRAM:
-      return "diagram";
-    case Problem::Kind::MAP:
-      return "map";
-    case Problem::Kind::COST:
-      return "cost";
-  }
-  return "";
+  constexpr const char* kNames[] = {"diagram", "map", "cost"};
+  return kNames[static_cast<int>(kind)];
 }
 
 const char* nameOf(Method::Kind kind) {
-  switch (kind) {
-    case Method::Kind::PRODUCT:
-      return "product";
-    case Method::Kind::FAST:
-      return "fast";
-    case Method::Kind::CANDIDATE:
-      return "candidate";
-    case Method::Kind::PEER:
-      return "peer";
-    case Method::Kind::TEXTBOOK:
-      return "textbook";
-  }
-  return "";
+  constexpr const char* kNames[] = {"product", "fast", "candidate", "peer", "textbook"};
+  return kNames[static_cast<int>(kind)];
 }
 
 // All that a case is measured by.

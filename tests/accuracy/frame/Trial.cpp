@@ -3,7 +3,6 @@
 #include <cmath>
 
 namespace lab {
-
 namespace {
 
 constexpr double kFarthest = 1e12;

@@ -10,7 +10,6 @@
 #include "Method.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kVelocityIterations = 8;
@@ -78,8 +77,11 @@ class Box2d : public Simulation {
     definition.fixedRotation = !body.rotates;
     definition.bullet = body.fast;
     b2Body* made = m_world.CreateBody(&definition);
-    double inertia = 0;
-    for (const Shape& shape : body.shapes) inertia = addShape(*made, body, shape);
+    double inertia = 0;  // per mass, of the last shape
+    for (const Shape& shape : body.shapes) {
+      addShape(*made, body, shape);
+      inertia = inertiaOf(shape);
+    }
     if (body.motion == Motion::DYNAMIC) {
       b2MassData mass{single(body.mass), b2Vec2_zero, body.rotates ? single(body.mass * inertia) : 0.0F};
       made->SetMassData(&mass);
@@ -87,8 +89,7 @@ class Box2d : public Simulation {
     m_bodies.push_back(made);
   }
 
-  // Returns the moment of inertia per mass.
-  double addShape(b2Body& made, const Body& body, const Shape& shape) const {
+  void addShape(b2Body& made, const Body& body, const Shape& shape) const {
     b2FixtureDef fixture;
     if (!m_collides) fixture.filter.maskBits = 0;
     fixture.friction = single(body.friction);
@@ -100,7 +101,7 @@ class Box2d : public Simulation {
       circle.m_radius = single(shape.radius);
       fixture.shape = &circle;
       made.CreateFixture(&fixture);
-      return shape.radius * shape.radius / 2;
+      return;
     }
     b2PolygonShape polygon;
     polygon.SetAsBox(std::max(single(shape.half.x) - m_skin, b2_linearSlop),
@@ -108,7 +109,6 @@ class Box2d : public Simulation {
                      {single(shape.centre.x), single(shape.centre.y)}, 0);
     fixture.shape = &polygon;
     made.CreateFixture(&fixture);
-    return dot(shape.half, shape.half) / 3;
   }
 
   void add(const Joint& joint) {
@@ -157,5 +157,4 @@ const RegisteredMethod method({"box2d", "Box2D 2.4", "2.4.1", Method::Kind::PEER
                                }});
 
 }  // namespace
-
 }  // namespace lab

@@ -9,7 +9,6 @@
 #include "Method.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kSlop = 0.005;
@@ -77,12 +76,8 @@ class Chipmunk : public Simulation {
   }
 
   void add(const Body& body) {
-    double inertia = INFINITY;
-    if (body.rotates && !body.shapes.empty()) {
-      const Shape& shape = body.shapes.front();
-      inertia = body.mass * (shape.kind == Shape::Kind::CIRCLE ? shape.radius * shape.radius / 2
-                                                               : dot(shape.half, shape.half) / 3);
-    }
+    const double inertia =
+        body.rotates && !body.shapes.empty() ? body.mass * inertiaOf(body.shapes.front()) : INFINITY;
     cpBody* made = body.motion == Motion::DYNAMIC     ? cpBodyNew(body.mass, inertia)
                    : body.motion == Motion::KINEMATIC ? cpBodyNewKinematic()
                                                       : cpBodyNewStatic();
@@ -150,5 +145,4 @@ const RegisteredMethod method({"chipmunk", "Chipmunk 7", "7.0.3", Method::Kind::
                                }});
 
 }  // namespace
-
 }  // namespace lab

@@ -3,7 +3,6 @@
 #include "Systems.h"
 
 namespace lab {
-
 namespace {
 
 constexpr Vec kThrown{3, 20};
@@ -17,9 +16,7 @@ Problem make() {
   problem.reference = "x₀ + v₀t + ½gt², in quad precision";
   problem.why = "Everything that is thrown flies like this; a fixed-step engine lands early by half a step.";
   Case flight;
-  Body body;
-  body.velocity = kThrown;
-  flight.scene.bodies = {body};
+  flight.scene.bodies = {point({}, kThrown)};
   flight.scene.gravity = {0, -kGravity};
   flight.scene.ticks = kTicks;
   Flight system;
@@ -28,17 +25,11 @@ Problem make() {
   flight.scene.equations = equationsOf(system);
   flight.metrics =
       pathMetrics(1e-12, 1e-16, "Box2D 0.042 m = 2.0e-3 (1/240 s), Chipmunk 0.167 m = 8.0e-3 (1/60 s)");
-  Path path;
-  for (int tick = 0; tick <= kTicks; ++tick) {
-    const Quad t = Quad(kTick) * tick;
-    path.push_back(
-        {static_cast<double>(kThrown.x * t), static_cast<double>(kThrown.y * t - kGravity * t * t / 2)});
-  }
-  const double scale = length({path.back()[0], path.back()[1]});
-  const Scene scene = flight.scene;
-  flight.judge = [scene, path, scale](const Trial& trial) {
-    return inOrder(compare(trial, scene, path, scale, [](const Simulation& s) { return positionOf(s, 0); }));
-  };
+  const Path path = pathOf(kTicks, [](Quad t) {
+    return std::vector<Quad>{kThrown.x * t, kThrown.y * t - kGravity * t * t / 2};
+  });
+  flight.judge = alongPath(flight.scene, path, length({path.back()[0], path.back()[1]}),
+                           [](const Simulation& s) { return positionOf(s); });
   problem.cases.push_back(flight);
   return problem;
 }
@@ -46,5 +37,4 @@ Problem make() {
 const RegisteredProblem problem("1", "ballistic", make);
 
 }  // namespace
-
 }  // namespace lab

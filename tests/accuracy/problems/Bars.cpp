@@ -7,7 +7,6 @@
 #include "shared/values/SplitMix64.h"
 
 namespace lab {
-
 namespace {
 
 constexpr Vec kBar{0.3, 0.05};  // half
@@ -66,8 +65,7 @@ bool isThrough(const Scene& scene, const BodyState& bar, const BodyState& target
 
 double energyOf(const Body& body, const BodyState& state) {
   if (body.motion != Motion::DYNAMIC) return 0;
-  const Vec half = body.shapes[0].half;
-  const double inertia = body.mass * dot(half, half) / 3;
+  const double inertia = body.mass * inertiaOf(body.shapes[0]);
   return 0.5 * (body.mass * dot(state.velocity, state.velocity) + inertia * state.spin * state.spin);
 }
 
@@ -130,5 +128,4 @@ Problem make() {
 const RegisteredProblem problem("21", "bars", make);
 
 }  // namespace
-
 }  // namespace lab

@@ -3,7 +3,6 @@
 #include <cmath>
 
 namespace lab {
-
 namespace {
 
 namespace heaps = bench::physics;
@@ -32,13 +31,6 @@ Body bodyOf(const heaps::Body& body) {
   return made;
 }
 
-bool isInRoom(const heaps::Room& room, const std::vector<heaps::Pose>& poses, const heaps::Pose& pose) {
-  if (room.frame == heaps::Hinge::kWorld) return room.contains(pose.x, pose.y);
-  const heaps::Pose& frame = poses[static_cast<std::size_t>(room.frame)];
-  const double dx = pose.x - frame.x, dy = pose.y - frame.y;
-  return room.contains(frame.cosine * dx + frame.sine * dy, frame.cosine * dy - frame.sine * dx);
-}
-
 }  // namespace
 
 Scene sceneOf(const heaps::Scene& scene) {
@@ -54,13 +46,14 @@ Scene sceneOf(const heaps::Scene& scene) {
   return made;
 }
 
+heaps::Pose poseOf(const BodyState& state) {
+  return {state.position.x, state.position.y, std::cos(state.angle), std::sin(state.angle)};
+}
+
 std::vector<heaps::Pose> posesOf(const heaps::Scene& scene, const Simulation& simulation) {
   std::vector<heaps::Pose> poses;
   poses.reserve(scene.bodies.size());
-  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
-    const BodyState state = simulation.body(i);
-    poses.push_back({state.position.x, state.position.y, std::cos(state.angle), std::sin(state.angle)});
-  }
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) poses.push_back(poseOf(simulation.body(i)));
   return poses;
 }
 
@@ -68,7 +61,7 @@ long countLost(const heaps::Scene& scene, const Simulation& simulation) {
   const std::vector<heaps::Pose> poses = posesOf(scene, simulation);
   long lost = simulation.frozen();
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (scene.bodies[i].motion == heaps::Motion::DYNAMIC && !isInRoom(scene.room, poses, poses[i])) ++lost;
+    if (scene.bodies[i].motion == heaps::Motion::DYNAMIC && !scene.room.holds(poses, poses[i])) ++lost;
   }
   return lost;
 }

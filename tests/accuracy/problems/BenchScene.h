@@ -12,6 +12,7 @@ namespace lab {
 
 Scene sceneOf(const bench::physics::Scene& scene);
 
+bench::physics::Pose poseOf(const BodyState& state);
 /// Where the bodies of the scene are.
 std::vector<bench::physics::Pose> posesOf(const bench::physics::Scene& scene, const Simulation& simulation);
 

@@ -2,7 +2,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kGravity = 10;
@@ -13,9 +12,7 @@ Scene ballOverGround(double height, double restitution, int ticks) {
   Scene scene;
   Body bouncing = ball({0, height + kRadius}, {0, 0}, kRadius);
   bouncing.restitution = restitution;
-  Body ground = wall({0, -5}, {50, 5});
-  ground.restitution = restitution;
-  scene.bodies = {bouncing, ground};
+  scene.bodies = {bouncing, ground(50, 0, restitution)};
   scene.gravity = {0, -kGravity};
   scene.ticks = ticks;
   return scene;
@@ -87,8 +84,7 @@ Problem makeBouncing() {
   problem.title = "Bouncing ball";
   problem.text =
       "A ball falls from 10 m and keeps 0.8 of its speed at each bounce; another falls from 5 m and keeps "
-      "all of "
-      "it, for 100 s.";
+      "all of it, for 100 s.";
   problem.reference =
       "peaks h e^(2k); it stops at √(2h/g) (1 + e)/(1 − e) = 12.7279 s, after infinitely many bounces";
   problem.why = "A ball that is to bounce for ever does, and one that is to stop stops when it should.";
@@ -130,5 +126,4 @@ const RegisteredProblem bouncing("7", "bounce", makeBouncing);
 const RegisteredProblem fast("15", "fast-bounce", makeFast);
 
 }  // namespace
-
 }  // namespace lab

@@ -5,7 +5,6 @@
 #include "Problem.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kMesh = 1;  // m
@@ -26,11 +25,8 @@ Scene clothOf(int side) {
   scene.ticks = 300;
   scene.cloths = {{side, side, kMesh, 1, 4500}};  // 5 cells a tick²
   for (int i = 0; i < side * side; ++i) {
-    Body node;
-    node.position = {kMesh * (i % side), -kMesh * (i / side)};
-    node.mass = 1.0 / (side * side);
-    if (i == 0 || i == side - 1) node.motion = Motion::FIXED;
-    scene.bodies.push_back(node);
+    scene.bodies.push_back(point({kMesh * (i % side), -kMesh * (i / side)}, {}, 1.0 / (side * side)));
+    if (i == 0 || i == side - 1) scene.bodies.back().motion = Motion::FIXED;
   }
   for (int i = 0; i < side * side; ++i) {
     const Vec at = scene.bodies[static_cast<std::size_t>(i)].position;
@@ -65,13 +61,11 @@ Problem makeCloths() {
   problem.title = "Cloths";
   problem.text =
       "Cloths of 25 × 25, 50 × 50 and 100 × 100 nodes with meshes of 1 m, held flat and hung by their two "
-      "upper "
-      "corners, fall for 10 s. For peers they are points on rods.";
+      "upper corners, fall for 10 s. For peers they are points on rods.";
   problem.reference = "no thread gets longer";
   problem.why =
       "A cloth is the stiffest thing that an author makes without thinking of it: the corners bear all of "
-      "its "
-      "weight, through threads of a ten-thousandth of it each.";
+      "its weight, through threads of a ten-thousandth of it each.";
   problem.cases = {cloth(25), cloth(50), cloth(100)};
   constexpr double kDearestTick = 60'000;  // µs
   problem.cases.back().tick_bound = {.base_us = kDearestTick, .each_us = 0};
@@ -81,5 +75,4 @@ Problem makeCloths() {
 const RegisteredProblem problem("28", "cloths", makeCloths);
 
 }  // namespace
-
 }  // namespace lab

@@ -5,7 +5,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kBalls = 5;
@@ -55,11 +54,7 @@ Case hungCradle() {
     const double angle = i == 0 ? -kAngle : 0;
     cradle.scene.bodies.push_back(
         elasticBall(pivot + Vec{kRod * std::sin(angle), -kRod * std::cos(angle)}, {0, 0}));
-    Joint rod;
-    rod.b = i;
-    rod.anchor_a = pivot;
-    rod.anchor_b = cradle.scene.bodies.back().position;
-    cradle.scene.joints.push_back(rod);
+    cradle.scene.joints.push_back(rod(-1, pivot, i, cradle.scene.bodies.back().position));
   }
   cradle.scene.gravity = {0, -kGravity};
   cradle.scene.ticks = 45;  // it meets the others after 1.13 s
@@ -85,8 +80,7 @@ Problem makeCradle() {
   problem.title = "Newton's cradle";
   problem.text =
       "Five equal balls touch each other on a line; the first comes with 5 m/s. Then the same hung on rods "
-      "of 5 m, "
-      "the first let go at 30°.";
+      "of 5 m, the first let go at 30°.";
   problem.reference = "0, 0, 0, 0, v: impacts one after another, the nearest first";
   problem.why =
       "Impacts at the same moment have an order, and a solver that averages them gets every ball moving.";
@@ -153,8 +147,7 @@ Problem makeGalperin() {
   problem.title = "Galperin's billiard";
   problem.text =
       "A box of 100^k kg pushes one of 1 kg towards a wall, without any loss. All collisions are counted, "
-      "those with "
-      "the wall too: 10 s.";
+      "those with the wall too: 10 s.";
   problem.reference = "⌈π / atan √(1/M)⌉ − 1 = 3, 31, 314, 3141, 31415";
   problem.why =
       "An exact count of impacts, up to 15,678 of them in one tick, shows that none is lost or made up.";
@@ -197,5 +190,4 @@ const RegisteredProblem oblique("8b", "billiard", makeBilliard);
 const RegisteredProblem galperin("8c", "galperin", makeGalperin);
 
 }  // namespace
-
 }  // namespace lab

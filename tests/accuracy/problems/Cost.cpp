@@ -9,7 +9,6 @@
 #include "tests/support/RunProgram.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kBodies = 1000;
@@ -35,10 +34,7 @@ Case layer(const std::string& name, const std::string& label, void (*dress)(Scen
   Case bodies;
   bodies.name = name;
   for (int i = 0; i < kBodies; ++i) {
-    Body body;
-    body.position = {kApart * (i % kRow), kApart * (i / kRow)};
-    body.velocity = {0.01, 0.02};
-    bodies.scene.bodies.push_back(body);
+    bodies.scene.bodies.push_back(point({kApart * (i % kRow), kApart * (i / kRow)}, {0.01, 0.02}));
   }
   bodies.scene.ticks = kTicks;
   dress(bodies.scene);
@@ -87,8 +83,7 @@ Problem make() {
   problem.title = "What a body costs";
   problem.text =
       "1000 bodies 3 m apart, one step a tick, after 30 ticks: nanoseconds (the median of five times 20 "
-      "ticks) and "
-      "instructions (counted by valgrind, the same in every run) per body and tick.";
+      "ticks) and instructions (counted by valgrind, the same in every run) per body and tick.";
   problem.reference = "none: this is cost";
   problem.kind = Problem::Kind::COST;
   problem.cases = {
@@ -118,11 +113,8 @@ Problem make() {
             [](Scene& scene) {
               for (int i = 0; i < kBodies; ++i) {
                 const Vec at = scene.bodies[static_cast<std::size_t>(i)].position;
-                Joint spring{Joint::Kind::SPRING, -1, i, at - Vec{1, 0}, at};
-                spring.stiffness = 10;
-                spring.damping = 1;
-                spring.rest_length = 1;
-                scene.joints.push_back(spring);
+                scene.joints.push_back(spring(-1, at - Vec{1, 0}, i, at, 10));
+                scene.joints.back().damping = 1;
               }
             }),
       layer("pendulum", "on a rod to a point",
@@ -151,5 +143,4 @@ Problem make() {
 const RegisteredProblem problem("cost", "layers", make);
 
 }  // namespace
-
 }  // namespace lab

@@ -7,7 +7,6 @@
 #include "shared/values/SplitMix64.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kRadius = 0.5;
@@ -86,10 +85,8 @@ Problem make() {
   problem.title = "Crowds that hear";
   problem.text =
       "SOFT bodies, which nothing pushes: 1024 circles of 1 m that lie 3 m apart, and 50, 100, 200 and 400 "
-      "of "
-      "them of which each overlaps every other one; 60 ticks. Time is held against that of the same bodies "
-      "when "
-      "they are HARD, and against 100 ns a pair. For the product alone.";
+      "of them of which each overlaps every other one; 60 ticks. Time is held against that of the same "
+      "bodies when they are HARD, and against 100 ns a pair. For the product alone.";
   problem.reference = "each pair that overlaps is heard of once; in the first tick, which is the worst";
   problem.why = "Sensors, clouds and triggers lie in one another by hundreds, and must not cost a tick.";
   problem.cases = {hardApart(32), apart(32), together(50), together(100), together(200), together(400)};
@@ -99,5 +96,4 @@ Problem make() {
 const RegisteredProblem problem("24", "crowds", make);
 
 }  // namespace
-
 }  // namespace lab

@@ -6,7 +6,6 @@
 #include "shared/values/SplitMix64.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kTicks = 60;
@@ -70,10 +69,8 @@ Case objects(int count, bool is_hard) {
   scene.blocks = is_hard;
   scene.hearing = !is_hard;
   for (int i = 0; i < count; ++i) {
-    Body object;
-    object.position = somewhere(random);
-    object.velocity = kFastest * (somewhere(random) - Vec{0.5, 0.5});
-    scene.bodies.push_back(object);
+    const Vec position = somewhere(random);
+    scene.bodies.push_back(point(position, kFastest * (somewhere(random) - Vec{0.5, 0.5})));
   }
   const std::string kind = is_hard ? "HARD" : "SOFT";
   Case crowd = crush("objects" + std::to_string(count) + (is_hard ? "_hard" : "_soft"),
@@ -99,8 +96,7 @@ Problem makeCrush() {
   problem.reference = "every one goes on; what is asked is the time, of the first tick, too";
   problem.why =
       "A bug of a game that makes its objects all in the same place must show as a crowd, not as a server "
-      "that "
-      "hangs.";
+      "that hangs.";
   problem.cases = {objects(1000, true), objects(1000, false), objects(10'000, true), objects(10'000, false),
                    boxes(1000),         circles(1000),        circles(5000),         sizes(5000)};
   return problem;
@@ -109,5 +105,4 @@ Problem makeCrush() {
 const RegisteredProblem problem("29", "crush", makeCrush);
 
 }  // namespace
-
 }  // namespace lab

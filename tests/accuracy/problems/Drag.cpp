@@ -3,7 +3,6 @@
 #include "Systems.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kTicks = 60;
@@ -17,27 +16,20 @@ Case linear() {
   Case gliding;
   gliding.name = "linear";
   gliding.label = "linear drag";
-  Body body;
-  body.velocity = {kStart, 0};
-  body.linear_drag = kLinear;
-  gliding.scene.bodies = {body};
+  gliding.scene.bodies = {point({}, {kStart, 0})};
+  gliding.scene.bodies[0].linear_drag = kLinear;
   gliding.scene.ticks = kTicks;
   Flight system;
-  system.velocity = body.velocity;
+  system.velocity = {kStart, 0};
   system.linear = kLinear;
   gliding.scene.equations = equationsOf(system);
   gliding.metrics =
       pathMetrics(1e-12, 1e-16, "Box2D 1.5e-3 (1/240 s), Chipmunk 8.2e-2 (1/60 s); in m, of 4.9 m");
-  Path path;
-  for (int tick = 0; tick <= kTicks; ++tick) {
-    const Quad t = Quad(kTick) * tick;
-    path.push_back({static_cast<double>(kStart / Quad(kLinear) * (1 - exp(-kLinear * t))), 0});
-  }
-  const Scene scene = gliding.scene;
-  const double scale = path.back()[0];
-  gliding.judge = [scene, path, scale](const Trial& trial) {
-    return inOrder(compare(trial, scene, path, scale, [](const Simulation& s) { return positionOf(s, 0); }));
-  };
+  const Path path = pathOf(kTicks, [](Quad t) {
+    return std::vector<Quad>{kStart / Quad(kLinear) * (1 - exp(-kLinear * t)), 0};
+  });
+  gliding.judge =
+      alongPath(gliding.scene, path, path.back()[0], [](const Simulation& s) { return positionOf(s); });
   return gliding;
 }
 
@@ -57,22 +49,15 @@ Case quadratic() {
   falling.scene.equations = equationsOf(system);
   falling.metrics = pathMetrics(1e-8, 1e-16);
   // Both where it is and how fast, each in its own scale.
-  Path path;
-  for (int tick = 0; tick <= kTicks; ++tick) {
-    const Quad t = Quad(kTick) * tick;
+  const Path path = pathOf(kTicks, [](Quad t) {
     const Quad s = Quad(kGravity) * t / kTerminal;
     const Quad log_cosh = s + log((1 + exp(-2 * s)) / 2);
-    path.push_back(
-        {static_cast<double>(-Quad(kTerminal) / kGravity * log_cosh), static_cast<double>(-tanh(s))});
-  }
-  const Scene scene = falling.scene;
-  const double scale = std::abs(path.back()[0]);
-  falling.judge = [scene, path, scale](const Trial& trial) {
-    return inOrder(compare(trial, scene, path, scale, [](const Simulation& s) {
-      const BodyState state = s.body(0);
-      return std::vector<double>{state.position.y / kTerminal, state.velocity.y / kTerminal};
-    }));
-  };
+    return std::vector<Quad>{-Quad(kTerminal) / kGravity * log_cosh, -tanh(s)};
+  });
+  falling.judge = alongPath(falling.scene, path, std::abs(path.back()[0]), [](const Simulation& s) {
+    const BodyState state = s.body(0);
+    return std::vector<double>{state.position.y / kTerminal, state.velocity.y / kTerminal};
+  });
   return falling;
 }
 
@@ -81,8 +66,7 @@ Problem make() {
   problem.title = "Drag";
   problem.text =
       "Linear: 1 kg slides from 10 m/s for 2 s with 2 kg/s of drag. Quadratic: 1 kg falls from rest for 2 s "
-      "with "
-      "a terminal speed of 5 m/s.";
+      "with a terminal speed of 5 m/s.";
   problem.reference = "(v₀/c)(1 − e^(−ct)); (v_t²/g) ln cosh(gt/v_t) and v_t tanh(gt/v_t), in quad precision";
   problem.why =
       "Anything that slows down, from a leaf to a car. The closed form costs no more than a step, and is "
@@ -94,5 +78,4 @@ Problem make() {
 const RegisteredProblem problem("2", "drag", make);
 
 }  // namespace
-
 }  // namespace lab

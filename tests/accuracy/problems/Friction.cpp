@@ -5,7 +5,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kFriction = 0.5;
@@ -90,8 +89,7 @@ Problem makeFriction() {
   problem.title = "Friction";
   problem.text =
       "A crate of 1 × 0.5 m with µ = 0.5: from which angle it slides (bisection, 4 s each); how far it "
-      "slides in 2 s "
-      "at 40°; how far it gets on a floor from 10 m/s.";
+      "slides in 2 s at 40°; how far it gets on a floor from 10 m/s.";
   problem.reference = "atan µ = 26.565°; g(sin θ − µ cos θ); v²/2µg";
   problem.why = "A crate begins to slide at the angle that its friction says, and stops where it should.";
   problem.cases = {threshold(), sliding(), stopping()};
@@ -127,5 +125,4 @@ const RegisteredProblem friction("12", "friction", makeFriction);
 const RegisteredProblem rolling("13", "rolling", makeRolling);
 
 }  // namespace
-
 }  // namespace lab

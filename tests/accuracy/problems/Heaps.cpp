@@ -12,7 +12,6 @@
 #include "physics/Scenes.h"
 
 namespace lab {
-
 namespace {
 
 namespace heaps = bench::physics;
@@ -91,13 +90,10 @@ Problem makeHeaps() {
   problem.title = "Heaps beside Box2D";
   problem.text =
       "A pyramid of 60 rows (1,830 boxes of 1 m) and a hundred of 10 rows, all touching exactly at the "
-      "start, 14 "
-      "ticks; 500 boxes of 0.25 m in a drum of 19 m that turns by 25° a second, 5 s; 2,000 and 20,000 "
-      "circles "
-      "and boxes that fall between two walls, 100 and 40 ticks; a box of 8 m that comes with 40 m/s into "
-      "2,400 "
-      "boxes of 0.4 m, 100 ticks. Friction 0.6. What rests may sleep, in each engine as it does by default. "
-      "Every tick counts, from the first.";
+      "start, 14 ticks; 500 boxes of 0.25 m in a drum of 19 m that turns by 25° a second, 5 s; 2,000 and "
+      "20,000 circles and boxes that fall between two walls, 100 and 40 ticks; a box of 8 m that comes with "
+      "40 m/s into 2,400 boxes of 0.4 m, 100 ticks. Friction 0.6. What rests may sleep, in each engine as "
+      "it does by default. Every tick counts, from the first.";
   problem.reference =
       "nothing overlaps: after each tenth tick the deepest overlap of all pairs, and the mean of these looks";
   problem.why =
@@ -185,8 +181,7 @@ Problem makeStanding() {
   problem.title = "Pyramids that stand";
   problem.text =
       "Pyramids of 20, 30 and 60 rows of boxes of 1 m that touch exactly at the start, friction 0.6, 10 s. "
-      "What "
-      "rests may sleep.";
+      "What rests may sleep.";
   problem.reference = "nothing moves: the top stays where it is, and after 5 s all of them sleep";
   problem.why =
       "What stands must come to rest, or it costs its full price for ever, and sends bytes to every player.";
@@ -198,5 +193,4 @@ const RegisteredProblem falling("25", "heaps", makeHeaps);
 const RegisteredProblem pyramids("26", "pyramids", makeStanding);
 
 }  // namespace
-
 }  // namespace lab

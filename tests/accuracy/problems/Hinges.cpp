@@ -9,7 +9,6 @@
 #include "physics/Scenes.h"
 
 namespace lab {
-
 namespace {
 
 namespace heaps = bench::physics;
@@ -77,11 +76,9 @@ Problem makeHinges() {
   problem.title = "Chains and nets on hinges";
   problem.text =
       "20 links of 1 × 0.25 m, hinged end to end and to the world, with a box of 100 times a link's mass at "
-      "the "
-      "free end, which falls from rest, 10 s; and a net of 100 × 100 discs that are hinged to their "
-      "neighbours "
-      "(19,800 hinges), of which seven in the middle of the top row are fixed, 1 s and 10 s. Nothing "
-      "touches.";
+      "the free end, which falls from rest, 10 s; and a net of 100 × 100 discs that are hinged to their "
+      "neighbours (19,800 hinges), of which seven in the middle of the top row are fixed, 1 s and 10 s. "
+      "Nothing touches.";
   problem.reference = "the two points that a hinge holds together stay together";
   problem.why =
       "A bridge, a chain and a net are what an author builds first with joints. The chain is what a direct "
@@ -100,5 +97,4 @@ Problem makeHinges() {
 const RegisteredProblem problem("27", "hinges", makeHinges);
 
 }  // namespace
-
 }  // namespace lab

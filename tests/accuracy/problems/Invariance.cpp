@@ -6,20 +6,13 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 Scene farScene(double distance) {
   constexpr int kTicks = 150;
   Scene scene;
-  Body slow;
-  slow.position = {0, 10};
-  slow.velocity = {1, 0.3};
-  Body bouncing = ball({5, 5}, {0.5, 0}, 0.5);
-  bouncing.restitution = 0.8;
-  Body ground = wall({0, -5}, {50, 5});
-  ground.restitution = 0.8;
-  scene.bodies = {slow, bouncing, ground};
+  scene.bodies = {point({0, 10}, {1, 0.3}), ball({5, 5}, {0.5, 0}, 0.5), ground(50, 0, 0.8)};
+  scene.bodies[1].restitution = 0.8;
   scene.field = [](double, const BodyState& state) { return state.position.y > 8 ? Vec{} : Vec{0, -10}; };
   scene.origin = {distance, -distance};
   scene.ticks = kTicks;
@@ -137,5 +130,4 @@ const RegisteredProblem distant("16", "far", makeFar);
 const RegisteredProblem closed("17", "closed", makeClosed);
 
 }  // namespace
-
 }  // namespace lab

@@ -6,7 +6,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kFar = 2000;  // m between the groups
@@ -19,28 +18,20 @@ enum class Held { ROD, SPRING, NOTHING };
 void addPair(Scene& scene, Held held, Vec at, Vec velocity) {
   const int first = static_cast<int>(scene.bodies.size());
   for (int i = 0; i < 2; ++i) {
-    Body made = box(at + Vec{1.5 * i, 0.1 * i}, kHalf);
-    made.rotates = true;
-    made.friction = 0.6;
+    Body made = crate(at + Vec{1.5 * i, 0.1 * i}, kHalf, 0.6);
     made.velocity = velocity;
     made.spin = i;
     scene.bodies.push_back(made);
   }
   if (held == Held::NOTHING) return;
   const Vec from = at + Vec{0.5, 0}, to = at + Vec{1, 0.1};
-  Joint joint = rod(first, from, first + 1, to);
-  if (held == Held::SPRING) {
-    joint.kind = Joint::Kind::SPRING;
-    joint.stiffness = 300;
-    joint.rest_length = std::sqrt(dot(to - from, to - from));
-  }
-  scene.joints.push_back(joint);
+  scene.joints.push_back(held == Held::SPRING ? spring(first, from, first + 1, to, 300)
+                                              : rod(first, from, first + 1, to));
 }
 
 void addFloor(Scene& scene, double x) {
-  Body ground = wall({x, -5}, {100, 5});
-  ground.friction = 0.6;
-  scene.bodies.push_back(ground);
+  scene.bodies.push_back(ground(100, 0.6));
+  scene.bodies.back().position.x = x;
 }
 
 Scene alone(Held held) {
@@ -113,5 +104,4 @@ Problem make() {
 const RegisteredProblem problem("23", "isolation", make);
 
 }  // namespace
-
 }  // namespace lab

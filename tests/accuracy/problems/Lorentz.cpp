@@ -6,7 +6,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kSpeed = 3;   // m/s: a tenth of a cell a tick
@@ -99,5 +98,4 @@ Problem make() {
 const RegisteredProblem problem("22", "lorentz", make);
 
 }  // namespace
-
 }  // namespace lab

@@ -1,4 +1,4 @@
-// 19, 20: bodies that meet in a point or touch from the start, and that stand a little to the side.
+// 19: bodies that meet in a point or touch from the start.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,6 @@
 #include "shared/values/SplitMix64.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kHalf = 0.5;    // of a box's sides
@@ -104,10 +103,8 @@ Problem makeMeetings() {
   problem.title = "Many that meet at once";
   problem.text =
       "Four boxes that meet in a point, 150 from a circle of 30 m, blocks of 2 × 2 and 3 × 3 boxes that "
-      "touch and "
-      "have velocities of their own, and 100 circles in a row that touch, of 1 to 10⁴ kg, the first at 3 m/s "
-      "and "
-      "e = 1. No gravity, and boxes do not turn.";
+      "touch and have velocities of their own, and 100 circles in a row that touch, of 1 to 10⁴ kg, the "
+      "first at 3 m/s and e = 1. No gravity, and boxes do not turn.";
   problem.reference = "momentum stays, and no impact gives energy";
   problem.why =
       "Four crates that meet in a corner are the first thing that happens in a game; no tick may take a "
@@ -123,57 +120,7 @@ Problem makeMeetings() {
   return problem;
 }
 
-Case offset(int boxes, const char* peers) {
-  constexpr double kShift = 0.025;  // m
-  constexpr double kFriction = 0.6;
-  Case standing;
-  standing.name = std::to_string(boxes);
-  standing.scene.gravity = {0, -10};
-  standing.scene.ticks = 300;
-  standing.most_substeps = 16;
-  standing.draws_levels = true;
-  standing.label = std::to_string(boxes) + " crates";
-  Body ground = wall({0, -5}, {100, 5});
-  ground.friction = kFriction;
-  standing.scene.bodies = {ground};
-  for (int i = 0; i < boxes; ++i) {
-    Body made = box({i % 2 == 0 ? kShift : -kShift, kHalf + i}, {kHalf, kHalf});
-    made.friction = kFriction;
-    made.rotates = true;
-    standing.scene.bodies.push_back(made);
-  }
-  standing.metrics = {{"sag_m", "largest error of a height over 10 s, m", 0.05, 1e-15, peers}};
-  standing.judge = [scene = standing.scene](const Trial& trial) {
-    double sag = 0;
-    trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
-      for (int i = 1; i < static_cast<int>(scene.bodies.size()); ++i) {
-        const double from = scene.bodies[static_cast<std::size_t>(i)].position.y;
-        sag = std::max(sag, std::abs(simulation.body(i).position.y - from));
-      }
-      if (sag > 0.5) throw Failure("collapsed");
-    });
-    return std::vector<double>{sag};
-  };
-  return standing;
-}
-
-Problem makeOffset() {
-  Problem problem;
-  problem.title = "A stack to both sides";
-  problem.text =
-      "20, 40 and 60 crates of 1 m on each other, in turn 0.025 m to the left and to the right, friction "
-      "0.6, 10 s.";
-  problem.reference = "nothing moves";
-  problem.why = "Stacks are never exact; small offsets add up to a lever of the whole height.";
-  problem.cases = {offset(20, "Box2D ×4 .076, Chipmunk ×4 .036"),
-                   offset(40, "both collapse ×4; Box2D ×8 .092, Chipmunk ×8 .032"),
-                   offset(60, "both collapse ×4; Box2D ×8 .15")};
-  return problem;
-}
-
 const RegisteredProblem meetings("19", "meetings", makeMeetings);
-const RegisteredProblem offsets("20", "offset-stack", makeOffset);
 
 }  // namespace
-
 }  // namespace lab

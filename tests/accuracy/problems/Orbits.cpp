@@ -5,7 +5,6 @@
 #include "Systems.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kOrbits = 20;
@@ -40,10 +39,7 @@ Case kepler() {
   system.mu = keplerMu();
   system.eccentricity = kEccentricity;
   const std::vector<double> start = system.start();
-  Body planet;
-  planet.position = {start[0], start[1]};
-  planet.velocity = {start[2], start[3]};
-  orbit.scene.bodies = {planet};
+  orbit.scene.bodies = {point({start[0], start[1]}, {start[2], start[3]})};
   orbit.scene.ticks = kOrbits * kTicksPerOrbit;
   orbit.scene.equations = equationsOf(system);
   orbit.scene.field = [mu = system.mu](double, const BodyState& state) {
@@ -76,21 +72,8 @@ Case doublePendulum() {
   Case swing;
   swing.name = "double_pendulum";
   swing.label = "double pendulum";
-  Body upper;
-  upper.position = {1, 0};
-  Body lower;
-  lower.position = {2, 0};
-  Joint first;
-  first.a = -1;
-  first.b = 0;
-  first.anchor_b = upper.position;
-  Joint second;
-  second.a = 0;
-  second.b = 1;
-  second.anchor_a = upper.position;
-  second.anchor_b = lower.position;
-  swing.scene.bodies = {upper, lower};
-  swing.scene.joints = {first, second};
+  swing.scene.bodies = {point({1, 0}), point({2, 0})};
+  swing.scene.joints = {rod(-1, {0, 0}, 0, {1, 0}), rod(0, {1, 0}, 1, {2, 0})};
   swing.scene.gravity = {0, -kGravity};
   swing.scene.ticks = kPendulumTicks;
   DoublePendulum system;
@@ -122,10 +105,8 @@ Problem make() {
   problem.title = "Kepler's ellipse and the double pendulum";
   problem.text =
       "A planet with e = 0.6, 20 orbits of 500 ticks: 8 sub-steps of a method with 4 force evaluations are "
-      "16,000 "
-      "evaluations an orbit. Two points of 1 kg on rods of 1 m, both horizontal at the start, 5 s (after "
-      "that the "
-      "motion is chaos).";
+      "16,000 evaluations an orbit. Two points of 1 kg on rods of 1 m, both horizontal at the start, 5 s "
+      "(after that the motion is chaos).";
   problem.reference =
       "Kepler's equation in quad precision; extrapolation in quad precision, agreeing with CVODE";
   problem.why =
@@ -137,5 +118,4 @@ Problem make() {
 const RegisteredProblem problem("6", "orbits", make);
 
 }  // namespace
-
 }  // namespace lab

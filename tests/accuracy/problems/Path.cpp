@@ -5,8 +5,17 @@
 
 namespace lab {
 
+Path pathOf(int ticks, const std::function<std::vector<Quad>(Quad t)>& place) {
+  Path path;
+  for (int tick = 0; tick <= ticks; ++tick) {
+    const std::vector<Quad> exact = place(Quad(kTick) * tick);
+    path.emplace_back(exact.begin(), exact.end());
+  }
+  return path;
+}
+
 PathErrors compare(const Trial& trial, const Scene& scene, const Path& reference, double scale,
-                   const std::function<std::vector<double>(const Simulation&)>& read) {
+                   const Read& read) {
   PathErrors errors;
   double squares = 0;
   trial.run(scene, [&](int tick, const Simulation& simulation) {
@@ -41,6 +50,11 @@ std::vector<Metric> pathMetrics(double target, double floor, const std::string& 
 
 std::vector<double> inOrder(const PathErrors& errors) {
   return {errors.end, errors.sup, errors.l2};
+}
+
+std::function<std::vector<double>(const Trial&)> alongPath(const Scene& scene, const Path& path, double scale,
+                                                           const Read& read) {
+  return [=](const Trial& trial) { return inOrder(compare(trial, scene, path, scale, read)); };
 }
 
 std::string power(double value) {

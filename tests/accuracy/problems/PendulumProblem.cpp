@@ -5,7 +5,6 @@
 #include "Systems.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kTicks = 1800;
@@ -94,20 +93,14 @@ Problem make() {
   problem.title = "Pendulum";
   problem.text =
       "A point on a rod of 1 m starts at 90° and swings for 60 s under 10 m/s². The textbook methods solve "
-      "for its "
-      "angle and cannot stretch the rod; engines have a joint. The period is the mean over the run, zeros "
-      "found by "
-      "quintic interpolation between ticks.";
+      "for its angle and cannot stretch the rod; engines have a joint. The period is the mean over the run, "
+      "zeros found by quintic interpolation between ticks.";
   problem.reference =
       "4√(L/g) K(sin θ₀/2) by the arithmetic-geometric mean in quad precision; energy and length stay";
   problem.why = "A lamp on a chain must not come to rest by itself, and must cost little.";
   Case swing;
-  Body bob;
-  bob.position = {1, 0};
-  swing.scene.bodies = {bob};
-  Joint rod;
-  rod.anchor_b = bob.position;
-  swing.scene.joints = {rod};
+  swing.scene.bodies = {point({1, 0})};
+  swing.scene.joints = {rod(-1, {0, 0}, 0, {1, 0})};
   swing.scene.gravity = {0, -kGravity};
   swing.scene.ticks = kTicks;
   Pendulum system;
@@ -126,5 +119,4 @@ Problem make() {
 const RegisteredProblem problem("5", "pendulum", make);
 
 }  // namespace
-
 }  // namespace lab

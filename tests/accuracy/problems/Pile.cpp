@@ -1,14 +1,16 @@
 // 10b: general piles. A pyramid that stands, and a drum full of boxes that turns.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "Path.h"
+#include "BenchScene.h"
+#include "Problem.h"
+#include "physics/Overlap.h"
 
 namespace lab {
-
 namespace {
+
+namespace heaps = bench::physics;
 
 constexpr double kFriction = 0.5;
 constexpr int kTicks = 300;  // 10 s
@@ -20,56 +22,24 @@ constexpr double kDrum = 10;    // from its centre to the middle of each wall
 constexpr int kFallen = 30;     // ticks until the boxes in the drum have met
 constexpr double kOut = 16;     // m from its centre: a box that got out
 
-Vec along(double angle) {
-  return {std::cos(angle), std::sin(angle)};
-}
-
-// How deep one square overlaps another: the least of what the four directions of their sides say, 0 if they
-// are apart.
-double overlap(const BodyState& a, const BodyState& b, double half) {
-  const Vec between = b.position - a.position;
-  if (dot(between, between) > 8 * half * half) return 0;
-  double least = 4 * half;
-  for (const double angle :
-       {a.angle, a.angle + std::numbers::pi / 2, b.angle, b.angle + std::numbers::pi / 2}) {
-    const Vec axis = along(angle);
-    const auto reach = [&](double own) {
-      return half *
-             (std::abs(dot(axis, along(own))) + std::abs(dot(axis, along(own + std::numbers::pi / 2))));
-    };
-    least = std::min(least, reach(a.angle) + reach(b.angle) - std::abs(dot(axis, between)));
-  }
-  return std::max(least, 0.0);
-}
-
-// Of all bodies but the first.
+// How deep one square overlaps another at most, of all bodies but the first.
 double deepest(const Simulation& simulation, int count, double half) {
-  std::vector<BodyState> states;
-  for (int i = 1; i < count; ++i) states.push_back(simulation.body(i));
-  double most = 0;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) most = std::max(most, overlap(states[i], states[j], half));
-  }
-  return most;
-}
-
-Body crate(Vec position, double half) {
-  Body made = box(position, {half, half});
-  made.friction = kFriction;
-  made.rotates = true;
-  return made;
+  heaps::Body square;
+  square.parts = {{.half_width = half, .half_height = half}};
+  std::vector<heaps::Pose> poses;
+  for (int i = 1; i < count; ++i) poses.push_back(poseOf(simulation.body(i)));
+  return heaps::deepestOverlap(std::vector<heaps::Body>(poses.size(), square), poses);
 }
 
 Case pyramid() {
   Case standing;
   standing.name = "pyramid";
   standing.label = "a pyramid of 30 rows";
-  Body ground = wall({0, -5}, {100, 5});
-  ground.friction = kFriction;
-  standing.scene.bodies = {ground};
+  standing.scene.bodies = {ground(100, kFriction)};
   for (int row = 0; row < kRows; ++row) {
     for (int i = 0; i < kRows - row; ++i) {
-      standing.scene.bodies.push_back(crate({1.1 * (i - 0.5 * (kRows - row - 1)), kCrate + row}, kCrate));
+      const Vec place{1.1 * (i - 0.5 * (kRows - row - 1)), kCrate + row};
+      standing.scene.bodies.push_back(crate(place, {kCrate, kCrate}, kFriction));
     }
   }
   standing.scene.gravity = {0, -10};
@@ -109,7 +79,8 @@ Case tumbler() {
                  {Shape::Kind::BOX, 0, tall, {-kDrum, 0}}};
   turning.scene.bodies = {drum};
   for (int i = 0; i < kBoxes; ++i) {
-    turning.scene.bodies.push_back(crate({0.35 * (i % 25 - 12), -0.35 * (i / 25 - 10)}, kBox));
+    const Vec place{0.35 * (i % 25 - 12), -0.35 * (i / 25 - 10)};
+    turning.scene.bodies.push_back(crate(place, {kBox, kBox}, kFriction));
   }
   turning.scene.gravity = {0, -10};
   turning.scene.ticks = kTicks;
@@ -144,8 +115,7 @@ Problem makePile() {
   problem.title = "Piles";
   problem.text =
       "A pyramid of 30 rows of crates of 1 m (465), 0.1 m apart within a row; and 500 boxes of 0.25 m in a "
-      "square "
-      "drum of 20 m that turns once in 20 s. Friction 0.5, 10 s; nothing sleeps.";
+      "square drum of 20 m that turns once in 20 s. Friction 0.5, 10 s; nothing sleeps.";
   problem.reference = "nothing overlaps, and a pyramid stays where it is";
   problem.why =
       "General piles, in which contacts come and go: the error against Box2D's at its time, with nothing "
@@ -157,5 +127,4 @@ Problem makePile() {
 const RegisteredProblem problem("10b", "pile", makePile);
 
 }  // namespace
-
 }  // namespace lab

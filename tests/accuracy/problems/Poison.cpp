@@ -6,7 +6,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kTicks = 60;
@@ -16,15 +15,8 @@ constexpr double kGravity = 10;
 // A pile that minds its own business.
 Scene pile() {
   Scene scene;
-  for (int i = 0; i < kPile; ++i) {
-    Body crate = box({0, 0.5 + i}, {0.5, 0.5});
-    crate.friction = 0.5;
-    crate.rotates = true;
-    scene.bodies.push_back(crate);
-  }
-  Body ground = wall({0, -5}, {50, 5});
-  ground.friction = 0.5;
-  scene.bodies.push_back(ground);
+  for (int i = 0; i < kPile; ++i) scene.bodies.push_back(crate({0, 0.5 + i}, {0.5, 0.5}, 0.5));
+  scene.bodies.push_back(ground(50, 0.5));
   scene.gravity = {0, -kGravity};
   scene.ticks = kTicks;
   return scene;
@@ -89,8 +81,7 @@ Problem make() {
   problem.title = "Bad numbers";
   problem.text =
       "A ball 20 m from a pile of 5 crates has a position, velocity, mass or size that no ball can have. A "
-      "crash or an "
-      "endless loop is a failure.";
+      "crash or an endless loop is a failure.";
   problem.reference = "the pile without that ball";
   problem.why = "A game's mistake may cost the object that it was made with, and no other.";
   Body good = ball({20, 5}, {-1, 0}, 0.5);
@@ -119,5 +110,4 @@ Problem make() {
 const RegisteredProblem problem("18", "bad-numbers", make);
 
 }  // namespace
-
 }  // namespace lab

@@ -4,7 +4,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kGravity = 10;
@@ -18,11 +17,8 @@ Case rope(double ratio) {
   swinging.draws_levels = true;
   Scene& scene = swinging.scene;
   for (int i = 0; i < kLinks; ++i) {
-    Body point;
-    point.position = {kLink * (i + 1), 0};
-    point.mass = i == kLinks - 1 ? ratio : 1;
-    scene.bodies.push_back(point);
-    scene.joints.push_back(rod(i - 1, {kLink * i, 0}, i, point.position));
+    scene.bodies.push_back(point({kLink * (i + 1), 0}, {}, i == kLinks - 1 ? ratio : 1));
+    scene.joints.push_back(rod(i - 1, {kLink * i, 0}, i, {kLink * (i + 1), 0}));
   }
   scene.gravity = {0, -kGravity};
   scene.ticks = 300;
@@ -73,9 +69,8 @@ Problem makeMap() {
   Problem problem;
   problem.title = "What stays bounded: a rope's end mass × step";
   problem.text =
-      "The rope of problem 11. A cell is the largest relative stretch of a link over 10 s, in tenths: from 1 "
-      "on it "
-      "is a rubber band.";
+      "The rope of problem 11. A cell is the largest relative stretch of a link over 10 s, in tenths: from "
+      "1 on it is a rubber band.";
   problem.reference = "links keep their length";
   problem.kind = Problem::Kind::MAP;
   for (double ratio = 1; ratio < 2e6; ratio *= 10) {
@@ -95,5 +90,4 @@ const RegisteredProblem rope_problem("11", "rope", makeRope);
 const RegisteredProblem map("map-rope", "rope-map", makeMap);
 
 }  // namespace
-
 }  // namespace lab

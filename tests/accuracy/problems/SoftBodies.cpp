@@ -6,7 +6,6 @@
 #include "Real.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kGravity = 10;
@@ -38,12 +37,9 @@ Case catenary(int links) {
     return Vec{kSpan / 2 * (part - 1), -depth * std::min(part, 2 - part)};
   };
   for (int i = 1; i < links; ++i) {
-    Body point;
-    point.position = place(i);
-    point.mass = kLength / links;
-    point.linear_drag = kDrag * point.mass;
-    scene.bodies.push_back(point);
-    scene.joints.push_back(rod(i - 2, place(i - 1), i - 1, point.position));
+    scene.bodies.push_back(point(place(i), {}, kLength / links));
+    scene.bodies.back().linear_drag = kDrag * kLength / links;
+    scene.joints.push_back(rod(i - 2, place(i - 1), i - 1, place(i)));
   }
   scene.joints.push_back(rod(links - 2, place(links - 1), -1, place(links)));
   scene.gravity = {0, -kGravity};
@@ -161,9 +157,8 @@ Problem makeSoft() {
   problem.title = "Catenary and cantilever";
   problem.text =
       "A chain of 16, 32 and 64 rigid links, 12 m long, hangs between points 10 m apart: after 20 s with "
-      "drag it is at "
-      "rest. A beam of 10 m, clamped at one end, is bent by a force at the other, and swings if nothing "
-      "damps it.";
+      "drag it is at rest. A beam of 10 m, clamped at one end, is bent by a force at the other, and swings "
+      "if nothing damps it.";
   problem.reference =
       "a cosh(x/a), which the chain approaches with (1/links)²; FL³/3EI; the first root of cos β cosh β = −1";
   problem.why = "Soft bodies have a right shape, too, and must come nearer to it with more nodes.";
@@ -175,5 +170,4 @@ Problem makeSoft() {
 const RegisteredProblem soft_problem("11b", "soft", makeSoft);
 
 }  // namespace
-
 }  // namespace lab

@@ -1,10 +1,8 @@
 // 3: an undamped spring.
-#include "Path.h"
 #include "Problem.h"
 #include "SpringScene.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kRest = 10;
@@ -21,8 +19,7 @@ Case oscillator(int hertz, const std::string& peers) {
   spring.scene = springScene(system, 30 * kPeriods / hertz);
   spring.metrics = {{"amplitude", "|amplitude left − 1| after 10 periods", 1e-12, 1e-15, peers},
                     {"phase_rad", "phase error after 10 periods, rad", 1e-12, 1e-14, ""}};
-  const Scene scene = spring.scene;
-  spring.judge = [scene, omega](const Trial& trial) {
+  spring.judge = [scene = spring.scene, omega](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
     const auto coordinates = end->coordinates();
     const BodyState state = end->body(0);
@@ -49,5 +46,4 @@ Problem make() {
 const RegisteredProblem problem("3", "spring", make);
 
 }  // namespace
-
 }  // namespace lab

@@ -4,16 +4,11 @@ namespace lab {
 
 Scene springScene(const SpringLine& system, int ticks) {
   Scene scene;
-  Body body;
-  body.position = (system.rest_length + system.offset) * system.direction;
-  scene.bodies = {body};
-  Joint spring;
-  spring.kind = Joint::Kind::SPRING;
-  spring.anchor_b = body.position;
-  spring.stiffness = system.stiffness;
-  spring.damping = system.damping;
-  spring.rest_length = system.rest_length;
-  scene.joints = {spring};
+  const Vec position = (system.rest_length + system.offset) * system.direction;
+  scene.bodies = {point(position)};
+  scene.joints = {spring(-1, {}, 0, position, system.stiffness)};
+  scene.joints[0].damping = system.damping;
+  scene.joints[0].rest_length = system.rest_length;
   scene.gravity = system.gravity * system.direction;
   scene.ticks = ticks;
   scene.equations = equationsOf(system);

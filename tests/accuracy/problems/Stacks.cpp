@@ -1,10 +1,10 @@
-// 9: a stack. 10: heavy on light; and the map of what stays bounded.
+// 9: a stack. 10: heavy on light; and the map of what stays bounded. 20: crates that stand a little to the
+// side.
 #include <algorithm>
 
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kHalf = 0.5;
@@ -13,24 +13,26 @@ constexpr double kGravity = 10;
 constexpr int kTicks = 300;  // 10 s
 constexpr double kGone = 2;  // m: that far aside a crate is no longer on another
 
-Body ground() {
-  Body body = wall({0, -5}, {100, 5});
-  body.friction = kFriction;
-  return body;
-}
-
 Scene stackOf(const std::vector<double>& masses, bool rotates) {
   Scene scene;
-  scene.bodies = {ground()};
+  scene.bodies = {ground(100, kFriction)};
   for (std::size_t i = 0; i < masses.size(); ++i) {
-    Body crate = box({0, kHalf + 2 * kHalf * static_cast<double>(i)}, {kHalf, kHalf}, masses[i]);
-    crate.friction = kFriction;
-    crate.rotates = rotates;
-    scene.bodies.push_back(crate);
+    const Vec place{0, kHalf + 2 * kHalf * static_cast<double>(i)};
+    scene.bodies.push_back(crate(place, {kHalf, kHalf}, kFriction, masses[i]));
+    scene.bodies.back().rotates = rotates;
   }
   scene.gravity = {0, -kGravity};
   scene.ticks = kTicks;
   return scene;
+}
+
+double sagOf(const Scene& scene, const Simulation& simulation) {
+  double sag = 0;
+  for (int i = 1; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const double right = scene.bodies[static_cast<std::size_t>(i)].position.y;
+    sag = std::max(sag, std::abs(simulation.body(i).position.y - right));
+  }
+  return sag;
 }
 
 struct Heap {
@@ -42,10 +44,7 @@ struct Heap {
 Heap settle(const Trial& trial, const Scene& scene) {
   Heap heap;
   const SimulationPtr end = trial.run(scene, [&](int, const Simulation& simulation) {
-    for (int i = 1; i < static_cast<int>(scene.bodies.size()); ++i) {
-      const double right = scene.bodies[static_cast<std::size_t>(i)].position.y;
-      heap.sag = std::max(heap.sag, std::abs(simulation.body(i).position.y - right));
-    }
+    heap.sag = std::max(heap.sag, sagOf(scene, simulation));
   });
   for (int i = 1; i < static_cast<int>(scene.bodies.size()); ++i) {
     heap.drift = std::max(heap.drift, std::abs(end->body(i).position.x));
@@ -77,8 +76,7 @@ Problem makeStack() {
   problem.title = "Stack";
   problem.text =
       "10, 30 and 100 crates of 1 m on each other, gaps exactly 0 at the start, friction 0.5, 10 s; none "
-      "sleeps. "
-      "`upright`: bodies that do not rotate.";
+      "sleeps. `upright`: bodies that do not rotate.";
   problem.reference = "nothing moves";
   problem.why = "Crates that stand must stand, however many.";
   problem.cases = {stack(10, true, 1e-3, "Box2D .033, Chipmunk ×4 .001"),
@@ -151,10 +149,49 @@ Problem makeMap() {
   return problem;
 }
 
+Case offset(int boxes, const char* peers) {
+  constexpr double kShift = 0.025;  // m
+  constexpr double kMoreFriction = 0.6;
+  Case standing;
+  standing.name = std::to_string(boxes);
+  standing.label = std::to_string(boxes) + " crates";
+  standing.scene = stackOf(std::vector<double>(static_cast<std::size_t>(boxes), 1), true);
+  for (std::size_t i = 0; i < standing.scene.bodies.size(); ++i) {
+    standing.scene.bodies[i].friction = kMoreFriction;
+    if (i > 0) standing.scene.bodies[i].position.x = i % 2 == 1 ? kShift : -kShift;
+  }
+  standing.most_substeps = 16;
+  standing.draws_levels = true;
+  standing.metrics = {{"sag_m", "largest error of a height over 10 s, m", 0.05, 1e-15, peers}};
+  standing.judge = [scene = standing.scene](const Trial& trial) {
+    double sag = 0;
+    trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
+      sag = std::max(sag, sagOf(scene, simulation));
+      if (sag > 0.5) throw Failure("collapsed");
+    });
+    return std::vector<double>{sag};
+  };
+  return standing;
+}
+
+Problem makeOffset() {
+  Problem problem;
+  problem.title = "A stack to both sides";
+  problem.text =
+      "20, 40 and 60 crates of 1 m on each other, in turn 0.025 m to the left and to the right, friction "
+      "0.6, 10 s.";
+  problem.reference = "nothing moves";
+  problem.why = "Stacks are never exact; small offsets add up to a lever of the whole height.";
+  problem.cases = {offset(20, "Box2D ×4 .076, Chipmunk ×4 .036"),
+                   offset(40, "both collapse ×4; Box2D ×8 .092, Chipmunk ×8 .032"),
+                   offset(60, "both collapse ×4; Box2D ×8 .15")};
+  return problem;
+}
+
 const RegisteredProblem stack_problem("9", "stack", makeStack);
 const RegisteredProblem press_problem("10", "mass-ratio", makePress);
+const RegisteredProblem offsets("20", "offset-stack", makeOffset);
 const RegisteredProblem map("map-mass-ratio", "mass-ratio-map", makeMap);
 
 }  // namespace
-
 }  // namespace lab

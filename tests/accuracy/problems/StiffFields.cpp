@@ -5,7 +5,6 @@
 #include "Systems.h"
 
 namespace lab {
-
 namespace {
 
 // The whole path relative to the largest value of each coordinate, and iterations that did not converge.
@@ -53,10 +52,7 @@ Scene fieldScene(const System& system, Field acceleration) {
   Scene scene;
   const std::vector<double> start = system.start();
   const BodyState state = system.body(0, start.data());
-  Body body;
-  body.position = state.position;
-  body.velocity = state.velocity;
-  scene.bodies = {body};
+  scene.bodies = {point(state.position, state.velocity)};
   scene.field = std::move(acceleration);
   return scene;
 }
@@ -85,19 +81,15 @@ Case stiffPendulum() {
 
 // Drift across the fields, and a gyration far faster than the tick.
 Path chargePath(const Charge& charge, int ticks) {
-  Path path;
   const Quad omega = charge.frequency;
   const Quad drift = -Quad(charge.push) / omega;  // along y
   const Quad u = charge.velocity.x;
   const Quad w = charge.velocity.y - drift;
-  for (int tick = 0; tick <= ticks; ++tick) {
-    const Quad t = Quad(kTick) * tick;
+  return pathOf(ticks, [&](Quad t) {
     const Quad c = cos(omega * t);
     const Quad s = sin(omega * t);
-    path.push_back({static_cast<double>((u * s + w * (1 - c)) / omega),
-                    static_cast<double>(drift * t + (w * s - u * (1 - c)) / omega), 0, 0});
-  }
-  return path;
+    return std::vector<Quad>{(u * s + w * (1 - c)) / omega, drift * t + (w * s - u * (1 - c)) / omega, 0, 0};
+  });
 }
 
 Case charge() {
@@ -128,11 +120,9 @@ Problem make() {
   problem.title = "Stiff force fields";
   problem.text =
       "Van der Pol with ε = 1e-6 for 2 s; a pendulum whose rod is a spring of 1e6 N/m, 2 s from the "
-      "horizontal; a "
-      "charge that gyrates with 100 rad/s while it drifts, 10 s; Robertson's reaction, 40 s in ticks of 1 s; "
-      "HIRES, 321.8122 s in "
-      "320 ticks. "
-      "Errors are relative to the largest value of each coordinate over the run.";
+      "horizontal; a charge that gyrates with 100 rad/s while it drifts, 10 s; Robertson's reaction, 40 s "
+      "in ticks of 1 s; HIRES, 321.8122 s in 320 ticks. Errors are relative to the largest value of each "
+      "coordinate over the run.";
   problem.reference =
       "extrapolation in quad precision at 1e-17, agreeing with CVODE at 1e-12 to 1e-9; the charge: closed "
       "form";
@@ -145,5 +135,4 @@ Problem make() {
 const RegisteredProblem problem("4b", "stiff-fields", make);
 
 }  // namespace
-
 }  // namespace lab

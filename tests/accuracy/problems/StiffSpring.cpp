@@ -5,7 +5,6 @@
 #include "SpringScene.h"
 
 namespace lab {
-
 namespace {
 
 constexpr int kTicks = 300;  // 10 s
@@ -33,12 +32,8 @@ Case caseOf(double stiffness, double zeta) {
   Case spring;
   const SpringLine system = springOf(stiffness, zeta);
   spring.scene = springScene(system, kTicks);
-  const Scene scene = spring.scene;
-  Path path;
-  for (int tick = 0; tick <= kTicks; ++tick) {
-    path.push_back({static_cast<double>(springOffset(system, Quad(kTick) * tick))});
-  }
-  spring.judge = [scene, path](const Trial& trial) {
+  const Path path = pathOf(kTicks, [&](Quad t) { return std::vector<Quad>{springOffset(system, t)}; });
+  spring.judge = [scene = spring.scene, path](const Trial& trial) {
     return std::vector<double>{compare(trial, scene, path, 1, offsetOf).sup};
   };
   return spring;
@@ -49,8 +44,7 @@ Problem makeDiagram() {
   problem.title = "Stiff damped spring with gravity";
   problem.text =
       "1 kg hangs on a spring of k N/m with damping ratio ζ, starts 1 m below where it would hang still, 10 "
-      "s. hω, at one "
-      "step a tick, is 0.33 for k = 1e2, 33 for 1e6 and 3333 for 1e10.";
+      "s. hω, at one step a tick, is 0.33 for k = 1e2, 33 for 1e6 and 3333 for 1e10.";
   problem.reference = "the 2×2 matrix exponential, in quad precision";
   problem.why = "An author who wants it stiffer writes a larger number. No number may make it explode.";
   for (const double stiffness : {1e2, 1e6, 1e10}) {
@@ -92,5 +86,4 @@ const RegisteredProblem diagram("4", "stiff-spring", makeDiagram);
 const RegisteredProblem map("map-stiffness", "stiffness-map", makeMap);
 
 }  // namespace
-
 }  // namespace lab

@@ -6,7 +6,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kGravity = 10;
@@ -24,10 +23,8 @@ Case pulled(Pull pull, double per_tick, const std::string& name) {
   swinging.label =
       std::string(pull == Pull::SPRING ? "spring" : "field") + ", k = " + power(per_tick) + " a tick²";
   Scene& scene = swinging.scene;
-  Body crate = box({kStart, kHalf}, {kHalf, kHalf});
-  crate.rotates = true;
-  const Vec centre{0, crate.position.y};
-  scene.bodies = {crate, wall({0, -5}, {100, 5})};
+  const Vec centre{0, kHalf};
+  scene.bodies = {crate({kStart, kHalf}, {kHalf, kHalf}, 0), ground(100, 0)};
   scene.gravity = {0, -kGravity};
   scene.ticks = kTicks;
   if (pull == Pull::FIELD) {
@@ -35,10 +32,8 @@ Case pulled(Pull pull, double per_tick, const std::string& name) {
       return Vec{-stiffness * state.position.x, 0};
     };
   } else {
-    Joint spring = rod(-1, centre, 0, crate.position);
-    spring.kind = Joint::Kind::SPRING;
-    spring.stiffness = stiffness;
-    scene.joints.push_back(spring);
+    scene.joints = {spring(-1, centre, 0, scene.bodies[0].position, stiffness)};
+    scene.joints[0].rest_length = 0;
   }
   swinging.metrics = {{"energy_gain", "largest gain of energy, relative", 1e-6, 1e-15, "", -1},
                       {"sunk_m", "how far the centre came below the floor's top, m", 0, 1e-15, "", 0}};
@@ -86,13 +81,11 @@ Problem makeTethers() {
   problem.title = "Springs and fields where bodies touch";
   problem.text =
       "A crate of 1 kg that turns, without friction, is let go 1 m from the middle of a spring, or of a "
-      "field −kx, "
-      "while it lies on a floor; k = 0.01 … 10¹² kg a tick², undamped, 10 s.";
+      "field −kx, while it lies on a floor; k = 0.01 … 10¹² kg a tick², undamped, 10 s.";
   problem.reference = "energy never grows, the crate stays on the floor, and what a tick resolves swings on";
   problem.why =
-      "A spring alone is easy to solve exactly. Authors put it on a thing that lies on the ground, and write "
-      "a "
-      "number that they have not computed.";
+      "A spring alone is easy to solve exactly. Authors put it on a thing that lies on the ground, and "
+      "write a number that they have not computed.";
   for (const double k : {1.0, 1e2, 1e6, 1e12}) {
     problem.cases.push_back(pulled(Pull::SPRING, k, "spring"));
     problem.cases.push_back(pulled(Pull::FIELD, k, "field"));
@@ -105,5 +98,4 @@ Problem makeTethers() {
 const RegisteredProblem problem("30", "tethers", makeTethers);
 
 }  // namespace
-
 }  // namespace lab

@@ -5,7 +5,6 @@
 #include "Path.h"
 
 namespace lab {
-
 namespace {
 
 constexpr double kRadius = 0.25;
@@ -84,12 +83,9 @@ Problem make() {
   problem.title = "Tunnelling";
   problem.text =
       "A ball of radius 0.25 m is shot with 10 to 1e6 m/s (log-uniform) at a wall of 0.2 m that is static, "
-      "kinematic "
-      "and coming with half the speed, or dynamic, or at another such ball; those two are marked as fast, "
-      "the others "
-      "are not. 4 ticks, 2000 shots (the product: a million). A shot that is still before its target after "
-      "them "
-      "without a contact has been held back: it is counted as unmet.";
+      "kinematic and coming with half the speed, or dynamic, or at another such ball; those two are marked "
+      "as fast, the others are not. 4 ticks, 2000 shots (the product: a million). A shot that is still "
+      "before its target after them without a contact has been held back: it is counted as unmet.";
   problem.reference = "they cannot change sides: every shot meets its target within two ticks";
   problem.why = "A bullet must not pass through what it hits, whatever the two are and however fast.";
   problem.cases = {against(Pair::FIXED, "static", "Chipmunk 82 % at 50 m/s"),
@@ -102,5 +98,4 @@ Problem make() {
 const RegisteredProblem problem("14", "tunnel", make);
 
 }  // namespace
-
 }  // namespace lab

@@ -4,7 +4,6 @@
 #include "Method.h"
 
 namespace lab {
-
 namespace {
 
 SimulationPtr build(const Scene& scene) {
@@ -26,5 +25,4 @@ const RegisteredMethod fast({"fast", "Naiad, fast level", "0.1.0", Method::Kind:
                              kFastSubsteps});
 
 }  // namespace
-
 }  // namespace lab

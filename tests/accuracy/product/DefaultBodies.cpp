@@ -1,6 +1,5 @@
-// df::Body Objects in a World of its own, and WM.update(). A metre is a cell, a
-// tick of the scene is a tick, mass is in kg; all else is as it comes. What never moves and lies along the
-// axes is an ordinary HARD Object where a body may touch it.
+// df::Body Objects. Mass is in kg; all else is as it comes. What never moves and lies along the axes is an
+// ordinary HARD Object where a body may touch it.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,17 +7,14 @@
 #include <vector>
 
 #include "Default.h"
-#include "engine/managers/WorldManager.h"
+#include "ProductWorld.h"
 #include "engine/world/EventCollision.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyLayer.h"
 #include "physics/body/Field.h"
 #include "physics/body/PhysicsManager.h"
 
 namespace lab {
-
 namespace {
 
 df::Vector cells(Vec v) {
@@ -53,11 +49,10 @@ class CountingBody : public df::Body {
   long& m_count;
 };
 
-class DefaultBodies : public Simulation {
+class DefaultBodies : public ProductWorld {
  public:
   DefaultBodies(df::Accuracy accuracy, const Scene& scene)
-      : m_origin(scene.origin), m_tick(scene.tick), m_is_hearing(scene.hearing), m_collides(scene.collides) {
-    m_world.log().setSink([](const std::string&) {});
+      : ProductWorld(scene), m_origin(scene.origin), m_is_hearing(scene.hearing), m_collides(scene.collides) {
     const df::World::Scope scope(m_world);
     PM.setAspect(1);
     PM.setGravity(cells(m_tick * m_tick * scene.gravity));
@@ -69,26 +64,12 @@ class DefaultBodies : public Simulation {
     for (const Body& body : scene.bodies) add(body);
     for (const Joint& joint : scene.joints) add(joint);
   }
-  ~DefaultBodies() override {
-    const df::World::Scope scope(m_world);
-    m_bodies.clear();
-    m_objects.clear();
-  }
-  DefaultBodies(const DefaultBodies&) = delete;
-  DefaultBodies& operator=(const DefaultBodies&) = delete;
-
-  void step(double /*tick*/, int /*substeps*/) override { m_world.update(); }
+  ~DefaultBodies() override { clear(); }
 
   BodyState body(int index) const override {
-    BodyState state;
-    const CountingBody* p_body = m_bodies[static_cast<std::size_t>(index)].get();
-    if (p_body == nullptr) {
-      state.position = m_places[static_cast<std::size_t>(index)];
-      return state;
-    }
-    const df::Vector way = p_body->getDisplacementFrom(cells(m_origin)), velocity = p_body->getVelocity();
-    state.position = {way.x(), way.y()};
-    state.velocity = {velocity.x() / m_tick, velocity.y() / m_tick};
+    const CountingBody* p_body = m_bodies[static_cast<std::size_t>(index)];
+    if (p_body == nullptr) return {m_places[static_cast<std::size_t>(index)], {}, 0, 0};
+    BodyState state = stateOf(p_body->getDisplacementFrom(cells(m_origin)), p_body->getVelocity());
     state.angle = p_body->getAngle();
     state.spin = p_body->getSpin() / m_tick;
     return state;
@@ -131,14 +112,14 @@ class DefaultBodies : public Simulation {
     m_places.push_back(body.position);
     if (isObstacle(body)) {
       m_bodies.push_back(nullptr);
-      m_objects.push_back(std::make_unique<df::Object>());
+      auto& obstacle = make<df::Object>();
       const Vec half = body.shapes[0].half;
-      m_objects.back()->setBox(df::Box(df::Vector(-half.x, -half.y), 2 * half.x, 2 * half.y));
-      m_objects.back()->setPosition(cells(m_origin + body.position));
+      obstacle.setBox(df::Box(df::Vector(-half.x, -half.y), 2 * half.x, 2 * half.y));
+      obstacle.setPosition(cells(m_origin + body.position));
       return;
     }
-    m_bodies.push_back(std::make_unique<CountingBody>(m_contacts));
-    CountingBody& made = *m_bodies.back();
+    auto& made = make<CountingBody>(m_contacts);
+    m_bodies.push_back(&made);
     if (body.shapes.empty() || !m_collides) made.setSolidness(df::SPECTRAL);
     if (m_is_hearing) made.setSolidness(df::SOFT);
     // A game that is refused a place for a body has none to put it.
@@ -179,8 +160,8 @@ class DefaultBodies : public Simulation {
   }
 
   void add(const Joint& joint) {
-    df::Body* p_a = joint.a < 0 ? nullptr : m_bodies[static_cast<std::size_t>(joint.a)].get();
-    df::Body* p_b = joint.b < 0 ? nullptr : m_bodies[static_cast<std::size_t>(joint.b)].get();
+    df::Body* p_a = joint.a < 0 ? nullptr : m_bodies[static_cast<std::size_t>(joint.a)];
+    df::Body* p_b = joint.b < 0 ? nullptr : m_bodies[static_cast<std::size_t>(joint.b)];
     const df::Vector at_a = cells(m_origin + joint.anchor_a), at_b = cells(m_origin + joint.anchor_b);
     if (joint.kind == Joint::Kind::HINGE) {
       PM.addHinge(p_a, p_b, at_a);
@@ -194,19 +175,16 @@ class DefaultBodies : public Simulation {
         .setLength(joint.rest_length);
   }
 
-  df::World m_world;
   const naiad::physics::BodyLayer* m_p_layer = nullptr;
   Vec m_origin;
-  double m_tick;
   bool m_is_hearing;
   bool m_collides;
   double m_friction = -1;
   double m_restitution = -1;
   long m_contacts = 0;
   std::unique_ptr<SceneField> m_field;
-  std::vector<Vec> m_places;                            // by index
-  std::vector<std::unique_ptr<CountingBody>> m_bodies;  // by index; null: an Object
-  std::vector<std::unique_ptr<df::Object>> m_objects;
+  std::vector<Vec> m_places;            // by index
+  std::vector<CountingBody*> m_bodies;  // by index; null: an Object
 };
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "physics/numerics/IntegratorAutomatic.h"
 
 namespace lab {
-
 namespace {
 
 namespace physics = naiad::physics;

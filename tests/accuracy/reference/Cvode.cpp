@@ -11,7 +11,6 @@
 #include <string>
 
 namespace lab {
-
 namespace {
 
 constexpr long kMaxStepsPerTick = 50000000;

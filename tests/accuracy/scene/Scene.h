@@ -45,11 +45,19 @@ struct Body {
   double linear_drag = 0;     ///< force per speed, in kg/s
 };
 
+/// A dynamic body without a shape: it touches nothing.
+Body point(Vec position, Vec velocity = {}, double mass = 1);
 /// A dynamic body with one shape.
 Body ball(Vec position, Vec velocity, double radius, double mass = 1);
 Body box(Vec position, Vec half, double mass = 1);
-/// The same, as something that never moves.
+/// A box that rotates, with friction.
+Body crate(Vec position, Vec half, double friction, double mass = 1);
+/// A box that never moves.
 Body wall(Vec centre, Vec half, double angle = 0);
+/// A wall 10 m thick, the middle of whose top is at 0.
+Body ground(double half_width, double friction, double restitution = 0);
+/// The moment of inertia per mass.
+double inertiaOf(const Shape& shape);
 
 struct Joint {
   enum class Kind {
@@ -69,6 +77,8 @@ struct Joint {
 
 /// Of two bodies, or of one and the ground (−1).
 Joint rod(int a, Vec from, int b, Vec to);
+/// At rest as long as it is.
+Joint spring(int a, Vec from, int b, Vec to, double stiffness);
 Joint hinge(int a, int b, Vec at);
 
 /// An elastic beam that lies along x and is clamped at x = 0; its free end counts as the scene's body 0.

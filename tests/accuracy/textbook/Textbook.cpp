@@ -3,7 +3,6 @@
 #include "Method.h"
 
 namespace lab {
-
 namespace {
 
 Method textbook(const char* name, const char* label, Rule rule) {
@@ -23,5 +22,4 @@ const RegisteredMethod methods[] = {
 };
 
 }  // namespace
-
 }  // namespace lab

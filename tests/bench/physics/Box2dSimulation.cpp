@@ -5,7 +5,6 @@
 #include <vector>
 
 namespace bench::physics {
-
 namespace {
 
 constexpr int kSteps = 4;

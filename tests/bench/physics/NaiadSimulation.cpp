@@ -12,7 +12,6 @@
 #include "physics/body/Body.h"
 
 namespace bench::physics {
-
 namespace {
 
 constexpr double kTicks = Scene::kTicksPerSecond;

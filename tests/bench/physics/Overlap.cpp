@@ -7,7 +7,6 @@
 #include <limits>
 
 namespace bench::physics {
-
 namespace {
 
 // A part where its body lies.

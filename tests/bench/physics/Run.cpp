@@ -8,7 +8,6 @@
 #include "Overlap.h"
 
 namespace bench::physics {
-
 namespace {
 
 constexpr int kTicksPerLook = 10;
@@ -22,14 +21,6 @@ bool isFinite(const Pose& pose) {
          std::isfinite(pose.sine);
 }
 
-bool isInside(const Room& room, const std::vector<Pose>& poses, const Pose& pose) {
-  if (room.frame == Hinge::kWorld) return room.contains(pose.x, pose.y);
-  const Pose& frame = poses[static_cast<std::size_t>(room.frame)];
-  const double dx = pose.x - frame.x;
-  const double dy = pose.y - frame.y;
-  return room.contains(frame.cosine * dx + frame.sine * dy, frame.cosine * dy - frame.sine * dx);
-}
-
 std::vector<Pose> posesOf(const Scene& scene, const Simulation& simulation) {
   std::vector<Pose> poses;
   poses.reserve(scene.bodies.size());
@@ -41,7 +32,7 @@ int countFailed(const Scene& scene, const Simulation& simulation, const std::vec
   int failed = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (scene.bodies[i].motion != Motion::DYNAMIC) continue;
-    if (!isFinite(poses[i]) || simulation.isFrozen(i) || !isInside(scene.room, poses, poses[i])) ++failed;
+    if (!isFinite(poses[i]) || simulation.isFrozen(i) || !scene.room.holds(poses, poses[i])) ++failed;
   }
   return failed;
 }

@@ -45,6 +45,19 @@ struct Hinge {
   static constexpr int kWorld = -1;
 };
 
+/// Where a body is, and the cosine and sine of its angle.
+struct Pose {
+  double x = 0;
+  double y = 0;
+  double cosine = 1;
+  double sine = 0;
+
+  /// A point given in the body's axes, in the world.
+  Pose at(double local_x, double local_y) const {
+    return {x + cosine * local_x - sine * local_y, y + sine * local_x + cosine * local_y, cosine, sine};
+  }
+};
+
 /// Where the centres of dynamic bodies belong: those elsewhere went through a wall, or are more than half
 /// inside it.
 struct Room {
@@ -54,7 +67,8 @@ struct Room {
   double bottom = std::numeric_limits<double>::infinity();
   int frame = Hinge::kWorld;  ///< the body in whose axes these are, which turns; else the world's
 
-  bool contains(double x, double y) const { return x > left && x < right && y > top && y < bottom; }
+  /// `poses`: of all bodies.
+  bool holds(const std::vector<Pose>& poses, const Pose& pose) const;
 };
 
 struct Scene {
@@ -70,19 +84,6 @@ struct Scene {
   static constexpr double kFriction = 0.6;  ///< of everything; restitution is 0
 
   int countDynamic() const;
-};
-
-/// Where a body is, and the cosine and sine of its angle.
-struct Pose {
-  double x = 0;
-  double y = 0;
-  double cosine = 1;
-  double sine = 0;
-
-  /// A point given in the body's axes, in the world.
-  Pose at(double local_x, double local_y) const {
-    return {x + cosine * local_x - sine * local_y, y + sine * local_x + cosine * local_y, cosine, sine};
-  }
 };
 
 }  // namespace bench::physics

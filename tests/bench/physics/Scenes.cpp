@@ -5,7 +5,6 @@
 #include <random>
 
 namespace bench::physics {
-
 namespace {
 
 // By full sides, as scenes are described.

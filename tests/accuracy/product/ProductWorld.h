@@ -1,0 +1,53 @@
+// What all scenes in the product have in common: a World of their own, in which a metre is a cell and a tick
+// of the scene a tick.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "Simulation.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
+
+namespace lab {
+
+class ProductWorld : public Simulation {
+ public:
+  explicit ProductWorld(const Scene& scene) : m_tick(scene.tick) {
+    m_world.log().setSink([](const std::string&) {});
+  }
+  ~ProductWorld() override { clear(); }
+
+  void step(double /*tick*/, int /*substeps*/) override { m_world.update(); }
+  std::optional<Work> work() const override { return Work{}; }
+
+ protected:
+  /// Makes an Object of the world, which must be the current one. It lasts as long as this.
+  template <class Made, class... Arguments>
+  Made& make(Arguments&&... arguments) {
+    auto made = std::make_unique<Made>(std::forward<Arguments>(arguments)...);
+    Made& result = *made;
+    m_objects.push_back(std::move(made));
+    return result;
+  }
+  /// Deletes what make() has made. For destructors of classes whose members its Objects use.
+  void clear() {
+    const df::World::Scope scope(m_world);
+    m_objects.clear();
+  }
+  /// From cells and cells a tick.
+  BodyState stateOf(df::Vector position, df::Vector velocity) const {
+    return {{position.x(), position.y()}, {velocity.x() / m_tick, velocity.y() / m_tick}, 0, 0};
+  }
+
+  df::World m_world;
+  const double m_tick;  // s
+
+ private:
+  std::vector<std::unique_ptr<df::Object>> m_objects;
+};
+
+}  // namespace lab
