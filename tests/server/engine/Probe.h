@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/events/EventKeyboard.h"
 #include "engine/events/EventOut.h"
 #include "engine/managers/GameManager.h"
 #include "engine/managers/WorldManager.h"
@@ -25,6 +26,8 @@
 
 namespace df::test {
 
+using Received = std::vector<std::string>;
+
 /// A world that is current during a test, and what it logged.
 class WorldTest : public ::testing::Test {
  protected:
@@ -33,11 +36,21 @@ class WorldTest : public ::testing::Test {
   }
   ~WorldTest() override { world.shutDown(); }
 
+  void ticks(int n) {
+    for (int i = 0; i < n; ++i) world.tick();
+  }
   /// How many log lines contain `text`.
   int logged(const std::string& text) const {
     int count = 0;
     for (const std::string& line : lines) count += line.find(text) != std::string::npos ? 1 : 0;
     return count;
+  }
+  /// The event of a key of no player.
+  static void press(Keyboard::Key key, EventKeyboardAction action = KEY_PRESSED) {
+    EventKeyboard event;
+    event.setKey(key);
+    event.setKeyboardAction(action);
+    WM.onEvent(&event);
   }
   /// What `row` of the window shows, without blanks, after each of `ticks` ticks.
   std::string shown(int row, int ticks) {
@@ -52,9 +65,13 @@ class WorldTest : public ::testing::Test {
   }
 
   std::vector<std::string> lines;
-  std::vector<std::string> received;  // "name:event", for Probes that are given this list
+  Received received;  // "name:event", for Probes that are given this list
   World world;
   World::Scope scope;
+};
+
+struct PlacedObject : Object {
+  explicit PlacedObject(Vector at) { setPosition(at); }
 };
 
 /// An Object that writes "name:event" to a list, then runs the handler that it was given.
@@ -78,6 +95,12 @@ class Probe : public Object {
   int draw() override {
     if (on_draw) on_draw(*this);
     return 0;
+  }
+
+  /// Registers interest in these events, and runs `handler` for every event.
+  void hear(const std::string& type, Handler handler) {
+    registerInterest(type);
+    on_event = std::move(handler);
   }
 
   Handler on_event;

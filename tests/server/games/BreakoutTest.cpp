@@ -3,14 +3,8 @@
 #include <vector>
 
 #include "Fingers.h"
+#include "GameMains.h"
 #include "HostedGame.h"
-#include "Player.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/Views.h"
-
-/// The game's main(), compiled into this test under another name.
-int breakout_main();
 
 namespace naiad {
 namespace {

@@ -4,15 +4,8 @@
 #include <vector>
 
 #include "Fingers.h"
+#include "GameMains.h"
 #include "HostedGame.h"
-#include "Player.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/Views.h"
-#include "engine/world/WorldStore.h"
-
-/// The game's main(), compiled into this test under another name.
-int bullethell_main();
 
 namespace naiad {
 namespace {
@@ -64,8 +57,7 @@ std::set<Keyboard::Key> dodge(const World& world, const Object& ship) {
 
 TEST(BulletHell, ABotThatDodgesBeatsTheFirstBoss) {
   hostGame(bullethell_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    world.tick();
+    const std::uint32_t ann = joinAnn(world);
     Fingers fingers(world, ann);
     int t = 0;
     for (; t < 6000 && !shows(world, ann, "level 2"); ++t) {
@@ -79,8 +71,7 @@ TEST(BulletHell, ABotThatDodgesBeatsTheFirstBoss) {
 
 TEST(BulletHell, APlayerThatNeverMovesLosesThreeLivesAndThenAllBeginAgain) {
   hostGame(bullethell_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 2);
+    const std::uint32_t ann = joinAnn(world, 2);
     EXPECT_TRUE(shows(world, ann, "lives 3"));
     std::string seen;
     for (int t = 0; t < 6000 && seen != "321"; ++t) {

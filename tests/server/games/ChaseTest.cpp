@@ -1,15 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "Fingers.h"
+#include "GameMains.h"
 #include "HostedGame.h"
-#include "Player.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/Views.h"
 #include "utility.h"
-
-/// The game's main(), compiled into this test under another name.
-int chase_main();
 
 namespace naiad {
 namespace {
@@ -34,8 +28,7 @@ std::set<Keyboard::Key> greedy(const World& world, const Object& hare) {
 
 TEST(Chase, AGreedyBotGathersTenPiecesOfGold) {
   hostGame(chase_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    world.tick();
+    const std::uint32_t ann = joinAnn(world);
     Fingers fingers(world, ann);
     int best = 0;
     for (int t = 0; t < 3000 && best < 100; ++t) {
@@ -49,8 +42,7 @@ TEST(Chase, AGreedyBotGathersTenPiecesOfGold) {
 
 TEST(Chase, HoundsCatchAPlayerThatStandsStillAndTakeHalf) {
   hostGame(chase_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    world.tick();
+    const std::uint32_t ann = joinAnn(world);
     world.views().player(ann)->setScore(40);
     for (int t = 0; t < 1500 && world.views().player(ann)->getScore() >= 40; ++t) world.tick();
     EXPECT_LT(world.views().player(ann)->getScore(), 40);
@@ -60,8 +52,7 @@ TEST(Chase, HoundsCatchAPlayerThatStandsStillAndTakeHalf) {
 
 TEST(Chase, MoreGoldMoreHounds) {
   hostGame(chase_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 2);
+    const std::uint32_t ann = joinAnn(world, 2);
     EXPECT_EQ(world.objects().objectsOfType("Hound").getCount(), 3);
     world.views().player(ann)->setScore(100);
     tick(world, 3);

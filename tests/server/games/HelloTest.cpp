@@ -1,14 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "GameMains.h"
 #include "HostedGame.h"
-#include "engine/world/Capture.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/Views.h"
-#include "engine/world/WorldStore.h"
 #include "utility.h"
-
-/// The game's main(), compiled into this test under another name.
-int hello_main();
 
 namespace naiad {
 namespace {

@@ -3,11 +3,9 @@
 
 #include <filesystem>
 #include <set>
-#include <string>
 
 #include "GameMains.h"
 #include "HostedGame.h"
-#include "engine/world/Views.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {

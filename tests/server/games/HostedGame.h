@@ -7,13 +7,17 @@
 #include <utility>
 
 #include "GameManager.h"
+#include "Player.h"
 #include "Runner.h"
 #include "World.h"
 #include "WorldManager.h"
 #include "engine/world/Capture.h"
 #include "engine/world/InputQueue.h"
+#include "engine/world/ObjectRegistry.h"
+#include "engine/world/Views.h"
 #include "engine/world/WorldExtras.h"
 #include "engine/world/WorldLog.h"
+#include "engine/world/WorldStore.h"
 
 namespace naiad {
 
@@ -49,6 +53,13 @@ inline bool shows(const df::World& world, std::uint32_t player, const std::strin
 
 inline void tick(df::World& world, int count) {
   for (int i = 0; i < count; ++i) world.tick();
+}
+
+/// Joins, and waits for that many ticks.
+inline std::uint32_t joinAnn(df::World& world, int ticks = 1) {
+  const std::uint32_t ann = world.input().join("ann", df::RED);
+  tick(world, ticks);
+  return ann;
 }
 
 /// Down and up again before the next tick.

@@ -3,15 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <string>
 
 #include "GameMains.h"
 #include "HostedGame.h"
 #include "RandomPlayers.h"
-#include "engine/world/Capture.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/WorldLog.h"
-#include "engine/world/WorldStore.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad {

@@ -2,14 +2,9 @@
 
 #include <cmath>
 
+#include "GameMains.h"
 #include "HighScores.h"
 #include "HostedGame.h"
-#include "engine/world/Capture.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/Views.h"
-
-/// The game's main(), compiled into this test under another name.
-int lander_main();
 
 namespace naiad {
 namespace {
@@ -46,8 +41,7 @@ void pilot(df::World& world, std::uint32_t player, df::Vector pad) {
 
 TEST(Lander, AGentlePilotLandsAndEarnsPoints) {
   hostGame(lander_main, 3, [](df::World& world) {
-    const std::uint32_t ann = world.input().join("ann", df::RED);
-    world.tick();
+    const std::uint32_t ann = joinAnn(world);
     for (int t = 0; t < 1800 && world.views().player(ann)->getScore() == 0; ++t) {
       const auto pad = nearestPad(world.picture().renderPlayer(ann),
                                   world.views().player(ann)->getObject()->getPosition().x());
@@ -63,8 +57,7 @@ TEST(Lander, TheBestLandingIsAServersToRemember) {
   hostGame(lander_main, 3, [](df::World& world) {
     world.input().push(
         {.kind = df::InputQueue::kScore, .player = 0, .name = "bob", .table = "landings", .points = 5000});
-    const std::uint32_t ann = world.input().join("ann", df::RED);
-    world.tick();
+    const std::uint32_t ann = joinAnn(world);
     for (int t = 0; t < 1800 && world.views().player(ann)->getScore() == 0; ++t) {
       pilot(world, ann,
             nearestPad(world.picture().renderPlayer(ann),

@@ -1,16 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <string>
-
+#include "GameMains.h"
 #include "HostedGame.h"
-#include "Player.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/Views.h"
-#include "engine/world/WorldExtras.h"
-
-/// The game's main(), compiled into this test under another name.
-int lobby_main();
 
 namespace naiad {
 namespace {
@@ -57,8 +48,7 @@ TEST(Lobby, HasADoorForEachOtherRoomAndWalkingIntoOneLeadsThere) {
     keep(world, own);
     keep(world, room("arcade", 3));
     keep(world, room("quiet"));
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 2);
+    const std::uint32_t ann = joinAnn(world, 2);
     EXPECT_EQ(world.objects().objectsOfType("Door").getCount(), 2);
     EXPECT_TRUE(shows(world, ann, "arcade"));
     EXPECT_TRUE(shows(world, ann, "game of arcade 3/8"));
@@ -72,8 +62,7 @@ TEST(Lobby, HasADoorForEachOtherRoomAndWalkingIntoOneLeadsThere) {
 TEST(Lobby, ShowsWhatChanges) {
   hostGame(lobby_main, 1, [](World& world) {
     keep(world, room("arcade", 3));
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 2);
+    const std::uint32_t ann = joinAnn(world, 2);
     keep(world, room("arcade", 8));
     world.tick();
     EXPECT_EQ(world.objects().objectsOfType("Door").getCount(), 1);
@@ -84,8 +73,7 @@ TEST(Lobby, ShowsWhatChanges) {
 
 TEST(Lobby, SaysThatThereAreNoOtherRooms) {
   hostGame(lobby_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 2);
+    const std::uint32_t ann = joinAnn(world, 2);
     EXPECT_TRUE(shows(world, ann, "This server has no other rooms."));
   });
 }
@@ -93,8 +81,7 @@ TEST(Lobby, SaysThatThereAreNoOtherRooms) {
 TEST(Lobby, HasRoomForAllDoorsThatAServerCanHave) {
   hostGame(lobby_main, 1, [](World& world) {
     for (int i = 0; i < 64; ++i) keep(world, room("room-" + std::to_string(i)));
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 2);
+    const std::uint32_t ann = joinAnn(world, 2);
     EXPECT_EQ(world.objects().objectsOfType("Door").getCount(), 64);
     EXPECT_EQ(walkTo(world, ann, 0), "room-0");
   });

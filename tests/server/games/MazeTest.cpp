@@ -1,18 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <deque>
-#include <map>
 #include <vector>
 
+#include "GameMains.h"
 #include "HostedGame.h"
-#include "Player.h"
-#include "engine/world/Capture.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/Views.h"
-
-/// The game's main(), compiled into this test under another name.
-int maze_main();
 
 namespace naiad {
 namespace {
@@ -59,8 +51,7 @@ std::vector<Keyboard::Key> solve(const World& world, const Object& walker) {
 TEST(Maze, HasSevenHundredWallsAndAPathForAnySeed) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     hostGame(maze_main, seed, [](World& world) {
-      const std::uint32_t ann = world.input().join("ann", RED);
-      world.tick();
+      const std::uint32_t ann = joinAnn(world);
       EXPECT_EQ(world.objects().objectsOfType("Wall").getCount(), 700);
       EXPECT_GE(solve(world, *world.views().player(ann)->getObject()).size(), 70u);
     });
@@ -107,8 +98,7 @@ TEST(Maze, TwoInAPassageLetEachOtherBy) {
 
 TEST(Maze, TheViewFollows) {
   hostGame(maze_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    world.tick();
+    const std::uint32_t ann = joinAnn(world);
     const Vector corner = world.views().player(ann)->getViewCorner();
     for (const Keyboard::Key key : solve(world, *world.views().player(ann)->getObject())) {
       tap(world, ann, key);

@@ -1,14 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "Fingers.h"
+#include "GameMains.h"
 #include "HostedGame.h"
-#include "Player.h"
-#include "engine/world/Capture.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/Views.h"
-
-/// The game's main(), compiled into this test under another name.
-int platformer_main();
 
 namespace naiad {
 namespace {
@@ -34,8 +28,7 @@ std::set<Keyboard::Key> run(const Object& runner) {
 
 TEST(Platformer, ABotThatJumpsInTimeReachesTheFlag) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 2);
+    const std::uint32_t ann = joinAnn(world, 2);
     Fingers fingers(world, ann);
     int t = 0;
     for (; t < 600 && world.views().player(ann)->getScore() < 100; ++t) {
@@ -53,8 +46,7 @@ TEST(Platformer, ABotThatJumpsInTimeReachesTheFlag) {
 
 TEST(Platformer, GravityLandsExactlyAndAJumpIsHighEnoughForFiveRows) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 40);
+    const std::uint32_t ann = joinAnn(world, 40);
     const Object* p_runner = world.views().player(ann)->getObject();
     const double ground = p_runner->getPosition().y();
     EXPECT_NEAR(ground, 19.05, 1e-6);  // 0.9 high, on ground whose upper edge is at 19.5
@@ -74,8 +66,7 @@ TEST(Platformer, GravityLandsExactlyAndAJumpIsHighEnoughForFiveRows) {
 
 TEST(Platformer, NoPlayerSticksToAWall) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 2);
+    const std::uint32_t ann = joinAnn(world, 2);
     Object* p_runner = world.views().player(ann)->getObject();
     p_runner->setPosition(Vector(34.5, 19.6));  // in a gap, before the wall that its far side is
     Fingers fingers(world, ann);
@@ -106,8 +97,7 @@ TEST(Platformer, FriendsCanBeStoodOn) {
 
 TEST(Platformer, CoinsAreTakenAndComeBack) {
   hostGame(platformer_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 40);
+    const std::uint32_t ann = joinAnn(world, 40);
     Fingers fingers(world, ann);
     for (int t = 0; t < 15; ++t) {
       fingers.hold({Keyboard::RIGHTARROW});

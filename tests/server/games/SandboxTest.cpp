@@ -4,13 +4,9 @@
 #include <vector>
 
 #include "Body.h"
+#include "GameMains.h"
 #include "HostedGame.h"
 #include "PhysicsManager.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/ObjectRegistry.h"
-
-/// The game's main(), compiled into this test under another name.
-int sandbox_main();
 
 namespace naiad {
 namespace {
@@ -60,8 +56,7 @@ TEST(Sandbox, WhatStandsKeepsStandingAndNothingIsLost) {
 
 TEST(Sandbox, ABallIsDraggedAndStaysWhereItFalls) {
   hostGame(sandbox_main, 1, [](df::World& world) {
-    const std::uint32_t ann = world.input().join("ann", df::RED);
-    tick(world, 60);
+    const std::uint32_t ann = joinAnn(world, 60);
     df::Body* p_ball = bodyAt(world, {4, 16});
     ASSERT_NE(p_ball, nullptr);
     const df::Vector at = p_ball->getPosition();

@@ -1,23 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <utility>
 #include <vector>
 
+#include "GameMains.h"
 #include "HighScores.h"
 #include "HostedGame.h"
-#include "Player.h"
 #include "ViewObject.h"
 #include "detail/WorldView.h"
-#include "engine/world/Capture.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/Views.h"
-#include "engine/world/WorldLog.h"
-#include "engine/world/WorldStore.h"
 #include "shared/replica/SteeredCopy.h"
-
-/// The game's main(), compiled into this test under another name.
-int saucershoot_main();
 
 namespace naiad {
 namespace {

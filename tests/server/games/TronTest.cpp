@@ -1,15 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "GameMains.h"
 #include "HighScores.h"
 #include "HostedGame.h"
-#include "Player.h"
-#include "engine/world/Capture.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/Views.h"
-
-/// The game's main(), compiled into this test under another name.
-int tron_main();
 
 namespace naiad {
 namespace {
@@ -55,8 +48,7 @@ class CarefulRider {
 
 TEST(Tron, ACarefulRiderWinsARoundAgainstTheRobot) {
   hostGame(tron_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    world.tick();
+    const std::uint32_t ann = joinAnn(world);
     CarefulRider rider(world, ann);
     for (int t = 0; t < 9000 && world.views().player(ann)->getScore() == 0; ++t) {
       rider.ride();
@@ -91,8 +83,7 @@ TEST(Tron, ARiderThatDoesNotTurnHitsTheFenceAndTheOtherWins) {
 
 TEST(Tron, LatePlayersRideInTheNextRoundAndThoseThatLeaveLose) {
   hostGame(tron_main, 1, [](World& world) {
-    const std::uint32_t ann = world.input().join("ann", RED);
-    tick(world, 60);
+    const std::uint32_t ann = joinAnn(world, 60);
     const std::uint32_t bob = world.input().join("bob", GREEN);
     tick(world, 2);
     EXPECT_NE(world.picture().renderPlayer(bob).text().find("next round"), std::string::npos);

@@ -11,6 +11,12 @@
 namespace df::test {
 namespace {
 
+std::vector<Grid::Slot> sorted(std::vector<Grid::Slot> slots) {
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
+}
+
 /// A grid with the arrays it reads.
 struct Filed {
   std::vector<FixedVector> positions;
@@ -34,6 +40,19 @@ struct Filed {
     grid.remove(s);
     filed[s] = false;
   }
+  /// What a step to `where` touches, the same by the grid and by a test of all. A free one is filed there.
+  std::vector<Grid::Slot> step(Grid::Slot s, FixedVector where) {
+    const std::vector<Grid::Slot> expected = touching(translate(boxes[s], where), s);
+    Grid::Steps steps(grid);
+    EXPECT_EQ(steps.isFree(s, where), expected.empty());
+    if (!expected.empty()) {
+      EXPECT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected);
+    } else {
+      positions[s] = where;
+      steps.fileAtTarget(s);
+    }
+    return expected;
+  }
   std::vector<Grid::Slot> touching(const FixedBox& box, Grid::Slot self) const {
     std::vector<Grid::Slot> expected;
     for (Grid::Slot s = 0; s < filed.size(); ++s) {
@@ -42,12 +61,6 @@ struct Filed {
     return expected;
   }
 };
-
-std::vector<Grid::Slot> sorted(std::vector<Grid::Slot> slots) {
-  std::sort(slots.begin(), slots.end());
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
-  return slots;
-}
 
 FixedVector randomPosition(Random& random, int spread) {
   const auto number = [&] { return static_cast<Fixed>(random.below(spread)) * (kFixedOne / 4); };
@@ -100,15 +113,8 @@ TEST(Grid, ABoxStepsWhereItTouchesNothing) {
         FixedVector where = it.positions[slot] + FixedVector{random.below(17) * kFixedOne / 8, 0} -
                             FixedVector{kFixedOne, random.below(9) * kFixedOne / 8};
         if (random.below(8) == 0) where = randomPosition(random, spread);
-        const std::vector<Grid::Slot> expected = it.touching(translate(it.boxes[slot], where), slot);
-        Grid::Steps steps(it.grid);
-        ASSERT_EQ(steps.isFree(slot, where), expected.empty());
-        if (expected.empty()) {
-          it.positions[slot] = where;
-          steps.fileAtTarget(slot);
-        } else {
-          ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "spread " << spread;
-        }
+        it.step(slot, where);
+        ASSERT_FALSE(HasFailure()) << "spread " << spread << " round " << round;
         if (round % 50 == 0) {
           std::vector<Grid::Slot> all;
           it.grid.touching({{fromCells(-1000000000), fromCells(-1000000000)},
@@ -140,17 +146,11 @@ TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
       const FixedVector near = it.positions[static_cast<std::size_t>(random.below(count))];
       if (random.below(2) == 0) where.x = near.x + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
       if (random.below(2) == 0) where.y = near.y + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
-      const std::vector<Grid::Slot> expected = it.touching(translate(kCharacterBox, where), slot);
-      Grid::Steps steps(it.grid);
-      ASSERT_EQ(steps.isFree(slot, where), expected.empty()) << "round " << round;
-      if (expected.empty()) {
-        it.positions[slot] = where;
-        steps.fileAtTarget(slot);
-      } else {
-        ++touched;
-        ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "round " << round;
-        if (random.below(4) == 0) it.put(slot, where, kCharacterBox);  // they may share cells
-      }
+      const bool is_free = it.step(slot, where).empty();
+      ASSERT_FALSE(HasFailure()) << "round " << round;
+      if (is_free) continue;
+      ++touched;
+      if (random.below(4) == 0) it.put(slot, where, kCharacterBox);  // they may share cells
     }
   }
   EXPECT_GT(touched, 10000);

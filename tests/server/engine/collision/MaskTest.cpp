@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -79,22 +80,16 @@ TEST(Mask, NothingIsSetOutside) {
 
 TEST(Mask, FirstCharacterLiesInTheCellAfterTheCorner) {
   const Fixed half = kFixedOne / 2;
-  const auto cells = [](FixedVector corner, FixedVector size) { return drawnCells(nullptr, {corner, size}); };
+  using Cells = std::array<std::int64_t, 4>;  // x, y, width, height
+  const auto cells = [](FixedVector corner, FixedVector size) {
+    const CellBox box = drawnCells(nullptr, {corner, size});
+    return Cells{box.x, box.y, box.width, box.height};
+  };
   // A character of width 1 at (7,3), the box around it.
-  const CellBox one = cells({7 * kFixedOne - half, 3 * kFixedOne - half}, {kFixedOne, kFixedOne});
-  EXPECT_EQ(one.x, 7);
-  EXPECT_EQ(one.y, 3);
-  EXPECT_EQ(one.width, 1);
-  EXPECT_EQ(one.height, 1);
-  const CellBox below_zero = cells({-1, -kFixedOne - 1}, {0, kFixedOne + 1});
-  EXPECT_EQ(below_zero.x, 0);
-  EXPECT_EQ(below_zero.y, -1);
-  EXPECT_EQ(below_zero.width, 1);
-  EXPECT_EQ(below_zero.height, 2);
-  const CellBox far = cells({fromCells(-2001000000), fromCells(2001000000)}, {fromCells(1000000), 0});
-  EXPECT_EQ(far.x, -2000999999);
-  EXPECT_EQ(far.y, 2001000001);
-  EXPECT_EQ(far.width, 1000000);
+  EXPECT_EQ(cells({7 * kFixedOne - half, 3 * kFixedOne - half}, {kFixedOne, kFixedOne}), (Cells{7, 3, 1, 1}));
+  EXPECT_EQ(cells({-1, -kFixedOne - 1}, {0, kFixedOne + 1}), (Cells{0, -1, 1, 2}));
+  EXPECT_EQ(cells({fromCells(-2001000000), fromCells(2001000000)}, {fromCells(1000000), 0}),
+            (Cells{-2000999999, 2001000001, 1000000, 1}));
 }
 
 TEST(Mask, SideBySideSharesNoCell) {

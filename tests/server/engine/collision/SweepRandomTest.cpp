@@ -1,9 +1,7 @@
 // Sweeps in random cases, against the plain answers.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <string>
-#include <vector>
 
 #include "PlainSweep.h"
 #include "shared/values/SplitMix64.h"

@@ -1,9 +1,6 @@
 // Sweeps in cases with a name.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <vector>
-
 #include "PlainSweep.h"
 
 namespace df::test {
@@ -78,26 +75,17 @@ class AtTheWall : public testing::Test {
   const FixedBox wall = {{0, 0}, {2 * kFixedOne, 10 * kFixedOne}};
 };
 
-TEST_F(AtTheWall, LeavingIsFree) {
-  EXPECT_EQ(touch({-1, 0}), std::nullopt);
-  EXPECT_EQ(touch(cells(-20, 0)), std::nullopt);
-  EXPECT_EQ(touch(cells(-20, 3)), std::nullopt);
-}
-
-TEST_F(AtTheWall, GoingInHitsAtOnce) {
+TEST_F(AtTheWall, HitsAtOnceUnlessItLeaves) {
+  for (const FixedVector by : {FixedVector{-1, 0}, cells(-20, 0), cells(-20, 3)}) {
+    EXPECT_EQ(touch(by), std::nullopt) << "leaving by " << by.x << ", " << by.y;
+  }
   EXPECT_EQ(touch({1, 0}), Moment{});
   EXPECT_EQ(touch(cells(20, 0)), Moment{}) << "on the other side at the end, but through the wall";
   EXPECT_EQ(touch(cells(1, 20)), Moment{});
-}
-
-TEST_F(AtTheWall, StandingStillTouches) {
-  EXPECT_EQ(touch({0, 0}), Moment{});
-}
-
-TEST_F(AtTheWall, SlidingAlongHitsUnlessItEndsBeyond) {
+  EXPECT_EQ(touch({0, 0}), Moment{}) << "standing still";
   EXPECT_EQ(touch(cells(0, 5.5)), Moment{}) << "the corners touch at the end";
-  EXPECT_EQ(touch(cells(0, -2)), Moment{});
-  EXPECT_EQ(touch(cells(0, 5.5) + FixedVector{0, 1}), std::nullopt);
+  EXPECT_EQ(touch(cells(0, -2)), Moment{}) << "sliding along";
+  EXPECT_EQ(touch(cells(0, 5.5) + FixedVector{0, 1}), std::nullopt) << "sliding beyond its end";
   EXPECT_EQ(touch(cells(0, -20)), std::nullopt);
 }
 

@@ -1,7 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "engine/effects/Fader.h"
 #include "engine/effects/Particle.h"
 #include "engine/published/utility.h"
@@ -21,8 +17,7 @@ TEST_F(ParticleTest, LivesForItsAgeAndShowsItsShape) {
   auto* p_particle = new Particle(10, 3, 255, 255, 0, 0);
   p_particle->setPosition(Vector(5, 5));
   EXPECT_EQ(p_particle->getSolidness(), SPECTRAL);
-  world.tick();
-  world.tick();
+  ticks(2);
   EXPECT_EQ(at(5, 5), 'O');
   EXPECT_EQ(world.picture().render({}).at(5, 5).color, RED);
   world.tick();

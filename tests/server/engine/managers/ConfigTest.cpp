@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
 #include "engine/managers/Config.h"
 #include "engine/managers/DisplayManager.h"
-#include "engine/managers/GameManager.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {

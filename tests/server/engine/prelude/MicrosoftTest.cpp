@@ -2,11 +2,9 @@
 
 #include <conio.h>
 #include <direct.h>
-#include <gtest/gtest.h>
 #include <windows.h>
 
 #include <filesystem>
-#include <string>
 
 #include "engine/prelude/Microsoft.h"
 #include "engine/published/Windows.h"

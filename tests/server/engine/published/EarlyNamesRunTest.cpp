@@ -1,7 +1,5 @@
 // Runs what EarlyNamesTest.cpp and LaterNamesTest.cpp compile, and what they cannot see.
 
-#include <gtest/gtest.h>
-
 #include "Animation.h"
 #include "Config.h"
 #include "tests/server/engine/Probe.h"
@@ -57,8 +55,7 @@ TEST_F(EarlyNames, TextOfOneFlag) {
 }
 
 TEST_F(EarlyNames, ASpriteThatIsNotCentredBeginsAtThePosition) {
-  Object o;
-  o.setPosition(Vector(9, 10.5));
+  PlacedObject o(Vector(9, 10.5));
   o.setSprite(&m_arrow);
   EXPECT_EQ(earlySprites(&o), "arrow");
   EXPECT_EQ(shown(), "a/>   |bc(   ");
@@ -71,8 +68,7 @@ TEST_F(EarlyNames, ASpriteThatIsNotCentredBeginsAtThePosition) {
 }
 
 TEST_F(EarlyNames, ATransformedSpriteIsDrawnTurnedOver) {
-  Object o;
-  o.setPosition(Vector(9, 10.5));
+  PlacedObject o(Vector(9, 10.5));
   o.setSprite(&m_arrow);
   Animation animation = o.getAnimation();
   animation.setTransform(Transform::HORIZONTAL);

@@ -1,11 +1,6 @@
 // Games that were written as two programs over the published engine's NetworkManager: the server's half is
 // played, with the world's players as its connections.
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-
 #include "engine/managers/Config.h"
 #include "engine/published/EventNetworks.h"
 #include "engine/published/NetworkManager.h"
@@ -66,8 +61,7 @@ TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
                    world.tick();
                    EXPECT_EQ(WM.objectsOfType("Hand").getCount(), 0) << "it waits for two";
                    const std::uint32_t bob = world.input().join("bob", RED);
-                   world.tick();
-                   world.tick();
+                   ticks(2);
                    ASSERT_EQ(WM.objectsOfType("Hand").getCount(), 2);
                    point(ann, 11, 9);
                    point(bob, 50, 20);
@@ -85,8 +79,7 @@ TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
                    world.tick();
                    EXPECT_FALSE(GM.getGameOver());
                    const std::uint32_t cy = world.input().join("cy", RED);
-                   world.tick();
-                   world.tick();
+                   ticks(2);
                    point(cy, 30, 15);
                    EXPECT_EQ(shown('B'), Vector(30, 15)) << "who comes later has the free socket";
                    played = true;
@@ -112,8 +105,7 @@ TEST_F(NetworkServerTest, PlayersBeyondTheLimitWatch) {
     probe.registerInterest(type);
   const std::uint32_t ann = world.input().join("ann", CYAN);
   const std::uint32_t bob = world.input().join("bob", RED);
-  world.tick();
-  world.tick();
+  ticks(2);
   EXPECT_EQ(received, (std::vector<std::string>{"probe:df-network-accept", "probe:df-network"}));
   EXPECT_EQ(NM.getNumConnections(), 1);
   EXPECT_EQ(NM.getSocket(0), 0);
@@ -144,8 +136,7 @@ TEST_F(NetworkServerTest, AKeyThatNoObjectTakesFromTheNetworkIsALocalOne) {
   Probe hand("hand", &received);
   hand.registerInterest(NETWORK_MSE_EVENT);
   const std::uint32_t ann = world.input().join("ann", CYAN);
-  world.tick();
-  world.tick();
+  ticks(2);
   world.input().key(ann, Keyboard::Q, KEY_PRESSED);
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 3, 4);
   world.tick();
@@ -160,8 +151,7 @@ TEST_F(NetworkServerTest, AServerThatPlaysHasTheFirstPlayerAsItsOwn) {
   hero.registerInterest(NETWORK_KEYBOARD_EVENT);
   const std::uint32_t ann = world.input().join("ann", CYAN);
   const std::uint32_t bob = world.input().join("bob", RED);
-  world.tick();
-  world.tick();
+  ticks(2);
   EXPECT_EQ(NM.getNumConnections(), 1);
   world.input().key(ann, Keyboard::A, KEY_PRESSED);
   world.input().key(bob, Keyboard::A, KEY_PRESSED);
@@ -179,8 +169,7 @@ TEST_F(NetworkServerTest, WhoWatchesDoesNotSteerThePlayerAtTheServer) {
   const std::uint32_t ann = world.input().join("ann", CYAN);
   const std::uint32_t bob = world.input().join("bob", RED);
   const std::uint32_t cy = world.input().join("cy", GREEN);
-  world.tick();
-  world.tick();
+  ticks(2);
   world.input().key(bob, Keyboard::A, KEY_PRESSED);
   world.input().key(cy, Keyboard::A, KEY_PRESSED);
   world.input().mouse(cy, CLICKED, Mouse::LEFT, 3, 4);
@@ -198,8 +187,7 @@ TEST_F(NetworkServerTest, WhatIsSynchronisedCountsAsWritten) {
   EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), 0) << "no player is connected";
   EXPECT_TRUE(apple.isModified(POSITION));
   world.input().join("ann", CYAN);
-  world.tick();
-  world.tick();
+  ticks(2);
   EXPECT_EQ(node.sendMessage(SYNC_OBJECT, &apple), 1);
   EXPECT_FALSE(apple.isModified(POSITION));
   apple.setPosition(Vector(5, 5));

@@ -1,8 +1,6 @@
 // Runs what PublishedApiTest.cpp compiles. (That file includes no header of the tests, so that games'
 // conditions are its own.)
 
-#include <gtest/gtest.h>
-
 #include "tests/server/engine/Probe.h"
 
 int published_api_main(int argc, char* argv[]);

@@ -1,7 +1,6 @@
 // Runs what PublishedHeaderTest.cpp compiles. (That file's includes are its own.)
 
 #include <dlfcn.h>
-#include <gtest/gtest.h>
 
 #include "tests/server/engine/Probe.h"
 #include "utility.h"

@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
-
 #include <sstream>
-#include <string>
 
 #include "engine/managers/Clock.h"
 #include "engine/managers/LogManager.h"
@@ -55,12 +52,9 @@ TEST_F(UtilityTest, CirclesMeetBoxes) {
 }
 
 TEST_F(UtilityTest, ObjectsInPlaces) {
-  Object a;
-  a.setPosition(Vector(10, 10));
-  Object b;
-  b.setPosition(Vector(20, 10));
-  Object asleep;
-  asleep.setPosition(Vector(10, 10));
+  PlacedObject a(Vector(10, 10));
+  PlacedObject b(Vector(20, 10));
+  PlacedObject asleep(Vector(10, 10));
   asleep.setActive(false);
   const auto first = [](const ObjectList& list) { return list.getCount() == 1 ? list[0] : nullptr; };
   EXPECT_EQ(first(WM.objectsAtPosition(Vector(10.5, 10))), &a);
@@ -78,8 +72,7 @@ TEST_F(UtilityTest, NormalPointsBackToWhereTheMoverCameFrom) {
   Object wall;
   wall.setBox(Box(Vector(-3, -3), 6, 6));
   wall.setPosition(Vector(20, 10));
-  Object ball;
-  ball.setPosition(Vector(16.6, 11));
+  PlacedObject ball(Vector(16.6, 11));
   EXPECT_EQ(getNormal(&ball, &wall), Vector(-1, 0));
   ball.setPosition(Vector(21, 13.2));
   EXPECT_EQ(getNormal(&ball, &wall), Vector(0, 1));

@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/ResourceManager.h"
 #include "engine/sprites/Animation.h"
@@ -26,16 +21,14 @@ class AnimationTest : public WorldTest {};
 
 TEST_F(AnimationTest, EachFrameIsShownForSlowdownTicks) {
   Sprite s = sprite({"a", "b", "c"}, 2);
-  Object o;
-  o.setPosition(Vector(10, 10));
+  PlacedObject o(Vector(10, 10));
   EXPECT_EQ(o.setSprite(&s), 0);
   EXPECT_EQ(shown(10, 9), "aabbccaab");
 }
 
 TEST_F(AnimationTest, SlowdownZeroIsNoAnimationAndMinusOneStopsIt) {
   Sprite still = sprite({"a", "b"}, 0);
-  Object o;
-  o.setPosition(Vector(10, 10));
+  PlacedObject o(Vector(10, 10));
   o.setSprite(&still);
   EXPECT_EQ(shown(10, 4), "aaaa");
   still.setSlowdown(1);
@@ -85,8 +78,7 @@ TEST_F(AnimationTest, SpritesAreDrawnAroundThePosition) {
   s.setHeight(2);
   s.setColor(MAGENTA);
   s.addFrame(Frame(3, 2, "abcdef"));
-  Object o;
-  o.setPosition(Vector(10, 10));
+  PlacedObject o(Vector(10, 10));
   o.setSprite(&s);
   world.tick();
   const Canvas canvas = world.picture().render({});
@@ -124,8 +116,7 @@ TEST_F(AnimationTest, BoxBecomesTheSpritesUnlessSwitchedOff) {
 }
 
 TEST_F(AnimationTest, UnknownSpriteIsRefusedAndAQuestionMarkShows) {
-  Object o;
-  o.setPosition(Vector(3, 10));
+  PlacedObject o(Vector(3, 10));
   EXPECT_EQ(o.setSprite("ghost"), -1);
   EXPECT_EQ(logged("setSprite(\"ghost\") of "), 1);
   ASSERT_NE(o.getSprite(), nullptr);
@@ -143,8 +134,7 @@ TEST_F(AnimationTest, UnknownSpriteIsRefusedAndAQuestionMarkShows) {
 
 TEST_F(AnimationTest, PreciseCollisionsCompareTheFrameThatShows) {
   Sprite s = sprite({"##  ", "  ##"}, 0);
-  Object wall;
-  wall.setPosition(Vector(20, 10));
+  PlacedObject wall(Vector(20, 10));
   wall.setSprite(&s);
   Object mover;
   mover.setPrecise();
@@ -163,8 +153,7 @@ TEST_F(AnimationTest, PreciseCollisionsCompareTheFrameThatShows) {
 
 TEST_F(AnimationTest, AStaticLookFollowsTheFrame) {
   Sprite s = sprite({"a", "b"});
-  Object o;
-  o.setPosition(Vector(10, 10));
+  PlacedObject o(Vector(10, 10));
   o.setSprite(&s);
   o.setStaticLook();
   EXPECT_EQ(shown(10, 3), "aba");

@@ -1,11 +1,9 @@
 // Files found by names as systems take them that know no upper and lower case.
 
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
-#include <string>
 
 #include "engine/managers/ResourceManager.h"
 #include "engine/world/Resources.h"

@@ -1,12 +1,10 @@
 // Sprite files that the published engine loads and the book's rules refuse: with compat they are loaded, with
 // a line in the log.
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <string>
 
 #include "engine/managers/ResourceManager.h"
 #include "engine/sprites/SpriteFile.h"
@@ -34,8 +32,7 @@ class PublishedSprite : public WorldTest {
   }
   /// What row 10 shows of an Object with this sprite, without blanks, after each of `ticks` ticks.
   std::string shownOf(const std::string& label, int ticks) {
-    Object o;
-    o.setPosition(Vector(10, 10));
+    PlacedObject o(Vector(10, 10));
     o.setSprite(label);
     return shown(10, ticks);
   }

@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <iterator>
 #include <regex>
-#include <string>
+#include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "engine/managers/ResourceManager.h"
 #include "engine/sprites/SpriteFile.h"
@@ -29,7 +26,18 @@ std::string troubleOf(const std::string& text) {
   return error;
 }
 
-using SpriteFile = WorldTest;
+class SpriteFile : public WorldTest {
+ protected:
+  /// The sprite of a text that is one.
+  const Sprite& parsed(const std::string& text) {
+    std::string error;
+    sprites.push_back(parseSprite(text, "s", error));
+    if (sprites.back() == nullptr) throw std::runtime_error(text + ": " + error);
+    return *sprites.back();
+  }
+
+  std::vector<decltype(parseSprite("", "", std::declval<std::string&>()))> sprites;
+};
 
 TEST_F(SpriteFile, HeaderFormatSaysEverything) {
   for (const char* name : {"header.txt", "header-crlf.txt"}) {
@@ -102,11 +110,13 @@ TEST_F(SpriteFile, ErrorsAreLoggedWithFileAndLine) {
   }
 }
 
-TEST_F(SpriteFile, ARowMayLookLikeTheEndOfItsFrame) {
-  std::string error;
-  const auto sprite = parseSprite("frames 1\nwidth 3\nheight 2\nend\nend\nend\neof\n", "s", error);
-  ASSERT_NE(sprite, nullptr) << error;
-  EXPECT_EQ(sprite->getFrame(0).getString(), "endend");
+TEST_F(SpriteFile, RowsMayLookLikeTheirEndAndBlanksCount) {
+  EXPECT_EQ(parsed("frames 1\nwidth 3\nheight 2\nend\nend\nend\neof\n").getFrame(0).getString(), "endend");
+  EXPECT_EQ(parsed("1\n4\n1\n1\nwhite\na   ").getFrame(0).getString(), "a   ");
+  EXPECT_EQ(
+      parsed("<HEADER>\nframes 1\nwidth 1\nheight 1\ntransparency  \n</HEADER>\n<BODY>\nx\nend\n</BODY>\n")
+          .getTransparency(),
+      ' ');
 }
 
 // In each format, any rows of blanks: the first, the last, all; and CR LF.
@@ -122,30 +132,11 @@ TEST_F(SpriteFile, RowsMayBeBlank) {
           sizes + "\ncolor blue\nslowdown 2\n\n" + frames + "eof\n", "2\n3\n2\n1\nblue\n" + rows + rows}) {
       for (const bool has_cr : {false, true}) {
         if (has_cr) text = std::regex_replace(text, std::regex("\n"), "\r\n");
-        std::string error;
-        const auto sprite = parseSprite(text, "s", error);
-        ASSERT_NE(sprite, nullptr) << text << error;
-        EXPECT_EQ(sprite->getFrame(0).getString(), expected) << text;
-        EXPECT_EQ(sprite->getFrame(1).getString(), expected) << text;
+        for (int frame = 0; frame < 2; ++frame)
+          EXPECT_EQ(parsed(text).getFrame(frame).getString(), expected) << text;
       }
     }
   }
-}
-
-TEST_F(SpriteFile, BlanksAtTheEndOfARowCount) {
-  std::string error;
-  const auto sprite = parseSprite("1\n4\n1\n1\nwhite\na   ", "s", error);
-  ASSERT_NE(sprite, nullptr) << error;
-  EXPECT_EQ(sprite->getFrame(0).getString(), "a   ");
-}
-
-TEST_F(SpriteFile, TransparencyMayBeABlank) {
-  std::string error;
-  const auto sprite = parseSprite(
-      "<HEADER>\nframes 1\nwidth 1\nheight 1\ntransparency  \n</HEADER>\n<BODY>\nx\nend\n</BODY>\n", "s",
-      error);
-  ASSERT_NE(sprite, nullptr) << error;
-  EXPECT_EQ(sprite->getTransparency(), ' ');
 }
 
 // Whatever a file holds, reading it ends with a sprite or with a sentence.

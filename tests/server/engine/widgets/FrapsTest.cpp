@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
-
 #include "engine/effects/Firework.h"
-#include "engine/events/EventKeyboard.h"
 #include "engine/widgets/Fraps.h"
 #include "tests/server/engine/Probe.h"
 
@@ -11,12 +8,6 @@ namespace {
 class FrapsTest : public WorldTest {
  protected:
   std::string topRow() { return world.picture().render(FixedVector()).rowText(1); }
-  void press(Keyboard::Key key) {
-    EventKeyboard event;
-    event.setKey(key);
-    event.setKeyboardAction(KEY_PRESSED);
-    WM.onEvent(&event);
-  }
 };
 
 TEST_F(FrapsTest, ShowsTheFrameRateUntilItIsHidden) {

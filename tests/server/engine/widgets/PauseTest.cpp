@@ -1,8 +1,4 @@
 // The pause as a vote of the players.
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 #include "engine/events/EventStep.h"
 #include "engine/widgets/Pause.h"
@@ -134,10 +130,7 @@ TEST_F(PauseTest, OnlyPlayersWhoseKeysCountCanVote) {
 
 TEST_F(PauseTest, AKeyOfTheGamesOwnIsObeyed) {
   join(3);
-  EventKeyboard event;
-  event.setKey(Keyboard::P);
-  event.setKeyboardAction(KEY_PRESSED);
-  WM.onEvent(&event);
+  WorldTest::press(Keyboard::P);
   EXPECT_TRUE(world.isPaused());
 }
 

@@ -1,13 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
-#include "engine/events/EventOut.h"
 #include "engine/widgets/PlayerObject.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/Views.h"
-#include "engine/world/World.h"
+#include "tests/server/engine/Probe.h"
 
 namespace df {
 namespace {
@@ -35,15 +27,12 @@ struct Ferry : PlayerObject<Boat> {
   std::vector<std::string> received;
 };
 
-class PlayerObjects : public testing::Test {
+class PlayerObjects : public test::WorldTest {
  protected:
-  PlayerObjects() : scope(world) { new Welcome<Ferry>; }
-  ~PlayerObjects() override { world.shutDown(); }
+  PlayerObjects() { new Welcome<Ferry>; }
   Ferry* ferryOf(std::uint32_t player) {
     return static_cast<Ferry*>(world.views().player(player)->getObject());
   }
-  World world;
-  World::Scope scope;
 };
 
 TEST_F(PlayerObjects, EachPlayerThatJoinsGetsOne) {
@@ -83,8 +72,7 @@ TEST_F(PlayerObjects, ItGoesWithItsPlayer) {
   world.tick();
   Ferry* p_left = ferryOf(bob);
   world.input().leave(ann);
-  world.tick();
-  world.tick();
+  ticks(2);
   ASSERT_EQ(WM.objectsOfType("Boat").getCount(), 1);
   EXPECT_EQ(WM.objectsOfType("Boat")[0], p_left);
   EXPECT_EQ(p_left->getPlayer(), world.views().player(bob));
@@ -97,8 +85,7 @@ TEST_F(PlayerObjects, WithoutAPlayerItDoesNotStep) {
   Ferry* p_ferry = ferryOf(ann);
   p_ferry->unregisterInterest(LEAVE_EVENT);
   world.input().leave(ann);
-  world.tick();
-  world.tick();
+  ticks(2);
   p_ferry->received.clear();
   world.tick();
   EXPECT_EQ(p_ferry->getPlayer(), nullptr);

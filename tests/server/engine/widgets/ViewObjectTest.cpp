@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/widgets/Button.h"
@@ -23,12 +18,6 @@ class ViewObjectTest : public WorldTest {
     return text.substr(0, text.find_last_not_of(' ') + 1);
   }
   FixedVector viewCorner() const { return *toFixed(WM.getView().getCorner()); }
-  void press(Keyboard::Key key, EventKeyboardAction action = KEY_PRESSED) {
-    EventKeyboard event;
-    event.setKey(key);
-    event.setKeyboardAction(action);
-    WM.onEvent(&event);
-  }
 };
 
 TEST_F(ViewObjectTest, IsSpectralOnTopWithBorderAndValue) {
@@ -116,8 +105,7 @@ TEST_F(ViewObjectTest, IsSeenInEveryPlayersOwnView) {
   points.setLocation(TOP_LEFT);
   const std::uint32_t player = world.input().join("ann", RED);
   world.tick();
-  auto* p_ship = new Object;
-  p_ship->setPosition(Vector(300, 70));
+  auto* p_ship = new PlacedObject(Vector(300, 70));
   world.views().player(player)->setObject(p_ship);
   world.tick();
   EXPECT_NE(world.picture().renderPlayer(player).rowText(0).find("P 0"), std::string::npos);
@@ -157,11 +145,10 @@ TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyTakesThatPlayersKeys) {
   world.tick();
   Entry* p_entry = nullptr;
   Probe probe;
-  probe.registerInterest(KEYBOARD_EVENT);
-  probe.on_event = [&](Probe& p, const Event&) {
+  probe.hear(KEYBOARD_EVENT, [&](Probe& p, const Event&) {
     p_entry = new Entry;
     p.unregisterInterest(KEYBOARD_EVENT);
-  };
+  });
   world.input().key(ann, Keyboard::SPACE, KEY_PRESSED);
   world.tick();
   ASSERT_NE(p_entry, nullptr);

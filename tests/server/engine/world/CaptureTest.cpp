@@ -6,8 +6,6 @@
 namespace df::test {
 namespace {
 
-using Received = std::vector<std::string>;
-
 class Capture : public WorldTest {
  protected:
   Probe* make(const std::string& name, double x, double y, int altitude = 2) {
@@ -104,6 +102,10 @@ TEST_F(Capture, StaticLookIsDrawnOnceAndMovesAlong) {
   a->setStaticLook();
   GM.tick();
   EXPECT_EQ(received, (Received{"a", "a"}));
+  WM.removeObject(a);
+  WM.insertObject(a);
+  for (int i = 0; i < 2; ++i) GM.tick();
+  EXPECT_EQ(received, (Received{"a", "a", "a"})) << "it returned";
 }
 
 TEST_F(Capture, CommandsNameTheObjectThatDrewThem) {
@@ -205,35 +207,30 @@ TEST_F(Capture, EveryFactIsReported) {
   Object o;
   world.store().setWatched(true);
   GM.tick();
-  const auto reported = [&] {
-    GM.tick();
-    return changed(o) != nullptr;
+  const std::pair<const char*, std::function<void()>> kChanges[] = {
+      {"solidness", [&] { o.setSolidness(SOFT); }},
+      {"no soft", [&] { o.setNoSoft(); }},
+      {"box", [&] { o.setBox(Box(Vector(0, 0), 2, 2)); }},
+      {"invisible", [&] { o.setVisible(false); }},
+      {"inactive", [&] { o.setVisible(true), o.setActive(false); }},
+      {"position", [&] { o.setPosition(Vector(5, 5)); }},
   };
-  EXPECT_FALSE(reported());
-  o.setSolidness(SOFT);
-  EXPECT_TRUE(reported());
-  o.setNoSoft();
-  EXPECT_TRUE(reported());
-  o.setBox(Box(Vector(0, 0), 2, 2));
-  EXPECT_TRUE(reported());
-  o.setVisible(false);
-  EXPECT_TRUE(reported());
-  EXPECT_FALSE(changed(o)->shown);
-  o.setVisible(true);
-  o.setActive(false);
-  EXPECT_TRUE(reported());
-  EXPECT_FALSE(changed(o)->shown);
-  o.setPosition(Vector(5, 5));
-  EXPECT_TRUE(reported());
+  for (const auto& [name, change] : kChanges) {
+    GM.tick();
+    EXPECT_EQ(changed(o), nullptr) << "before " << name;
+    change();
+    GM.tick();
+    ASSERT_NE(changed(o), nullptr) << name;
+    EXPECT_EQ(changed(o)->shown, o.isVisible() && o.isActive()) << name;
+  }
   o.setType("other");
-  EXPECT_FALSE(reported());
+  GM.tick();
+  EXPECT_EQ(changed(o), nullptr);
 }
 
 TEST_F(Capture, BlockedObjectHasNoVelocityUntilItIsFree) {
-  Object wall;
-  wall.setPosition(Vector(12, 10));
-  Object a;
-  a.setPosition(Vector(10.5, 10));
+  PlacedObject wall(Vector(12, 10));
+  PlacedObject a(Vector(10.5, 10));
   a.setVelocity(Vector(1, 0));
   a.setAcceleration(Vector(0.5, 0));
   world.store().setWatched(true);
@@ -251,8 +248,7 @@ TEST_F(Capture, BlockedObjectHasNoVelocityUntilItIsFree) {
 }
 
 TEST_F(Capture, BouncerReportsItsNewVelocity) {
-  Object wall;
-  wall.setPosition(Vector(12, 10));
+  PlacedObject wall(Vector(12, 10));
   Probe a("a", nullptr, Vector(10.5, 10));
   a.setVelocity(Vector(1, 0));
   a.on_event = [](Probe& self, const Event&) { self.setVelocity(Vector(-1, 0)); };

@@ -1,7 +1,5 @@
 // What an Object and its kin begin with: the book's values, and with compat the published engine's.
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cstring>
 #include <memory>
@@ -45,8 +43,7 @@ TEST_F(CompatDefaults, ObjectsBeginAtOneOneAndWithoutAType) {
   const Object published;
   EXPECT_EQ(published.getPosition(), Vector(1, 1));
   EXPECT_EQ(published.getType(), "(Undefined)");
-  Object moved;
-  moved.setPosition(Vector(7, 8));
+  PlacedObject moved(Vector(7, 8));
   EXPECT_EQ(Object(moved).getPosition(), Vector(7, 8));
 }
 

@@ -1,12 +1,9 @@
 // Where the published engine differs from the book, and how a world is set to behave like it.
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <optional>
 
-#include "engine/events/EventKeyboard.h"
 #include "engine/events/EventStep.h"
-#include "engine/managers/GameManager.h"
 #include "engine/managers/LogManager.h"
 #include "engine/world/Runner.h"
 #include "tests/server/engine/Probe.h"
@@ -43,50 +40,42 @@ class CompatTest : public WorldTest {
 TEST_F(CompatTest, ThePublishedEngineCountsStepsFromZero) {
   std::vector<int> counts;
   Probe probe;
-  probe.registerInterest(STEP_EVENT);
-  probe.on_event = [&](Probe&, const Event& e) {
+  probe.hear(STEP_EVENT, [&](Probe&, const Event& e) {
     if (const auto* p_step = dynamic_cast<const EventStep*>(&e)) counts.push_back(p_step->getStepCount());
-  };
+  });
   world.setCompat();
-  world.tick();
-  world.tick();
+  ticks(2);
   EXPECT_EQ(counts, (std::vector<int>{0, 1}));
   world.setCompat(false);
   world.tick();
   EXPECT_EQ(counts.back(), 3);
 }
 
-TEST_F(CompatTest, TheBookJudgesLeavingByThePosition) {
-  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0)), Vector(80, 10));
-  EXPECT_EQ(leavesAt(Vector(1, 10), Vector(-0.5, 0)), Vector(-0.5, 10));
-}
-
-TEST_F(CompatTest, ThePublishedEngineJudgesItByTheBox) {
-  world.setCompat();
-  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0)), Vector(81, 10)) << "at 80.5 it touches the edge";
-  EXPECT_EQ(leavesAt(Vector(1, 10), Vector(-0.25, 0)), Vector(-0.5, 10)) << "0.99 cells wide, from -0.5";
-  EXPECT_EQ(leavesAt(Vector(40, 20), Vector(0, 1)), Vector(40, 25));
-}
-
-TEST_F(CompatTest, ALargeBoxIsInTheWorldForLonger) {
-  world.setCompat();
-  const Box sprite(Vector(-3, -1), 6, 2);
-  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0), sprite), Vector(83.5, 10));
-  world.setCompat(false);
-  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0), sprite), Vector(80, 10));
-}
-
-TEST_F(CompatTest, ABoxBesideItsPositionLeavesWhileThePositionIsInside) {
-  world.setCompat();
-  EXPECT_EQ(leavesAt(Vector(60, 10), Vector(0.5, 0), Box(Vector(10, 0), 1, 1)), Vector(70.5, 10));
-  // Others in the same world are judged by their own, whichever way they are moved.
-  EXPECT_EQ(leavesAt(Vector(78, 10), Vector(0.5, 0)), Vector(81, 10));
-}
-
-TEST_F(CompatTest, ObjectPlacedOutsideLeavesOnlyAfterComingIn) {
-  world.setCompat();
-  EXPECT_EQ(leavesAt(Vector(82, 10), Vector(1, 0)), std::nullopt);
-  EXPECT_EQ(leavesAt(Vector(85, 10), Vector(-2.5, 0)), Vector(-2.5, 10));
+TEST_F(CompatTest, TheBookJudgesLeavingByThePositionAndThePublishedEngineByTheBox) {
+  const Box sprite(Vector(-3, -1), 6, 2), beside(Vector(10, 0), 1, 1);
+  const struct {
+    const char* p_name;
+    bool is_compat;
+    Vector from, velocity;
+    std::optional<Box> box;
+    std::optional<Vector> at;
+  } kCases[] = {
+      {"by the book, right", false, Vector(78, 10), Vector(0.5, 0), {}, Vector(80, 10)},
+      {"by the book, left", false, Vector(1, 10), Vector(-0.5, 0), {}, Vector(-0.5, 10)},
+      {"by the book, large", false, Vector(78, 10), Vector(0.5, 0), sprite, Vector(80, 10)},
+      {"right: at 80.5 it touches the edge", true, Vector(78, 10), Vector(0.5, 0), {}, Vector(81, 10)},
+      {"left: 0.99 cells wide, from -0.5", true, Vector(1, 10), Vector(-0.25, 0), {}, Vector(-0.5, 10)},
+      {"down", true, Vector(40, 20), Vector(0, 1), {}, Vector(40, 25)},
+      {"large", true, Vector(78, 10), Vector(0.5, 0), sprite, Vector(83.5, 10)},
+      {"beside its position", true, Vector(60, 10), Vector(0.5, 0), beside, Vector(70.5, 10)},
+      {"after that one, by its own box", true, Vector(78, 10), Vector(0.5, 0), {}, Vector(81, 10)},
+      {"placed outside", true, Vector(82, 10), Vector(1, 0), {}, {}},
+      {"placed outside, then in", true, Vector(85, 10), Vector(-2.5, 0), {}, Vector(-2.5, 10)},
+  };
+  for (const auto& its : kCases) {
+    world.setCompat(its.is_compat);
+    EXPECT_EQ(leavesAt(its.from, its.velocity, its.box), its.at) << its.p_name;
+  }
 }
 
 TEST_F(CompatTest, SpritelessNeighboursDoNotTouchThere) {
@@ -141,10 +130,9 @@ TEST_F(CompatTest, TheEnvironmentHasTheLastWord) {
 
 TEST_F(WorldTest, AGameThatIsOverForOnePlayerGoesOnForTheOthers) {
   Probe quitter("quitter");
-  quitter.registerInterest(KEYBOARD_EVENT);
-  quitter.on_event = [](Probe&, const Event& e) {
+  quitter.hear(KEYBOARD_EVENT, [](Probe&, const Event& e) {
     if (e.getType() == KEYBOARD_EVENT) GM.setGameOver();
-  };
+  });
   world.input().setGameOverLeaves(true);
   const std::uint32_t ann = world.input().join("ann", CYAN);
   const std::uint32_t bob = world.input().join("bob", RED);

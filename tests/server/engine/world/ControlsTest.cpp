@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "engine/events/EventKeyboard.h"
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/world/Controls.h"
@@ -39,11 +38,10 @@ TEST_F(DeclaredControls, AKeyMovesTheObjectBeforeItsEventIsSent) {
   Vector at_event;
   std::vector<bool> handled;
   Probe listener("listener", nullptr, Vector(50, 20));
-  listener.registerInterest(KEYBOARD_EVENT);
-  listener.on_event = [&](Probe&, const Event& e) {
+  listener.hear(KEYBOARD_EVENT, [&](Probe&, const Event& e) {
     at_event = ship.getPosition();
     handled.push_back(static_cast<const EventKeyboard&>(e).isHandled());
-  };
+  });
   press(RIGHTARROW);
   EXPECT_EQ(at_event, Vector(11, 10));
   press(RIGHTARROW, KEY_RELEASED);

@@ -2,7 +2,6 @@
 // it touches; it must end as if all had been asked.
 #include <cstdint>
 #include <sstream>
-#include <vector>
 
 #include "shared/values/SplitMix64.h"
 #include "tests/server/engine/Probe.h"
@@ -99,29 +98,21 @@ void expectTheSame(const Crowd& crowd) {
   }
 }
 
-TEST(Crowd, OfHardObjects) {
-  expectTheSame({});
-}
-
-TEST(Crowd, ThatMovesApart) {
-  expectTheSame({.spread = 12});
-}
-
-TEST(Crowd, OfAllKinds) {
-  expectTheSame({.spread = 2, .mixed = true});
-}
-
-TEST(Crowd, WithSomeWhoHear) {
-  expectTheSame({.diaries = 3, .spread = 4, .mixed = true});
-  expectTheSame({.diaries = 100, .spread = 4, .mixed = true});
-}
-
-TEST(Crowd, WithSomeWhoMayMoveOut) {
-  expectTheSame({.diaries = 1, .spread = 2, .mixed = true, .options = true});
-}
-
-TEST(Crowd, WithAnOddOne) {
+TEST(Crowd, MovesAsIfAllHadBeenAsked) {
+  const std::pair<const char*, Crowd> kCrowds[] = {
+      {"hard ones", {}},
+      {"that moves apart", {.spread = 12}},
+      {"all kinds", {.spread = 2, .mixed = true}},
+      {"a few hear", {.diaries = 3, .spread = 4, .mixed = true}},
+      {"many hear", {.diaries = 100, .spread = 4, .mixed = true}},
+      {"some may move out", {.diaries = 1, .spread = 2, .mixed = true, .options = true}},
+  };
+  for (const auto& [name, crowd] : kCrowds) {
+    SCOPED_TRACE(name);
+    expectTheSame(crowd);
+  }
   for (const bool is_hard : {true, false}) {
+    SCOPED_TRACE(is_hard ? "a hard one among soft ones" : "a soft one among hard ones");
     expectTheSame({.spread = 2, .speed = 0.1, .odd_every = 200, .odd_is_hard = is_hard});
     expectTheSame({.spread = 3, .speed = 0.1, .odd_every = 40, .odd_is_hard = is_hard});
     expectTheSame({.diaries = 2, .spread = 3, .speed = 0.1, .odd_every = 10, .odd_is_hard = is_hard});
@@ -151,8 +142,7 @@ TEST(Crowd, IsCountedAsItIsWhenSomeChangeTheirKindOrGo) {
     soft.back()->setSolidness(SOFT);
     soft.back()->setPosition(Vector(40, 12));
   }
-  auto* p_hard = new Object;
-  p_hard->setPosition(Vector(40, 12));
+  auto* p_hard = new PlacedObject(Vector(40, 12));
   p_hard->setVelocity(Vector(0.001, 0));
   const auto moves = [&] {
     const Vector before = p_hard->getPosition();
@@ -195,8 +185,7 @@ TEST(Crowd, IsNotListedBecauseOfAHearerElsewhere) {
   auto* p_far = new Diary(pages);
   p_far->setPosition(Vector(2, 2));
   for (int i = 0; i < 500; ++i) {
-    auto* p_o = new Object;
-    p_o->setPosition(Vector(40, 12));
+    auto* p_o = new PlacedObject(Vector(40, 12));
     p_o->setVelocity(Vector(0.1, 0));
   }
   world.tick();

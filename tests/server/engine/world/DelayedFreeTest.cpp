@@ -1,9 +1,6 @@
 // Objects that a game asks although it has deleted them: with compat, their memory is kept for a while.
 
-#include <gtest/gtest.h>
-
 #include <memory>
-#include <vector>
 
 #include "engine/events/EventStep.h"
 #include "engine/world/DelayedFree.h"

@@ -1,30 +1,11 @@
 // What lies at the ends of the ranges: far away, very fast, very large, very many.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include "engine/managers/WorldManager.h"
-#include "engine/world/EventCollision.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
-#include "engine/world/WorldStore.h"
+#include "tests/server/engine/Probe.h"
+#include "tests/support/NotANumber.h"
 
 namespace df::test {
 namespace {
 
-class Extremes : public ::testing::Test {
- protected:
-  Extremes() {
-    world.log().setSink([](const std::string&) {});
-  }
-  ~Extremes() override { world.shutDown(); }
-  World world;
-  World::Scope scope{world};
-};
+using Extremes = WorldTest;
 
 class Reacting : public Object {
  public:
@@ -124,10 +105,8 @@ TEST_F(Extremes, NumbersThatAreNoneAreRefusedAndTheWorldGoesOn) {
   auto* p_other = new Reacting;
   p_other->setPosition(Vector(5, 5));
   p_other->setVelocity(Vector(0.5, 0));
-  const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                        -std::numeric_limits<double>::infinity(), 1e30};
   std::uint64_t refused = 0;
-  for (const double x : bad) {
+  for (const double x : {kNan, kInfinity, -kInfinity, 1e30}) {
     for (const Vector v : {Vector(x, 0), Vector(0, x)}) {
       EXPECT_EQ(p_o->setPosition(v), -1);
       EXPECT_EQ(p_o->setVelocity(v), -1);
@@ -151,8 +130,7 @@ TEST_F(Extremes, NumbersThatAreNoneAreRefusedAndTheWorldGoesOn) {
 TEST_F(Extremes, AMillionObjectsLoadAndStep) {
   WM.setBoundary(Box(Vector(0, 0), 4000, 4000));
   for (int i = 0; i < 1000000; ++i) {
-    auto* p_o = new Object;
-    p_o->setPosition(Vector(i % 2000 * 2, i / 2000 * 4));
+    auto* p_o = new PlacedObject(Vector(i % 2000 * 2, i / 2000 * 4));
     p_o->setVelocity(Vector(0.25, i % 2 == 0 ? 0.25 : -0.25));
   }
   for (int tick = 0; tick < 3; ++tick) WM.update();

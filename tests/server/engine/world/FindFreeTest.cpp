@@ -3,9 +3,7 @@
 #include <limits>
 #include <optional>
 #include <random>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include "tests/server/engine/Probe.h"
 #include "tests/support/Sanitizers.h"
@@ -20,8 +18,7 @@ class FindFree : public WorldTest {
   FindFree() { WM.setBoundary(Box(Vector(-1000, -1000), 2000, 2000)); }
 
   static Object* make(double x, double y, Solidness solidness = HARD) {
-    auto* p = new Object;
-    p->setPosition(Vector(x, y));
+    auto* p = new PlacedObject(Vector(x, y));
     p->setSolidness(solidness);
     return p;
   }

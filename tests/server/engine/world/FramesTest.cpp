@@ -1,15 +1,8 @@
 // Objects that have frames: what is drawn, and what a host gets.
-#include <gtest/gtest.h>
-
 #include "engine/managers/DisplayManager.h"
-#include "engine/managers/WorldManager.h"
-#include "engine/world/Capture.h"
-#include "engine/world/Object.h"
 #include "engine/world/ObjectLookAccess.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
-#include "engine/world/WorldStore.h"
 #include "shared/replica/Look.h"
+#include "tests/server/engine/Probe.h"
 
 namespace df {
 namespace {
@@ -30,12 +23,9 @@ class Adorned : public Object {
   int draw() override { return Object::draw() == 0 ? DM.drawCh(getPosition(), U'*', RED) : -1; }
 };
 
-class FramesTest : public testing::Test {
+class FramesTest : public test::WorldTest {
  protected:
   std::string row() { return world.picture().render({}).rowText(5).substr(9, 3); }
-
-  World world;
-  World::Scope scope{world};
 };
 
 TEST_F(FramesTest, AClockTurnsTheFrames) {
@@ -53,8 +43,7 @@ TEST_F(FramesTest, AClockTurnsTheFrames) {
 }
 
 TEST_F(FramesTest, AHostGetsFramesAndSelector) {
-  Object object;
-  object.setPosition(Vector(10, 5));
+  test::PlacedObject object(Vector(10, 5));
   ObjectLookAccess::setFrames(object, letters(), Selector::turning(1, 5, 7));
   world.tick();
   EXPECT_TRUE(world.picture().view().looks.empty()) << "not watched";
@@ -77,8 +66,7 @@ TEST_F(FramesTest, ADrawOfItsOwnMayAddToThem) {
 }
 
 TEST_F(FramesTest, TheyGoWithTheObjectAndEndWithIt) {
-  auto* p_object = new Object;
-  p_object->setPosition(Vector(10, 5));
+  auto* p_object = new test::PlacedObject(Vector(10, 5));
   ObjectLookAccess::setFrames(*p_object, letters(), Selector::fixed(2));
   world.tick();
   EXPECT_EQ(row(), "<c>");
@@ -96,8 +84,7 @@ TEST_F(FramesTest, TheyGoWithTheObjectAndEndWithIt) {
   ObjectLookAccess::setFrames(*p_object, letters(), Selector::fixed(2));
   delete p_object;
   for (int i = 0; i < 200; ++i) {  // until its slot is used again
-    Object next;
-    next.setPosition(Vector(10, 5));
+    test::PlacedObject next(Vector(10, 5));
     world.tick();
     ASSERT_EQ(row(), "   ");
   }

@@ -1,28 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "engine/world/GameRooms.h"
-#include "engine/world/InputQueue.h"
-#include "engine/world/Views.h"
-#include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
-#include "engine/world/WorldLog.h"
+#include "tests/server/engine/Probe.h"
 
 namespace df {
 namespace {
 
-class GameRoomsTest : public testing::Test {
+class GameRoomsTest : public test::WorldTest {
  protected:
-  void SetUp() override {
-    world.log().setSink([](const std::string&) {});
-  }
   void keep(const GameRoom& room) {
     world.input().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
   }
 
-  World world;
-  const World::Scope scope{world};
   GameRooms rooms;
 };
 

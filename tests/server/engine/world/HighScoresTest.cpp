@@ -1,37 +1,21 @@
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "DisplayManager.h"
 #include "EventStep.h"
-#include "GameManager.h"
 #include "GameTest.h"
 #include "HighScores.h"
-#include "Object.h"
-#include "World.h"
-#include "WorldManager.h"
-#include "engine/world/InputQueue.h"
 #include "engine/world/WorldExtras.h"
-#include "engine/world/WorldLog.h"
+#include "tests/server/engine/Probe.h"
 
 namespace df {
 namespace {
 
-class HighScoresTest : public testing::Test {
+class HighScoresTest : public test::WorldTest {
  protected:
-  HighScoresTest() {
-    world.log().setSink([this](const std::string& line) { log.push_back(line); });
-  }
   void keep(const std::string& table, const std::string& name, std::int64_t points) {
     world.input().push(
         {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
   }
   std::vector<AddedScore> taken() { return world.extras().scores.takeAdded(); }
 
-  World world;
-  World::Scope scope{world};
-  std::vector<std::string> log;
   HighScores scores{"arcade"};
 };
 
@@ -99,7 +83,7 @@ TEST_F(HighScoresTest, WithoutAHostNothingPilesUp) {
 TEST_F(HighScoresTest, MoreThanSixteenInATickAreRefusedAndTheNextTickTakesMore) {
   for (int i = 0; i < 16; ++i) EXPECT_EQ(scores.add("ann", i), 0);
   EXPECT_EQ(HighScores("other").add("ann", 99), -1);
-  EXPECT_EQ(log.size(), 1u);
+  EXPECT_EQ(lines.size(), 1u);
   EXPECT_EQ(world.log().refusals(), 1u);
   world.tick();
   EXPECT_EQ(scores.add("ann", 99), 0);

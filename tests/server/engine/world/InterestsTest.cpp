@@ -6,8 +6,6 @@
 namespace df::test {
 namespace {
 
-using Received = std::vector<std::string>;
-
 class Interests : public WorldTest {
  protected:
   Event named(const std::string& type) {
@@ -113,8 +111,7 @@ TEST_F(Interests, StepEventCountsTheTicks) {
   a.on_event = [&](Probe&, const Event& e) {
     counts.push_back(dynamic_cast<const EventStep&>(e).getStepCount());
   };
-  GM.tick();
-  GM.tick();
+  ticks(2);
   EXPECT_EQ(counts, (std::vector<int>{1, 2}));
   EXPECT_EQ(GM.getStepCount(), 2);
 }
@@ -125,8 +122,7 @@ TEST_F(Interests, HandlerThatThrowsIsQuarantinedAndTheTickGoesOn) {
   p_bad->registerInterest(STEP_EVENT);
   good.registerInterest(STEP_EVENT);
   p_bad->on_event = [](Probe&, const Event&) { throw 42; };
-  GM.tick();
-  GM.tick();
+  ticks(2);
   EXPECT_EQ(received, (Received{"bad:df-step", "good:df-step", "good:df-step"}));
   EXPECT_EQ(logged("bad"), 1);
   EXPECT_EQ(world.store().countInWorld(), 1);

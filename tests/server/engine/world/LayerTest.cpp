@@ -1,15 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <memory>
-#include <vector>
 
-#include "engine/managers/WorldManager.h"
-#include "engine/world/Capture.h"
 #include "engine/world/Layer.h"
-#include "engine/world/Object.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldStore.h"
+#include "tests/server/engine/Probe.h"
 
 namespace df {
 namespace {
@@ -38,14 +30,12 @@ class Falling : public Layer {
   std::vector<ObjectKey> bodies;
 };
 
-class Layers : public testing::Test {
+class Layers : public test::WorldTest {
  protected:
-  Layers() : scope(world) {
+  Layers() {
     world.addLayer(std::make_unique<Falling>());
     layer = world.findLayer<Falling>();
   }
-  World world;
-  World::Scope scope;
   Falling* layer = nullptr;
 };
 
@@ -60,29 +50,27 @@ TEST_F(Layers, AreFoundByTheirClassAndStepOnceInEachUpdate) {
 
 TEST_F(Layers, TheBooksMovesSkipBodies) {
   Object body, plain;
-  Object *const p_body = &body, *const p_plain = &plain;
-  p_plain->setSolidness(SPECTRAL);
-  p_body->setSolidness(SPECTRAL);
-  layer->add(*p_body);
-  p_body->setVelocity(Vector(1, 0));
-  p_plain->setVelocity(Vector(1, 0));
+  layer->add(body);
+  for (Object* p_object : {&body, &plain}) {
+    p_object->setSolidness(SPECTRAL);
+    p_object->setVelocity(Vector(1, 0));
+  }
   world.update();
-  EXPECT_EQ(p_body->getPosition(), Vector(1, 0.125)) << "by the layer, once";
-  EXPECT_EQ(p_plain->getPosition(), Vector(1, 0));
-  p_body->setActive(false);
-  p_body->setActive(true);
-  p_body->getWorld()->store().set(p_body->key().slot, WorldStore::kBody, false);
+  EXPECT_EQ(body.getPosition(), Vector(1, 0.125)) << "by the layer, once";
+  EXPECT_EQ(plain.getPosition(), Vector(1, 0));
+  body.setActive(false);
+  body.setActive(true);
+  world.store().set(body.key().slot, WorldStore::kBody, false);
   layer->bodies.clear();
   world.update();
-  EXPECT_EQ(p_body->getPosition(), Vector(2, 0.375)) << "no body any more: the book's";
+  EXPECT_EQ(body.getPosition(), Vector(2, 0.375)) << "no body any more: the book's";
 }
 
 TEST_F(Layers, AClientCanComputeABodysFlight) {
   Object body;
-  Object* const p_body = &body;
-  layer->add(*p_body);
+  layer->add(body);
   world.store().setWatched(true);
-  p_body->setVelocity(Vector(0.5, -2));
+  body.setVelocity(Vector(0.5, -2));
   world.tick();
   ASSERT_EQ(world.picture().view().changed.size(), 1u);
   FixedVector p = world.picture().view().changed[0].position;
@@ -92,19 +80,18 @@ TEST_F(Layers, AClientCanComputeABodysFlight) {
     world.tick();
     p = p + v;
     v = v + a;
-    EXPECT_EQ(world.store().position(p_body->key().slot), p) << "after " << i << " ticks";
+    EXPECT_EQ(world.store().position(body.key().slot), p) << "after " << i << " ticks";
   }
 }
 
 TEST_F(Layers, ABodyBlocksOthers) {
   Object body, plain;
-  Object *const p_body = &body, *const p_plain = &plain;
-  layer->add(*p_body);
+  layer->add(body);
   layer->bodies.clear();  // stays where it is
-  p_body->setPosition(Vector(5, 0));
-  p_plain->setVelocity(Vector(1, 0));
+  body.setPosition(Vector(5, 0));
+  plain.setVelocity(Vector(1, 0));
   for (int i = 0; i < 10; ++i) world.update();
-  EXPECT_EQ(p_plain->getPosition(), Vector(3, 0));
+  EXPECT_EQ(plain.getPosition(), Vector(3, 0));
 }
 
 TEST_F(Layers, AnObjectMarkedInAStepIsDeletedInTheSameUpdate) {

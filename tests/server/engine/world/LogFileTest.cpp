@@ -1,6 +1,5 @@
 // The log files of a game hold up nobody, whatever they are.
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <string>
 
 #include "engine/managers/Config.h"
 #include "engine/managers/LogManager.h"

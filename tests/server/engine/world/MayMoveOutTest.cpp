@@ -1,12 +1,7 @@
-#include <string>
-#include <vector>
-
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
 namespace {
-
-using Received = std::vector<std::string>;
 
 class MayMoveOut : public WorldTest {
  protected:
@@ -21,8 +16,11 @@ class MayMoveOut : public WorldTest {
 };
 
 TEST_F(MayMoveOut, WithoutItOnePlacedInsideCannotLeaveStepByStep) {
-  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
-  expectAt(*a, 23, 10);
+  for (const bool may_the_other : {false, true}) {
+    wall->setMayMoveOut(may_the_other);  // the mover's setting counts
+    EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1) << may_the_other;
+    expectAt(*a, 23, 10);
+  }
 }
 
 TEST_F(MayMoveOut, LeavesStepByStepAndBothGetTheEvent) {
@@ -54,11 +52,6 @@ TEST_F(MayMoveOut, LetsANoSoftOneLeaveASoftOne) {
   EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
   a->setMayMoveOut();
   EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), 0);
-}
-
-TEST_F(MayMoveOut, OnlyTheMoversSettingCounts) {
-  wall->setMayMoveOut();
-  EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
 }
 
 TEST_F(MayMoveOut, LeavesWithUpdate) {

@@ -1,22 +1,13 @@
 #include <algorithm>
-#include <limits>
+#include <optional>
 #include <stdexcept>
 
-#include "tests/server/engine/Probe.h"
+#include "SweptWorld.h"
 
 namespace df::test {
 namespace {
 
-using Received = std::vector<std::string>;
-
-class MoveObject : public WorldTest {
- protected:
-  Probe* make(const std::string& name, double x, double y, Solidness solidness = HARD) {
-    auto* p = new Probe(name, &received, Vector(x, y));
-    p->setSolidness(solidness);
-    return p;
-  }
-};
+using MoveObject = SweptWorld;
 
 TEST_F(MoveObject, FreeMoverMoves) {
   Probe* a = make("a", 10, 10);
@@ -99,18 +90,43 @@ TEST_F(MoveObject, CollisionEventNamesMoverOtherAndTarget) {
   EXPECT_EQ(seen, 2);
 }
 
-TEST_F(MoveObject, HandlerThatSoftensThePairUnblocksIt) {
-  Probe* a = make("a", 10, 10);
-  Probe* b = make("b", 15, 10);
-  b->on_event = [](Probe& self, const Event&) { self.setSolidness(SOFT); };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-}
-
-TEST_F(MoveObject, HandlerThatHardensThePairBlocksIt) {
-  Probe* a = make("a", 10, 10, SOFT);
-  make("b", 15, 10);
-  a->on_event = [](Probe& self, const Event&) { self.setSolidness(HARD); };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
+TEST_F(MoveObject, HandlersDecideHowTheMoveEnds) {
+  const Vector target(15, 10);
+  const auto setAside = [](Probe& a, Probe&) { a.setPosition(Vector(40, 10)); };
+  const Received both = {"a:df-collision", "b:df-collision"}, only_a = {"a:df-collision"};
+  const struct {
+    const char* p_name;
+    Solidness mover;
+    bool is_movers;  // the handler
+    std::function<void(Probe& a, Probe& b)> handle;
+    int result;
+    std::optional<Vector> end;  // none: the mover is gone
+    Received received;
+  } kCases[] = {
+      {"softens the pair", HARD, false, [](Probe&, Probe& b) { b.setSolidness(SOFT); }, 0, target, both},
+      {"hardens the pair", SOFT, true, [](Probe& a, Probe&) { a.setSolidness(HARD); }, -1, Vector(10, 10),
+       both},
+      {"sets the position of a soft mover", SOFT, true, setAside, 0, target, both},
+      {"sets the position of a blocked mover", HARD, true, setAside, -1, Vector(40, 10), both},
+      {"deletes the other", HARD, true, [](Probe&, Probe& b) { delete &b; }, 0, target, only_a},
+      {"deletes the mover", HARD, true, [](Probe& a, Probe&) { delete &a; }, -1, {}, only_a},
+      {"marks the mover", SOFT, true, [](Probe& a, Probe&) { WM.markForDelete(&a); }, 0, target, both},
+      {"makes a newcomer at the target", SOFT, false, [&](Probe&, Probe&) { make("late", 15, 10, SOFT); }, 0,
+       target, both},
+      {"makes the other inactive", SOFT, true, [](Probe&, Probe& b) { b.setActive(false); }, 0, target,
+       only_a},
+  };
+  for (const auto& its : kCases) {
+    SCOPED_TRACE(its.p_name);
+    world.shutDown();
+    received.clear();
+    Probe* a = make("a", 10, 10, its.mover);
+    Probe* b = make("b", 15, 10);
+    (its.is_movers ? a : b)->on_event = [&](Probe&, const Event&) { its.handle(*a, *b); };
+    EXPECT_EQ(WM.moveObject(a, target), its.result);
+    if (its.end) expectAt(*a, its.end->x(), its.end->y());
+    EXPECT_EQ(received, its.received);
+  }
 }
 
 TEST_F(MoveObject, TheCollisionRuleIsAppliedRightAfterTheHandlersOfAPair) {
@@ -122,22 +138,6 @@ TEST_F(MoveObject, TheCollisionRuleIsAppliedRightAfterTheHandlersOfAPair) {
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
 }
 
-TEST_F(MoveObject, SetPositionInASoftCollisionIsOverwritten) {
-  Probe* a = make("a", 10, 10, SOFT);
-  make("b", 15, 10);
-  a->on_event = [](Probe& self, const Event&) { self.setPosition(Vector(40, 10)); };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  expectAt(*a, 15, 10);
-}
-
-TEST_F(MoveObject, SetPositionAfterAHardBlockSticks) {
-  Probe* a = make("a", 10, 10);
-  make("b", 15, 10);
-  a->on_event = [](Probe& self, const Event&) { self.setPosition(Vector(40, 10)); };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
-  expectAt(*a, 40, 10);
-}
-
 TEST_F(MoveObject, ListMemberDeletedByHandIsSkipped) {
   Probe* b = make("b", 15, 10);
   Probe* c = make("c", 15, 10);
@@ -145,14 +145,6 @@ TEST_F(MoveObject, ListMemberDeletedByHandIsSkipped) {
   b->on_event = [&](Probe&, const Event&) { delete std::exchange(c, nullptr); };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
-}
-
-TEST_F(MoveObject, OtherDeletedByTheMoverGetsNoEventAndBlocksNothing) {
-  Probe* a = make("a", 10, 10);
-  Probe* b = make("b", 15, 10);
-  a->on_event = [&](Probe&, const Event&) { delete b; };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_EQ(received, (Received{"a:df-collision"}));
 }
 
 TEST_F(MoveObject, MoverDeletedByHandEndsTheMove) {
@@ -165,30 +157,6 @@ TEST_F(MoveObject, MoverDeletedByHandEndsTheMove) {
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision", "a:df-collision", "c:df-collision"}));
 }
 
-TEST_F(MoveObject, MoverMayDeleteItself) {
-  Probe* a = make("a", 10, 10);
-  make("b", 15, 10);
-  a->on_event = [](Probe& self, const Event&) { delete &self; };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
-  EXPECT_EQ(received, (Received{"a:df-collision"}));
-}
-
-TEST_F(MoveObject, MoverMarkedForDeleteGoesOn) {
-  Probe* a = make("a", 10, 10, SOFT);
-  make("b", 15, 10);
-  a->on_event = [](Probe& self, const Event&) { WM.markForDelete(&self); };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  expectAt(*a, 15, 10);
-}
-
-TEST_F(MoveObject, NewcomersAtTheTargetAreNotInTheFixedList) {
-  Probe* a = make("a", 10, 10, SOFT);
-  Probe* b = make("b", 15, 10);
-  b->on_event = [&](Probe&, const Event&) { make("late", 15, 10, SOFT); };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
-}
-
 TEST_F(MoveObject, InactiveNeitherCollidesNorGetsEvents) {
   Probe* a = make("a", 10, 10);
   Probe* b = make("b", 15, 10);
@@ -197,14 +165,6 @@ TEST_F(MoveObject, InactiveNeitherCollidesNorGetsEvents) {
   EXPECT_TRUE(received.empty());
   b->setActive(true);
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
-}
-
-TEST_F(MoveObject, MemberMadeInactiveMeanwhileGetsNoEvents) {
-  Probe* a = make("a", 10, 10, SOFT);
-  Probe* b = make("b", 15, 10);
-  a->on_event = [&](Probe&, const Event&) { b->setActive(false); };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_EQ(received, (Received{"a:df-collision"}));
 }
 
 TEST_F(MoveObject, MovingToWhereItIsTestsCollisions) {

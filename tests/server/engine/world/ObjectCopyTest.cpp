@@ -1,9 +1,5 @@
 // Copies of Objects: games keep them in vectors and assign them to members.
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include "engine/widgets/ViewObject.h"
 #include "tests/server/engine/Probe.h"
 

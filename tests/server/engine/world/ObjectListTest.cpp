@@ -2,7 +2,6 @@
 
 #include "engine/world/ObjectList.h"
 #include "engine/world/ObjectListIterator.h"
-#include "engine/world/WorldStore.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -138,6 +137,11 @@ TEST_F(ObjectListTest, WorldQueriesAreInCreationOrder) {
   EXPECT_EQ(x[0], &a);
   EXPECT_EQ(x[1], &c);
   EXPECT_EQ(WM.solidObjects().getCount(), 2);
+  EXPECT_EQ(WM.removeObject(&a), 0);
+  EXPECT_EQ(WM.removeObject(&a), -1);
+  EXPECT_EQ(WM.getAllObjects()[0], &b);
+  EXPECT_EQ(WM.insertObject(&a), 0);
+  EXPECT_EQ(WM.getAllObjects()[2], &a) << "one that returns is the last";
 }
 
 }  // namespace

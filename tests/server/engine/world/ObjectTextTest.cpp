@@ -1,9 +1,6 @@
 // Objects as text, ids of the game's own, and ways from place to place.
 
-#include <gtest/gtest.h>
-
 #include <sstream>
-#include <string>
 
 #include "engine/world/EventPath.h"
 #include "engine/world/PathFind.h"
@@ -59,8 +56,7 @@ TEST_F(ObjectText, WritesWhatIsModifiedSinceItWasWritten) {
 }
 
 TEST_F(ObjectText, StreamsSayWhatTheyBrought) {
-  Object a;
-  a.setPosition(Vector(7, 8));
+  PlacedObject a(Vector(7, 8));
   std::stringstream stream;
   EXPECT_EQ(a.serialize(&stream, kPosition), 0);
   Object b;

@@ -1,12 +1,7 @@
-#include <string>
-#include <vector>
-
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
 namespace {
-
-using Received = std::vector<std::string>;
 
 class Precise : public WorldTest {
  protected:
@@ -25,25 +20,17 @@ class Precise : public WorldTest {
   }
 };
 
-TEST_F(Precise, HolesDoNotCollide) {
-  makeCorner(10, 10);
+TEST_F(Precise, SetCharactersCollideAndHolesDoNot) {
+  Probe* corner = makeCorner(10, 10);
   Probe* a = make("a", 30, 12);
   EXPECT_EQ(WM.moveObject(a, Vector(12, 12)), 0);
   expectAt(*a, 12, 12);
   EXPECT_TRUE(received.empty());
-}
-
-TEST_F(Precise, SetCharactersDo) {
-  makeCorner(10, 10);
-  Probe* a = make("a", 30, 12);
+  a->setPosition(Vector(30, 12));
   EXPECT_EQ(WM.moveObject(a, Vector(12, 10)), -1);
   EXPECT_EQ(received, (Received{"a:df-collision", "corner:df-collision"}));
-}
-
-TEST_F(Precise, WithoutItTheMaskCountsForNothing) {
-  makeCorner(10, 10)->setPrecise(false);
-  Probe* a = make("a", 30, 12);
-  EXPECT_EQ(WM.moveObject(a, Vector(12, 12)), -1);
+  corner->setPrecise(false);
+  EXPECT_EQ(WM.moveObject(a, Vector(12, 12)), -1) << "the mask counts for nothing";
 }
 
 TEST_F(Precise, EitherOfTheTwoMakesThePairPrecise) {

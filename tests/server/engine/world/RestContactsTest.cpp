@@ -1,27 +1,21 @@
-#include <string>
-#include <vector>
-
-#include "tests/server/engine/Probe.h"
+#include "SweptWorld.h"
 
 namespace df::test {
 namespace {
 
-using Received = std::vector<std::string>;
-
-class RestContacts : public WorldTest {
+class RestContacts : public SweptWorld {
  protected:
-  Probe* make(const std::string& name, double x, Solidness solidness = HARD) {
-    auto* p = new Probe(name, &received, Vector(x, 10));
-    p->setSolidness(solidness);
-    return p;
+  Probe* makeMine(Solidness solidness = HARD) {
+    Probe* mine = make("mine", 10, 10, solidness);
+    mine->setRestContacts();
+    return mine;
   }
 };
 
 TEST_F(RestContacts, OneAtRestGetsACollisionAtEachTurn) {
-  Probe* mine = make("mine", 10);
-  mine->setRestContacts();
-  make("b", 11, SOFT);
-  make("apart", 12.5);
+  Probe* mine = makeMine();
+  make("b", 11, 10, SOFT);
+  make("apart", 12.5, 10);
   for (int i = 0; i < 2; ++i) WM.update();
   EXPECT_EQ(received,
             (Received{"mine:df-collision", "b:df-collision", "mine:df-collision", "b:df-collision"}));
@@ -29,8 +23,8 @@ TEST_F(RestContacts, OneAtRestGetsACollisionAtEachTurn) {
 }
 
 TEST_F(RestContacts, AreOffByDefaultAndCanBeSwitchedOff) {
-  Probe* mine = make("mine", 10);
-  make("b", 11);
+  Probe* mine = make("mine", 10, 10);
+  make("b", 11, 10);
   WM.update();
   mine->setRestContacts();
   mine->setRestContacts(false);
@@ -39,19 +33,17 @@ TEST_F(RestContacts, AreOffByDefaultAndCanBeSwitchedOff) {
 }
 
 TEST_F(RestContacts, OneThatMovesIsTestedOnceAsAlways) {
-  Probe* mine = make("mine", 10);
-  mine->setRestContacts();
+  Probe* mine = makeMine();
   mine->setVelocity(Vector(1, 0));
-  make("b", 12, SOFT);
+  make("b", 12, 10, SOFT);
   WM.update();
   EXPECT_EQ(received.size(), 2u);
   expectAt(*mine, 11, 10);
 }
 
 TEST_F(RestContacts, SpectralAndInactiveOnesGetNoEvents) {
-  Probe* mine = make("mine", 10, SPECTRAL);
-  mine->setRestContacts();
-  make("b", 11);
+  Probe* mine = makeMine(SPECTRAL);
+  make("b", 11, 10);
   WM.update();
   mine->setSolidness(HARD);
   mine->setActive(false);
@@ -60,18 +52,16 @@ TEST_F(RestContacts, SpectralAndInactiveOnesGetNoEvents) {
 }
 
 TEST_F(RestContacts, AreTheSameForASweptOne) {
-  Probe* mine = make("mine", 10);
-  mine->setRestContacts();
+  Probe* mine = makeMine();
   mine->setSwept();
-  make("b", 11);
+  make("b", 11, 10);
   WM.update();
   EXPECT_EQ(received, (Received{"mine:df-collision", "b:df-collision"}));
 }
 
 TEST_F(RestContacts, HandlersMayDeleteBoth) {
-  Probe* mine = make("mine", 10);
-  mine->setRestContacts();
-  Probe* b = make("b", 11);
+  Probe* mine = makeMine();
+  Probe* b = make("b", 11, 10);
   mine->on_event = [b](Probe& self, const Event&) {
     delete b;
     delete &self;
@@ -81,10 +71,9 @@ TEST_F(RestContacts, HandlersMayDeleteBoth) {
 }
 
 TEST_F(RestContacts, OneAtRestStillAccelerates) {
-  Probe* mine = make("mine", 10);
-  mine->setRestContacts();
+  Probe* mine = makeMine();
   mine->setAcceleration(Vector(0.5, 0));
-  make("b", 9, SOFT);
+  make("b", 9, 10, SOFT);
   WM.update();
   EXPECT_EQ(received.size(), 2u);
   EXPECT_EQ(mine->getVelocity(), Vector(0.5, 0));

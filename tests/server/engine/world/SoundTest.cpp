@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "engine/events/EventStep.h"
 #include "engine/managers/ResourceManager.h"
 #include "engine/world/Music.h"
@@ -12,14 +7,22 @@
 namespace df::test {
 namespace {
 
-using SoundTest = WorldTest;
-
 // What a sound file holds is not looked at.
 const std::string kFile = std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/simple.txt";
 
+class SoundTest : public WorldTest {
+ protected:
+  SoundTest() {
+    EXPECT_EQ(RM.loadSound(kFile, "fire"), 0);
+    EXPECT_EQ(RM.loadMusic(kFile, "theme"), 0);
+    world.store().setWatched(true);
+  }
+  const WorldView& view() const { return world.picture().view(); }
+
+  Probe probe;
+};
+
 TEST_F(SoundTest, ExistingFilesAreLoadedAndMissingOnesAreLogged) {
-  EXPECT_EQ(RM.loadSound(kFile, "fire"), 0);
-  EXPECT_EQ(RM.loadMusic(kFile, "theme"), 0);
   EXPECT_EQ(RM.getSound("fire")->getLabel(), "fire");
   EXPECT_EQ(RM.getMusic("theme")->getLabel(), "theme");
   EXPECT_EQ(RM.loadSound("sounds/ghost.wav", "ghost"), -1);
@@ -38,104 +41,83 @@ TEST_F(SoundTest, ExistingFilesAreLoadedAndMissingOnesAreLogged) {
 }
 
 TEST_F(SoundTest, WhatIsPlayedInATickIsInItsView) {
-  RM.loadSound(kFile, "fire");
-  RM.loadMusic(kFile, "theme");
-  world.store().setWatched(true);
-  Probe probe;
-  probe.registerInterest(STEP_EVENT);
-  probe.on_event = [](Probe&, const Event&) {
+  probe.hear(STEP_EVENT, [](Probe&, const Event&) {
     RM.getSound("fire")->play();
     RM.getMusic("theme")->play();
     RM.getMusic("theme")->pause();
-  };
+  });
   world.tick();
   const std::vector<SoundPlayed> expected{{"fire", SoundPlayed::kPlay, false, false, 0},
                                           {"theme", SoundPlayed::kPlay, true, true, 0},
                                           {"theme", SoundPlayed::kPause, true, false, 0}};
-  EXPECT_EQ(world.picture().view().sounds, expected);
+  EXPECT_EQ(view().sounds, expected);
   probe.on_event = nullptr;
   world.tick();
-  EXPECT_TRUE(world.picture().view().sounds.empty());
+  EXPECT_TRUE(view().sounds.empty());
 }
 
 TEST_F(SoundTest, AKeysSoundNamesItsPlayer) {
-  RM.loadSound(kFile, "fire");
-  world.store().setWatched(true);
   const std::uint32_t player = world.input().join("ann", RED);
   world.tick();
-  Probe probe;
-  probe.registerInterest("df-keyboard");
-  probe.on_event = [](Probe&, const Event&) { RM.getSound("fire")->play(true); };
+  probe.hear("df-keyboard", [](Probe&, const Event&) { RM.getSound("fire")->play(true); });
   world.input().key(player, Keyboard::SPACE, KEY_PRESSED);
   world.tick();
-  ASSERT_EQ(world.picture().view().sounds.size(), 1u);
-  EXPECT_EQ(world.picture().view().sounds[0].player, player);
-  EXPECT_TRUE(world.picture().view().sounds[0].loop);
+  ASSERT_EQ(view().sounds.size(), 1u);
+  EXPECT_EQ(view().sounds[0].player, player);
+  EXPECT_TRUE(view().sounds[0].loop);
 }
 
 TEST_F(SoundTest, WhatPlaysAgainAndAgainIsInEveryViewUntilItEnds) {
   RM.loadSound(kFile, "engine");
-  RM.loadMusic(kFile, "theme");
   RM.loadMusic(kFile, "engine");  // another thing than the sound of that name
-  world.store().setWatched(true);
-  RM.getMusic("theme")->play();  // before the first tick, as games do
+  RM.getMusic("theme")->play();   // before the first tick, as games do
   RM.getSound("engine")->play();
   world.tick();
   const SoundPlayed theme{"theme", SoundPlayed::kPlay, true, true, 0};
-  EXPECT_EQ(world.picture().view().playing, std::vector{theme}) << "once is not again and again";
-
+  EXPECT_EQ(view().playing, std::vector{theme}) << "once is not again and again";
   RM.getSound("engine")->play(true);
   RM.getMusic("theme")->play();
   world.tick();
   const SoundPlayed engine{"engine", SoundPlayed::kPlay, false, true, 0};
-  EXPECT_EQ(world.picture().view().playing, (std::vector{engine, theme})) << "each once, from when it began";
+  EXPECT_EQ(view().playing, (std::vector{engine, theme})) << "each once, from when it began";
   RM.getMusic("engine")->stop();
   world.tick();
-  EXPECT_EQ(world.picture().view().playing.size(), 2u);
+  EXPECT_EQ(view().playing.size(), 2u);
   RM.getMusic("theme")->pause();
   RM.getSound("engine")->play(false);
   world.tick();
-  EXPECT_TRUE(world.picture().view().playing.empty());
+  EXPECT_TRUE(view().playing.empty());
 }
 
 TEST_F(SoundTest, WhatIsUnloadedStops) {
-  RM.loadSound(kFile, "fire");
-  RM.loadMusic(kFile, "theme");
-  world.store().setWatched(true);
-  Probe probe;
-  probe.registerInterest(STEP_EVENT);
-  probe.on_event = [](Probe&, const Event&) {
+  probe.hear(STEP_EVENT, [](Probe&, const Event&) {
     RM.getMusic("theme")->play();
     RM.unloadMusic("theme");
     RM.unloadSound("fire");
-  };
+  });
   world.tick();
-  EXPECT_TRUE(world.picture().view().playing.empty());
-  ASSERT_EQ(world.picture().view().sounds.size(), 2u);
-  EXPECT_EQ(world.picture().view().sounds[1], (SoundPlayed{"theme", SoundPlayed::kStop, true, false, 0}));
+  EXPECT_TRUE(view().playing.empty());
+  ASSERT_EQ(view().sounds.size(), 2u);
+  EXPECT_EQ(view().sounds[1], (SoundPlayed{"theme", SoundPlayed::kStop, true, false, 0}));
 }
 
 TEST_F(SoundTest, SoundsBeyondTheLimitAreCounted) {
-  RM.loadSound(kFile, "fire");
-  world.store().setWatched(true);
-  Probe probe;
-  probe.registerInterest(STEP_EVENT);
-  probe.on_event = [](Probe&, const Event&) {
+  probe.hear(STEP_EVENT, [](Probe&, const Event&) {
     for (int i = 0; i < 300; ++i) RM.getSound("fire")->play();
     for (int i = 0; i < 20; ++i) {
       Sound sound;
       sound.setLabel(std::to_string(i));
       sound.play(true);
     }
-  };
+  });
   world.tick();
-  EXPECT_EQ(world.picture().view().sounds.size(), 256u);
-  EXPECT_EQ(world.picture().view().sounds_lost, 64u);
-  ASSERT_EQ(world.picture().view().playing.size(), 16u);
-  EXPECT_EQ(world.picture().view().playing.front().label, "4") << "the oldest made room";
+  EXPECT_EQ(view().sounds.size(), 256u);
+  EXPECT_EQ(view().sounds_lost, 64u);
+  ASSERT_EQ(view().playing.size(), 16u);
+  EXPECT_EQ(view().playing.front().label, "4") << "the oldest made room";
   probe.on_event = nullptr;
   world.tick();
-  EXPECT_EQ(world.picture().view().sounds_lost, 0u);
+  EXPECT_EQ(view().sounds_lost, 0u);
 }
 
 }  // namespace

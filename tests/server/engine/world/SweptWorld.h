@@ -1,4 +1,4 @@
-// What the tests of swept moves share.
+// What the tests of moves share.
 #pragma once
 
 #include <string>
@@ -7,8 +7,6 @@
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
-
-using Received = std::vector<std::string>;
 
 /// The distance of neighbouring positions, in cells.
 inline constexpr double kUnit = 1 / 4294967296.0;

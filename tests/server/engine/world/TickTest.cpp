@@ -1,70 +1,47 @@
-#include <gtest/gtest.h>
-
+// The steps of a tick in their order.
 #include <memory>
 
-#include "engine/events/EventKeyboard.h"
 #include "engine/events/EventStep.h"
-#include "engine/world/Tick.h"
+#include "engine/world/Layer.h"
 #include "tests/server/engine/Probe.h"
-#include "tests/server/engine/world/Parts.h"
 
 namespace df::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 class NotingLayer : public Layer {
  public:
-  explicit NotingLayer(Words& words) : m_words(words) {}
+  explicit NotingLayer(Received& words) : m_words(words) {}
   void step(World& /*world*/) override { m_words.push_back("layer"); }
 
  private:
-  Words& m_words;
+  Received& m_words;
 };
 
-class TickAlone : public testing::Test {
+class TickAlone : public WorldTest {
  protected:
   TickAlone() {
     probe.registerInterest(STEP_EVENT);
     probe.registerInterest(KEYBOARD_EVENT);
-    probe.on_draw = [this](Probe&) { words.push_back("draw"); };
-    parts.state.layers.push_back(std::make_unique<NotingLayer>(words));
-    ann = parts.input.join("ann", RED);
-    parts.tick.run();
-    words.clear();
+    probe.on_draw = [this](Probe&) { received.push_back("draw"); };
+    world.addLayer(std::make_unique<NotingLayer>(received));
+    ann = world.input().join("ann", RED);
+    world.tick();
+    received.clear();
   }
 
-  Parts parts;
-  Words words;
-  Probe probe{"probe", &words};
+  Probe probe{"probe", &received};
   std::uint32_t ann = 0;
 };
 
-TEST_F(TickAlone, StepsAreInOrder) {
-  parts.input.key(ann, Keyboard::A, KEY_PRESSED);
-  parts.tick.run();
-  EXPECT_EQ(words, (Words{"probe:df-step", "probe:df-keyboard", "layer", "draw"}));
-  EXPECT_EQ(parts.state.step_count, 2);
-}
-
-TEST_F(TickAlone, PausedTickOnlyDraws) {
-  parts.state.paused = true;
-  parts.tick.run();
-  EXPECT_EQ(words, Words{"draw"});
-}
-
-TEST_F(TickAlone, MarkedObjectsAreDeletedAfterTheLayers) {
-  auto* p_other = new Probe;
-  parts.objects.markForDelete(p_other);
-  parts.tick.update();
-  EXPECT_EQ(parts.store.countInWorld(), 1);
-}
-
-TEST_F(TickAlone, NestedTickDoesNothing) {
-  probe.on_event = [this](Probe&, const Event&) { parts.tick.run(); };
-  parts.tick.run();
-  EXPECT_EQ(parts.state.step_count, 2);
-  EXPECT_FALSE(parts.tick.isRunning());
+TEST_F(TickAlone, StepsAreInOrderAndAPausedOneOnlyDraws) {
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(received, (Received{"probe:df-step", "probe:df-keyboard", "layer", "draw"}));
+  EXPECT_EQ(world.getStepCount(), 2);
+  world.setPaused(true);
+  received.clear();
+  world.tick();
+  EXPECT_EQ(received, Received{"draw"});
 }
 
 }  // namespace

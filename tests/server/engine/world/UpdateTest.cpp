@@ -4,8 +4,6 @@
 namespace df::test {
 namespace {
 
-using Received = std::vector<std::string>;
-
 class Update : public WorldTest {
  protected:
   Probe* make(const std::string& name, double x, double y, Vector velocity = {}) {

@@ -1,6 +1,5 @@
 #include <map>
 
-#include "engine/events/EventKeyboard.h"
 #include "engine/events/EventMouse.h"
 #include "engine/world/LagCompensation.h"
 #include "tests/server/engine/Probe.h"

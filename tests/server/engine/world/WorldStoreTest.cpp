@@ -1,21 +1,12 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <memory>
 
-#include "engine/managers/WorldManager.h"
-#include "engine/world/Object.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldStore.h"
+#include "tests/server/engine/Probe.h"
 
 namespace df::test {
 namespace {
 
-class Store : public testing::Test {
- protected:
-  World world;
-  World::Scope scope{world};
-};
+using Store = WorldTest;
 
 TEST_F(Store, SlotOfTheDeadRestsBeforeItIsUsedAgain) {
   auto first = std::make_unique<Object>();
