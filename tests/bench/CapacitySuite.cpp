@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -23,12 +22,13 @@
 #include "Suite.h"
 #include "capacity/suite/Worker.h"
 #include "path/suite/Subprocess.h"
+#include "tests/support/TempFolder.h"
 
 namespace bench {
-
 namespace {
 
 using namespace capacity;
+using path::figuresOf;
 using namespace std::chrono_literals;
 
 constexpr int kStep = 250;
@@ -79,30 +79,18 @@ Pictures picturesOf(Worker& worker) {
 class Arena {
  public:
   Arena(int server_core, int bot_core, int most) : m_server_core(server_core), m_bot_core(bot_core) {
-    std::string name = std::filesystem::temp_directory_path() / "naiad-capacity-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made");
-    m_folder = name;
     const std::string bin = std::string(NAIAD_BINARY_DIR) + "/bin/";
     m_server = std::make_unique<Worker>(
         std::vector<std::string>{bin + "naiad_capacity_server", std::to_string(server_core),
-                                 m_folder + "/identity", std::to_string(most)});
+                                 m_folder / "identity", std::to_string(most)});
     std::istringstream words(m_server->hear());
     std::string word, address, flag, fingerprint;
     words >> word >> address >> flag >> fingerprint;
     const std::size_t colon = address.rfind(':');
-    m_bots = std::make_unique<Worker>(
-        std::vector<std::string>{bin + "naiad_capacity_bots", std::to_string(bot_core),
-                                 address.substr(0, colon), address.substr(colon + 1), fingerprint, m_folder});
+    m_bots = std::make_unique<Worker>(std::vector<std::string>{
+        bin + "naiad_capacity_bots", std::to_string(bot_core), address.substr(0, colon),
+        address.substr(colon + 1), fingerprint, m_folder.string()});
   }
-  ~Arena() {
-    m_bots.reset();
-    m_server.reset();
-    std::error_code ignored;
-    std::filesystem::remove_all(m_folder, ignored);
-  }
-  Arena(const Arena&) = delete;
-  Arena& operator=(const Arena&) = delete;
-
   Trial run(int clients, const Effort& effort) {
     progress("capacity: " + std::to_string(clients) + " clients");
     m_bots->ask("go " + std::to_string(clients), "ready", 300s);
@@ -147,9 +135,10 @@ class Arena {
   double bare(const Trial& trial, double seconds) {
     m_bots->ask("sink", "sunk");
     m_server.reset();
-    const auto finished = path::runProgram(
-        {std::string(NAIAD_BINARY_DIR) + "/bin/naiad_capacity_bare", std::to_string(m_server_core), m_folder,
-         std::to_string(std::lround(trial.datagrams)), std::to_string(std::lround(seconds / kTick))});
+    const auto finished = path::runProgram({std::string(NAIAD_BINARY_DIR) + "/bin/naiad_capacity_bare",
+                                            std::to_string(m_server_core), m_folder.string(),
+                                            std::to_string(std::lround(trial.datagrams)),
+                                            std::to_string(std::lround(seconds / kTick))});
     auto figures = figuresOf(finished.output);
     if (finished.code != 0 || figures["datagrams"] == 0) throw std::runtime_error("the bare sender failed");
     return figures["cpu_us"] / (seconds / kTick) / trial.clients;
@@ -169,7 +158,7 @@ class Arena {
 
   int m_server_core;
   int m_bot_core;
-  std::string m_folder;
+  naiad::test::TempFolder m_folder;
   std::unique_ptr<Worker> m_server;
   std::unique_ptr<Worker> m_bots;
 };
@@ -284,5 +273,4 @@ const Suite s_suite("capacity", "players that one core serves, and what a bare s
                     });
 
 }  // namespace
-
 }  // namespace bench

@@ -9,7 +9,6 @@
 #include "shared/values/SplitMix64.h"
 
 namespace bench {
-
 namespace {
 
 constexpr double kBin = 4;  // cells

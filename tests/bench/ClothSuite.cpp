@@ -11,7 +11,6 @@
 #include "physics/body/SoftObject.h"
 
 namespace bench {
-
 namespace {
 
 /// Of threads, over their length at rest; `mesh` in cells.
@@ -61,5 +60,4 @@ const Suite s_suite("cloth", "cloths hung by two corners: time, and stretch of t
                     });
 
 }  // namespace
-
 }  // namespace bench

@@ -22,7 +22,6 @@
 #include "tests/server/games/RandomPlayers.h"
 
 namespace bench {
-
 namespace {
 
 using namespace naiad;
@@ -145,5 +144,4 @@ const Suite s_suite("games", "the games that ship: ticks per second, and what a 
                     });
 
 }  // namespace
-
 }  // namespace bench

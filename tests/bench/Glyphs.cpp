@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace bench {
-
 namespace {
 
 constexpr double kSetPart = 0.55;

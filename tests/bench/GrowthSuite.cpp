@@ -7,12 +7,10 @@
 #include "ResultLine.h"
 #include "Scene.h"
 #include "Suite.h"
-#include "peers/ChipmunkTuning.h"
 #include "peers/Peers.h"
 #include "textbook/Textbook.h"
 
 namespace bench {
-
 namespace {
 
 constexpr double kDensity = 0.1;
@@ -54,5 +52,4 @@ const Suite s_suite("growth", "cost per object and tick from a thousand objects 
                     });
 
 }  // namespace
-
 }  // namespace bench

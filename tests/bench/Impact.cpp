@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 namespace bench {
-
 namespace {
 
 __extension__ using Wide = __int128;

@@ -15,7 +15,6 @@
 #include "tests/support/RunProgram.h"
 
 namespace bench {
-
 namespace {
 
 std::filesystem::path besideThis(const std::string& name) {
@@ -135,5 +134,4 @@ const Suite s_suite("layers", "what scenes pay for what they do not use: instruc
                     run);
 
 }  // namespace
-
 }  // namespace bench

@@ -8,6 +8,15 @@
 
 namespace bench {
 
+void turnBack(df::Object& object, double side) {
+  const df::Vector p = object.getPosition();
+  const df::Vector v = object.getVelocity();
+  const bool left_x = p.x() < 0 || p.x() >= side;
+  const bool left_y = p.y() < 0 || p.y() >= side;
+  object.setPosition(p - v);
+  object.setVelocity(df::Vector(left_x ? -v.x() : v.x(), left_y ? -v.y() : v.y()));
+}
+
 /// The workload's handlers, written as a game writes them.
 class Ball : public df::Object {
  public:
@@ -24,8 +33,9 @@ class Ball : public df::Object {
 
   int eventHandler(const df::Event* p_e) override {
     if (p_e->getType() == df::COLLISION_EVENT) return hit(static_cast<const df::EventCollision*>(p_e));
-    if (p_e->getType() == df::OUT_EVENT) return out();
-    return 0;
+    if (p_e->getType() != df::OUT_EVENT) return 0;
+    turnBack(*this, m_side);
+    return 1;
   }
 
  private:
@@ -38,16 +48,6 @@ class Ball : public df::Object {
     ++m_tally.blocked;
     const df::Vector v = getVelocity();
     setVelocity(df::Vector(-v.x(), -v.y()));
-    return 1;
-  }
-
-  int out() {
-    const df::Vector p = getPosition();
-    const df::Vector v = getVelocity();
-    const bool left_x = p.x() < 0 || p.x() >= m_side;
-    const bool left_y = p.y() < 0 || p.y() >= m_side;
-    setPosition(p - v);
-    setVelocity(df::Vector(left_x ? -v.x() : v.x(), left_y ? -v.y() : v.y()));
     return 1;
   }
 

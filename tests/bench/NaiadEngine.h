@@ -13,6 +13,9 @@ namespace bench {
 
 class Ball;
 
+/// For an Object that has left a square world: back to where it came from, and reflected at the border.
+void turnBack(df::Object& object, double side);
+
 class NaiadEngine : public Engine {
  public:
   explicit NaiadEngine(const Scene& scene);

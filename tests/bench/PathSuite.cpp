@@ -1,10 +1,8 @@
 // What people at terminals get across a bad network: dfclient, and what they use today.
 #include <cmath>
-#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -41,16 +39,6 @@ std::string congestionControl() {
   std::string name;
   file >> name;
   return name.empty() ? "unknown" : name;
-}
-
-/// NAIAD_PATH_PROGRAMS, names with commas between them, or all.
-std::vector<std::string> wantedPrograms() {
-  const char* wanted = std::getenv("NAIAD_PATH_PROGRAMS");
-  if (wanted == nullptr) return path::peerNames();
-  std::vector<std::string> names;
-  std::istringstream text(wanted);
-  for (std::string name; std::getline(text, name, ',');) names.push_back(name);
-  return names;
 }
 
 class Run {
@@ -108,7 +96,7 @@ void run(const Options& options) {
     return;
   }
   Run run(options);
-  const std::vector<std::string> programs = wantedPrograms();
+  const std::vector<std::string> programs = namesFrom("NAIAD_PATH_PROGRAMS", path::peerNames());
   for (const Condition& condition : options.quick ? std::vector<Condition>{kUsual} : kConditions) {
     for (const std::string& program : programs) run.measure(program, condition);
   }

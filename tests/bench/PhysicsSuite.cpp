@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -20,7 +19,6 @@
 #include "physics/Scenes.h"
 
 namespace bench {
-
 namespace {
 
 using physics::Run;
@@ -127,15 +125,13 @@ void measure(const Case& c, const Level& level, const Options& options) {
   report(line, level, scene, rounds);
 }
 
-/// Those that NAIAD_PHYSICS_SCENES names, separated by commas, or all.
+/// Those that NAIAD_PHYSICS_SCENES names, or all.
 std::vector<Case> wantedCases() {
-  const char* list = std::getenv("NAIAD_PHYSICS_SCENES");
-  if (list == nullptr) return kCases;
+  std::vector<std::string> all;
+  for (const Case& c : kCases) all.emplace_back(c.name);
   std::vector<Case> wanted;
-  std::istringstream text(list);
-  for (std::string name; std::getline(text, name, ',');) {
-    const auto found =
-        std::find_if(kCases.begin(), kCases.end(), [&](const Case& c) { return c.name == name; });
+  for (const std::string& name : namesFrom("NAIAD_PHYSICS_SCENES", all)) {
+    const auto found = std::ranges::find(kCases, name, &Case::name);
     if (found == kCases.end()) throw std::runtime_error("there is no scene '" + name + "'");
     wanted.push_back(*found);
   }
@@ -154,5 +150,4 @@ const Suite s_suite("physics", "scenes of rigid bodies, against Box2D: time and 
                     });
 
 }  // namespace
-
 }  // namespace bench

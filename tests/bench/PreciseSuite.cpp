@@ -25,7 +25,6 @@
 #include "shared/values/SplitMix64.h"
 
 namespace bench {
-
 namespace {
 
 constexpr double kDensity = 0.5;
@@ -97,8 +96,6 @@ class Crowd {
     }
   }
   ~Crowd() { m_world.shutDown(); }
-  Crowd(const Crowd&) = delete;
-  Crowd& operator=(const Crowd&) = delete;
 
   /// Move everybody for a tick. Return the time per Object.
   double tick() {
@@ -195,5 +192,4 @@ const Suite s_suite("precise", "comparing characters: cost of a test, and is it 
                     });
 
 }  // namespace
-
 }  // namespace bench

@@ -7,7 +7,6 @@
 #include "engine/world/WorldLog.h"
 
 namespace bench {
-
 namespace {
 
 df::Box toBox(const df::FixedBox& box) {

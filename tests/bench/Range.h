@@ -54,8 +54,6 @@ class Range {
   /// `older` and `younger`, by the order of their turns.
   Range(const Make& older, const Make& younger);
   ~Range();
-  Range(const Range&) = delete;
-  Range& operator=(const Range&) = delete;
 
   /// All moves of the world are swept, whatever its Objects say (WM.setSweptCollisions).
   void sweepAll();

@@ -1,40 +1,18 @@
 // recovery: a server is killed again and again while clients play, and journals are measured. docs/bench.md
 // says how.
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "ResultLine.h"
 #include "Suite.h"
-#include "path/suite/Subprocess.h"
 
 namespace bench {
-
 namespace {
 
 const std::vector<std::string> kGames = {"breakout", "bullethell", "chase",       "hello", "lander",
                                          "maze",     "platformer", "saucershoot", "tron",  "sandbox"};
 
-void printLines(const std::string& output) {
-  std::istringstream lines(output);
-  for (std::string text; std::getline(lines, text);) {
-    std::istringstream words(text);
-    std::string suite;
-    words >> suite;
-    Line line(suite);
-    for (std::string word; words >> word;) {
-      const std::size_t equals = word.find('=');
-      if (equals != std::string::npos) line.add(word.substr(0, equals), word.substr(equals + 1));
-    }
-  }
-}
-
-void run(const char* suite, const std::string& game, std::vector<std::string> words) {
+void run(const char* suite, const std::string& game, const std::vector<std::string>& words) {
   progress(std::string(suite) + ": " + game);
-  words.insert(words.begin(), std::string(NAIAD_BINARY_DIR) + "/bin/naiad_recovery");
-  const path::Finished finished = path::runProgram(words);
-  printLines(finished.output);
-  if (finished.code != 0) Line(suite).add("game", game).addZero("failed", 1);
+  const Ending ending = printLinesOf("naiad_recovery", words);
+  if (ending.code != 0) Line(suite).add("game", game).addZero("failed", 1);
 }
 
 const Suite s_suite(
@@ -51,5 +29,4 @@ const Suite s_suite(
     });
 
 }  // namespace
-
 }  // namespace bench

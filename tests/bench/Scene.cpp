@@ -1,5 +1,6 @@
 #include "Scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -8,7 +9,6 @@
 #include "shared/values/SplitMix64.h"
 
 namespace bench {
-
 namespace {
 
 using naiad::SplitMix64;
@@ -79,21 +79,9 @@ void spread(std::vector<Body>& bodies, std::uint64_t side, SplitMix64& random) {
 }  // namespace
 
 std::string nameOf(Mix mix) {
-  switch (mix) {
-    case Mix::HARD_ONLY:
-      return "hard";
-    case Mix::MIXED:
-      return "mixed";
-    case Mix::SPRITES:
-      return "sprites";
-    case Mix::MOVING:
-      return "moving";
-    case Mix::MOVING_HARD:
-      return "moving_hard";
-    case Mix::REST:
-      return "rest";
-  }
-  return "unknown";
+  constexpr const char* kNames[] = {"hard",   "mixed",       "sprites",
+                                    "moving", "moving_hard", "rest"};  // in its order
+  return kNames[static_cast<int>(mix)];
 }
 
 Scene::Scene(Mix its_mix, int n, double its_density)
@@ -118,9 +106,7 @@ Scene::Scene(Mix its_mix, int n, double its_density)
 }
 
 int Scene::countMoving() const {
-  int count = 0;
-  for (const Body& body : bodies) count += body.moves() ? 1 : 0;
-  return count;
+  return static_cast<int>(std::ranges::count_if(bodies, &Body::moves));
 }
 
 }  // namespace bench

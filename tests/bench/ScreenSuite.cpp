@@ -21,7 +21,6 @@
 #include "shared/values/SplitMix64.h"
 
 namespace bench {
-
 namespace {
 
 using namespace naiad;
@@ -146,5 +145,4 @@ const Suite s_suite("screen", "wrong cells on a player's screen, against bytes a
                     });
 
 }  // namespace
-
 }  // namespace bench

@@ -13,7 +13,6 @@
 #include "net/LinkedClient.h"
 
 namespace bench {
-
 namespace {
 
 using namespace naiad;
@@ -148,5 +147,4 @@ const Suite s_suite("snapshot", "bytes and microseconds per client of the 1000-o
                     });
 
 }  // namespace
-
 }  // namespace bench

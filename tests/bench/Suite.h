@@ -7,6 +7,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace bench {
 
@@ -31,5 +32,16 @@ class Suite {
   std::string m_summary;
   Run m_run;
 };
+
+/// What a variable of the environment lists, separated by commas; `all` if it is not set.
+std::vector<std::string> namesFrom(const char* variable, const std::vector<std::string>& all);
+
+struct Ending {
+  int code = 0;         ///< exit code
+  bool silent = false;  ///< it has printed nothing
+};
+/// Runs a program of the build that prints `suite key=value …`, and prints that as Lines. A `failed` other than
+/// 0 makes naiad_bench fail, too.
+Ending printLinesOf(const std::string& program, const std::vector<std::string>& arguments);
 
 }  // namespace bench

@@ -5,19 +5,92 @@
 // (WM.firstContact). kind=move: it moves there (WM.moveObject), swept, hears, and stops. Box2D only answers
 // the question; its tree need not be told of the mover.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Casts.h"
 #include "Contest.h"
-#include "Course.h"
 #include "ElapsedTime.h"
 #include "ResultLine.h"
 #include "Suite.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/EventCollision.h"
+#include "engine/world/Object.h"
+#include "engine/world/World.h"
+#include "engine/world/WorldLog.h"
 #include "peers/Box2dCasts.h"
 
 namespace bench {
-
 namespace {
+
+/// Notes whom it has met.
+class Runner : public df::Object {
+ public:
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() != df::COLLISION_EVENT) return 0;
+    const auto* p_collision = static_cast<const df::EventCollision*>(p_e);
+    if (m_p_met == nullptr) m_p_met = p_collision->getObject2();
+    return 1;
+  }
+
+  const df::Object* takeMet() { return std::exchange(m_p_met, nullptr); }
+
+ private:
+  const df::Object* m_p_met = nullptr;
+};
+
+df::FixedVector exactly(df::Vector v) {
+  return df::toFixed(v).value_or(df::FixedVector{});
+}
+
+/// A field of obstacles in this project's engine, and the one that is sent through it.
+class Course {
+ public:
+  explicit Course(const Field& field) : m_scope(m_world) {
+    m_world.log().setSink([](const std::string& /*line*/) {});
+    WM.setBoundary(df::Box(df::Vector(-1e5, -1e5), 1e6, 1e6));
+    for (const df::FixedBox& box : field.obstacles) {
+      auto* p_obstacle = new df::Object;
+      if (m_first_id == 0) m_first_id = p_obstacle->getId();
+      const df::FixedVector middle = {box.corner.x + box.size.x / 2, box.corner.y + box.size.y / 2};
+      p_obstacle->setPosition(df::Vector::fromFixed(middle));
+    }
+    m_p_runner = new Runner;
+    m_p_runner->setSwept();
+  }
+  ~Course() { m_world.shutDown(); }
+
+  /// Put the runner where the cast begins.
+  void place(const Cast& cast) { m_p_runner->setPosition(df::Vector::fromFixed(cast.from)); }
+  /// Place it, and ask whom it would meet (WM.firstContact).
+  Answer ask(const Cast& cast) {
+    place(cast);
+    const df::Contact contact = WM.firstContact(m_p_runner, df::Vector::fromFixed(cast.to));
+    return {numberOf(contact.p_object), contact.time, exactly(contact.position)};
+  }
+  /// Place it, and have it move (WM.moveObject), swept: whom it met and where it stopped. When, nobody is
+  /// told.
+  Answer move(const Cast& cast) {
+    place(cast);
+    WM.moveObject(m_p_runner, df::Vector::fromFixed(cast.to));
+    return {numberOf(m_p_runner->takeMet()), 0, exactly(m_p_runner->getPosition())};
+  }
+  /// Would the book's test, at the end of the way, find somebody?
+  bool isBlockedAtEnd(const Cast& cast) {
+    place(cast);
+    return WM.isCollision(m_p_runner, df::Vector::fromFixed(cast.to));
+  }
+
+ private:
+  std::uint32_t numberOf(const df::Object* p_object) const {
+    return p_object == nullptr ? kNobody : static_cast<std::uint32_t>(p_object->getId() - m_first_id);
+  }
+
+  df::World m_world;
+  df::World::Scope m_scope;
+  int m_first_id = 0;  // of the obstacles, which are numbered from there
+  Runner* m_p_runner;  // the world's
+};
 
 enum class Kind { FIRST, MOVE };
 
@@ -123,5 +196,4 @@ const Suite s_suite("sweep", "finding the first obstacle on a way, against Box2D
                     });
 
 }  // namespace
-
 }  // namespace bench

@@ -1,23 +1,160 @@
 // Does anything pass through anything? A million shots at all kinds of targets, in random directions, at
 // speeds from a tenth of a cell per second to a million, and some of a million per tick. Range.h says what
 // counts.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "Range.h"
 #include "ResultLine.h"
-#include "Shots.h"
 #include "Suite.h"
 #include "shared/values/SplitMix64.h"
 
 namespace bench {
-
 namespace {
+
+using naiad::SplitMix64;
+
+enum class Shape {
+  UNIT,    ///< 1×1
+  SPRITE,  ///< 3×2 to 12×4, all of it set
+  GLYPHS,  ///< the same sizes, characters with holes, precise
+  THIN,    ///< 0.01×8 or 8×0.01
+  NEEDLE,  ///< 0.01×0.01
+  WALL,    ///< 10,000×1 or 1×10,000
+};
+
+enum class Motion {
+  REST,     ///< the younger one flies at the older one, which is at rest
+  FIRES,    ///< the older one flies, the younger one is at rest
+  BOTH,     ///< both fly, in any direction
+  HEAD_ON,  ///< both fly along an axis, towards each other, hardly aside
+};
+
+/// A pair of kinds: the older one takes the first turn.
+struct Pairing {
+  const char* name;
+  Shape older;
+  Shape younger;
+  Motion motion = Motion::REST;
+  Make make_older{};
+  Make make_younger{};
+  int ticks = 1;     ///< of a shot, which then begins so far away
+  double speed = 0;  ///< cells per tick, if not at random
+};
+
+constexpr double kTicksPerSecond = 30;
+constexpr double kFastPart = 0.1;  // of the shots that are faster than a million cells per second
+constexpr double kFieldSide = 1000;
+
+df::Fixed fixed(double cells) {
+  return std::llrint(cells * static_cast<double>(df::kFixedOne));
+}
+
+double between(double least, double most, SplitMix64& random) {
+  return least + (most - least) * random.unit();
+}
+
+double logarithmicallyBetween(double least, double most, SplitMix64& random) {
+  return std::exp(between(std::log(least), std::log(most), random));
+}
+
+df::FixedBox boxOf(double width, double height) {
+  return {{-fixed(width) / 2, -fixed(height) / 2}, {fixed(width), fixed(height)}};
+}
+
+Flier shape(Shape shape, SplitMix64& random) {
+  Flier flier;
+  double width = 1;
+  double height = 1;
+  if (shape == Shape::SPRITE || shape == Shape::GLYPHS) {
+    const Glyphs glyphs = Glyphs::random(random);
+    width = glyphs.width();
+    height = glyphs.height();
+    if (shape == Shape::GLYPHS) flier.glyphs = glyphs;
+  }
+  if (shape == Shape::THIN || shape == Shape::NEEDLE) width = 0.01;
+  if (shape == Shape::NEEDLE) height = 0.01;
+  if (shape == Shape::THIN) height = 8;
+  if (shape == Shape::WALL) width = 10'000;
+  if (shape != Shape::GLYPHS && random.below(2) == 0) std::swap(width, height);
+  flier.box = boxOf(width, height);
+  return flier;
+}
+
+// How far a shot goes in a tick. Positions are read as doubles, so it must not go on for ticks at the highest
+// speeds.
+double drawSpeed(const Pairing& pairing, SplitMix64& random) {
+  if (pairing.speed > 0) return pairing.speed;
+  const double usual = 1e6 / kTicksPerSecond;
+  if (pairing.ticks == 1 && random.unit() < kFastPart) return logarithmicallyBetween(usual, 1e6, random);
+  return logarithmicallyBetween(0.1 / kTicksPerSecond, usual, random);
+}
+
+df::FixedVector drawVelocity(const Pairing& pairing, SplitMix64& random) {
+  const double speed = drawSpeed(pairing, random);
+  const double angle = 2 * std::numbers::pi * random.unit();
+  return {fixed(speed * std::cos(angle)), fixed(speed * std::sin(angle))};
+}
+
+void chooseVelocities(const Pairing& pairing, Flier& older, Flier& younger, SplitMix64& random) {
+  if (pairing.motion != Motion::REST) older.velocity = drawVelocity(pairing, random);
+  if (pairing.motion != Motion::FIRES) younger.velocity = drawVelocity(pairing, random);
+  if (pairing.motion != Motion::HEAD_ON) return;
+  const df::Fixed ahead = fixed(drawSpeed(pairing, random));
+  const df::Fixed against = fixed(drawSpeed(pairing, random));
+  const df::Fixed aside = fixed(between(-0.3, 0.3, random));
+  older.velocity = {ahead, aside};
+  younger.velocity = {-against, fixed(between(-0.3, 0.3, random))};
+  if (random.below(2) == 0) return;
+  for (Flier* p_flier : {&older, &younger}) std::swap(p_flier->velocity.x, p_flier->velocity.y);
+}
+
+// A place of the younger one relative to the older one at which they touch: mostly just so.
+df::FixedVector drawContact(const Flier& older, const Flier& younger, SplitMix64& random) {
+  const double reach_x = df::toCells(older.box.size.x + younger.box.size.x) / 2;
+  const double reach_y = df::toCells(older.box.size.y + younger.box.size.y) / 2;
+  double x = between(-1, 1, random);
+  double y = between(-1, 1, random);
+  (random.below(2) == 0 ? x : y) = random.below(2) == 0 ? 1 : -1;
+  const double depth = random.unit() < 0.6 ? 1 : between(0, 1.1, random);
+  return {fixed(depth * x * reach_x), fixed(depth * y * reach_y)};
+}
+
+df::FixedVector times(df::FixedVector v, double factor) {
+  return {fixed(df::toCells(v.x) * factor), fixed(df::toCells(v.y) * factor)};
+}
+
+/// Draw a shot: set the two up so that they are at a contact at some moment - of the first turn, of the
+/// second, or of a flight in which both fly at the same time - and do not touch at the start.
+void aim(const Pairing& pairing, Flier& older, Flier& younger, SplitMix64& random) {
+  do {
+    older = shape(pairing.older, random);
+    younger = shape(pairing.younger, random);
+    chooseVelocities(pairing, older, younger, random);
+    const double x = between(-kFieldSide, kFieldSide, random);
+    const double y = between(-kFieldSide, kFieldSide, random);
+    older.position = {fixed(x), fixed(y)};
+    const double time = random.unit() * std::max(1, pairing.ticks - 2);
+    double older_gone = time;
+    double younger_gone = time;
+    if (pairing.motion == Motion::BOTH || pairing.motion == Motion::HEAD_ON) {
+      const std::uint64_t moment = random.below(3);
+      if (moment == 0) younger_gone = 0;
+      if (moment == 1) older_gone = 1;
+    }
+    younger.position = older.position + times(older.velocity, older_gone) -
+                       times(younger.velocity, younger_gone) + drawContact(older, younger, random);
+  } while (areMet(older, younger));
+}
 
 Account fire(const Pairing& pairing, long shots, bool all_swept) {
   Range range(pairing.make_older, pairing.make_younger);
   if (all_swept) range.sweepAll();
   if (pairing.speed > 0) range.judgeUnswept();
-  naiad::SplitMix64 random(20240607);
+  SplitMix64 random(20240607);
   Account account;
   Flier older;
   Flier younger;
@@ -93,5 +230,4 @@ const Suite s_suite("tunnel", "does anything swept pass through anything? a mill
                     });
 
 }  // namespace
-
 }  // namespace bench

@@ -9,12 +9,10 @@
 #include "ResultLine.h"
 #include "Scene.h"
 #include "Suite.h"
-#include "peers/ChipmunkTuning.h"
 #include "peers/Peers.h"
 #include "textbook/Textbook.h"
 
 namespace bench {
-
 namespace {
 
 constexpr int kLarge = 1'000'000;  // here only one of each library takes part
@@ -152,5 +150,4 @@ const Suite s_suite("world", "cost per object and tick, against Chipmunk, Box2D 
                     });
 
 }  // namespace
-
 }  // namespace bench

@@ -8,5 +8,9 @@ namespace naiad::test {
 
 /// Fill the world with `count` creatures and the object that welcomes players.
 void populateBusyWorld(df::World& world, int count);
+/// The same for a TestServer.
+inline auto busyWorld(int count) {
+  return [count](df::World& world) { populateBusyWorld(world, count); };
+}
 
 }  // namespace naiad::test

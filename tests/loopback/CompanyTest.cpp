@@ -1,13 +1,9 @@
 // Joining, leaving, being refused, talking, stalling: what players of one server do to each other.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "BusyWorld.h"
 #include "Compare.h"
+#include "LoopbackFixture.h"
 #include "RawClient.h"
-#include "TestClient.h"
-#include "TestServer.h"
 #include "engine/world/ObjectRegistry.h"
 #include "engine/world/Player.h"
 
@@ -23,16 +19,10 @@ int countShips(df::World& world) {
   return world.objects().objectsOfType("Ship").getCount();
 }
 
-bool lists(TestClient& client, const std::string& name) {
-  if (!client.joined()) return false;
-  const auto& players = client.session().players();
-  return std::any_of(players.begin(), players.end(),
-                     [&](const PlayerLine& line) { return line.name == name; });
-}
+using Company = LoopbackFixture;
 
-TEST(Company, KilledClientIsShownAsGone) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 10); });
-  asio::io_context context;
+TEST_F(Company, KilledClientIsShownAsGone) {
+  TestServer server(busyWorld(10));
   TestClient ann(context, server.port(), "ann");
   RawClient bob(server.port());
   bob.send(RawClient::hello("bob"));
@@ -43,18 +33,16 @@ TEST(Company, KilledClientIsShownAsGone) {
   EXPECT_EQ(server.inWorld(countShips), 1);
 }
 
-TEST(Company, LeavingOnPurposeRemovesTheShip) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 10); });
-  asio::io_context context;
+TEST_F(Company, LeavingOnPurposeRemovesTheShip) {
+  TestServer server(busyWorld(10));
   TestClient ann(context, server.port(), "ann");
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  ASSERT_TRUE(joins(ann));
   ann.connection().leave();
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.inWorld(countShips) == 0; }));
 }
 
-TEST(Company, StalledClientCostsTheOthersNothing) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 300); });
-  asio::io_context context;
+TEST_F(Company, StalledClientCostsTheOthersNothing) {
+  TestServer server(busyWorld(300));
   TestClient ann(context, server.port(), "ann");
   TestClient bob(context, server.port(), "bob");
   ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return ann.joined() && bob.joined(); }));
@@ -70,9 +58,8 @@ TEST(Company, StalledClientCostsTheOthersNothing) {
   expectSame(ann, server, kFiveSeconds - 1);
 }
 
-TEST(Company, StalledClientCatchesUpWhenItReadsAgain) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 300); });
-  asio::io_context context;
+TEST_F(Company, StalledClientCatchesUpWhenItReadsAgain) {
+  TestServer server(busyWorld(300));
   asio::io_context asleep;  // serving it or not is what stalls the second client
   TestClient ann(context, server.port(), "ann");
   TestClient mud(asleep, server.port(), "mud");
@@ -83,16 +70,13 @@ TEST(Company, StalledClientCatchesUpWhenItReadsAgain) {
   const std::uint32_t stalled_until = ann.newestTick();
   // Once it reads again, it soon shows what the server has.
   EXPECT_TRUE(serveUntil(asleep, {&mud}, [&] {
-    if (mud.newestTick() <= stalled_until + 50 || mud.pictures().empty()) return false;
-    const auto& [tick, picture] = *mud.pictures().rbegin();
-    const auto truth = server.truth(tick, mud.player());
-    return tick > stalled_until && truth && countDifferences(picture, *truth) == 0;
+    return mud.newestTick() > stalled_until + 50 && !mud.pictures().empty() &&
+           mud.pictures().rbegin()->first > stalled_until && showsTheTruth(mud, server);
   }));
 }
 
-TEST(Company, ChatReachesEveryoneCleaned) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 5); });
-  asio::io_context context;
+TEST_F(Company, ChatReachesEveryoneCleaned) {
+  TestServer server(busyWorld(5));
   TestClient ann(context, server.port(), "ann");
   TestClient bob(context, server.port(), "bob");
   ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return lists(ann, "bob") && lists(bob, "ann"); }));
@@ -103,9 +87,8 @@ TEST(Company, ChatReachesEveryoneCleaned) {
   EXPECT_EQ(bob.session().chat().back().text, "hi ?[2Jthere");
 }
 
-TEST(Company, SecondPlayerOfANameGetsANumber) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 5); });
-  asio::io_context context;
+TEST_F(Company, SecondPlayerOfANameGetsANumber) {
+  TestServer server(busyWorld(5));
   TestClient ann(context, server.port(), "Ann");
   TestClient other(context, server.port(), "ann");
   ASSERT_TRUE(serveUntil(context, {&ann, &other}, [&] { return ann.joined() && other.joined(); }));
@@ -121,36 +104,34 @@ wire::Refused refusalOf(std::uint16_t port, const wire::ClientMessage& hello) {
   return answer ? answer->refused() : wire::Refused();
 }
 
-TEST(Company, RefusalsAreSentencesAPersonUnderstands) {
+TEST_F(Company, RefusalsAreSentencesAPersonUnderstands) {
   HostOptions options = fastOptions();
   options.max_players = 1;
-  TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  TestServer server(busyWorld(5), options);
 
   wire::ClientMessage hello = RawClient::hello("old");
   hello.mutable_hello()->set_protocol(kProtocolVersion - 1);
   EXPECT_EQ(refusalOf(server.port(), hello).reason(), Reason::VERSION);
-  EXPECT_NE(refusalOf(server.port(), hello).sentence().find("update the client"), std::string::npos);
+  EXPECT_TRUE(has(refusalOf(server.port(), hello).sentence(), "update the client"));
   hello.mutable_hello()->set_protocol(kProtocolVersion + 1);
-  EXPECT_NE(refusalOf(server.port(), hello).sentence().find("update the server"), std::string::npos);
+  EXPECT_TRUE(has(refusalOf(server.port(), hello).sentence(), "update the server"));
 
   hello = RawClient::hello("lost");
   hello.mutable_hello()->set_game("chess");
   EXPECT_EQ(refusalOf(server.port(), hello).sentence(), "This server plays \"test\", not \"chess\".");
   EXPECT_EQ(refusalOf(server.port(), RawClient::hello("\x1b\n ")).reason(), Reason::NAME);
 
-  asio::io_context context;
   TestClient ann(context, server.port(), "ann");
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  ASSERT_TRUE(joins(ann));
   EXPECT_EQ(refusalOf(server.port(), RawClient::hello("late")).reason(), Reason::FULL);
 }
 
-TEST(Company, PlayersGetAGoodbyeWhenTheServerEnds) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 5); });
-  asio::io_context context;
+TEST_F(Company, PlayersGetAGoodbyeWhenTheServerEnds) {
+  TestServer server(busyWorld(5));
   TestClient ann(context, server.port(), "ann");
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  ASSERT_TRUE(joins(ann));
   std::thread stopper([&server] { server.stop("Closing time."); });
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
+  EXPECT_TRUE(ends(ann));
   stopper.join();
   EXPECT_EQ(ann.connection().state(), Connection::State::kEnded);
   EXPECT_EQ(ann.connection().sentence(), "Closing time.");

@@ -40,6 +40,13 @@ Comparison compare(TestClient& client, const TestServer& server) {
   return result;
 }
 
+bool showsTheTruth(TestClient& client, const TestServer& server) {
+  if (client.pictures().empty()) return false;
+  const auto& [tick, picture] = *client.pictures().rbegin();
+  const auto truth = server.truth(tick, client.player());
+  return truth && countDifferences(picture, *truth) == 0;
+}
+
 void expectSame(TestClient& client, TestServer& server, int least_ticks) {
   const Comparison result = compare(client, server);
   EXPECT_GE(result.ticks, least_ticks);

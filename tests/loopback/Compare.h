@@ -19,6 +19,8 @@ struct Comparison {
 /// Compare every picture that `client` kept with the server's truth for its player.
 Comparison compare(TestClient& client, const TestServer& server);
 
+/// Is the newest picture that `client` kept the server's?
+bool showsTheTruth(TestClient& client, const TestServer& server);
 /// Expect `least_ticks` pictures and no wrong cell, but for ticks that the server skipped for this client on
 /// purpose (none, unless the machine stands still for a fifth of a second). Print what was compared.
 void expectSame(TestClient& client, TestServer& server, int least_ticks);

@@ -13,12 +13,11 @@
 #include <thread>
 #include <vector>
 
-#include "BusyWorld.h"
-#include "Home.h"
+#include "Compare.h"
 #include "LightClient.h"
+#include "LoopbackFixture.h"
 #include "SilentCrowd.h"
 #include "StreamProxy.h"
-#include "TestServer.h"
 #include "Valve.h"
 #include "host/auth/PasswordHash.h"
 
@@ -33,11 +32,8 @@ std::vector<std::string> addresses(int count, const std::function<std::string(in
   return all;
 }
 
-class CrowdedDoor : public testing::Test {
+class CrowdedDoor : public LoopbackFixture {
  protected:
-  static std::function<void(df::World&)> world(int objects = 20) {
-    return [objects](df::World& w) { populateBusyWorld(w, objects); };
-  }
   /// A player whose stream comes from an address of its own.
   struct Visitor {
     Visitor(asio::io_context& context, const TestServer& server, const std::string& address)
@@ -56,12 +52,7 @@ class CrowdedDoor : public testing::Test {
   bool seesTheTruth(TestClient& client, TestServer& server, std::initializer_list<TestClient*> all) {
     server.keepTruth(true);
     client.keepPictures(true);
-    return serveUntil(context, all, [&] {
-      if (client.pictures().empty()) return false;
-      const auto& [tick, picture] = *client.pictures().rbegin();
-      const auto truth = server.truth(tick, client.player());
-      return truth && countDifferences(picture, *truth) == 0;
-    });
+    return serveUntil(context, all, [&] { return showsTheTruth(client, server); });
   }
   std::unique_ptr<Visitor> visitor(const TestServer& server, const std::string& address) {
     return std::make_unique<Visitor>(context, server, address);
@@ -74,9 +65,8 @@ class CrowdedDoor : public testing::Test {
     return all;
   }
   static std::size_t countWelcome(const std::vector<std::unique_ptr<LightClient>>& clients) {
-    return static_cast<std::size_t>(std::count_if(clients.begin(), clients.end(), [](const auto& client) {
-      return client->state() == LightClient::State::kWelcome;
-    }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        clients, [](const auto& client) { return client->state() == LightClient::State::kWelcome; }));
   }
   bool serve(const std::function<bool()>& done) { return serveUntil(context, {}, done); }
   /// It joins and is judged.
@@ -85,9 +75,6 @@ class CrowdedDoor : public testing::Test {
     EXPECT_TRUE(serve([&] { return client.state() != LightClient::State::kJoining; }));
     return client.state();
   }
-
-  Home home;
-  asio::io_context context;
 };
 
 // ---- half-open connections
@@ -113,7 +100,7 @@ TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
   const Flood& flood = GetParam();
   HostOptions options = home.server();
   options.max_players = flood.max_players;
-  TestServer server(world(), options);
+  TestServer server(busyWorld(20), options);
   server.keepTruth(false);
   TestClient ann(context, server.port(), home.player("ann"));
   ann.keepPictures(false);
@@ -189,7 +176,7 @@ TEST_F(CrowdedDoor, AThousandPlayersWhoReturnAtOnceAreBackInTenSeconds) {
   HostOptions options = home.server();
   options.frame_micros = 0;
   options.max_players = 1000;
-  TestServer server(world(0), options);
+  TestServer server(busyWorld(0), options);
   server.keepTruth(false);
   const auto players =
       lightClients(server, addresses(1000 / kSlowness, [](int i) {
@@ -207,20 +194,19 @@ TEST_F(CrowdedDoor, AThousandPlayersWhoReturnAtOnceAreBackInTenSeconds) {
   ASSERT_TRUE(took) << countWelcome(players);
   EXPECT_LT(*took, 10s);
   EXPECT_EQ(server.counters().resumed, players.size());
-  EXPECT_TRUE(
-      std::all_of(players.begin(), players.end(), [](const auto& p) { return p->welcome().resumed(); }));
+  EXPECT_TRUE(std::ranges::all_of(players, [](const auto& p) { return p->welcome().resumed(); }));
 }
 
 TEST_F(CrowdedDoor, AnAddressThatMayHaveTwoHundredPlayersHasThemAtOnce) {
   HostOptions options = home.server();
   options.max_players = options.max_per_address = 200;
-  TestServer server(world(0), options);
+  TestServer server(busyWorld(0), options);
   server.keepTruth(false);
   const auto players = lightClients(server, addresses(200, [](int) { return "127.7.7.7"; }));
   for (const auto& player : players) player->join();
   ASSERT_TRUE(serve([&] {
-    return std::none_of(players.begin(), players.end(),
-                        [](const auto& p) { return p->state() == LightClient::State::kJoining; });
+    return std::ranges::none_of(players,
+                                [](const auto& p) { return p->state() == LightClient::State::kJoining; });
   }));
   EXPECT_EQ(countWelcome(players), players.size());
 }
@@ -232,7 +218,7 @@ TEST_F(CrowdedDoor, OneAddressHoldsItsShareOfThePlacesHoweverOftenItComes) {
   HostOptions options = home.server();
   options.max_players = 10;
   options.max_per_address = 2;
-  TestServer server(world(), options);
+  TestServer server(busyWorld(20), options);
   const auto greedy = lightClients(server, addresses(12, [](int) { return "127.1.1.1"; }));
   for (const auto& client : greedy) {
     const std::uint64_t detached = server.counters().detached;
@@ -294,7 +280,7 @@ class InsistentCrowd {
 // ------------------------------------------------------------------------------------------------
 
 TEST_F(CrowdedDoor, PlayersWhoComeBackWithoutEndGetFewHandshakesAndOthersAreNotLimited) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(20), home.server());
   server.keepTruth(false);
   TestClient ann(context, server.port(), home.player("ann"));
   ann.keepPictures(false);
@@ -327,7 +313,7 @@ TEST_F(CrowdedDoor, PlayersWhoComeBackWithoutEndGetFewHandshakesAndOthersAreNotL
 TEST_F(CrowdedDoor, EightyAddressesDoNotCloseAServerWithAPassword) {
   HostOptions options = home.server();
   options.password = PasswordHash::of("xyzzy", {.memory_kib = 4 * 1024, .passes = 6}).text();  // some 10 ms
-  TestServer server(world(), options);
+  TestServer server(busyWorld(20), options);
   const auto player = [&](const std::string& name) {
     ClientSetup setup = home.player(name);
     setup.options.password = "xyzzy";

@@ -3,24 +3,20 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
-#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "GameProgram.h"
-#include "Home.h"
-#include "TestClient.h"
+#include "LoopbackFixture.h"
 #include "tests/server/host/fleet/FakeSidecar.h"
 #include "tests/server/host/fleet/NatsServer.h"
 
 namespace naiad::test {
 namespace {
 
-class Fleet : public testing::Test {
+class Fleet : public LoopbackFixture {
  protected:
   void start(std::map<std::string, std::string> environment) {
     environment["NAIAD_GAME"] = "hello";
@@ -33,21 +29,12 @@ class Fleet : public testing::Test {
     return client;
   }
   bool serve(TestClient& client, const std::function<bool()>& done) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (!done()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      client.connection().update(std::chrono::steady_clock::now());
-      context.restart();
-      context.run_one_for(std::chrono::milliseconds(5));
-    }
-    return true;
+    return serveUntil(context, {&client}, done);
   }
   bool logs(TestClient& client, const std::string& text) {
     return serve(client, [&] { return game->log().find(text) != std::string::npos; });
   }
 
-  Home home;
-  asio::io_context context;
   std::unique_ptr<GameProgram> game;
 };
 
@@ -68,7 +55,7 @@ TEST_F(Fleet, AServerOfAClusterIsReadyHealthyAllocatedAndShutDown) {
   game->signal(SIGTERM);
   game->wait();
   EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
-  EXPECT_NE(game->log().find("platform_requests="), std::string::npos) << game->log();
+  EXPECT_TRUE(has(game->log(), "platform_requests="));
 }
 
 TEST_F(Fleet, AServerThatIsEndedAtOnceSaysSoToo) {
@@ -130,10 +117,10 @@ TEST_F(Fleet, ABusThatIsKilledCostsPlayersNothingAndIsFoundAgain) {
            std::string::npos;
   })) << game->log().substr(before);
   EXPECT_EQ(ann->session().counters().resets, 0u);
-  EXPECT_EQ(game->log().find("is back"), std::string::npos) << "ann had to come back";
+  EXPECT_FALSE(has(game->log(), "is back")) << "ann had to come back";
   game->signal(SIGTERM);
   game->wait();
-  EXPECT_NE(game->log().find("bus_connections=2"), std::string::npos) << game->log();
+  EXPECT_TRUE(has(game->log(), "bus_connections=2"));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -19,12 +18,6 @@
 namespace naiad::test {
 
 namespace {
-
-std::string makeDirectory() {
-  std::string name = std::filesystem::temp_directory_path() / "naiad-game-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-  return name;
-}
 
 std::vector<char*> pointersTo(std::vector<std::string>& words) {
   std::vector<char*> pointers;
@@ -36,8 +29,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
 }  // namespace
 
 GameProgram::GameProgram(const std::string& name, std::map<std::string, std::string> environment,
-                         const std::vector<std::string>& arguments, int errors)
-    : m_directory(makeDirectory()) {
+                         const std::vector<std::string>& arguments, int errors) {
   std::filesystem::create_directory(playFolder());
   environment.insert({{"NAIAD_ADDRESS", "127.0.0.1"},
                       {"NAIAD_PORT", "0"},
@@ -92,7 +84,6 @@ GameProgram::~GameProgram() {
     signal(SIGTERM);
     wait();
   }
-  std::filesystem::remove_all(m_directory);
 }
 
 bool GameProgram::hasEnded() {

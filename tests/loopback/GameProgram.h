@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/TempFolder.h"
+
 namespace naiad::test {
 
 class GameProgram {
@@ -31,7 +33,7 @@ class GameProgram {
   /// Its log so far.
   std::string log() const;
   /// Its key is in identity/key.pem there.
-  std::filesystem::path directory() const { return m_directory; }
+  std::filesystem::path directory() const { return m_directory.path(); }
   /// The socket for its commands.
   std::filesystem::path control() const { return m_directory / "control.sock"; }
   std::filesystem::path playFolder() const { return m_directory / "play"; }
@@ -40,7 +42,7 @@ class GameProgram {
  private:
   bool hasEnded();
 
-  std::filesystem::path m_directory;
+  TempFolder m_directory;
   pid_t m_process = -1;
   int m_status = -1;
   std::uint16_t m_port = 0;

@@ -1,29 +1,18 @@
 // A directory for the keys, pins and options of one encrypted test.
 #pragma once
 
-#include <stdlib.h>
-
 #include <chrono>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include "TestClient.h"
 #include "host/settings/HostOptions.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad::test {
 
 class Home {
  public:
-  Home() {
-    std::string name = std::filesystem::temp_directory_path() / "naiad-home-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    m_directory = name;
-  }
-  ~Home() { std::filesystem::remove_all(m_directory); }
-  Home(const Home&) = delete;
-  Home& operator=(const Home&) = delete;
-
   /// TLS and datagrams, with a key of this home; a tick takes 5 ms.
   HostOptions server(const std::string& identity = "identity") const {
     HostOptions options;
@@ -48,7 +37,7 @@ class Home {
   std::filesystem::path sessions() const { return m_directory / "sessions"; }
 
  private:
-  std::filesystem::path m_directory;
+  TempFolder m_directory;
 };
 
 }  // namespace naiad::test

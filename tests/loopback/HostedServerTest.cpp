@@ -22,10 +22,8 @@
 #include <vector>
 
 #include "GameProgram.h"
-#include "Home.h"
+#include "LoopbackFixture.h"
 #include "RunCtl.h"
-#include "TestClient.h"
-#include "TestServer.h"
 #include "host/auth/PasswordHash.h"
 #include "host/auth/ServerIdentity.h"
 #include "shared/net/stream/VisitorHeader.h"
@@ -43,7 +41,7 @@ std::string cheapHash(const std::string& password) {
   return PasswordHash::of(password, {.memory_kib = 64, .passes = 1}).text();
 }
 
-class HostedServer : public testing::Test {
+class HostedServer : public LoopbackFixture {
  protected:
   HostedServer() { fs::create_directories(home.identity("files")); }
 
@@ -120,8 +118,6 @@ class HostedServer : public testing::Test {
     return runCtl("--control " + server->control().string() + " " + command);
   }
 
-  Home home;
-  asio::io_context context;
   std::unique_ptr<GameProgram> server;
   std::vector<std::unique_ptr<TestClient>> clients;
 };
@@ -138,7 +134,7 @@ TEST_F(HostedServer, SigtermLetsPlayersFinish) {
   ann.connection().leave();
   EXPECT_TRUE(serve([&] { return server->log().find(" left\n") != std::string::npos; }));
   EXPECT_TRUE(endsWell());
-  EXPECT_NE(server->log().find(" refused_closing=1 "), std::string::npos) << server->log();
+  EXPECT_TRUE(has(server->log(), " refused_closing=1 "));
 }
 
 TEST_F(HostedServer, ADrainHasADeadline) {
@@ -207,7 +203,7 @@ TEST_F(HostedServer, ReloadChangesThePasswordForThoseWhoCome) {
   bob.options.password = "new";
   join(bob);
   EXPECT_TRUE(ticks(ann));
-  EXPECT_EQ(server->log().find("$argon2"), std::string::npos) << "not even its hash is logged";
+  EXPECT_FALSE(has(server->log(), "$argon2")) << "not even its hash is logged";
 }
 
 TEST_F(HostedServer, ReloadTakesOverANewCertificate) {
@@ -278,7 +274,7 @@ TEST_F(HostedServer, WithoutBeingAskedChatIsNotLogged) {
   EXPECT_TRUE(isTold(ann, "hello all"));
   ann.connection().leave();
   EXPECT_TRUE(logs("\"ann\" left"));
-  EXPECT_EQ(server->log().find("hello all"), std::string::npos);
+  EXPECT_FALSE(has(server->log(), "hello all"));
 }
 
 /// What fail2ban finds in the server's log with the filter that ships: "Lines: 9 lines, 0 ignored, 2 matched,
@@ -312,10 +308,8 @@ TEST_P(Fail2ban, FindsWhoGuessesPasswordsAndNobodyElse) {
   other.options.game = "203.0.113.9:1 refused: ";
   EXPECT_NE(refusal(other), "");
   ASSERT_TRUE(logs("This server plays"));
-  EXPECT_NE(fail2banFinds(*server, "normal").find(" 0 matched,"), std::string::npos)
-      << fail2banFinds(*server, "normal");
-  EXPECT_NE(fail2banFinds(*server, "aggressive").find(" 1 matched,"), std::string::npos)
-      << fail2banFinds(*server, "aggressive");
+  EXPECT_TRUE(has(fail2banFinds(*server, "normal"), " 0 matched,"));
+  EXPECT_TRUE(has(fail2banFinds(*server, "aggressive"), " 1 matched,"));
   ClientSetup guess = home.player("eve");
   guess.options.password = "plugh";
   // Lines on refusals are one a second for an address, and bob has had one.
@@ -325,8 +319,7 @@ TEST_P(Fail2ban, FindsWhoGuessesPasswordsAndNobodyElse) {
     return log.find("server's password.") != std::string::npos ||
            log.find("Too many wrong passwords.") != std::string::npos;
   }));
-  EXPECT_NE(fail2banFinds(*server, "normal").find(" 1 matched,"), std::string::npos)
-      << fail2banFinds(*server, "normal") << server->log();
+  EXPECT_TRUE(has(fail2banFinds(*server, "normal"), " 1 matched,")) << server->log();
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Fail2ban, testing::Values("text", "json"),
@@ -334,13 +327,13 @@ INSTANTIATE_TEST_SUITE_P(Formats, Fail2ban, testing::Values("text", "json"),
 
 // ---- a restart --------------------------------------------------------------------------------------------
 
-TEST(HostedWorld, ClientsComeBackToAServerThatRestarts) {
-  Home home;
-  asio::io_context context;
+using HostedWorld = LoopbackFixture;
+
+TEST_F(HostedWorld, ClientsComeBackToAServerThatRestarts) {
   auto server = std::make_unique<TestServer>([](df::World&) {}, home.server());
   const std::uint16_t port = server->port();
   TestClient ann(context, port, home.player("ann"));
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  ASSERT_TRUE(joins(ann));
   server->end({.begins_again = true, .at = Clock::now()});
   EXPECT_TRUE(
       serveUntil(context, {&ann}, [&] { return ann.connection().state() == Connection::State::kSearching; }));
@@ -352,9 +345,7 @@ TEST(HostedWorld, ClientsComeBackToAServerThatRestarts) {
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); })) << ann.connection().sentence();
 }
 
-TEST(HostedWorld, ADrainWaitsForAPlayerWhoseConnectionBroke) {
-  Home home;
-  asio::io_context context;
+TEST_F(HostedWorld, ADrainWaitsForAPlayerWhoseConnectionBroke) {
   TestServer server([](df::World&) {}, home.server());
   ClientSetup setup = home.player("ann");
   setup.sessions = home.sessions();
@@ -369,16 +360,14 @@ TEST(HostedWorld, ADrainWaitsForAPlayerWhoseConnectionBroke) {
   EXPECT_TRUE(ann.session().isResumed());
 }
 
-TEST(HostedWorld, AClientThatDoesNotLookAgainEnds) {
-  Home home;
-  asio::io_context context;
+TEST_F(HostedWorld, AClientThatDoesNotLookAgainEnds) {
   TestServer server([](df::World&) {}, home.server());
   ClientSetup setup = home.player("ann");
   setup.rejoin = false;
   TestClient ann(context, server.port(), setup);
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  ASSERT_TRUE(joins(ann));
   server.end({.begins_again = true, .at = Clock::now()});
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
+  EXPECT_TRUE(ends(ann));
   EXPECT_EQ(ann.connection().sentence(), "The server restarts. It is back in a moment.");
 }
 
@@ -408,7 +397,7 @@ TEST_P(Restarts, TheSameProcessBeginsAgainOnItsPortAndPlayersComeBack) {
   EXPECT_EQ(begun(), 2u) << server->log();
   EXPECT_TRUE(ticks(ann));
   // The new one takes commands where the old one did.
-  EXPECT_NE(ctl("who").second.find("ann"), std::string::npos);
+  EXPECT_TRUE(has(ctl("who").second, "ann"));
   EXPECT_EQ(ctl("stop").first, 0);
   EXPECT_TRUE(endsWell());
 }
@@ -452,8 +441,7 @@ TEST_F(HostedServer, ReloadByDfctlSaysWhatBecameOfIt) {
   writeConfig("max-plyers = 4\n");
   const auto [code, text] = ctl("reload");
   EXPECT_EQ(code, 1);
-  EXPECT_NE(text.find("there is no option \"max-plyers\"; did you mean max-players?"), std::string::npos)
-      << text;
+  EXPECT_TRUE(has(text, "there is no option \"max-plyers\"; did you mean max-players?"));
   EXPECT_EQ(ctl("set max-players").second, "max-players: 2\n");
   EXPECT_TRUE(ticks(ann));
 }
@@ -490,7 +478,7 @@ TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) 
   start({{"NAIAD_METRICS", "127.0.0.1:0"}}, "max-players = 3\n");
   const std::string log = server->log();
   const std::string where = "metrics are at http://127.0.0.1:";
-  ASSERT_NE(log.find(where), std::string::npos) << log;
+  ASSERT_TRUE(has(log, where));
   const auto metrics = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(where) + where.size())));
   TestClient& ann = join("ann");
   std::atomic<int> bad = 0;

@@ -13,10 +13,10 @@
 #include <sstream>
 
 #include "GameProgram.h"
-#include "Home.h"
-#include "TestClient.h"
+#include "LoopbackFixture.h"
 #include "host/auth/PasswordHash.h"
 #include "host/world/Sandbox.h"
+#include "tests/support/Processes.h"
 
 namespace naiad::test {
 namespace {
@@ -31,24 +31,14 @@ struct Line {
   std::string text;
 };
 
-/// What can be read: the process that a file is about may end meanwhile.
-std::string readAll(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream all;
-  all << file.rdbuf();
-  return all.str();
-}
-
 /// A process that has ended may still be waited for by another.
 bool isAlive(pid_t process) {
-  if (kill(process, 0) != 0 && errno == ESRCH) return false;
-  const std::string all = readAll("/proc/" + std::to_string(process) + "/stat");
-  const std::size_t state = all.rfind(')');
-  return state != std::string::npos && state + 2 < all.size() && all[state + 2] != 'Z';
+  const char state = stateOf(process);
+  return state != 'X' && state != 'Z';
 }
 
 /// dfserver with that game; ann and bob play, each in a world.
-class HostileGame : public testing::Test {
+class HostileGame : public LoopbackFixture {
  protected:
   HostileGame() : support(findSandboxSupport()) {}
 
@@ -70,7 +60,7 @@ class HostileGame : public testing::Test {
     auto client = std::make_unique<TestClient>(context, game->port(), setup);
     clients.push_back(client.get());
     EXPECT_TRUE(serve([&] { return client->joined() && client->newestTick() > 3; }))
-        << game->log() << readAll(game->playFolder() / "report");
+        << game->log() << contentOf(game->playFolder() / "report");
     return client;
   }
   bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
@@ -110,8 +100,8 @@ class HostileGame : public testing::Test {
     EXPECT_EQ(all.size(), 3u);
     return all;
   }
-  static bool areAlive(const std::vector<pid_t>& all) { return std::all_of(all.begin(), all.end(), isAlive); }
-  static bool areGone(const std::vector<pid_t>& all) { return std::none_of(all.begin(), all.end(), isAlive); }
+  static bool areAlive(const std::vector<pid_t>& all) { return std::ranges::all_of(all, isAlive); }
+  static bool areGone(const std::vector<pid_t>& all) { return std::ranges::none_of(all, isAlive); }
   /// bob's world has ticked since, and the server lives.
   void expectTheOthersPlay() {
     const std::uint32_t then = bob->newestTick();
@@ -121,8 +111,6 @@ class HostileGame : public testing::Test {
   }
 
   const SandboxSupport support;
-  Home home;
-  asio::io_context context;
   std::unique_ptr<GameProgram> game;
   std::unique_ptr<TestClient> bob;
   std::unique_ptr<TestClient> ann;
@@ -132,8 +120,8 @@ class HostileGame : public testing::Test {
 TEST_F(HostileGame, OpensNoFilesButItsOwn) {
   if (support.landlock == 0) GTEST_SKIP() << "this kernel has no Landlock";
   start();
-  const std::string key = readAll(game->directory() / "identity/key.pem");
-  EXPECT_NE(key.find("PRIVATE KEY"), std::string::npos);
+  const std::string key = contentOf(game->directory() / "identity/key.pem");
+  EXPECT_TRUE(has(key, "PRIVATE KEY"));
   expectRefused({"read the key", "empty the key", "list the server's folder", "make a file elsewhere",
                  "make a folder elsewhere", "make a link", "link the key"});
   if (support.landlock >= 3) expectRefused({"empty the log"});
@@ -160,7 +148,7 @@ TEST_F(HostileGame, AddsLinesToTheLogAndChangesNone) {
   EXPECT_TRUE(logged(" game: dfserver ")) << "what the engine logs there";
   EXPECT_FALSE(logged("\x1b"));
   // The server's own output is not what the world has: its flags are as they were.
-  const std::string info = readAll("/proc/" + std::to_string(game->process()) + "/fdinfo/2");
+  const std::string info = contentOf("/proc/" + std::to_string(game->process()) + "/fdinfo/2");
   if (!info.empty()) {  // nobody but root may look
     const std::size_t at = info.find("flags:");
     ASSERT_NE(at, std::string::npos);
@@ -207,8 +195,7 @@ TEST_F(HostileGame, IsLoadedByItsWorldsAlone) {
   const std::vector<Line> lines = report();
   EXPECT_FALSE(lines.empty());
   for (const Line& line : lines) EXPECT_NE(line.process, game->process()) << line.text;
-  EXPECT_EQ(readAll("/proc/" + std::to_string(game->process()) + "/maps").find("hostile_module"),
-            std::string::npos);
+  EXPECT_FALSE(has(contentOf("/proc/" + std::to_string(game->process()) + "/maps"), "hostile_module"));
 }
 
 TEST_F(HostileGame, LearnsNoPassword) {
@@ -220,12 +207,12 @@ TEST_F(HostileGame, LearnsNoPassword) {
   ASSERT_EQ(worlds().size(), 2u);
   const std::filesystem::path world = "/proc/" + std::to_string(worlds().back());
   const std::filesystem::path front = "/proc/" + std::to_string(game->process());
-  EXPECT_NE(readAll(world / "cmdline").find("hostile_module"), std::string::npos);
-  EXPECT_NE(readAll(world / "environ").find("NAIAD_WORLD_SOCKET"), std::string::npos);
+  EXPECT_TRUE(has(contentOf(world / "cmdline"), "hostile_module"));
+  EXPECT_TRUE(has(contentOf(world / "environ"), "NAIAD_WORLD_SOCKET"));
   for (const auto& path : {world / "cmdline", world / "environ", front / "cmdline"}) {
     for (const std::string& text : {secret, std::string(kPassword)})
-      EXPECT_EQ(readAll(path).find(text), std::string::npos) << path;
-    EXPECT_EQ(readAll(path).find("not this one"), std::string::npos) << path;
+      EXPECT_FALSE(has(contentOf(path), text)) << path;
+    EXPECT_FALSE(has(contentOf(path), "not this one")) << path;
   }
 }
 
@@ -249,9 +236,7 @@ TEST_F(HostileGame, ItsChildrenEndWithItsKeeper) {
   start();
   ASSERT_EQ(worlds().size(), 2u);
   const std::vector<pid_t> of_ann = processesOf(worlds()[1]);
-  const std::string stat = readAll("/proc/" + std::to_string(of_ann[0]) + "/stat");
-  pid_t keeper = 0;
-  std::istringstream(stat.substr(stat.rfind(')') + 3)) >> keeper;
+  const pid_t keeper = factsOf(of_ann[0])->parent;
   ASSERT_GT(keeper, 1);
   kill(keeper, SIGKILL);
   EXPECT_TRUE(serve([&] { return areGone(of_ann); }));

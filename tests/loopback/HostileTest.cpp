@@ -6,12 +6,9 @@
 #include <thread>
 #include <vector>
 
-#include "BusyWorld.h"
 #include "Compare.h"
-#include "Home.h"
+#include "LoopbackFixture.h"
 #include "RawClient.h"
-#include "TestClient.h"
-#include "TestServer.h"
 #include "engine/world/Views.h"
 #include "shared/net/stream/Framing.h"
 #include "shared/replica/UpdateCodec.h"
@@ -96,20 +93,14 @@ void attack(SplitMix64& random, RawClient& client) {
 }
 
 /// As shipped: encrypted, and a player whose connection breaks has a grace time.
-class Hostile : public testing::Test {
+class Hostile : public LoopbackFixture {
  protected:
-  static std::function<void(df::World&)> world(int objects) {
-    return [objects](df::World& world) { populateBusyWorld(world, objects); };
-  }
   /// On the stream, where no picture is ever provisional.
   ClientSetup player(const std::string& name) const {
     ClientSetup setup = home.player(name);
     setup.options.open_socket = [](const Endpoint&) { return nullptr; };
     return setup;
   }
-
-  Home home;
-  asio::io_context context;
 };
 constexpr auto kTls = RawClient::Line::kTls;
 
@@ -117,7 +108,7 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
   HostOptions options = home.server();
   options.grace = 0.1;            // of those who only break off, few are there at once: each picture is kept
   options.max_per_address = 500;  // twice as many may join one after the other (PrefixRates)
-  TestServer server(world(50), options);
+  TestServer server(busyWorld(50), options);
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
 
@@ -152,7 +143,7 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
 }
 
 TEST_F(Hostile, OffendersAreDisconnected) {
-  TestServer server(world(5), home.server());
+  TestServer server(busyWorld(5), home.server());
   const auto hangsUp = [&](const std::string& after_hello) {
     RawClient evil(server.port(), kTls);
     evil.send(RawClient::hello("evil"));
@@ -171,7 +162,7 @@ TEST_F(Hostile, OffendersAreDisconnected) {
 TEST_F(Hostile, KeyFloodEndsTheSession) {
   HostOptions options = home.server();
   options.frame_micros = 200'000;
-  TestServer server(world(5), options);
+  TestServer server(busyWorld(5), options);
   RawClient flood(server.port(), kTls);
   flood.send(RawClient::hello("flood"));
   for (std::uint32_t id = 1; id <= 500; ++id) {
@@ -184,7 +175,7 @@ TEST_F(Hostile, KeyFloodEndsTheSession) {
 }
 
 TEST_F(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNoOthersWorld) {
-  TestServer server(world(5), home.server());
+  TestServer server(busyWorld(5), home.server());
   TestClient ann(context, server.port(), home.player("ann"));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
 
@@ -214,7 +205,7 @@ TEST_F(Hostile, ACrowdOfSilentConnectionsDoesNotLockPlayersOut) {
   HostOptions options = fastOptions();
   options.grace = HostOptions().grace;
   options.max_players = 1;
-  TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  TestServer server(busyWorld(5), options);
   std::vector<std::unique_ptr<RawClient>> crowd;
   for (int i = 0; i < 30; ++i) crowd.push_back(std::make_unique<RawClient>(server.port()));
   TestClient ann(context, server.port(), "ann");

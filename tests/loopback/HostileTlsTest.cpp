@@ -9,9 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "BusyWorld.h"
-#include "Home.h"
-#include "TestServer.h"
+#include "LoopbackFixture.h"
 #include "Valve.h"
 #include "engine/world/Player.h"
 #include "engine/world/Views.h"
@@ -42,7 +40,7 @@ class Sniffed : public DatagramSocket {
   std::vector<std::string>& m_seen;
 };
 
-class HostileTls : public testing::Test {
+class HostileTls : public LoopbackFixture {
  protected:
   ClientSetup player(const std::string& name) {
     ClientSetup setup = home.player(name);
@@ -51,30 +49,18 @@ class HostileTls : public testing::Test {
     };
     return setup;
   }
-  bool settle(TestClient& client) {
-    return serveUntil(context, {&client}, [&] {
-      return client.joined() && client.session().hasDatagrams(Clock::now()) &&
-             client.session().counters().datagrams_in > 20;
-    });
-  }
-  bool hears(TestClient& client, std::uint32_t ticks) {
-    const std::uint32_t until = client.newestTick() + ticks;
-    return serveUntil(context, {&client}, [&] { return client.newestTick() >= until; });
-  }
   static int scoreOf(TestServer& server, std::uint32_t player) {
     return server.inWorld([player](df::World& world) { return world.views().player(player)->getScore(); });
   }
 
-  Home home;
-  asio::io_context context;
   std::shared_ptr<Valve> valve = std::make_shared<Valve>();
   std::vector<std::string> seen;  ///< datagrams of the client
 };
 
 TEST_F(HostileTls, GarbageAndForgeriesAreNeverAnswered) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 20); }, home.server());
+  TestServer server(busyWorld(20), home.server());
   TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(settle(ann));
+  ASSERT_TRUE(settles(ann));
   ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().score() == 1; }));
 
@@ -122,9 +108,9 @@ TEST_F(HostileTls, GarbageAndForgeriesAreNeverAnswered) {
 }
 
 TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNoPlayer) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 20); }, home.server());
+  TestServer server(busyWorld(20), home.server());
   TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(settle(ann));
+  ASSERT_TRUE(settles(ann));
   // One that never arrived, and is authentic; but a newer one names the address already. What was sent before
   // has arrived, or it would look like the newer one.
   const auto arrived = [&] { return server.datagrams().delivered; };
@@ -143,13 +129,13 @@ TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNoPlayer) {
   ASSERT_TRUE(hears(ann, 100));
   EXPECT_EQ(attacker.available(), 0u);
   EXPECT_EQ(scoreOf(server, ann.player()), 1) << "the key was not pressed twice";
-  EXPECT_TRUE(settle(ann));
+  EXPECT_TRUE(settles(ann));
 }
 
 TEST_F(HostileTls, AFloodOfDatagramsStopsNoPlayersGame) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 20); }, home.server());
+  TestServer server(busyWorld(20), home.server());
   TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(settle(ann));
+  ASSERT_TRUE(settles(ann));
   const std::vector<std::string> genuine = seen;
   std::atomic<bool> done = false;
   std::thread flood([&, port = server.port()] {
@@ -168,14 +154,14 @@ TEST_F(HostileTls, AFloodOfDatagramsStopsNoPlayersGame) {
   flood.join();
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
   EXPECT_EQ(server.counters().detached, 0u);
-  EXPECT_TRUE(settle(ann));
+  EXPECT_TRUE(settles(ann));
 }
 
 TEST_F(HostileTls, HalfOpenConnectionsAreHungUpOn) {
   using asio::ip::tcp;
-  TestServer server([](df::World& world) { populateBusyWorld(world, 20); }, home.server());
+  TestServer server(busyWorld(20), home.server());
   TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(settle(ann));
+  ASSERT_TRUE(settles(ann));
   struct HalfOpen {
     explicit HalfOpen(asio::io_context& c) : socket(c) {}
     tcp::socket socket;
@@ -194,7 +180,7 @@ TEST_F(HostileTls, HalfOpenConnectionsAreHungUpOn) {
   TestClient bob(context, server.port(), home.player("bob"));
   EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return bob.joined(); }));
   EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] {
-    return std::all_of(crowd.begin(), crowd.end(), [](const auto& one) { return one->over; });
+    return std::ranges::all_of(crowd, [](const auto& one) { return one->over; });
   }));
   EXPECT_EQ(server.counters().connections, 2u) << "none of them got as far as a session";
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);

@@ -4,14 +4,14 @@
 #include <memory>
 #include <vector>
 
-#include "Home.h"
+#include "LoopbackFixture.h"
 #include "host/auth/ServerIdentity.h"
 #include "shared/net/stream/TcpListener.h"
 
 namespace naiad::test {
 namespace {
 
-class HungUp : public testing::Test {
+class HungUp : public LoopbackFixture {
  protected:
   /// A server that answers no handshakes but those from the `first` on, and nothing else.
   TestClient& joinWhereAnswered(int first) {
@@ -26,8 +26,6 @@ class HungUp : public testing::Test {
     return *client;
   }
 
-  Home home;
-  asio::io_context context;
   std::unique_ptr<TcpListener> listener;
   std::vector<std::unique_ptr<ReliableChannel>> accepted;
   std::unique_ptr<TestClient> client;
@@ -45,8 +43,7 @@ TEST_F(HungUp, ANewcomerWhoIsNeverAnsweredIsToldSoSoon) {
   TestClient& ann = joinWhereAnswered(1'000'000);
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kUnreachable);
-  EXPECT_NE(ann.connection().sentence().find(" does not answer as a Naiad server ("), std::string::npos)
-      << ann.connection().sentence();
+  EXPECT_TRUE(has(ann.connection().sentence(), " does not answer as a Naiad server ("));
   EXPECT_GT(asked, 1);
   EXPECT_LE(asked, 6);
 }

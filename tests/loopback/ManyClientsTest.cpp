@@ -8,11 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "BusyWorld.h"
-#include "Home.h"
 #include "LightClient.h"
+#include "LoopbackFixture.h"
 #include "RawClient.h"
-#include "TestServer.h"
 #include "Valve.h"
 #include "engine/world/Views.h"
 #include "host/auth/PasswordHash.h"
@@ -24,25 +22,18 @@ namespace {
 using asio::ip::udp;
 using Clock = std::chrono::steady_clock;
 
-class ManyClients : public testing::Test {
- protected:
-  static std::function<void(df::World&)> world() {
-    return [](df::World& w) { populateBusyWorld(w, 5); };
-  }
-  Home home;
-  asio::io_context context;
-};
+using ManyClients = LoopbackFixture;
 
 TEST_F(ManyClients, AClassOf64BehindOneAddressPlays) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   std::vector<std::unique_ptr<LightClient>> pupils;
   for (int i = 0; i < 64; ++i) {
     pupils.push_back(std::make_unique<LightClient>(context, server.port(), "127.1.1.1"));
     pupils.back()->join();
   }
   ASSERT_TRUE(serveUntil(context, {}, [&] {
-    return std::none_of(pupils.begin(), pupils.end(),
-                        [](const auto& pupil) { return pupil->state() == LightClient::State::kJoining; });
+    return std::ranges::none_of(
+        pupils, [](const auto& pupil) { return pupil->state() == LightClient::State::kJoining; });
   }));
   std::set<std::string> names;
   for (const auto& pupil : pupils) names.insert(pupil->welcome().name());
@@ -56,7 +47,7 @@ TEST_F(ManyClients, OneAddressHasItsShareOfThePlaces) {
   options.grace = HostOptions().grace;
   options.max_players = 8;
   options.max_per_address = 2;
-  TestServer server(world(), options);
+  TestServer server(busyWorld(5), options);
   const auto answerTo = [&](RawClient& client) {
     client.send(RawClient::hello("ann"));
     return client.receive().value_or(wire::ServerMessage());
@@ -78,7 +69,7 @@ TEST_F(ManyClients, OneAddressHasItsShareOfThePlaces) {
 }
 
 TEST_F(ManyClients, AClaimedSizeIsNoAdvantage) {
-  TestServer server(world(), fastOptions());
+  TestServer server(busyWorld(5), fastOptions());
   wire::ClientMessage hello = RawClient::hello("ann");
   hello.mutable_hello()->set_columns(4'000'000'000u);
   hello.mutable_hello()->set_rows(4'000'000'000u);
@@ -97,7 +88,7 @@ TEST_F(ManyClients, TheWorldGoesOnWhileAPasswordIsCompared) {
   HostOptions options = fastOptions();
   options.frame_micros = 1000;
   options.password = PasswordHash::of("the right one", {.memory_kib = 8 * 1024, .passes = 12}).text();
-  TestServer server(world(), options);
+  TestServer server(busyWorld(5), options);
   const auto ticks = [&] { return server.counters().ticks; };
   wire::ClientMessage hello = RawClient::hello("eve");
   hello.mutable_hello()->set_password("a wrong one");
@@ -130,7 +121,7 @@ class Overheard : public DatagramSocket {
 };
 
 TEST_F(ManyClients, ASpooferOfManyAddressesLocksNoPlayerOut) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   const auto valve = std::make_shared<Valve>();
   std::string overheard;
   ClientSetup setup = home.player("ann");
@@ -138,11 +129,7 @@ TEST_F(ManyClients, ASpooferOfManyAddressesLocksNoPlayerOut) {
     return std::make_unique<Overheard>(open(endpoint), overheard);
   };
   TestClient ann(context, server.port(), setup);
-  const auto hasDatagrams = [](TestClient& client) {
-    return client.joined() && client.session().hasDatagrams(Clock::now()) &&
-           client.session().counters().datagrams_in > 20;
-  };
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return hasDatagrams(ann); }));
+  ASSERT_TRUE(settles(ann));
 
   // Forgeries from two hundred addresses, half of them with her id.
   std::atomic<bool> done = false;
@@ -170,7 +157,7 @@ TEST_F(ManyClients, ASpooferOfManyAddressesLocksNoPlayerOut) {
   ClientSetup other = home.player("bob");
   other.options.open_socket = through(context, bobs);
   TestClient bob(context, server.port(), other);
-  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return hasDatagrams(bob); }));
+  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return isOnDatagrams(bob); }));
   bobs->rebind();
   const auto heard = [&] {
     return std::pair(ann.session().counters().datagrams_in, bob.session().counters().datagrams_in);

@@ -83,7 +83,7 @@ class Metrics : public testing::Test {
 };
 
 TEST_F(Metrics, ValuesFollowTheGame) {
-  start([](df::World& world) { populateBusyWorld(world, 50); });
+  start(busyWorld(50));
   ASSERT_TRUE(reaches("naiad_ticks_total", isOver(0)));
   EXPECT_EQ(value(R"(naiad_players{state="connected"})"), 0);
   EXPECT_EQ(value("naiad_tick_length_seconds"), 0.003);
@@ -116,14 +116,14 @@ TEST_F(Metrics, ValuesFollowTheGame) {
 }
 
 TEST_F(Metrics, NoPlayersNameIsOnThePage) {
-  start([](df::World& world) { populateBusyWorld(world, 5); });
+  start(busyWorld(5));
   join("zebedee");
   ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(1)));
-  EXPECT_EQ(get("/metrics").body.find("zebedee"), std::string::npos);
+  EXPECT_FALSE(has(get("/metrics").body, "zebedee"));
 }
 
 TEST_F(Metrics, ThoseWhoHangUpAreCountedAsThat) {
-  start([](df::World& world) { populateBusyWorld(world, 5); });
+  start(busyWorld(5));
   join("ann");
   clients.clear();
   EXPECT_TRUE(reaches(R"(naiad_leaves_total{reason="hung_up"})", is(1)));
@@ -132,7 +132,7 @@ TEST_F(Metrics, ThoseWhoHangUpAreCountedAsThat) {
 TEST_F(Metrics, AFullServerIsHealthyAndNotReady) {
   HostOptions options = withMetrics();
   options.max_players = 1;
-  start([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  start(busyWorld(5), options);
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
   TestClient& ann = join("ann");
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 503; }));
@@ -169,7 +169,7 @@ TEST_F(Metrics, AGameThatHangsIsUnhealthyUntilItGoesOn) {
 }
 
 TEST_F(Metrics, StrangersWhoCannotSpeakHttpCostTheGameNothing) {
-  start([](df::World& world) { populateBusyWorld(world, 50); });
+  start(busyWorld(50));
   TestClient& ann = join("ann");
   std::list<HttpClient> silent;
   const std::vector<std::string> requests{
@@ -190,7 +190,7 @@ TEST_F(Metrics, StrangersWhoCannotSpeakHttpCostTheGameNothing) {
 
 // With the thread sanitizer this is the proof that nothing is read while it is written.
 TEST_F(Metrics, AScraperAtAHundredHertzDisturbsNobody) {
-  start([](df::World& world) { populateBusyWorld(world, 30); });
+  start(busyWorld(30));
   std::atomic<bool> stop = false;
   std::atomic<int> scrapes = 0;
   std::thread scraper([&] {
@@ -221,7 +221,7 @@ TEST_F(Metrics, AScraperAtAHundredHertzDisturbsNobody) {
 // ---- the audit --------------------------------------------------------------------------------------------
 
 TEST_F(Metrics, TheAuditFindsNoWrongCellInAnHonestGame) {
-  start([](df::World& world) { populateBusyWorld(world, 100); });
+  start(busyWorld(100));
   TestClient& ann = join("ann");
   std::uint32_t pressed = 0;
   EXPECT_TRUE(serve([&] {
@@ -239,7 +239,7 @@ TEST_F(Metrics, TheAuditFindsNoWrongCellOverALineThatLosesDatagrams) {
   Home home;
   HostOptions options = home.server();
   options.metrics = "127.0.0.1:0";
-  start([](df::World& world) { populateBusyWorld(world, 100); }, options);
+  start(busyWorld(100), options);
   const auto valve = std::make_shared<Valve>();
   ClientSetup setup = home.player("ann");
   setup.options.open_socket = through(context, valve);
@@ -265,7 +265,7 @@ TEST_F(Metrics, TheAuditFindsNoWrongCellOverALineThatLosesDatagrams) {
 TEST_F(Metrics, WithoutTheAuditNothingIsCompared) {
   HostOptions options = withMetrics();
   options.audit = "off";
-  start([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  start(busyWorld(5), options);
   TestClient& ann = join("ann");
   const std::uint32_t from = ann.newestTick();
   ASSERT_TRUE(
@@ -276,7 +276,7 @@ TEST_F(Metrics, WithoutTheAuditNothingIsCompared) {
 // The time is that of the thread which makes the pages, so it does not depend on what else the machine does.
 TEST_F(Metrics, APageTakesLittleTime) {
   const std::string sample = R"(naiad_thread_cpu_seconds_total{thread="metrics"})";
-  start([](df::World& world) { populateBusyWorld(world, 5); });
+  start(busyWorld(5));
   for (int i = 0; i < 20; ++i) join("p" + std::to_string(i));
   ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(20)));
   constexpr int kPages = 200;
@@ -303,7 +303,7 @@ TEST_F(Metrics, APageOfAThousandPlayersTakesNoMoreThanTenMilliseconds) {
   options.metrics = "127.0.0.1:0";
   options.frame_micros = 0;
   options.max_players = kPlayers;
-  start([](df::World& world) { populateBusyWorld(world, 5); }, options);
+  start(busyWorld(5), options);
   std::vector<std::unique_ptr<LightClient>> players;
   for (std::size_t i = 0; i < kPlayers; ++i) {
     const std::string address = "127.7." + std::to_string(i / 250) + "." + std::to_string(1 + i % 250);
@@ -311,8 +311,8 @@ TEST_F(Metrics, APageOfAThousandPlayersTakesNoMoreThanTenMilliseconds) {
     players.back()->join();
     if (players.size() % 50 != 0) continue;
     ASSERT_TRUE(serve([&] {
-      return std::all_of(players.begin(), players.end(),
-                         [](const auto& player) { return player->state() == LightClient::State::kWelcome; });
+      return std::ranges::all_of(
+          players, [](const auto& player) { return player->state() == LightClient::State::kWelcome; });
     }));
   }
   ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(kPlayers)));
@@ -329,7 +329,7 @@ TEST_F(Metrics, APageOfAThousandPlayersTakesNoMoreThanTenMilliseconds) {
   const int made = pages - pages_before;
   ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
   const double spent = value(sample) - before;
-  std::sort(millis.begin(), millis.end());
+  std::ranges::sort(millis);
   std::printf("metrics players=%zu pages=%d page_p50_ms=%.2f cpu_ms_per_page=%.3f\n", kPlayers, made,
               millis[millis.size() / 2], 1000 * spent / made);
   EXPECT_GT(spent, 0);

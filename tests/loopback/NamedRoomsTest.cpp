@@ -3,15 +3,10 @@
 // sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
 
-#include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "RoomsFixture.h"
 
@@ -36,7 +31,7 @@ TEST_F(NamedRooms, PlayersOfTwoRoomsPlayInTwoWorlds) {
   EXPECT_EQ(shown(*ann).process, shown(*cid).process);
   EXPECT_NE(shown(*ann).process, shown(*bob).process);
   ann->session().sendChat("hello");
-  EXPECT_TRUE(serve([&] { return heard(*bob, "hello"); })) << "chat is everybody's";
+  EXPECT_TRUE(serve([&] { return hasRead(*bob, "hello"); })) << "chat is everybody's";
 }
 
 TEST_F(NamedRooms, UnknownRoomIsRefusedWithTheNearestName) {
@@ -48,10 +43,10 @@ TEST_F(NamedRooms, UnknownRoomIsRefusedWithTheNearestName) {
 TEST_F(NamedRooms, FullRoomRefusesWhileOthersHavePlaces) {
   start({"one", "small,max-players=1"});
   auto ann = join("ann", "small");
-  EXPECT_NE(refusal("small").find("\"small\" is full (1 players)"), std::string::npos);
+  EXPECT_TRUE(has(refusal("small"), "\"small\" is full (1 players)"));
   auto bob = join("bob", "one");
   bob->session().enterRoom("small");
-  EXPECT_TRUE(serve([&] { return heard(*bob, "is full"); }));
+  EXPECT_TRUE(serve([&] { return hasRead(*bob, "is full"); }));
   EXPECT_EQ(bob->session().welcome().room, "one");
 }
 
@@ -72,7 +67,7 @@ TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
   EXPECT_EQ(&ann->session(), p_session);
   EXPECT_EQ(ann->session().welcome().room, "two");
   EXPECT_NE(ann->player(), player) << "an id is used once in a world";
-  EXPECT_TRUE(heard(*ann, "You are in the room two"));
+  EXPECT_TRUE(hasRead(*ann, "You are in the room two"));
   press(*ann, df::Keyboard::X);
   EXPECT_TRUE(serve([&] { return shown(*ann).keys == 1 && shown(*bob).keys == 1; })) << "keys go there, too";
   ann->session().enterRoom("one");
@@ -99,7 +94,7 @@ TEST_F(NamedRooms, UnknownRoomLeavesThePlayerWhereTheyAre) {
   start({"one", "two"});
   auto ann = join("ann", "one");
   ann->session().enterRoom("tow");
-  EXPECT_TRUE(serve([&] { return heard(*ann, "did you mean \"two\"?"); }));
+  EXPECT_TRUE(serve([&] { return hasRead(*ann, "did you mean \"two\"?"); }));
   EXPECT_EQ(ann->session().welcome().room, "one");
 }
 
@@ -120,7 +115,7 @@ TEST_F(NamedRooms, RoomSleepsWithoutPlayersAndWakes) {
     return shown(*ann).process > 0 && shown(*ann).process != process &&
            ann->session().welcome().room == "two" && shown(*ann).keys == 0;
   }));
-  EXPECT_EQ(server->log().find("crashed"), std::string::npos);
+  EXPECT_FALSE(has(server->log(), "crashed"));
 }
 
 /// What a room's game does is nothing to the players of another: their ticks go on.
@@ -155,7 +150,7 @@ TEST_F(Isolation, CrashIsOneRoomsOwn) {
     if (process == 0) process = shown(bad).process;
     return shown(bad).process != process && shown(bad).process > 0;
   });
-  EXPECT_NE(server->log().find("in the room bad: the game crashed (SIGABRT)"), std::string::npos);
+  EXPECT_TRUE(has(server->log(), "in the room bad: the game crashed (SIGABRT)"));
 }
 
 TEST_F(Isolation, HangIsOneRoomsOwn) {
@@ -185,7 +180,7 @@ TEST_F(NamedRooms, GameThatFailsAgainAndAgainClosesItsRoomAlone) {
   EXPECT_TRUE(serve([&] { return shown(*bob).process == shown(*ann).process; }));
   auto eve = connect("eve", "two");
   EXPECT_TRUE(serve([&] { return eve->connection().isPutOff(); })) << "it tries again";
-  EXPECT_NE(eve->connection().sentence().find("closed for a moment"), std::string::npos);
+  EXPECT_TRUE(has(eve->connection().sentence(), "closed for a moment"));
 }
 
 }  // namespace

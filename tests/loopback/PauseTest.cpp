@@ -13,8 +13,8 @@ namespace {
 
 bool reads(TestClient& client, const std::string& line) {
   const auto& chat = client.session().chat();
-  return std::any_of(chat.begin(), chat.end(),
-                     [&line](const ChatEntry& entry) { return entry.text == line && entry.name.empty(); });
+  return std::ranges::any_of(
+      chat, [&line](const ChatEntry& entry) { return entry.text == line && entry.name.empty(); });
 }
 
 void pressP(TestClient& client) {

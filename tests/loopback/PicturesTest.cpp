@@ -3,10 +3,8 @@
 
 #include <algorithm>
 
-#include "BusyWorld.h"
 #include "Compare.h"
-#include "TestClient.h"
-#include "TestServer.h"
+#include "LoopbackFixture.h"
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
@@ -18,9 +16,10 @@
 namespace naiad::test {
 namespace {
 
-TEST(Loopback, ClientSeesWhatTheServerHasForAThousandTicks) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 200); });
-  asio::io_context context;
+using Loopback = LoopbackFixture;
+
+TEST_F(Loopback, ClientSeesWhatTheServerHasForAThousandTicks) {
+  TestServer server(busyWorld(200));
   TestClient client(context, server.port(), "ann");
   std::uint32_t pressed = 0;
   ASSERT_TRUE(serveUntil(context, {&client}, [&] {
@@ -34,17 +33,15 @@ TEST(Loopback, ClientSeesWhatTheServerHasForAThousandTicks) {
   }));
   expectSame(client, server, 1000);
   const std::string last = client.pictures().rbegin()->second.text();
-  EXPECT_NE(last.find("keys "), std::string::npos) << last;
+  EXPECT_TRUE(has(last, "keys "));
   // Something else may cover the ship in one picture or another.
-  const auto shown = std::count_if(client.pictures().begin(), client.pictures().end(), [](const auto& each) {
-    return each.second.text().find('@') != std::string::npos;
-  });
+  const auto shown = std::ranges::count_if(
+      client.pictures(), [](const auto& each) { return each.second.text().find('@') != std::string::npos; });
   EXPECT_GT(shown, 500) << last;
 }
 
-TEST(Loopback, TwoClientsSeeTheSameWorldAndALateOneCatchesUp) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 60); });
-  asio::io_context context;
+TEST_F(Loopback, TwoClientsSeeTheSameWorldAndALateOneCatchesUp) {
+  TestServer server(busyWorld(60));
   TestClient ann(context, server.port(), "ann");
   TestClient bob(context, server.port(), "bob");
   ASSERT_TRUE(serveUntil(context, {&ann, &bob},
@@ -80,13 +77,12 @@ struct Shaker : df::Object {
   }
 };
 
-TEST(Loopback, AWindowThatShakesIsSeenShaking) {
+TEST_F(Loopback, AWindowThatShakesIsSeenShaking) {
   int shaken = 0;
   TestServer server([](df::World& world) {
     populateBusyWorld(world, 60);
     new Shaker;
   });
-  asio::io_context context;
   TestClient client(context, server.port(), "ann");
   ASSERT_TRUE(serveUntil(context, {&client}, [&] {
     if (client.joined())
@@ -123,13 +119,12 @@ struct Scouts : df::ViewObject {
   }
 };
 
-TEST(Loopback, ViewObjectsAreInEveryPlayersOwnView) {
+TEST_F(Loopback, ViewObjectsAreInEveryPlayersOwnView) {
   TestServer server([](df::World& world) {
     world.views().setBoundary(df::Box(df::Vector(), 2000, 400));
     for (int i = 0; i < 60; ++i) new Scout(df::Vector(20 * i, 50 + i % 20));
     new Scouts;
   });
-  asio::io_context context;
   TestClient ann(context, server.port(), "ann");
   TestClient bob(context, server.port(), "bob");
   ASSERT_TRUE(serveUntil(context, {&ann, &bob},
@@ -137,13 +132,12 @@ TEST(Loopback, ViewObjectsAreInEveryPlayersOwnView) {
   expectSame(ann, server, 150);
   expectSame(bob, server, 150);
   for (TestClient* client : {&ann, &bob})
-    EXPECT_NE(client->pictures().rbegin()->second.rowText(1).find("| Scouts 2 |"), std::string::npos)
+    EXPECT_TRUE(has(client->pictures().rbegin()->second.rowText(1), "| Scouts 2 |"))
         << client->pictures().rbegin()->second.text();
 }
 
-TEST(Loopback, AThousandObjectsArriveWhole) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 1000); });
-  asio::io_context context;
+TEST_F(Loopback, AThousandObjectsArriveWhole) {
+  TestServer server(busyWorld(1000));
   TestClient client(context, server.port(), "ann");
   ASSERT_TRUE(serveUntil(context, {&client}, [&] { return client.pictures().size() >= 60; }));
   expectSame(client, server, 60);

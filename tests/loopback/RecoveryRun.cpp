@@ -12,7 +12,6 @@
 #include <tuple>
 #include <utility>
 
-#include "ProcessesBelow.h"
 #include "client/bot/BotScript.h"
 #include "client/bot/TruthRecorder.h"
 #include "client/session/Connection.h"
@@ -24,6 +23,7 @@
 #include "server/replay/RoundPlayer.h"
 #include "server/replay/Verify.h"
 #include "tests/server/host/admin/Talk.h"
+#include "tests/support/Processes.h"
 
 namespace naiad::test {
 
@@ -40,7 +40,7 @@ constexpr std::uint32_t kOnTheWay = 3;
 /// The one that executes its program; 0: there is none. A second world of the round, which is held against
 /// it, begins later.
 pid_t worldOf(pid_t server) {
-  const std::vector<pid_t> worlds = processesOf(server, "exe");  // of /proc/self/exe
+  const std::vector<pid_t> worlds = processesBelow(server, "exe");  // of /proc/self/exe
   return worlds.empty() ? 0 : worlds.front();
 }
 
@@ -194,7 +194,7 @@ bool RecoveryRun::serveUntilJoined() {
   const auto is_ready = [](const auto& client) { return client->isBack() || client->isOver(); };
   while (Clock::now() < end) {
     for (const auto& client : m_clients) client->update(Clock::now());
-    if (std::all_of(m_clients.begin(), m_clients.end(), is_ready)) return true;
+    if (std::ranges::all_of(m_clients, is_ready)) return true;
     m_context.restart();
     m_context.run_one_for(std::chrono::milliseconds(5));
   }
@@ -213,7 +213,7 @@ void RecoveryRun::play(std::chrono::milliseconds time) {
 bool RecoveryRun::playUntilPictured() {
   const auto end = Clock::now() + kPatience;
   const auto has_picture = [](const auto& client) { return client->hasPicture(); };
-  while (!std::all_of(m_clients.begin(), m_clients.end(), has_picture)) {
+  while (!std::ranges::all_of(m_clients, has_picture)) {
     if (Clock::now() > end) return false;
     play(std::chrono::milliseconds(5));
   }
@@ -223,7 +223,7 @@ bool RecoveryRun::playUntilPictured() {
 bool RecoveryRun::playUntilTurn(std::uint32_t turn, std::chrono::seconds patience) {
   const auto end = Clock::now() + patience;
   const auto is_there = [&](const auto& client) { return client->newestTick() >= m_first_tick + turn; };
-  while (!std::all_of(m_clients.begin(), m_clients.end(), is_there)) {
+  while (!std::ranges::all_of(m_clients, is_there)) {
     if (Clock::now() > end) return false;
     play(std::chrono::milliseconds(20));
   }
@@ -275,9 +275,9 @@ int RecoveryRun::replacePlayers(std::chrono::seconds away, int newcomers) {
   serveUntilJoined();
   const auto has_picture = [](const auto& client) { return client->hasPicture(); };
   const auto end = Clock::now() + std::chrono::seconds(10);
-  while (!std::all_of(m_clients.begin(), m_clients.end(), has_picture) && Clock::now() < end)
+  while (!std::ranges::all_of(m_clients, has_picture) && Clock::now() < end)
     play(std::chrono::milliseconds(5));
-  return static_cast<int>(std::count_if(m_clients.begin(), m_clients.end(), has_picture));
+  return static_cast<int>(std::ranges::count_if(m_clients, has_picture));
 }
 
 void RecoveryRun::killServer() {
@@ -402,7 +402,7 @@ std::optional<std::chrono::milliseconds> RecoveryRun::timeToNextPicture(const st
 }
 
 std::vector<pid_t> RecoveryRun::copies() const {
-  return processesOf(m_server->process(), "df-copy");
+  return processesBelow(m_server->process(), "df-copy");
 }
 
 // The world that goes on was executed from the file; executed again, it shows what its players saw.

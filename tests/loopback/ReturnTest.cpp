@@ -1,15 +1,9 @@
 // A client is killed, and another process goes on with its session: the game notices nothing.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 
-#include "Census.h"
-#include "Compare.h"
-#include "Home.h"
-#include "StreamProxy.h"
-#include "TestServer.h"
-#include "Valve.h"
+#include "ProxiedServer.h"
 #include "engine/events/EventKeyboard.h"
 #include "engine/world/ObjectRegistry.h"
 #include "engine/world/Player.h"
@@ -47,42 +41,30 @@ class KeyClerk : public df::Object {
   Keys& m_keys;
 };
 
-class Return : public testing::Test {
+class Return : public ProxiedServer {
  protected:
-  void start(HostOptions options) {
-    const auto populate = [this](df::World& world) {
-      countedWorld(census, 50)(world);
-      new KeyClerk(keys);
-    };
-    server = std::make_unique<TestServer>(populate, std::move(options));
-    proxy = std::make_unique<StreamProxy>(context, server->port());
-    valve->server_port = server->port();
-  }
-  void start() { start(home.server()); }
-  ClientSetup player(const std::string& name) {
-    ClientSetup setup = home.player(name);
+  ~Return() override { server.reset(); }  // it counts keys
+  void addObjects() override { new KeyClerk(keys); }
+  ClientSetup player(const std::string& name) override {
+    ClientSetup setup = ProxiedServer::player(name);
     setup.sessions = home.sessions();
-    setup.options.open_socket = through(context, valve);
     return setup;
   }
   std::unique_ptr<TestClient> client(const ClientSetup& setup) {
     return std::make_unique<TestClient>(context, proxy->port(), setup);
   }
   std::unique_ptr<TestClient> client(const std::string& name) { return client(player(name)); }
-  testing::AssertionResult joins(TestClient& client) {
-    const Connection& connection = client.connection();
-    if (serveUntil(context, {&client}, [&] { return client.joined() || connection.isOver(); }) &&
-        client.joined()) {
-      return testing::AssertionSuccess();
-    }
-    return testing::AssertionFailure() << "state " << static_cast<int>(connection.state()) << ": "
-                                       << connection.sentence() << " " << server->counters().summary();
+  std::unique_ptr<TestClient> startAndSettle() {
+    start();
+    auto ann = client("ann");
+    EXPECT_TRUE(settles(*ann));
+    return ann;
   }
-  bool onDatagrams(TestClient& client) {
-    return serveUntil(context, {&client}, [&] {
-      return client.joined() && client.session().hasDatagrams(Clock::now()) &&
-             client.session().counters().datagrams_in > 20;
-    });
+  /// Its process is killed, and another one joins.
+  testing::AssertionResult comesBack(std::unique_ptr<TestClient>& ann) {
+    ann.reset();
+    ann = client("ann");
+    return joins(*ann);
   }
   bool scores(TestClient& client, std::int32_t score) {
     return serveUntil(context, {&client}, [&] { return client.session().score() == score; });
@@ -96,29 +78,9 @@ class Return : public testing::Test {
     }
     return true;
   }
-  bool seesTheTruth(TestClient& client) {
-    client.forgetPictures();
-    return serveUntil(context, {&client}, [&] {
-      if (client.pictures().empty()) return false;
-      const auto& [tick, picture] = *client.pictures().rbegin();
-      const auto truth = server->truth(tick, client.player());
-      return truth && countDifferences(picture, *truth) == 0;
-    });
-  }
   /// Play for a while; the checksums of it must be right.
   bool playsOn(TestClient& client) {
-    const std::uint32_t until = client.newestTick() + 300;
-    return serveUntil(context, {&client}, [&] { return client.newestTick() >= until; }) &&
-           seesTheTruth(client) && server->counters().divergences == 0;
-  }
-  void expectNoJoinOrLeave(int players = 1) {
-    EXPECT_EQ(census.joins, players);
-    EXPECT_EQ(census.leaves, 0);
-    EXPECT_EQ(server->counters().joined, static_cast<std::uint64_t>(players));
-  }
-  static bool lists(TestClient& client, const std::string& name) {
-    const auto& players = client.session().players();
-    return std::any_of(players.begin(), players.end(), [&](const PlayerLine& p) { return p.name == name; });
+    return hears(client, 300) && seesTheTruth(client) && server->counters().divergences == 0;
   }
   static std::vector<std::string> linesOf(TestClient& client) {
     std::vector<std::string> lines;
@@ -126,32 +88,22 @@ class Return : public testing::Test {
     return lines;
   }
 
-  Home home;
-  Census census;
   Keys keys;
-  asio::io_context context;
-  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
-  std::unique_ptr<TestServer> server;
-  std::unique_ptr<StreamProxy> proxy;
 };
 
 TEST_F(Return, APlayerWhoseClientWasKilledHasTheirObjectBack) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   ASSERT_TRUE(press(*ann, 3));
   const std::uint32_t id = ann->player();
   for (std::uint64_t round = 1; round <= 3; ++round) {
     const auto score = static_cast<std::int32_t>(2 + round);
-    ann.reset();
-    ann = client("ann");
-    ASSERT_TRUE(joins(*ann));
+    ASSERT_TRUE(comesBack(ann));
     EXPECT_EQ(ann->player(), id);
     EXPECT_EQ(ann->session().welcome().name, "ann");
     EXPECT_EQ(linesOf(*ann), std::vector<std::string>{"You are back in your old session."});
     EXPECT_TRUE(scores(*ann, score)) << "the player list came";
     EXPECT_TRUE(press(*ann, 1)) << "its keys are no repetitions";
-    EXPECT_TRUE(onDatagrams(*ann));
+    EXPECT_TRUE(settles(*ann));
     EXPECT_TRUE(playsOn(*ann));
     EXPECT_EQ(server->counters().resumed, round);
     EXPECT_EQ(server->counters().restarted, round);
@@ -169,23 +121,17 @@ TEST_F(Return, WithoutDatagramsToo) {
   auto ann = client("ann");
   ASSERT_TRUE(joins(*ann));
   ASSERT_TRUE(scores(*ann, 0) && press(*ann, 2));
-  ann.reset();
-  ann = client("ann");
-  ASSERT_TRUE(joins(*ann));
+  ASSERT_TRUE(comesBack(ann));
   EXPECT_TRUE(scores(*ann, 2) && press(*ann, 1));
   EXPECT_TRUE(playsOn(*ann));
   expectNoJoinOrLeave();
 }
 
 TEST_F(Return, BeforeTheServerKnowsThatTheClientWasKilled) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   ASSERT_TRUE(press(*ann, 2));
   proxy->stall();  // the end of the old stream never reaches the server
-  ann.reset();
-  ann = client("ann");
-  ASSERT_TRUE(joins(*ann));
+  ASSERT_TRUE(comesBack(ann));
   EXPECT_TRUE(scores(*ann, 2) && press(*ann, 1));
   EXPECT_TRUE(playsOn(*ann));
   EXPECT_EQ(server->counters().detached, 0u);
@@ -193,12 +139,10 @@ TEST_F(Return, BeforeTheServerKnowsThatTheClientWasKilled) {
 }
 
 TEST_F(Return, AStreamThatBreaksAfterwardsIsReplacedAsEver) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   ann.reset();
   ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  ASSERT_TRUE(settles(*ann));
   ASSERT_TRUE(scores(*ann, 0));
   proxy->cut();
   ASSERT_TRUE(serveUntil(context, {ann.get()},
@@ -210,9 +154,7 @@ TEST_F(Return, AStreamThatBreaksAfterwardsIsReplacedAsEver) {
 }
 
 TEST_F(Return, KeysOfAKilledClientAreReleased) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   for (const auto key : {df::Keyboard::LEFTARROW, df::Keyboard::SPACE, df::Keyboard::A}) {
     ann->session().sendKey(key, df::KEY_PRESSED, Clock::now());
   }
@@ -228,17 +170,13 @@ TEST_F(Return, KeysOfAKilledClientAreReleased) {
   EXPECT_TRUE(playsOn(*ann));
   EXPECT_EQ(keys.released, 3) << "each key is released once, and a client that is back keeps its own pressed";
   proxy->stall();
-  ann.reset();
-  ann = client("ann");
-  ASSERT_TRUE(joins(*ann));
+  ASSERT_TRUE(comesBack(ann));
   EXPECT_TRUE(serveUntil(context, {ann.get()}, [&] { return keys.released == 4; }))
       << "also where the server did not know";
 }
 
 TEST_F(Return, ASecondTerminalDoesNotTakeTheSessionOfOneThatRuns) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   auto other = client("ann");
   ASSERT_TRUE(serveUntil(context, {ann.get(), other.get()}, [&] { return other->joined(); }));
   EXPECT_NE(other->player(), ann->player());
@@ -279,9 +217,7 @@ TEST_F(Return, AProcessThatIsRefusedForNowTriesAgainByItself) {
 }
 
 TEST_F(Return, AnotherNameIsAnotherPlayer) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   ann.reset();
   auto bob = client("bob");
   ASSERT_TRUE(joins(*bob));
@@ -290,9 +226,7 @@ TEST_F(Return, AnotherNameIsAnotherPlayer) {
 }
 
 TEST_F(Return, TheSessionGoesToTheClientThatProvesTheToken) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   ASSERT_TRUE(press(*ann, 2));
   ClientSetup copy = player("copy");
   copy.sessions.clear();
@@ -314,9 +248,7 @@ TEST_F(Return, TheSessionGoesToTheClientThatProvesTheToken) {
 }
 
 TEST_F(Return, AClientThatWasCutOffMeanwhileGetsTheReasonAndStaysOut) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   proxy->setOpen(false);
   proxy->cut();
   ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return ann->session().isDetached(); }));
@@ -339,9 +271,7 @@ TEST_F(Return, AClientThatWasCutOffMeanwhileGetsTheReasonAndStaysOut) {
 }
 
 TEST_F(Return, AnotherServerDoesNotGetToSeeTheToken) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   ann.reset();
   TestServer impostor(countedWorld(census, 1), home.server("another key"));
   proxy->setServer(impostor.port());
@@ -358,7 +288,7 @@ TEST_F(Return, AfterTheGraceTheyAreANewPlayer) {
   options.grace = 0.3;
   start(options);
   auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  ASSERT_TRUE(settles(*ann));
   EXPECT_EQ(ann->session().welcome().grace, std::chrono::milliseconds(300));
   ann.reset();
   ASSERT_TRUE(serveUntil(context, {}, [&] { return census.leaves == 1; }));
@@ -370,22 +300,16 @@ TEST_F(Return, AfterTheGraceTheyAreANewPlayer) {
 }
 
 TEST_F(Return, APlayerWhoLeftOnPurposeIsANewPlayer) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   ann->connection().leave();
   ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.leaves == 1; }));
-  ann.reset();
-  ann = client("ann");
-  ASSERT_TRUE(joins(*ann));
+  ASSERT_TRUE(comesBack(ann));
   EXPECT_EQ(census.joins, 2);
   EXPECT_EQ(server->counters().unknown_tokens, 0u) << "nothing was kept";
 }
 
 TEST_F(Return, ChatSentWithoutAStreamArrivesOnceAndInOrder) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   TestClient bob(context, server->port(), home.player("bob"));
   ASSERT_TRUE(serveUntil(context, {ann.get(), &bob}, [&] { return bob.joined() && lists(*ann, "bob"); }));
   ann->session().sendChat("before");
@@ -418,14 +342,10 @@ TEST_F(Return, ChatSentWithoutAStreamArrivesOnceAndInOrder) {
 }
 
 TEST_F(Return, OldChatIsNotForANewProcess) {
-  start();
-  auto ann = client("ann");
-  ASSERT_TRUE(onDatagrams(*ann));
+  auto ann = startAndSettle();
   ann->session().sendChat("old");
   ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return linesOf(*ann).size() == 1; }));
-  ann.reset();
-  ann = client("ann");
-  ASSERT_TRUE(joins(*ann));
+  ASSERT_TRUE(comesBack(ann));
   ann->session().sendChat("new");
   ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return linesOf(*ann).size() >= 2; }));
   EXPECT_EQ(linesOf(*ann), (std::vector<std::string>{"You are back in your old session.", "new"}));

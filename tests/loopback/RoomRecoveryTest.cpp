@@ -7,16 +7,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "LobbyFixture.h"
-#include "ProcessesBelow.h"
 #include "host/journal/DfrWriter.h"
 #include "host/journal/OpenRound.h"
 #include "host/rounds/Journals.h"
+#include "tests/support/Processes.h"
 
 namespace naiad::test {
 namespace {
@@ -41,8 +40,8 @@ class RoomRecovery : public LobbyFixture {
   /// Once the round of every player's room can be gone on with: a thread of its own begins its file.
   void kill() {
     ASSERT_TRUE(serve([&] {
-      return std::all_of(clients.begin(), clients.end(),
-                         [&](TestClient* p_client) { return isWritten(p_client->session().welcome().room); });
+      return std::ranges::all_of(
+          clients, [&](TestClient* p_client) { return isWritten(p_client->session().welcome().room); });
     }));
     server->signal(SIGKILL);
     server->wait();
@@ -71,10 +70,7 @@ class RoomRecovery : public LobbyFixture {
   /// The server went on with the sessions of so many players.
   std::size_t returned() const {
     constexpr const char* kIsBack = "is back, in the round that goes on";
-    const std::string log = server->log();
-    std::size_t count = 0;
-    for (std::size_t at = log.find(kIsBack); at != std::string::npos; at = log.find(kIsBack, at + 1)) ++count;
-    return count;
+    return static_cast<std::size_t>(countIn(server->log(), kIsBack));
   }
   fs::path rounds() const { return home.identity("rounds"); }
   std::vector<fs::path> roundsOf(const std::string& room) const {
@@ -144,7 +140,8 @@ TEST_F(RoomRecovery, AWorldThatCrashesGoesOnFromACopyAndTheOtherRoomNoticesNothi
   auto bob = join("bob", "two");
   type(*ann, 2);
   type(*bob, 2);
-  ASSERT_TRUE(serve([&] { return processesOf(server->process(), "df-copy").size() >= 3; })) << server->log();
+  ASSERT_TRUE(serve([&] { return processesBelow(server->process(), "df-copy").size() >= 3; }))
+      << server->log();
   const std::size_t heard_by_bob = bob->session().chat().size();
   const ClientSession* p_ann = &ann->session();
   const ClientSession* p_bob = &bob->session();
@@ -157,14 +154,12 @@ TEST_F(RoomRecovery, AWorldThatCrashesGoesOnFromACopyAndTheOtherRoomNoticesNothi
     return server->log().find("room one: the game goes on: ") != std::string::npos &&
            shown(*ann).ticks > seen_by_ann + 50;
   })) << server->log();
-  EXPECT_NE(server->log().find("room one: the game goes on: a copy of its world executed "),
-            std::string::npos)
-      << server->log();
+  EXPECT_TRUE(has(server->log(), "room one: the game goes on: a copy of its world executed "));
   EXPECT_EQ(&ann->session(), p_ann);
   EXPECT_EQ(&bob->session(), p_bob);
   EXPECT_EQ(shown(*ann).keys, 2) << "without the one that it died of";
   EXPECT_EQ(bob->session().chat().size(), heard_by_bob);
-  EXPECT_EQ(server->log().find("room two: the game"), std::string::npos) << server->log();
+  EXPECT_FALSE(has(server->log(), "room two: the game"));
   type(*ann, 1);
   type(*bob, 1);
   kill();
@@ -212,7 +207,7 @@ TEST_F(RoomRecovery, ARoundThatCannotGoOnIsOneRoomsOwn) {
   EXPECT_EQ(shown(*ann).keys, 2);
   EXPECT_EQ(shown(*bob).keys, 0) << "the next round";
   EXPECT_EQ(bob->session().welcome().room, "two");
-  EXPECT_NE(server->log().find("room two: the round"), std::string::npos) << server->log();
+  EXPECT_TRUE(has(server->log(), "room two: the round"));
 }
 
 }  // namespace

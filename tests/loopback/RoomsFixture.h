@@ -76,16 +76,10 @@ class RoomsFixture : public testing::Test {
     if (!process || !keys || !ticks || text.find(';') == std::string::npos) return {};
     return {*process, *keys, *ticks};
   }
-  static bool heard(TestClient& client, const std::string& part) {
-    const auto& chat = client.session().chat();
-    return std::any_of(chat.begin(), chat.end(),
-                       [&](const ChatEntry& entry) { return entry.text.find(part) != std::string::npos; });
-  }
   const RoomLine* roomInList(TestClient& client, const std::string& name) {
     client.session().refreshRooms(std::chrono::steady_clock::now());
     const auto& rooms = client.session().rooms();
-    const auto found =
-        std::find_if(rooms.begin(), rooms.end(), [&](const RoomLine& room) { return room.name == name; });
+    const auto found = std::ranges::find_if(rooms, [&](const RoomLine& room) { return room.name == name; });
     return found != rooms.end() ? &*found : nullptr;
   }
 

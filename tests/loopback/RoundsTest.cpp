@@ -8,15 +8,13 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "GameProgram.h"
-#include "Home.h"
-#include "TestClient.h"
+#include "LoopbackFixture.h"
 #include "host/world/BuildId.h"
 #include "shared/replica/TruthFile.h"
 #include "tests/server/host/admin/Talk.h"
@@ -34,7 +32,7 @@ struct Shown {
   int process = 0;
 };
 
-class Rounds : public testing::Test {
+class Rounds : public LoopbackFixture {
  protected:
   void start(std::map<std::string, std::string> environment) {
     game = std::make_unique<GameProgram>("rounds_game", std::move(environment));
@@ -58,7 +56,7 @@ class Rounds : public testing::Test {
   }
   static bool heard(TestClient& client, const std::string& line) {
     const auto& chat = client.session().chat();
-    return std::any_of(chat.begin(), chat.end(), [&](const ChatEntry& entry) { return entry.text == line; });
+    return std::ranges::any_of(chat, [&](const ChatEntry& entry) { return entry.text == line; });
   }
   /// The game's theme as the client has heard it: + began, - ended.
   static std::string theme(TestClient& client) {
@@ -75,7 +73,7 @@ class Rounds : public testing::Test {
   std::string watchedLine(TestClient& client, df::Keyboard::Key key) {
     Talk talk(game->control());
     EXPECT_EQ(talk.ask(R"({"command":"watch"})"), R"({"ok":true,"text":"The log follows."})");
-    EXPECT_NE(talk.ask(R"({"command":"ping"})").find("\"ok\":true"), std::string::npos);  // it watches by now
+    EXPECT_TRUE(has(talk.ask(R"({"command":"ping"})"), "\"ok\":true"));  // it watches by now
     press(client, key);
     std::string line;
     const bool comes = serve([&] {
@@ -87,10 +85,7 @@ class Rounds : public testing::Test {
     });
     return comes ? line : "nothing";
   }
-  std::string gamesOwnLog() const {
-    std::ifstream file(game->directory() / "game.log");
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string gamesOwnLog() const { return contentOf(game->directory() / "game.log"); }
   /// Are there pictures of all ticks, from the first to the last?
   static testing::AssertionResult hasNoGap(const TestClient& client) {
     const auto& pictures = client.pictures();
@@ -99,8 +94,6 @@ class Rounds : public testing::Test {
     return testing::AssertionFailure() << pictures.size() << " of " << ticks;
   }
 
-  Home home;
-  asio::io_context context;
   std::unique_ptr<GameProgram> game;
   std::vector<TestClient*> clients;
 };
@@ -138,18 +131,13 @@ class RoundEnd : public Rounds {
     EXPECT_EQ(ann->session().counters().resets, 1u);
     EXPECT_EQ(bob->session().counters().resets, 1u);
     EXPECT_EQ(ann->connection().state(), Connection::State::kJoined);
-    EXPECT_EQ(game->log().find("is back"), std::string::npos) << game->log();
+    EXPECT_FALSE(has(game->log(), "is back"));
     ASSERT_TRUE(serve([&] { return heard(*ann, line) && heard(*bob, line); })) << game->log();
     EXPECT_TRUE(serve([&] { return beganAgain(theme_of_ann += theme(*ann)); })) << theme_of_ann;
     EXPECT_TRUE(serve([&] { return beganAgain(theme_of_bob += theme(*bob)); })) << theme_of_bob;
     press(*bob, df::Keyboard::RIGHTARROW);
     EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "bob's keys arrive";
-    const auto lists = [&](const std::string& name) {
-      const auto& players = ann->session().players();
-      return std::any_of(players.begin(), players.end(),
-                         [&](const PlayerLine& one) { return one.name == name; });
-    };
-    EXPECT_TRUE(serve([&] { return lists("ann") && lists("bob"); }));
+    EXPECT_TRUE(serve([&] { return lists(*ann, "ann") && lists(*ann, "bob"); }));
   }
 };
 
@@ -201,7 +189,7 @@ TEST_F(Rounds, AGameThatNeverBeginsEndsTheServer) {
                                        {"NAIAD_WORLD_ENVIRONMENT", "ROUNDS_CRASH_AT_ONCE"}});
   const int status = hopeless.wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << hopeless.log();
-  EXPECT_NE(hopeless.log().find("the game crashed (SIGABRT)"), std::string::npos) << hopeless.log();
+  EXPECT_TRUE(has(hopeless.log(), "the game crashed (SIGABRT)"));
 }
 
 TEST_F(Rounds, TheEndOfTheServerIsTheEndOfItsWorld) {
@@ -298,7 +286,7 @@ TEST_F(Rounds, WhoWatchesTheServerReadsWhatItsGameLogs) {
   EXPECT_EQ(watchedLine(*ann, df::Keyboard::L), R"({"event":"game","text":"game: logged \\x1b[31mred"})");
   game->signal(SIGTERM);
   game->wait();
-  EXPECT_NE(gamesOwnLog().find("logged"), std::string::npos) << "its own file has it as ever";
+  EXPECT_TRUE(has(gamesOwnLog(), "logged")) << "its own file has it as ever";
 }
 
 TEST_F(Rounds, ARestartAtTheRoundsEndWaitsForItAndPlayersComeBack) {
@@ -379,7 +367,7 @@ TEST_F(Upgrade, IsNoticedByTheNextRoundAndTheServerBeginsAgain) {
   ASSERT_TRUE(comesBack(*ann)) << game->log();
   EXPECT_NE(shown(*ann).process, process);
   EXPECT_TRUE(logs("program was upgraded while it runs: a new world is of another build (")) << game->log();
-  EXPECT_EQ(game->log().find("sent what no world sends"), std::string::npos) << game->log();
+  EXPECT_FALSE(has(game->log(), "sent what no world sends"));
   // All is of one build by now.
   press(*ann, df::Keyboard::X);
   EXPECT_TRUE(serve([&] { return heard(*ann, "The round is over; the next one begins."); })) << game->log();

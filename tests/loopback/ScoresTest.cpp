@@ -11,16 +11,15 @@
 #include <utility>
 
 #include "GameProgram.h"
-#include "Home.h"
+#include "LoopbackFixture.h"
 #include "RecoveryRun.h"
 #include "RoomsFixture.h"
 #include "RunCtl.h"
-#include "TestClient.h"
 
 namespace naiad::test {
 namespace {
 
-class Scores : public testing::Test {
+class Scores : public LoopbackFixture {
  protected:
   void start() {
     game.reset();
@@ -49,8 +48,6 @@ class Scores : public testing::Test {
     return runCtl("--control " + game->control().string() + " scores --json").second;
   }
 
-  Home home;
-  asio::io_context context;
   std::unique_ptr<GameProgram> game;
   std::unique_ptr<TestClient> client;
 };
@@ -66,7 +63,7 @@ TEST_F(Scores, TheNextRoundKnowsThemAndSoDoesTheNextServerAfterAKill) {
   EXPECT_TRUE(shows("steps=0 ")) << "another round";
   EXPECT_TRUE(shows("best=3;")) << game->log();
   const std::string list = listed();
-  EXPECT_NE(list.find(R"("table":"steps","place":1,"name":"walker","points":3)"), std::string::npos) << list;
+  EXPECT_TRUE(has(list, R"("table":"steps","place":1,"name":"walker","points":3)"));
 
   game->signal(SIGKILL);
   game->wait();
@@ -84,7 +81,7 @@ TEST_F(Scores, TheLogCountsThem) {
   ASSERT_TRUE(shows("best=0;")) << game->log();
   game->signal(SIGTERM);
   game->wait();
-  EXPECT_NE(game->log().find("scores=1 scores_written=1"), std::string::npos) << game->log();
+  EXPECT_TRUE(has(game->log(), "scores=1 scores_written=1"));
 }
 
 class RoomScores : public RoomsFixture {
@@ -123,8 +120,7 @@ TEST_F(RoomScores, ARowOfARoomsGameIsFoundInItsRecording) {
   ASSERT_TRUE(has_pressed(6)) << server->log();
   const auto [code, listed] = scores("--room two --json");
   EXPECT_EQ(code, 0) << listed;
-  EXPECT_NE(listed.find(R"("table":"even","place":1,"name":"counter","points":6)"), std::string::npos)
-      << listed;
+  EXPECT_TRUE(has(listed, R"("table":"even","place":1,"name":"counter","points":6)"));
   const std::string recording = valueIn(listed, "recording");
   const std::string tick = valueIn(listed, "tick");
   const std::string number = valueIn(listed, "number");
@@ -132,9 +128,8 @@ TEST_F(RoomScores, ARowOfARoomsGameIsFoundInItsRecording) {
   server->signal(SIGTERM);
   server->wait();
   const std::string added = replay(recording, "--scores");
-  EXPECT_NE(added.find("tick=" + tick + " number=" + number + " table=even name=\"counter\" points=6\n"),
-            std::string::npos)
-      << listed << added;
+  EXPECT_TRUE(has(added, "tick=" + tick + " number=" + number + " table=even name=\"counter\" points=6\n"))
+      << listed;
   const std::string shown = replay(recording, "--text " + tick);
   EXPECT_GE(keysIn(shown), 6) << listed << shown;
   EXPECT_LT(keysIn(replay(recording, "--text " + std::to_string(std::stoi(tick) - 1))), 6)
@@ -146,7 +141,7 @@ TEST_F(RoomScores, WhereRoomsPlaySeveralGamesOneIsAskedFor) {
   const auto expectRefusal = [&](const std::string& words, const std::string& sentence) {
     const auto [code, said] = scores(words);
     EXPECT_EQ(code, 1) << words;
-    EXPECT_NE(said.find(sentence), std::string::npos) << words << ": " << said;
+    EXPECT_TRUE(has(said, sentence)) << words << ": ";
   };
   expectRefusal("", "--game room_module  (rooms one, two)\n  --game lobby  (room doors)\n");
   expectRefusal("keys 3", "--game or --room says which one is meant");
@@ -163,8 +158,8 @@ TEST_F(Scores, AServerWithoutRoomsHasOneGame) {
   start();
   const std::string ctl = "--control " + game->control().string() + " scores ";
   EXPECT_EQ(runCtl(ctl + "--game rounds_game").first, 0);
-  EXPECT_NE(runCtl(ctl + "--game tron").second.find("There are: rounds_game."), std::string::npos);
-  EXPECT_NE(runCtl(ctl + "--room one").second.find("This server has no rooms."), std::string::npos);
+  EXPECT_TRUE(has(runCtl(ctl + "--game tron").second, "There are: rounds_game."));
+  EXPECT_TRUE(has(runCtl(ctl + "--room one").second, "This server has no rooms."));
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // Encrypted play: a stream in TLS, sealed datagrams beside it, and what happens where datagrams do not pass.
 #include <gtest/gtest.h>
 
-#include "BusyWorld.h"
 #include "Compare.h"
-#include "Home.h"
+#include "LoopbackFixture.h"
 #include "StreamProxy.h"
-#include "TestServer.h"
 #include "Valve.h"
 
 namespace naiad::test {
@@ -13,15 +11,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-class SealedPlay : public testing::Test {
+class SealedPlay : public LoopbackFixture {
  protected:
   ClientSetup player(const std::string& name) {
     ClientSetup setup = home.player(name);
     setup.options.open_socket = through(context, valve);
     return setup;
-  }
-  bool join(TestClient& client) {
-    return serveUntil(context, {&client}, [&] { return client.joined(); });
   }
   static bool onDatagrams(TestClient& client) { return client.session().hasDatagrams(Clock::now()); }
   static std::uint64_t datagrams(TestClient& client) { return client.session().counters().datagrams_in; }
@@ -30,33 +25,14 @@ class SealedPlay : public testing::Test {
     const SessionCounters& counters = client.session().counters();
     return counters.snapshots + counters.stale_snapshots - counters.datagrams_in;
   }
-  bool settleOnDatagrams(TestClient& client) {
-    const auto settled = [&] { return client.joined() && onDatagrams(client) && datagrams(client) > 20; };
-    return serveUntil(context, {&client}, settled);
-  }
-  /// Go on until the client has heard of so many more ticks; how long that took.
-  std::chrono::duration<double> hear(TestClient& client, std::uint32_t ticks) {
-    const std::uint32_t start = client.newestTick();
-    const auto began = Clock::now();
-    EXPECT_TRUE(serveUntil(context, {&client}, [&] { return client.newestTick() >= start + ticks; }));
-    return Clock::now() - began;
-  }
-  /// A key reaches the game: its number is in the player's score.
-  bool keyWorks(TestClient& client) {
-    const std::int32_t before = client.session().score();
-    client.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
-    return serveUntil(context, {&client}, [&] { return client.session().score() > before; });
-  }
 
-  Home home;
-  asio::io_context context;
   std::shared_ptr<Valve> valve = std::make_shared<Valve>();
 };
 
 TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 200); }, home.server());
+  TestServer server(busyWorld(200), home.server());
   TestClient ann(context, server.port(), home.player("ann"));
-  ASSERT_TRUE(settleOnDatagrams(ann));
+  ASSERT_TRUE(settles(ann));
   // What comes on the stream may be overtaken; then a picture is not final when it is taken.
   std::uint64_t on_stream = streamed(ann);
   ann.forgetPictures();
@@ -78,14 +54,14 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
 }
 
 TEST_F(SealedPlay, KeysArriveAndTheStreamFallsSilent) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestServer server(busyWorld(50), home.server());
   TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(settleOnDatagrams(ann));
+  ASSERT_TRUE(settles(ann));
   EXPECT_TRUE(keyWorks(ann));
   // Over a thousand ticks the stream carries none, unless the machine stood still for a second.
   const std::uint64_t on_stream = streamed(ann);
   const std::uint64_t before = datagrams(ann);
-  hear(ann, 300);
+  EXPECT_TRUE(hears(ann, 300));
   EXPECT_GT(datagrams(ann) - before, 10 * (streamed(ann) - on_stream));
 }
 
@@ -94,11 +70,11 @@ TEST_F(SealedPlay, WithDatagramsBlockedTheStreamWillDo) {
     valve = std::make_shared<Valve>();
     valve->up = up;
     valve->down = down;
-    TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+    TestServer server(busyWorld(50), home.server());
     TestClient ann(context, server.port(), player("ann"));
-    ASSERT_TRUE(join(ann)) << up << down;
+    ASSERT_TRUE(joins(ann)) << up << down;
     EXPECT_TRUE(keyWorks(ann)) << up << down;
-    hear(ann, 400);
+    EXPECT_TRUE(hears(ann, 400));
     EXPECT_EQ(datagrams(ann), 0u) << up << down;
     EXPECT_FALSE(onDatagrams(ann));
     expectSame(ann, server, 200);
@@ -108,9 +84,9 @@ TEST_F(SealedPlay, WithDatagramsBlockedTheStreamWillDo) {
 
 TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
   valve->up = valve->down = false;
-  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestServer server(busyWorld(50), home.server());
   TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(join(ann));
+  ASSERT_TRUE(joins(ann));
   EXPECT_FALSE(ann.session().hasSecondStream()) << "it may be that datagrams will pass in a moment";
   const auto has_second = [&] { return ann.session().hasSecondStream(); };
   ASSERT_TRUE(serveUntil(context, {&ann}, has_second));
@@ -118,7 +94,7 @@ TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
   EXPECT_EQ(server.counters().joined, 1u);
   ann.forgetPictures();
   EXPECT_TRUE(keyWorks(ann));
-  hear(ann, 400);
+  EXPECT_TRUE(hears(ann, 400));
   expectSame(ann, server, 200);
   EXPECT_TRUE(ann.session().hasSecondStream());
   EXPECT_EQ(server.counters().divergences, 0u);
@@ -132,7 +108,7 @@ TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
 
 TEST_F(SealedPlay, AClientThatBreaksOffHasASecondStreamAgain) {
   valve->up = valve->down = false;
-  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestServer server(busyWorld(50), home.server());
   StreamProxy proxy(context, server.port());
   ClientSetup setup = player("ann");
   setup.rejoin = true;
@@ -142,7 +118,7 @@ TEST_F(SealedPlay, AClientThatBreaksOffHasASecondStreamAgain) {
       return ann.joined() && ann.session().hasSecondStream() && server.counters().second_streams == times;
     });
   };
-  ASSERT_TRUE(join(ann) && has_second(1));
+  ASSERT_TRUE(joins(ann) && has_second(1));
   const std::uint32_t id = ann.player();
   proxy.cut();
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.counters().resumed == 1; }));
@@ -155,15 +131,15 @@ TEST_F(SealedPlay, AClientThatBreaksOffHasASecondStreamAgain) {
 
 TEST_F(SealedPlay, AStreamThatWaitsDoesNotHoldUpTheGame) {
   valve->up = valve->down = false;
-  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestServer server(busyWorld(50), home.server());
   StreamProxy proxy(context, server.port());
   TestClient ann(context, proxy.port(), player("ann"));
-  ASSERT_TRUE(join(ann));
+  ASSERT_TRUE(joins(ann));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().hasSecondStream(); }));
   ann.forgetPictures();
   ann.keepWholePictures();  // what goes only to the stalled stream, since the other one has no room, is lost
   proxy.stallOldest();
-  hear(ann, 200);
+  EXPECT_TRUE(hears(ann, 200));
   expectSame(ann, server, 100);
   EXPECT_EQ(server.counters().repeated_inputs, 0u);
   ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
@@ -173,7 +149,7 @@ TEST_F(SealedPlay, AStreamThatWaitsDoesNotHoldUpTheGame) {
 }
 
 TEST_F(SealedPlay, WithoutTheTokenOfASessionThereIsNoSecondStream) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, home.server());
+  TestServer server(busyWorld(5), home.server());
   for (const std::string& token : {std::string(), std::string("0123456789abcdef")}) {
     ClientSetup stranger = player("eve");
     stranger.options.second_stream = true;
@@ -190,9 +166,9 @@ TEST_F(SealedPlay, WithoutTheTokenOfASessionThereIsNoSecondStream) {
 TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
   for (const auto& [up, down] : {std::pair{false, false}, {false, true}, {true, false}}) {
     valve = std::make_shared<Valve>();
-    TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+    TestServer server(busyWorld(50), home.server());
     TestClient ann(context, server.port(), player("ann"));
-    ASSERT_TRUE(settleOnDatagrams(ann));
+    ASSERT_TRUE(settles(ann));
     const std::uint64_t on_stream = streamed(ann);
     valve->up = up;
     valve->down = down;
@@ -212,11 +188,11 @@ TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
 }
 
 TEST_F(SealedPlay, NearTheEndOfItsKeysASessionTakesAnotherStream) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestServer server(busyWorld(50), home.server());
   ClientSetup setup = player("ann");
   setup.options.seal_limits.new_epoch_after = 300;
   TestClient ann(context, server.port(), setup);
-  ASSERT_TRUE(settleOnDatagrams(ann));
+  ASSERT_TRUE(settles(ann));
   for (std::uint64_t times = 1; times <= 3; ++times) {
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.counters().resumed >= times; }));
     const std::uint64_t before = datagrams(ann);
@@ -232,9 +208,9 @@ TEST_F(SealedPlay, NearTheEndOfItsKeysASessionTakesAnotherStream) {
 }
 
 TEST_F(SealedPlay, AnotherPortGoesOnWithinASecond) {
-  TestServer server([](df::World& world) { populateBusyWorld(world, 50); }, home.server());
+  TestServer server(busyWorld(50), home.server());
   TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(settleOnDatagrams(ann));
+  ASSERT_TRUE(settles(ann));
   for (int i = 0; i < 3; ++i) {
     const std::uint16_t port = valve->p_socket->localEndpoint().port;
     valve->rebind();

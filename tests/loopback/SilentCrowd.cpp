@@ -134,7 +134,7 @@ SilentCrowd::SilentCrowd(std::uint16_t server, const std::vector<std::string>& a
 // then on each is completed at once.
 void SilentCrowd::finishHello(One& one) {
   if (m_finished) return one.say(m_rest);
-  if (!std::all_of(m_all.begin(), m_all.end(), [](const auto& other) { return other->begun; })) return;
+  if (!std::ranges::all_of(m_all, [](const auto& other) { return other->begun; })) return;
   m_timer.expires_after(500ms);
   m_timer.async_wait([this](const std::error_code& error) {
     if (error || m_finished) return;

@@ -1,7 +1,6 @@
 // A game's sounds reach all players.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -49,6 +49,22 @@ void press(TestClient& client, df::Keyboard::Key key) {
   client.session().sendKey(key, df::KEY_PRESSED, std::chrono::steady_clock::now());
 }
 
+bool isOnDatagrams(TestClient& client) {
+  return client.joined() && client.session().hasDatagrams(std::chrono::steady_clock::now()) &&
+         client.session().counters().datagrams_in > 20;
+}
+
+bool lists(TestClient& client, const std::string& name) {
+  return client.joined() && std::ranges::any_of(client.session().players(),
+                                                [&](const PlayerLine& line) { return line.name == name; });
+}
+
+bool hasRead(TestClient& client, const std::string& text) {
+  return client.joined() && std::ranges::any_of(client.session().chat(), [&](const ChatEntry& entry) {
+           return entry.text.find(text) != std::string::npos;
+         });
+}
+
 std::optional<int> numberAfter(const std::string& row, const std::string& label) {
   const std::size_t at = row.find(label);
   if (at == std::string::npos) return std::nullopt;

@@ -14,6 +14,7 @@
 #include "client/session/Connection.h"
 #include "client/trust/SessionFile.h"
 #include "tests/support/Sanitizers.h"
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 
@@ -66,6 +67,13 @@ class TestClient {
 
 /// The player presses this key now.
 void press(TestClient& client, df::Keyboard::Key key);
+
+/// It is in the game, and its pictures come as datagrams.
+bool isOnDatagrams(TestClient& client);
+/// It is in the game, and this player is in its list.
+bool lists(TestClient& client, const std::string& name);
+/// It has read a line of chat with this in it.
+bool hasRead(TestClient& client, const std::string& text);
 
 /// The number behind `label` in a row of a picture; nothing if there is none.
 std::optional<int> numberAfter(const std::string& row, const std::string& label);

@@ -9,15 +9,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <thread>
 
 #include "GameProgram.h"
-#include "Home.h"
-#include "TestClient.h"
-#include "TestServer.h"
+#include "LoopbackFixture.h"
 #include "engine/events/EventStep.h"
 #include "engine/world/Object.h"
 #include "engine/world/WorldLog.h"
@@ -69,7 +66,7 @@ struct Pipe {
   int ends[2];
 };
 
-class Trouble : public testing::Test {
+class Trouble : public LoopbackFixture {
  protected:
   void TearDown() override {
     if (game) game->signal(SIGKILL);  // nothing is left to see
@@ -99,8 +96,6 @@ class Trouble : public testing::Test {
            client.connection().sentence() == kGoodbye;
   }
 
-  Home home;
-  asio::io_context context;
   std::unique_ptr<GameProgram> game;
   std::vector<TestClient*> clients;
 };
@@ -136,7 +131,7 @@ TEST_F(Trouble, AReaderOfTheLogThatStallsHoldsUpNoTick) {
   EXPECT_TRUE(ticks(*ann, 300) && ticks(*bob));
   EXPECT_TRUE(serve([&] { return (said += pipe.read()).find("\"bob\" joined") != std::string::npos; }))
       << said;
-  EXPECT_NE(said.find("\"ann\" joined"), std::string::npos) << "what waited was lost";
+  EXPECT_TRUE(has(said, "\"ann\" joined")) << "what waited was lost";
 }
 
 TEST_F(Trouble, RefusalsAreLoggedWithTheirAddressFirst) {
@@ -162,8 +157,8 @@ TEST_F(Trouble, WhatWasRefusedIsLoggedAtTheEnd) {
   }
   game->signal(SIGTERM);
   game->wait();
-  EXPECT_NE(game->log().find(" refused_password=2 "), std::string::npos) << game->log();
-  EXPECT_NE(game->log().find("passwords: right=1 wrong=1 unfit=1\n"), std::string::npos) << game->log();
+  EXPECT_TRUE(has(game->log(), " refused_password=2 "));
+  EXPECT_TRUE(has(game->log(), "passwords: right=1 wrong=1 unfit=1\n"));
 }
 
 // ---- signals ----------------------------------------------------------------------------------------------
@@ -175,7 +170,7 @@ TEST_F(Trouble, SighupWithoutATerminalOpensTheLogAgain) {
   fs::rename(game->directory() / "log", game->directory() / "log.1");
   game->signal(SIGHUP);
   EXPECT_TRUE(logs("SIGHUP: the log goes on in this file")) << game->log();
-  EXPECT_EQ(game->log().find("\"ann\" joined"), std::string::npos) << "this is the old file";
+  EXPECT_FALSE(has(game->log(), "\"ann\" joined")) << "this is the old file";
   EXPECT_TRUE(ticks(*ann));
 }
 
@@ -234,14 +229,13 @@ class Crash : public Trouble {
     const int status = game->wait();
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status << game->log();
     for (const char* file : {"log", "output"}) {
-      std::ifstream in(game->directory() / file);
-      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      const std::string text = contentOf(game->directory() / file);
       const std::string line = " trouble_game: crashed (" + name + ") in tick ";
-      ASSERT_NE(text.find(line), std::string::npos) << file << ": " << text;
+      ASSERT_TRUE(has(text, line)) << file << ": ";
       EXPECT_GT(std::atoi(text.c_str() + text.find(line) + line.size()), 0) << text;
-      EXPECT_NE(text.find(", while " + activity + "\n"), std::string::npos) << text;
-      EXPECT_NE(text.find("trouble_game: the game's log: a key\\x1b[2J\n"), std::string::npos) << text;
-      EXPECT_NE(text.find("trouble_game: to see where: gdb "), std::string::npos) << text;
+      EXPECT_TRUE(has(text, ", while " + activity + "\n"));
+      EXPECT_TRUE(has(text, "trouble_game: the game's log: a key\\x1b[2J\n"));
+      EXPECT_TRUE(has(text, "trouble_game: to see where: gdb "));
     }
   }
 };
@@ -282,7 +276,7 @@ TEST_F(Trouble, AWorldThatCrashesLeavesTheSameLines) {
       << game->log();
   EXPECT_TRUE(serve([&] {
     const auto& chat = ann->session().chat();
-    return std::any_of(chat.begin(), chat.end(), [](const ChatEntry& entry) {
+    return std::ranges::any_of(chat, [](const ChatEntry& entry) {
       return entry.name.empty() && entry.text.find("everything stands still") != std::string::npos;
     });
   })) << "its player knows";
@@ -301,27 +295,21 @@ std::string lastWords(const std::string& mistake, int& code) {
 
 TEST(ProgramMistakes, EndInALine) {
   int code = 0;
-  EXPECT_NE(lastWords("no-run", code)
-                .find("trouble_game: the program ended without GM.run(), so nothing was played\n"),
-            std::string::npos);
+  EXPECT_TRUE(has(lastWords("no-run", code),
+                  "trouble_game: the program ended without GM.run(), so nothing was played\n"));
   const std::string no_start = lastWords("no-start", code);
-  EXPECT_NE(
-      no_start.find("trouble_game: GM.run() was called before GM.startUp(), which reads the settings\n"),
-      std::string::npos)
-      << no_start;
+  EXPECT_TRUE(
+      has(no_start, "trouble_game: GM.run() was called before GM.startUp(), which reads the settings\n"));
   EXPECT_EQ(code, 1);
   const std::string exits = lastWords("exit", code);
-  EXPECT_NE(exits.find("trouble_game: exit() was called in tick 1, while Exits handled EventStep; "
-                       "GM.setGameOver() ends a game in order\n"),
-            std::string::npos)
-      << exits;
+  EXPECT_TRUE(has(exits,
+                  "trouble_game: exit() was called in tick 1, while Exits handled EventStep; "
+                  "GM.setGameOver() ends a game in order\n"));
   if (kSanitized) return;  // which reports crashes itself
   const std::string before = lastWords("crash-before-run", code);
-  EXPECT_NE(before.find("trouble_game: crashed (SIGSEGV) before the first tick\n"), std::string::npos)
-      << before;
-  EXPECT_NE(before.find("trouble_game: the game's log: Sprite ship: no/such.txt: cannot be read; looked in "),
-            std::string::npos)
-      << before;
+  EXPECT_TRUE(has(before, "trouble_game: crashed (SIGSEGV) before the first tick\n"));
+  EXPECT_TRUE(
+      has(before, "trouble_game: the game's log: Sprite ship: no/such.txt: cannot be read; looked in "));
 }
 
 /// A log that a game can hold: as the engine's own is, which writes to a file under a lock.

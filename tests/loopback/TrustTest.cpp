@@ -1,32 +1,21 @@
 // Which players are let in, and which servers are trusted: passwords, pins, fingerprints.
 #include <gtest/gtest.h>
 
-#include "BusyWorld.h"
-#include "Home.h"
+#include "LoopbackFixture.h"
 #include "RecordingServer.h"
 #include "StreamProxy.h"
-#include "TestServer.h"
 #include "host/auth/PasswordHash.h"
 #include "shared/net/base/SafeFile.h"
 
 namespace naiad::test {
 namespace {
 
-class TrustTest : public testing::Test {
+class TrustTest : public LoopbackFixture {
  protected:
-  static std::function<void(df::World&)> world() {
-    return [](df::World& world) { populateBusyWorld(world, 5); };
-  }
-  bool joins(TestClient& client) {
-    return serveUntil(context, {&client}, [&] { return client.joined(); });
-  }
-  /// The sentence that it ends with; empty if it was let in.
   std::string refusal(TestClient& client) {
-    EXPECT_TRUE(
-        serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); }));
-    if (client.joined()) return {};
-    EXPECT_EQ(client.connection().state(), Connection::State::kRefused);
-    return client.connection().sentence();
+    const std::string sentence = LoopbackFixture::refusal(client);
+    EXPECT_TRUE(client.joined() || client.connection().state() == Connection::State::kRefused);
+    return sentence;
   }
   std::string refusal(std::uint16_t port, const ClientSetup& setup) {
     TestClient client(context, port, setup);
@@ -37,15 +26,12 @@ class TrustTest : public testing::Test {
     return PasswordHash::of(password, {.memory_kib = 64, .passes = 1}).text();
   }
   std::string pins() const { return readSmallFile(home.knownServers(), 10'000).value_or(""); }
-
-  Home home;
-  asio::io_context context;
 };
 
 TEST_F(TrustTest, RightWrongAndMissingPasswords) {
   HostOptions options = home.server();
   options.password = quick("xyzzy");
-  TestServer server(world(), options);
+  TestServer server(busyWorld(5), options);
   ClientSetup setup = home.player("ann");
   EXPECT_EQ(refusal(server.port(), setup), "This server wants a password.");
   setup.options.password = "plugh";
@@ -60,7 +46,7 @@ TEST_F(TrustTest, RightWrongAndMissingPasswords) {
 TEST_F(TrustTest, AnAddressThatGuessesTooOftenWaitsEvenWithTheRightPassword) {
   HostOptions options = home.server();
   options.password = quick("xyzzy");
-  TestServer server(world(), options);
+  TestServer server(busyWorld(5), options);
   ClientSetup setup = home.player("eve");
   for (int i = 0; i < 5; ++i) {
     setup.options.password = "guess " + std::to_string(i);
@@ -73,18 +59,18 @@ TEST_F(TrustTest, AnAddressThatGuessesTooOftenWaitsEvenWithTheRightPassword) {
 }
 
 TEST_F(TrustTest, TheFirstKeyIsPinnedAndTheSameOneIsWelcome) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   EXPECT_EQ(refusal(server.port(), home.player("ann")), "");
   const std::string pin =
       "127.0.0.1:" + std::to_string(server.port()) + " " + server.fingerprint()->text() + "\n";
-  EXPECT_NE(pins().find(pin), std::string::npos) << pins();
+  EXPECT_TRUE(has(pins(), pin));
   const std::string before = pins();
   EXPECT_EQ(refusal(server.port(), home.player("bob")), "");
   EXPECT_EQ(pins(), before);
 }
 
 TEST_F(TrustTest, AnotherKeyIsRefusedLoudly) {
-  auto server = std::make_unique<TestServer>(world(), home.server());
+  auto server = std::make_unique<TestServer>(busyWorld(5), home.server());
   const std::uint16_t port = server->port();
   EXPECT_EQ(refusal(port, home.player("ann")), "");
   const std::string before = pins();
@@ -92,10 +78,10 @@ TEST_F(TrustTest, AnotherKeyIsRefusedLoudly) {
 
   HostOptions other = home.server("another identity");
   other.port = port;
-  server = std::make_unique<TestServer>(world(), other);
+  server = std::make_unique<TestServer>(busyWorld(5), other);
   const std::string sentence = refusal(port, home.player("ann"));
-  EXPECT_NE(sentence.find("HAS CHANGED"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find(server->fingerprint()->text()), std::string::npos) << sentence;
+  EXPECT_TRUE(has(sentence, "HAS CHANGED"));
+  EXPECT_TRUE(has(sentence, server->fingerprint()->text()));
   EXPECT_EQ(pins(), before);
   // It has not even been greeted.
   EXPECT_EQ(server->counters().joined, 0u);
@@ -108,12 +94,12 @@ TEST_F(TrustTest, AnotherKeyIsRefusedLoudly) {
 }
 
 TEST_F(TrustTest, AGivenFingerprintCountsMost) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   ClientSetup setup = home.player("ann");
   setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
   ASSERT_TRUE(setup.trust.fingerprint);
   const std::string sentence = refusal(server.port(), setup);
-  EXPECT_NE(sentence.find("does not have the key that was given"), std::string::npos) << sentence;
+  EXPECT_TRUE(has(sentence, "does not have the key that was given"));
   EXPECT_EQ(pins(), "");
   EXPECT_EQ(server.counters().joined, 0u);
   setup.trust.fingerprint = server.fingerprint();
@@ -121,11 +107,11 @@ TEST_F(TrustTest, AGivenFingerprintCountsMost) {
 }
 
 TEST_F(TrustTest, ALinkJoinsAndTheWholeKeyIsPinned) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   ClientSetup setup = home.player("ann");
   setup.trust.link_key = ShortKey::of(*server.fingerprint());
   EXPECT_EQ(refusal(server.port(), setup), "");
-  EXPECT_NE(pins().find(server.fingerprint()->text()), std::string::npos) << pins();
+  EXPECT_TRUE(has(pins(), server.fingerprint()->text()));
 }
 
 TEST_F(TrustTest, AServerWithoutTheKeyOfTheLinkIsToldNotAByte) {
@@ -135,7 +121,7 @@ TEST_F(TrustTest, AServerWithoutTheKeyOfTheLinkIsToldNotAByte) {
   setup.trust.link_key = ShortKey::of(*Fingerprint::parse(std::string(64, 'a')));
   TestClient client(context, impostor.port(), setup);
   const std::string sentence = refusal(client);
-  EXPECT_NE(sentence.find("does not have the key of the link"), std::string::npos) << sentence;
+  EXPECT_TRUE(has(sentence, "does not have the key of the link"));
   ASSERT_TRUE(serveUntil(context, {&client}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "");
   EXPECT_EQ(pins(), "");
@@ -148,7 +134,7 @@ TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {
   ClientSetup setup = home.player("ann");
   setup.options.password = "xyzzy";
   {
-    TestServer server(world(), home.server());
+    TestServer server(busyWorld(5), home.server());
     StreamProxy proxy(context, server.port());
     TestClient ann(context, proxy.port(), setup);
     ASSERT_TRUE(joins(ann));
@@ -156,7 +142,7 @@ TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {
     proxy.cut();
     ann.connection().leave();
     TestClient again(context, proxy.port(), setup);
-    EXPECT_NE(refusal(again).find("HAS CHANGED"), std::string::npos);
+    EXPECT_TRUE(has(refusal(again), "HAS CHANGED"));
     ASSERT_TRUE(serveUntil(context, {&again}, [&] { return impostor.isDecided(1); }));
     EXPECT_EQ(impostor.heard(), "");
   }
@@ -174,7 +160,7 @@ TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {
 }
 
 TEST_F(TrustTest, AnImpostorInMidGameGetsNoToken) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   RecordingServer impostor(home.identity("another identity"));
   StreamProxy proxy(context, server.port());
   ClientSetup setup = home.player("ann");
@@ -185,7 +171,7 @@ TEST_F(TrustTest, AnImpostorInMidGameGetsNoToken) {
   proxy.cut();
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
-  EXPECT_NE(ann.connection().sentence().find("HAS CHANGED"), std::string::npos);
+  EXPECT_TRUE(has(ann.connection().sentence(), "HAS CHANGED"));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "") << "neither token nor password";
 }

@@ -1,10 +1,10 @@
 // What one attack does to a server. It runs in a thread and an event loop of its own, beside honest players.
+// docs/bench.md describes the attacks.
 #pragma once
 
 #include <asio/io_context.hpp>
 #include <chrono>
-#include <cstdint>
-#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,5 +43,27 @@ class Attack {
   /// The server has been stopped.
   virtual void addFindings(Findings& /*findings*/) {}
 };
+
+using AttackPtr = std::unique_ptr<Attack>;
+
+/// silent4, silent6: 64 connections from each of these addresses to the address of the server. They never say
+/// a word, and one that is dropped reconnects.
+AttackPtr makeSilentCrowd(const std::vector<std::string>& sources, const std::string& server);
+/// chat_resume: one player resumes on another stream again and again, and says all it may on each.
+AttackPtr makeChatResume();
+/// chat_detached: players who say as much as they may, all the time.
+AttackPtr makeChatters(int count);
+/// held_places: one address joins and is killed, again and again, so that detached sessions hold places.
+AttackPtr makeHeldPlaces();
+inline constexpr const char* kHeldName = "held";  ///< of its players
+inline constexpr int kHeldAllowed = 2;            ///< places for one address
+/// log_stall, log_gone: what reads the server's log stands still, or ends; players give it something to say.
+enum class LogFault { kStalls, kEnds };
+AttackPtr makeLogReader(LogFault fault);
+/// password80: 80 addresses guess, so that the queue of passwords to be compared is never empty.
+AttackPtr makePasswordCrowd();
+/// fork300: a game in a process of its own forks 300 children. Which of them outlive their world? This
+/// process then inherits those whose parents end, so that none is lost sight of.
+AttackPtr makeForkingWorld();
 
 }  // namespace bench::attack

@@ -1,13 +1,19 @@
-#include "ChatResume.h"
-
+// chat_resume: one player resumes on another stream again and again, and says all it may on each.
 #include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <string_view>
 #include <utility>
 
+#include "Attack.h"
 #include "Guest.h"
+#include "Relay.h"
+#include "naiad.pb.h"
+#include "shared/net/base/Channel.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/stream/TcpConnector.h"
 
 namespace bench::attack {
-
 namespace {
 
 using namespace std::chrono_literals;
@@ -18,116 +24,135 @@ constexpr auto kBetween = 10ms;    // streams
 constexpr auto kAfterHangUp = 100ms;
 constexpr int kLines = 30;  // on each stream
 
+class ChatResume : public Attack {
+ public:
+  void begin(const Target& target) override {
+    m_p_context = &target.context;
+    m_relay = std::make_unique<Relay>(target.context, target.server.port(),
+                                      Relay::Options{.source = addressIn(4, 0)});
+  }
+  void update(Time now) override {
+    while (!m_ready.empty() && (m_ready.front()->over || now - m_ready.front()->since > kStale))
+      m_ready.pop_front();
+    while (m_used.size() > 2) m_used.pop_front();
+    if (m_waiting && m_used.back()->over) m_waiting = false;  // hung up on instead of an answer
+    if (m_ready.size() < kReady && now >= m_next_stream) prepare(now);
+    greet();
+  }
+  void end() override {
+    m_ready.clear();
+    m_used.clear();
+    m_relay.reset();
+  }
+  void addFindings(Findings& findings) override {
+    findings.figures.emplace_back("resumes", m_resumes);
+    findings.figures.emplace_back("resumes_refused", m_refusals);
+    findings.figures.emplace_back("lines_sent", m_said);
+    findings.figures.emplace_back("streams", m_streams);
+    findings.figures.emplace_back("handshakes", m_handshakes);
+  }
+
+ private:
+  /// With its handshake done, so that a hello is all it takes.
+  struct Stream {
+    std::unique_ptr<naiad::TcpConnector> connector;
+    std::unique_ptr<naiad::ReliableChannel> channel;  ///< null until it is connected
+    Time since;
+    bool over = false;
+  };
+
+  void prepare(Time now) {
+    m_next_stream = now + kBetween;
+    auto stream = std::make_unique<Stream>();
+    Stream& made = *stream;
+    made.since = now;
+    naiad::TcpOptions options;
+    options.receive_limit = naiad::kMaxServerFrame;
+    made.connector = std::make_unique<naiad::TcpConnector>(*m_p_context, options, clientTls());
+    made.connector->connect(
+        "127.0.0.1", m_relay->port(), 5s,
+        [this, &made](std::unique_ptr<naiad::ReliableChannel> channel, const std::string&) {
+          ++m_streams;
+          made.over = channel == nullptr;
+          if (made.over) m_next_stream = std::chrono::steady_clock::now() + kAfterHangUp;
+          if (!channel) return;
+          ++m_handshakes;
+          made.channel = std::move(channel);
+          made.channel->start({[this, &made](std::string_view frame) { receive(made, frame); },
+                               [&made](naiad::CloseReason) { made.over = true; }});
+        });
+    m_ready.push_back(std::move(stream));
+  }
+
+  void greet() {
+    if (m_waiting || m_ready.empty() || !m_ready.front()->channel) return;
+    m_used.push_back(std::move(m_ready.front()));
+    m_ready.pop_front();
+    m_waiting = true;
+    naiad::wire::ClientMessage message;
+    naiad::wire::Hello& hello = *message.mutable_hello();
+    hello.set_magic(naiad::kHelloMagic);
+    hello.set_protocol(naiad::kProtocolVersion);
+    hello.set_player_name("loud");
+    hello.set_program("naiad_attack");
+    hello.set_resume_token(m_token);
+    hello.set_received(m_received);
+    m_used.back()->channel->send(message.SerializeAsString());
+  }
+
+  void receive(Stream& stream, std::string_view frame) {
+    naiad::wire::ServerMessage message;
+    if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return;
+    m_received = std::max(m_received, message.number());
+    if (message.has_refused()) {
+      ++m_refusals;
+      m_waiting = false;
+    }
+    if (!message.has_welcome()) return;
+    m_waiting = false;
+    m_token = message.welcome().resume_token();
+    if (message.welcome().resumed()) {
+      ++m_resumes;
+      m_sent = message.welcome().received();
+    } else {
+      m_received = 0;
+      m_sent = 0;
+    }
+    talk(stream);
+    greet();
+  }
+
+  void talk(Stream& stream) {
+    static const std::string s_line = longLine();
+    for (int i = 0; i < kLines; ++i) {
+      naiad::wire::ClientMessage message;
+      message.set_number(++m_sent);
+      message.mutable_chat()->set_text(s_line);
+      stream.channel->send(message.SerializeAsString());
+    }
+    m_said += kLines;
+  }
+
+  asio::io_context* m_p_context = nullptr;
+  std::unique_ptr<Relay> m_relay;
+  std::deque<std::unique_ptr<Stream>> m_ready;  ///< or about to be
+  std::deque<std::unique_ptr<Stream>> m_used;   ///< the last one has the session, or asked for it
+  bool m_waiting = false;                       ///< for an answer to the last hello
+  Time m_next_stream{};
+  std::string m_token;
+  std::uint32_t m_received = 0;  ///< number of the newest reliable frame
+  std::uint32_t m_sent = 0;      ///< … of ours
+  long long m_resumes = 0;
+  long long m_refusals = 0;
+  long long m_said = 0;
+  long long m_streams = 0;     ///< opened, or hung up on before that
+  long long m_handshakes = 0;  ///< of these, done
+};
+
 }  // namespace
 
-std::string longLine() {
-  std::string line;
-  for (std::size_t i = 0; i < naiad::kMaxChatLength; ++i) line += "\u2588";
-  return line;
-}
-
-ChatResume::ChatResume() = default;
-ChatResume::~ChatResume() = default;
-
-void ChatResume::begin(const Target& target) {
-  m_p_context = &target.context;
-  m_relay = std::make_unique<Relay>(target.context, target.server.port(),
-                                    Relay::Options{.source = addressIn(4, 0)});
-}
-
-void ChatResume::update(Time now) {
-  while (!m_ready.empty() && (m_ready.front()->over || now - m_ready.front()->since > kStale))
-    m_ready.pop_front();
-  while (m_used.size() > 2) m_used.pop_front();
-  if (m_waiting && m_used.back()->over) m_waiting = false;  // hung up on instead of an answer
-  if (m_ready.size() < kReady && now >= m_next_stream) prepare(now);
-  greet();
-}
-
-void ChatResume::prepare(Time now) {
-  m_next_stream = now + kBetween;
-  auto stream = std::make_unique<Stream>();
-  Stream& made = *stream;
-  made.since = now;
-  naiad::TcpOptions options;
-  options.receive_limit = naiad::kMaxServerFrame;
-  made.connector = std::make_unique<naiad::TcpConnector>(*m_p_context, options, clientTls());
-  made.connector->connect(
-      "127.0.0.1", m_relay->port(), 5s,
-      [this, &made](std::unique_ptr<naiad::ReliableChannel> channel, const std::string&) {
-        ++m_streams;
-        made.over = channel == nullptr;
-        if (made.over) m_next_stream = std::chrono::steady_clock::now() + kAfterHangUp;
-        if (!channel) return;
-        ++m_handshakes;
-        made.channel = std::move(channel);
-        made.channel->start({[this, &made](std::string_view frame) { receive(made, frame); },
-                             [&made](naiad::CloseReason) { made.over = true; }});
-      });
-  m_ready.push_back(std::move(stream));
-}
-
-void ChatResume::greet() {
-  if (m_waiting || m_ready.empty() || !m_ready.front()->channel) return;
-  m_used.push_back(std::move(m_ready.front()));
-  m_ready.pop_front();
-  m_waiting = true;
-  naiad::wire::ClientMessage message;
-  naiad::wire::Hello& hello = *message.mutable_hello();
-  hello.set_magic(naiad::kHelloMagic);
-  hello.set_protocol(naiad::kProtocolVersion);
-  hello.set_player_name("loud");
-  hello.set_program("naiad_attack");
-  hello.set_resume_token(m_token);
-  hello.set_received(m_received);
-  m_used.back()->channel->send(message.SerializeAsString());
-}
-
-void ChatResume::receive(Stream& stream, std::string_view frame) {
-  naiad::wire::ServerMessage message;
-  if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return;
-  m_received = std::max(m_received, message.number());
-  if (message.has_refused()) {
-    ++m_refusals;
-    m_waiting = false;
-  }
-  if (!message.has_welcome()) return;
-  m_waiting = false;
-  m_token = message.welcome().resume_token();
-  if (message.welcome().resumed()) {
-    ++m_resumes;
-    m_sent = message.welcome().received();
-  } else {
-    m_received = 0;
-    m_sent = 0;
-  }
-  talk(stream);
-  greet();
-}
-
-void ChatResume::talk(Stream& stream) {
-  static const std::string s_line = longLine();
-  for (int i = 0; i < kLines; ++i) {
-    naiad::wire::ClientMessage message;
-    message.set_number(++m_sent);
-    message.mutable_chat()->set_text(s_line);
-    stream.channel->send(message.SerializeAsString());
-  }
-  m_said += kLines;
-}
-
-void ChatResume::end() {
-  m_ready.clear();
-  m_used.clear();
-  m_relay.reset();
-}
-
-void ChatResume::addFindings(Findings& findings) {
-  findings.figures.emplace_back("resumes", m_resumes);
-  findings.figures.emplace_back("resumes_refused", m_refusals);
-  findings.figures.emplace_back("lines_sent", m_said);
-  findings.figures.emplace_back("streams", m_streams);
-  findings.figures.emplace_back("handshakes", m_handshakes);
+AttackPtr makeChatResume() {
+  return std::make_unique<ChatResume>();
 }
 
 }  // namespace bench::attack

@@ -5,7 +5,6 @@
 #include <utility>
 
 namespace bench::attack {
-
 namespace {
 
 using Clock = std::chrono::steady_clock;

@@ -5,7 +5,6 @@
 #include "shared/net/base/Limits.h"
 
 namespace bench::attack {
-
 namespace {
 
 constexpr std::chrono::seconds kPatience{5};
@@ -30,6 +29,12 @@ naiad::SessionOptions guestOptions(const std::string& name, const std::string& p
   options.program = "naiad_attack";
   options.password = password;
   return options;
+}
+
+std::string longLine() {
+  std::string line;
+  for (std::size_t i = 0; i < naiad::kMaxChatLength; ++i) line += "\u2588";
+  return line;
 }
 
 std::string addressIn(int network, int n) {

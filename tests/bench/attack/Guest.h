@@ -48,6 +48,9 @@ class Guest {
 /// Options of a guest of this name.
 naiad::SessionOptions guestOptions(const std::string& name, const std::string& password);
 
+/// A line of chat of the greatest length, in characters of three bytes.
+std::string longLine();
+
 /// What the trust of all guests is based on: made once, it reads the system's certificates.
 std::shared_ptr<const naiad::TlsContext> clientTls();
 

@@ -1,25 +1,177 @@
 #include "HardPile.h"
 
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <asio/executor_work_guard.hpp>
+#include <asio/io_context.hpp>
+#include <asio/steady_timer.hpp>
+#include <atomic>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
 
-#include "PileServer.h"
 #include "Programs.h"
+#include "host/auth/ServerIdentity.h"
+#include "naiad.pb.h"
+#include "shared/net/base/Channel.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/TcpListener.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/SnapshotCodec.h"
+#include "shared/values/Color.h"
+#include "tests/support/TempFolder.h"
 #include "tests/terminal/PtyTerminal.h"
 
 namespace bench::attack {
-
 namespace {
 
+using namespace naiad;
 using Clock = std::chrono::steady_clock;
 using naiad::test::PtyTerminal;
 using namespace std::chrono_literals;
+
+constexpr std::uint32_t kFirstTick = 100;
+constexpr std::chrono::microseconds kTick{33'333};
+constexpr int kSnapshotsPerTick = 8;  // while objects are left to be sent
+constexpr std::size_t kSendCap = std::size_t{16} << 20;
+
+// Small boxes on a narrow grid, all in step: none ever touches another, but the paths of any two cross, so
+// that a client that looks ahead has to compare each with each.
+constexpr std::uint32_t kRow = 220;
+constexpr df::Fixed kSpacing = df::kFixedOne >> 11;
+constexpr df::Fixed kBox = df::kFixedOne >> 14;
+
+ObjectState objectOf(std::uint32_t n, std::uint32_t tick) {
+  ObjectState object;
+  object.order = n;
+  object.motion.tick = tick;
+  object.motion.position = {
+      df::fromCells(4) + (tick - kFirstTick) * (df::kFixedOne >> 4) + (n % kRow) * kSpacing,
+      df::fromCells(2) + (tick - kFirstTick) * (df::kFixedOne >> 6) + (n / kRow) * kSpacing};
+  object.motion.velocity = {df::kFixedOne >> 4, df::kFixedOne >> 6};
+  object.look.sequence = {Appearance{{0, 0, U'#', df::GREEN}}};
+  object.body.box = {{0, 0}, {kBox, kBox}};
+  return object;
+}
+
+/// A server that no game stands behind: it welcomes a client and sends it a pile of objects.
+class PileServer {
+ public:
+  static constexpr std::uint32_t kObjects = 48'000;
+
+  /// With a key of its own in `folder`; runs in a thread of its own.
+  explicit PileServer(const std::string& folder) {
+    const ServerIdentity identity = ServerIdentity::loadOrMake(folder, std::chrono::system_clock::now());
+    m_fingerprint = identity.fingerprint().text();
+    TcpOptions options;
+    options.send_cap = kSendCap;
+    options.receive_limit = kMaxClientFrame;
+    TlsListening tls;
+    tls.context = identity.tls();
+    m_listener = std::make_unique<TcpListener>(
+        m_context, "127.0.0.1", 0,
+        [this](std::unique_ptr<ReliableChannel> channel) {
+          m_channel = std::move(channel);
+          m_channel->start({[this](std::string_view frame) { receive(frame); },
+                            [this](CloseReason) { m_timer.cancel(); }});
+        },
+        options, tls);
+    m_thread = std::thread([this] {
+      const auto work = asio::make_work_guard(m_context);
+      m_context.run();
+    });
+  }
+  ~PileServer() {
+    m_context.stop();
+    m_thread.join();
+  }
+
+  std::uint16_t port() const { return m_listener->port(); }
+  const std::string& fingerprint() const { return m_fingerprint; }
+  /// Objects sent to the present client.
+  std::uint32_t sent() const { return m_sent; }
+
+ private:
+  void receive(std::string_view frame) {
+    wire::ClientMessage message;
+    if (!message.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return;
+    if (message.has_hello()) welcome();
+    if (!message.has_ping()) return;
+    wire::ServerMessage answer;
+    answer.mutable_pong()->set_token(message.ping().token());
+    m_channel->send(answer.SerializeAsString());
+  }
+  void welcome() {
+    m_sent = 0;
+    m_number = 0;
+    m_tick = kFirstTick;
+    wire::ServerMessage message;
+    wire::Welcome& welcome = *message.mutable_welcome();
+    welcome.set_player(1);
+    welcome.set_name("victim");
+    welcome.set_game("pile");
+    welcome.set_tick_micros(static_cast<std::uint32_t>(kTick.count()));
+    welcome.set_tick(m_tick);
+    welcome.set_view_width(80);
+    welcome.set_view_height(24);
+    welcome.set_color(df::CYAN);
+    m_channel->send(message.SerializeAsString());
+    tick();
+  }
+  void tick() {
+    ++m_tick;
+    sendSnapshot();
+    for (int i = 1; i < kSnapshotsPerTick && m_sent < kObjects; ++i) sendSnapshot();
+    m_timer.expires_after(kTick);
+    m_timer.async_wait([this](const asio::error_code& stopped) {
+      if (!stopped) tick();
+    });
+  }
+  // As many objects as fit, or none if all have been sent.
+  void sendSnapshot() {
+    SnapshotHeader header;
+    header.number = ++m_number;
+    header.tick = m_tick;
+    SnapshotWriter out;
+    out.beginSnapshot(header, 0, {});
+    if (m_number == 1) {
+      WorldRecord world;
+      world.boundary = {{}, {df::fromCells(80), df::fromCells(24)}};
+      out.write(world);
+    }
+    for (; m_sent < kObjects; ++m_sent) {
+      const std::uint32_t id = m_sent + 1;
+      const ObjectState object = objectOf(id, m_tick);
+      const std::size_t bits = out.stage(kAllGroups, 1, object, shareMotion(object.motion));
+      if (!out.hasRoom(bits, kObjects, kMaxSnapshot)) {
+        out.drop();
+        break;
+      }
+      out.keep(id);
+    }
+    out.setComplete(m_sent == kObjects);
+    wire::ServerMessage message;
+    message.set_snapshot(out.finish());
+    m_channel->send(message.SerializeAsString());
+  }
+
+  asio::io_context m_context{1};
+  asio::steady_timer m_timer{m_context};
+  std::string m_fingerprint;
+  std::unique_ptr<TcpListener> m_listener;
+  std::unique_ptr<ReliableChannel> m_channel;
+  std::atomic<std::uint32_t> m_sent{0};
+  std::uint32_t m_number = 0;
+  std::uint32_t m_tick = 0;
+  std::thread m_thread;
+};
 
 constexpr auto kSendTime = 60s;  // for the server to send everything
 
@@ -57,15 +209,13 @@ double endAfter(const std::string& folder, std::chrono::milliseconds shown, Pile
 }  // namespace
 
 PileResult runHardPile(std::chrono::seconds duration) {
-  std::string folder = std::filesystem::temp_directory_path() / "naiad-attack-XXXXXX";
-  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no folder can be made");
+  const naiad::test::TempFolder temporary;
+  const std::string folder = temporary.string();
   PileResult result;
   const auto shown = std::max<std::chrono::milliseconds>(duration / 2, 2s);
   result.sigterm_ms =
       endAfter(folder, shown, result, [](PtyTerminal& terminal) { terminal.signal(SIGTERM); });
   result.ctrl_c_ms = endAfter(folder, shown, result, [](PtyTerminal& terminal) { terminal.type("\x03"); });
-  std::error_code ignored;
-  std::filesystem::remove_all(folder, ignored);
   return result;
 }
 

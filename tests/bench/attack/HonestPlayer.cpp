@@ -7,7 +7,6 @@
 #include "shared/replica/Acks.h"
 
 namespace bench::attack {
-
 namespace {
 
 constexpr std::chrono::milliseconds kNoRush{250};  // keys after a pause are not made up for

@@ -13,7 +13,6 @@
 #include "tests/bench/UserMap.h"
 
 namespace bench::attack {
-
 namespace {
 
 constexpr const char* kDevice = "lo";

@@ -1,11 +1,13 @@
 // New players, one a second, each from an address of its own, who join and leave: how long do they wait?
 #pragma once
 
+#include <algorithm>
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Guest.h"
@@ -26,7 +28,14 @@ class Newcomers {
   void begin(Time now) { m_next = now; }
   /// No more come.
   void end() { m_next = Time::max(); }
-  void update(Time now);
+  void update(Time now) {
+    if (now >= m_next) {
+      m_next = std::max(m_next + std::chrono::seconds(1), now);
+      m_guests.push_back(
+          {.address = addressIn(kNetwork, m_count++), .since = now, .next_attempt = now, .guest = {}});
+    }
+    std::erase_if(m_guests, [&](Newcomer& newcomer) { return !serve(newcomer, now); });
+  }
   /// Some still try to join, or leave.
   bool isBusy() const { return !m_guests.empty(); }
 
@@ -37,6 +46,11 @@ class Newcomers {
   double slowestMillis() const { return m_slowest_ms; }
 
  private:
+  static constexpr int kNetwork = 90;
+  // Of one that the server asks to wait, as dfclient's.
+  static constexpr std::chrono::milliseconds kRetryDelay{250};
+  static constexpr std::chrono::milliseconds kLeaveTime{500};  // for the goodbye to get through
+
   struct Newcomer {
     std::string address;
     Time since;
@@ -45,7 +59,36 @@ class Newcomers {
     Time joined_at{};
     std::unique_ptr<Guest> guest;
   };
-  bool serve(Newcomer& newcomer, Time now);
+  // False if it is done with.
+  bool serve(Newcomer& newcomer, Time now) {
+    const double waited = std::chrono::duration<double, std::milli>(now - newcomer.since).count();
+    if (!newcomer.guest) {
+      if (now < newcomer.next_attempt) return true;
+      newcomer.guest = std::make_unique<Guest>(m_context, m_server.port, newcomer.address,
+                                               guestOptions("new", m_server.password));
+    }
+    Guest& guest = *newcomer.guest;
+    guest.update(now);
+    if (newcomer.joined) return !guest.isOver() && now - newcomer.joined_at < kLeaveTime;
+    if (guest.hasPicture(now)) {
+      m_slowest_ms = std::max(m_slowest_ms, waited);
+      newcomer.joined = true;
+      newcomer.joined_at = now;
+      guest.session()->leave();
+      return true;
+    }
+    const bool in_time = now - newcomer.since < kPatience;
+    if (in_time && !guest.isOver()) return true;
+    if (in_time && guest.state() == Guest::State::kRefusedForNow) {
+      newcomer.guest.reset();
+      newcomer.next_attempt = now + kRetryDelay;
+      return true;
+    }
+    ++m_failed;
+    m_slowest_ms =
+        std::max(m_slowest_ms, std::max<double>(waited, std::chrono::milliseconds(kPatience).count()));
+    return false;
+  }
 
   asio::io_context& m_context;
   const Whereabouts& m_server;

@@ -1,41 +1,19 @@
 #include "Phase.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <filesystem>
 #include <future>
-#include <stdexcept>
 #include <thread>
 
-#include "HeldPlaces.h"
 #include "ServerProcess.h"
+#include "tests/support/TempFolder.h"
 
 namespace bench::attack {
-
 namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-
-class Folder {
- public:
-  Folder() : m_path(std::filesystem::temp_directory_path() / "naiad-attack-XXXXXX") {
-    if (mkdtemp(m_path.data()) == nullptr) throw std::runtime_error("no folder can be made");
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(m_path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::string& path() const { return m_path; }
-
- private:
-  std::string m_path;
-};
 
 /// The attack's thread.
 class Assault {
@@ -56,8 +34,6 @@ class Assault {
     m_over = true;
     if (m_thread.joinable()) m_thread.join();
   }
-  Assault(const Assault&) = delete;
-  Assault& operator=(const Assault&) = delete;
 
   /// Throws what went wrong in it.
   void finish() {
@@ -115,14 +91,14 @@ Company::Absence absenceIn(std::chrono::milliseconds duration) {
 }  // namespace
 
 PhaseResult runPhase(Attack& attack, bool hostile, std::chrono::seconds duration) {
-  const Folder folder;
+  const naiad::test::TempFolder folder;
   PhaseResult result;
-  ServerProcess server(attack.setup(), folder.path());
+  ServerProcess server(attack.setup(), folder.string());
   Company company({.port = server.port(),
                    .fingerprint = server.fingerprint(),
                    .password = server.password(),
-                   .known_servers = folder.path() + "/known_servers"},
-                  HeldPlaces::kName);
+                   .known_servers = folder / "known_servers"},
+                  kHeldName);
   company.join();
   const Clock::time_point begin = Clock::now();
   CpuMeter cpu(server, duration);

@@ -11,7 +11,6 @@
 #include <vector>
 
 namespace bench::attack {
-
 namespace {
 
 using asio::ip::tcp;

@@ -21,7 +21,6 @@
 extern char** environ;
 
 namespace bench::attack {
-
 namespace {
 
 using Clock = std::chrono::steady_clock;

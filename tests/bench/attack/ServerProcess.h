@@ -27,8 +27,6 @@ class ServerProcess {
   ServerProcess(const ServerSetup& setup, const std::string& folder);
   /// Kills it if it still runs.
   ~ServerProcess();
-  ServerProcess(const ServerProcess&) = delete;
-  ServerProcess& operator=(const ServerProcess&) = delete;
 
   std::uint16_t port() const { return m_port; }
   const std::string& fingerprint() const { return m_fingerprint; }

@@ -1,12 +1,12 @@
-#include "SilentCrowd.h"
-
+// silent4, silent6: connections on which nothing is ever sent.
 #include <array>
 #include <asio/ip/tcp.hpp>
 #include <asio/steady_timer.hpp>
 #include <utility>
 
-namespace bench::attack {
+#include "Attack.h"
 
+namespace bench::attack {
 namespace {
 
 using asio::ip::tcp;
@@ -14,10 +14,8 @@ using asio::ip::tcp;
 constexpr int kPerSource = 64;
 constexpr std::chrono::milliseconds kAgain{500};
 
-}  // namespace
-
 /// One connection, again and again.
-class SilentCrowd::Mute : public std::enable_shared_from_this<Mute> {
+class Mute : public std::enable_shared_from_this<Mute> {
  public:
   Mute(asio::io_context& context, asio::ip::address source, tcp::endpoint server, long long& connects)
       : m_socket(context),
@@ -72,29 +70,38 @@ class SilentCrowd::Mute : public std::enable_shared_from_this<Mute> {
   std::array<char, 256> m_buffer{};
 };
 
-SilentCrowd::SilentCrowd(std::vector<std::string> sources, std::string server)
-    : m_sources(std::move(sources)), m_server(std::move(server)) {}
+class SilentCrowd : public Attack {
+ public:
+  SilentCrowd(const std::vector<std::string>& sources, const std::string& server)
+      : m_sources(sources), m_server(server) {}
 
-SilentCrowd::~SilentCrowd() = default;
-
-void SilentCrowd::begin(const Target& target) {
-  const tcp::endpoint server(asio::ip::make_address(m_server), target.server.port());
-  for (int i = 0; i < kPerSource; ++i) {
-    for (const std::string& source : m_sources) {
-      m_mutes.push_back(
-          std::make_shared<Mute>(target.context, asio::ip::make_address(source), server, m_connects));
-      m_mutes.back()->connect();
+  void begin(const Target& target) override {
+    const tcp::endpoint server(asio::ip::make_address(m_server), target.server.port());
+    for (int i = 0; i < kPerSource; ++i) {
+      for (const std::string& source : m_sources) {
+        m_mutes.push_back(
+            std::make_shared<Mute>(target.context, asio::ip::make_address(source), server, m_connects));
+        m_mutes.back()->connect();
+      }
     }
   }
-}
+  void end() override {
+    for (const auto& mute : m_mutes) mute->end();
+    m_mutes.clear();
+  }
+  void addFindings(Findings& findings) override { findings.figures.emplace_back("connects", m_connects); }
 
-void SilentCrowd::end() {
-  for (const auto& mute : m_mutes) mute->end();
-  m_mutes.clear();
-}
+ private:
+  std::vector<std::string> m_sources;
+  std::string m_server;
+  std::vector<std::shared_ptr<Mute>> m_mutes;
+  long long m_connects = 0;
+};
 
-void SilentCrowd::addFindings(Findings& findings) {
-  findings.figures.emplace_back("connects", m_connects);
+}  // namespace
+
+AttackPtr makeSilentCrowd(const std::vector<std::string>& sources, const std::string& server) {
+  return std::make_unique<SilentCrowd>(sources, server);
 }
 
 }  // namespace bench::attack

@@ -12,17 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "ChatResume.h"
-#include "Chatters.h"
-#include "ForkingWorld.h"
 #include "Guest.h"
 #include "HardPile.h"
-#include "HeldPlaces.h"
-#include "LogReader.h"
 #include "LoopbackNamespace.h"
-#include "PasswordCrowd.h"
 #include "Phase.h"
-#include "SilentCrowd.h"
 #include "shared/options/Options.h"
 
 namespace {
@@ -55,25 +48,22 @@ struct Effort {
 const std::vector<std::string> kNetworks6 = {"2001:db8:7:1::1", "2001:db8:7:2::1", "2001:db8:7:3::1",
                                              "2001:db8:7:4::1"};
 
-using Make = std::function<std::unique_ptr<Attack>()>;
+using Make = std::function<AttackPtr()>;
 
 /// All but hard_pile, which is an attack on a client. chat_detached comes twice.
 const std::map<std::string, std::vector<Make>>& attacks() {
+  static const std::vector<std::string> s_networks4 = {addressIn(3, 0), addressIn(3, 1), addressIn(3, 2),
+                                                       addressIn(3, 3)};
   static const std::map<std::string, std::vector<Make>> s_attacks = {
-      {"silent4", {[] {
-         return std::make_unique<SilentCrowd>(
-             std::vector<std::string>{addressIn(3, 0), addressIn(3, 1), addressIn(3, 2), addressIn(3, 3)},
-             "127.0.0.1");
-       }}},
-      {"silent6", {[] { return std::make_unique<SilentCrowd>(kNetworks6, "::1"); }}},
-      {"chat_resume", {[] { return std::make_unique<ChatResume>(); }}},
-      {"chat_detached",
-       {[] { return std::make_unique<Chatters>(1); }, [] { return std::make_unique<Chatters>(8); }}},
-      {"held_places", {[] { return std::make_unique<HeldPlaces>(); }}},
-      {"log_stall", {[] { return std::make_unique<LogReader>(LogReader::Fault::kStalls); }}},
-      {"log_gone", {[] { return std::make_unique<LogReader>(LogReader::Fault::kEnds); }}},
-      {"password80", {[] { return std::make_unique<PasswordCrowd>(); }}},
-      {"fork300", {[] { return std::make_unique<ForkingWorld>(); }}}};
+      {"silent4", {[] { return makeSilentCrowd(s_networks4, "127.0.0.1"); }}},
+      {"silent6", {[] { return makeSilentCrowd(kNetworks6, "::1"); }}},
+      {"chat_resume", {makeChatResume}},
+      {"chat_detached", {[] { return makeChatters(1); }, [] { return makeChatters(8); }}},
+      {"held_places", {makeHeldPlaces}},
+      {"log_stall", {[] { return makeLogReader(LogFault::kStalls); }}},
+      {"log_gone", {[] { return makeLogReader(LogFault::kEnds); }}},
+      {"password80", {makePasswordCrowd}},
+      {"fork300", {makeForkingWorld}}};
   return s_attacks;
 }
 
@@ -125,7 +115,7 @@ void printFaults(const std::vector<std::string>& faults) {
 }
 
 void runAttack(const std::string& name, const Make& make, const Effort& effort) {
-  const std::unique_ptr<Attack> attack = make();
+  const AttackPtr attack = make();
   const PhaseResult calm = runPhase(*attack, false, effort.calm);
   const PhaseResult hot = runPhase(*attack, true, effort.attack);
   Findings findings;
@@ -136,7 +126,7 @@ void runAttack(const std::string& name, const Make& make, const Effort& effort) 
     faults.emplace_back("cpu_percent");
   if (name == "held_places") {
     findings.figures.emplace_back("held", static_cast<long long>(hot.fate.crowd));
-    if (hot.fate.crowd > HeldPlaces::kAllowed) faults.emplace_back("held");
+    if (hot.fate.crowd > kHeldAllowed) faults.emplace_back("held");
   }
   std::printf(
       "attack name=%s seconds=%.0f wrong_cells=%llu compared_ticks=%llu thrown_out=%d newcomer_ms=%.0f "

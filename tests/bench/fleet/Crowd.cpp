@@ -1,24 +1,16 @@
 #include "Crowd.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <functional>
 #include <sstream>
 #include <stdexcept>
-#include <system_error>
 #include <thread>
 
 namespace bench {
-
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenLooks{20};
+constexpr std::chrono::seconds kPatience{60};  // for an answer
 
 bool waitFor(const std::function<bool()>& holds, std::chrono::milliseconds most) {
   const auto end = std::chrono::steady_clock::now() + most;
@@ -27,15 +19,6 @@ bool waitFor(const std::function<bool()>& holds, std::chrono::milliseconds most)
     std::this_thread::sleep_for(kBetweenLooks);
   }
   return true;
-}
-
-std::string readLine(std::FILE* p_from) {
-  std::string line;
-  for (int c = std::fgetc(p_from); c != '\n'; c = std::fgetc(p_from)) {
-    if (c == EOF) throw std::runtime_error("a process of players has ended");
-    line.push_back(static_cast<char>(c));
-  }
-  return line;
 }
 
 std::vector<long> numbersOf(const std::string& line) {
@@ -53,49 +36,16 @@ Crowd::Crowd(const std::string& link, const std::filesystem::path& folder, int p
   for (int i = 0; i < processes; ++i) {
     const int first = players * i / processes;
     const int behind = players * (i + 1) / processes;
-    m_workers.push_back(
-        start({"/proc/self/exe", "--players", link, folder / ("known_servers" + std::to_string(i + 1)),
-               std::to_string(first + 1), std::to_string(behind - first)}));
+    m_workers.emplace_back(std::vector<std::string>{
+        "/proc/self/exe", "--players", link, folder / ("known_servers" + std::to_string(i + 1)),
+        std::to_string(first + 1), std::to_string(behind - first)});
   }
-}
-
-Crowd::~Crowd() {
-  for (const Worker& worker : m_workers) {
-    std::fclose(worker.p_to);
-    std::fclose(worker.p_from);
-    ::kill(worker.process, SIGKILL);
-    ::waitpid(worker.process, nullptr, 0);
-  }
-}
-
-Crowd::Worker Crowd::start(const std::vector<std::string>& words) {
-  int to[2];
-  int from[2];
-  if (::pipe2(to, O_CLOEXEC) != 0 || ::pipe2(from, O_CLOEXEC) != 0)
-    throw std::system_error(errno, std::generic_category(), "a process of players");
-  std::vector<char*> pointers;
-  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
-  pointers.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    ::dup2(to[0], STDIN_FILENO);
-    ::dup2(from[1], STDOUT_FILENO);
-    ::execv(pointers[0], pointers.data());
-    ::_exit(127);
-  }
-  ::close(to[0]);
-  ::close(from[1]);
-  return {child, ::fdopen(to[1], "w"), ::fdopen(from[0], "r")};
 }
 
 std::vector<std::vector<long>> Crowd::ask(const std::string& command) {
-  for (const Worker& worker : m_workers) {
-    std::fprintf(worker.p_to, "%s\n", command.c_str());
-    std::fflush(worker.p_to);
-  }
+  for (capacity::Worker& worker : m_workers) worker.tell(command);
   std::vector<std::vector<long>> answers;
-  for (const Worker& worker : m_workers) answers.push_back(numbersOf(readLine(worker.p_from)));
+  for (capacity::Worker& worker : m_workers) answers.push_back(numbersOf(worker.hear(kPatience)));
   return answers;
 }
 

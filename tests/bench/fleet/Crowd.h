@@ -1,14 +1,25 @@
-// The players of a fleet, in several processes (CrowdProcess.h), as one.
+// The players of a fleet, in several processes, as one: one thread cannot serve a thousand of them as a
+// player's own machine would.
+//
+// A process reads commands, a line each, and answers each with a line of numbers:
+//
+//   join AT_ONCE   they come, so many at a time         0
+//   state                                               PLAYING LOSSES; "problem SENTENCE": one cannot join
+//   kill PORT      that server is about to be killed    players who are there
+//   waiting                                             of them, those who are not back yet
+//   result                                              RETURNED DISTURBED MS... of those who are back
+//   redirects                                           MS... of those who were sent on
+//   leave          and it ends                          0
 #pragma once
-
-#include <sys/types.h>
 
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/bench/capacity/suite/Worker.h"
 
 namespace bench {
 
@@ -17,9 +28,6 @@ class Crowd {
  public:
   /// `folder`: for the keys that they pin, each process in a file of its own.
   Crowd(const std::string& link, const std::filesystem::path& folder, int players, int processes);
-  ~Crowd();
-  Crowd(const Crowd&) = delete;
-  Crowd& operator=(const Crowd&) = delete;
 
   /// Have all come, some at a time. False: they do not in that time.
   bool joinAll(int at_once, std::chrono::seconds most);
@@ -44,18 +52,16 @@ class Crowd {
   void leaveAll();
 
  private:
-  struct Worker {
-    pid_t process = -1;
-    std::FILE* p_to = nullptr;
-    std::FILE* p_from = nullptr;
-  };
-  static Worker start(const std::vector<std::string>& words);
   /// All processes' answers to a command.
   std::vector<std::vector<long>> ask(const std::string& command);
   long sumOf(const std::string& command);
 
-  std::vector<Worker> m_workers;
+  std::deque<capacity::Worker> m_workers;
   int m_players;
 };
+
+/// One of these processes, until "leave", or its input ends. Throws std::runtime_error for a link that is
+/// none.
+void serveCrowd(const std::string& link, const std::filesystem::path& known_servers, int first, int count);
 
 }  // namespace bench

@@ -1,69 +1,99 @@
-#include "CrowdProcess.h"
-
+// A process of players (Crowd.h).
 #include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 #include <sstream>
+#include <stdexcept>
+#include <variant>
 #include <vector>
 
-#include "Bots.h"
+#include "Bot.h"
+#include "Crowd.h"
+#include "shared/net/stream/JoinLink.h"
 
 namespace bench {
-
 namespace {
 
-class CrowdCommands {
+constexpr std::chrono::milliseconds kTurn{5};
+
+class Players {
  public:
-  explicit CrowdCommands(Bots& bots) : m_bots(bots) {}
+  /// Numbered from `first` on.
+  Players(const std::string& link, const std::filesystem::path& known_servers, int first, int count)
+      : m_first(first), m_count(static_cast<std::size_t>(count)) {
+    const auto parsed = naiad::JoinLink::parse(link);
+    const auto* const p_link = std::get_if<naiad::JoinLink>(&parsed);
+    if (p_link == nullptr) throw std::runtime_error("the directory has no link: " + link);
+    m_directory = {p_link->where.host, p_link->where.port};
+    m_trust.link_key = p_link->key;
+    m_trust.known_servers = known_servers;
+  }
+
+  /// One turn of some milliseconds.
+  void serve() {
+    const std::size_t waiting = m_bots.size() - playing();
+    for (std::size_t i = waiting; i < m_at_once && m_bots.size() < m_count; ++i)
+      m_bots.emplace_back(m_context, m_directory, m_trust, m_first + static_cast<int>(m_bots.size()));
+    runFor(kTurn);
+    const auto now = Bot::Clock::now();
+    for (Bot& bot : m_bots) bot.update(now);
+  }
 
   std::string answer(const std::string& line) {
     std::istringstream words(line);
     std::string command;
     int number = 0;
     words >> command >> number;
-    if (command == "join") return join(number);
+    if (command == "join") m_at_once = static_cast<std::size_t>(number);
     if (command == "state") return state();
     if (command == "kill") return noteKill(static_cast<std::uint16_t>(number));
-    if (command == "waiting") return std::to_string(waiting());
+    if (command == "waiting") return std::to_string(std::ranges::count(m_there, false, &Bot::isBack));
     if (command == "result") return result();
     if (command == "redirects") return redirects();
+    if (command == "leave") leaveAll();
     return "0";
   }
 
  private:
-  std::string join(int at_once) {
-    m_bots.bringIn(at_once);
-    return "0";
+  void runFor(std::chrono::milliseconds time) {
+    m_context.restart();
+    m_context.run_for(time);
+  }
+  void leaveAll() {
+    for (Bot& bot : m_bots) bot.leave();
+    runFor(std::chrono::seconds(2));
+  }
+  std::size_t playing() const {
+    return static_cast<std::size_t>(std::ranges::count_if(m_bots, &Bot::isPlaying));
   }
   /// One who ends later is one who does not come back.
   std::string state() {
-    if (!m_have_come) m_have_come = m_bots.havePlayed();
-    const std::string problem = m_have_come ? "" : m_bots.problem();
-    if (!problem.empty()) return "problem " + problem;
-    return std::to_string(m_bots.playing()) + " " + std::to_string(losses(m_bots.all()));
+    m_have_come = m_have_come || playing() == m_count;
+    const auto over = std::ranges::find_if(m_bots, &Bot::isOver);
+    if (!m_have_come && over != m_bots.end()) return "problem " + over->sentence();
+    int losses = 0;
+    for (const Bot& bot : m_bots) losses += bot.losses();
+    return std::to_string(playing()) + " " + std::to_string(losses);
   }
-  template <class Some>
-  static int losses(const Some& bots) {
-    int count = 0;
-    for (const auto& bot : bots) count += bot->losses();
-    return count;
+  int lossesOfOthers() const {
+    int losses = 0;
+    for (const Bot* p_bot : m_others) losses += p_bot->losses();
+    return losses;
   }
   /// One may go to another server for good: it is still one of those who lost theirs.
   std::string noteKill(std::uint16_t port) {
     m_there.clear();
     m_others.clear();
-    for (const auto& bot : m_bots.all()) {
-      const bool is_there = bot->port() == port && bot->isPlaying();
-      (is_there ? m_there : m_others).push_back(bot.get());
-      if (is_there) bot->noteKill(Bot::Clock::now());
+    for (Bot& bot : m_bots) {
+      const bool is_there = bot.port() == port && bot.isPlaying();
+      (is_there ? m_there : m_others).push_back(&bot);
+      if (is_there) bot.noteKill(Bot::Clock::now());
     }
-    m_before = losses(m_others);
+    m_before = lossesOfOthers();
     return std::to_string(m_there.size());
-  }
-  std::ptrdiff_t waiting() const {
-    return std::count_if(m_there.begin(), m_there.end(), [](const Bot* p_bot) { return !p_bot->isBack(); });
   }
   std::string result() const {
     int returned = 0;
@@ -73,24 +103,30 @@ class CrowdCommands {
       returned += p_bot->isSamePlayer() ? 1 : 0;
       times += " " + std::to_string(p_bot->backTime().count());
     }
-    return std::to_string(returned) + " " + std::to_string(losses(m_others) - m_before) + times;
+    return std::to_string(returned) + " " + std::to_string(lossesOfOthers() - m_before) + times;
   }
   std::string redirects() const {
     std::string times;
-    for (const auto& bot : m_bots.all()) {
-      if (const auto time = bot->redirectTime()) times += std::to_string(time->count()) + " ";
+    for (const Bot& bot : m_bots) {
+      if (const auto time = bot.redirectTime()) times += std::to_string(time->count()) + " ";
     }
     return times;
   }
 
-  Bots& m_bots;
+  asio::io_context m_context{1};
+  naiad::ServerAddress m_directory;
+  naiad::ServerTrust m_trust;
+  int m_first;
+  std::size_t m_count;
+  std::size_t m_at_once = 0;
+  std::deque<Bot> m_bots;
   bool m_have_come = false;   ///< all of them
   std::vector<Bot*> m_there;  ///< on the server that was killed last
   std::vector<Bot*> m_others;
   int m_before = 0;  ///< losses of the others then
 };
 
-/// What has come of the input, if anything; false: it has ended.
+/// Appends what has come of the input, if anything; false: it has ended.
 bool readInput(std::string& text) {
   pollfd ready{STDIN_FILENO, POLLIN, 0};
   if (::poll(&ready, 1, 0) != 1) return true;
@@ -104,16 +140,14 @@ bool readInput(std::string& text) {
 }  // namespace
 
 void serveCrowd(const std::string& link, const std::filesystem::path& known_servers, int first, int count) {
-  Bots bots(link, known_servers, first, count);
-  CrowdCommands commands(bots);
+  Players players(link, known_servers, first, count);
   std::string input;
   while (readInput(input)) {
-    bots.serve();
+    players.serve();
     for (std::size_t end = input.find('\n'); end != std::string::npos; end = input.find('\n')) {
       const std::string line = input.substr(0, end);
       input.erase(0, end + 1);
-      if (line == "leave") bots.leaveAll();
-      std::printf("%s\n", commands.answer(line).c_str());
+      std::printf("%s\n", players.answer(line).c_str());
       std::fflush(stdout);
       if (line == "leave") return;
     }

@@ -17,7 +17,6 @@
 #include "shared/admin/AdminRequest.h"
 
 namespace bench {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,42 +130,27 @@ void Fleet::startServer(std::size_t number) {
   Server& server = m_servers.at(number);
   const std::string name = server.folder.filename();
   const std::string places = std::to_string(m_setup.max_players);
+  const std::string folder = server.folder.string();
   server.process.reset();
   server.log_begin = textOf(server.folder / "log").size();
-  server.process.emplace(std::vector<std::string>{"dfserver",
-                                                  "--game",
-                                                  m_setup.game,
-                                                  "--address",
-                                                  "127.0.0.1",
-                                                  "--port",
-                                                  std::to_string(server.port),
-                                                  "--identity",
-                                                  server.folder / "identity",
-                                                  "--state",
-                                                  server.folder,
-                                                  "--journal",
-                                                  server.folder / "rounds",
-                                                  "--control",
-                                                  server.folder / "control.sock",
-                                                  "--lan",
-                                                  "off",
-                                                  "--max-players",
-                                                  places,
-                                                  "--max-per-address",
-                                                  places,
-                                                  "--link-host",
-                                                  "127.0.0.1",
-                                                  "--bus",
-                                                  busUrl(),
-                                                  "--bus-id",
-                                                  name,
-                                                  "--server-name",
-                                                  name,
-                                                  "--frame-time",
-                                                  std::to_string(1'000'000 / m_setup.hz),
-                                                  "--port-file",
-                                                  server.folder / "port"},
-                         server.folder / "log");
+  const std::vector<std::string> words{"dfserver",
+                                       "--address=127.0.0.1",
+                                       "--link-host=127.0.0.1",
+                                       "--lan=off",
+                                       "--game=" + m_setup.game,
+                                       "--port=" + std::to_string(server.port),
+                                       "--frame-time=" + std::to_string(1'000'000 / m_setup.hz),
+                                       "--max-players=" + places,
+                                       "--max-per-address=" + places,
+                                       "--bus=" + busUrl(),
+                                       "--bus-id=" + name,
+                                       "--server-name=" + name,
+                                       "--state=" + folder,
+                                       "--identity=" + folder + "/identity",
+                                       "--journal=" + folder + "/rounds",
+                                       "--control=" + folder + "/control.sock",
+                                       "--port-file=" + folder + "/port"};
+  server.process.emplace(words, server.folder / "log");
 }
 
 // What a process has counted is lost with it. One that hangs has none to tell: its players will say so.

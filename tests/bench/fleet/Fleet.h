@@ -25,8 +25,6 @@ class Fleet {
   /// Throws std::runtime_error if a part does not start.
   explicit Fleet(const FleetSetup& setup);
   ~Fleet();
-  Fleet(const Fleet&) = delete;
-  Fleet& operator=(const Fleet&) = delete;
 
   std::uint16_t directoryPort() const { return m_directory_port; }
   /// The link to the directory.

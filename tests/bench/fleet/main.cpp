@@ -1,7 +1,7 @@
 // A fleet on this machine, whose servers and bus are killed while players play. deploy/bench fleet runs it.
 //
 //   naiad_fleet BOTS KILLS BUS_SECONDS HZ [SERVERS]   one line
-//   naiad_fleet --players LINK FILE FIRST COUNT       of these players (CrowdProcess.h)
+//   naiad_fleet --players LINK FILE FIRST COUNT       of these players (Crowd.h)
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -13,13 +13,14 @@
 #include <vector>
 
 #include "Crowd.h"
-#include "CrowdProcess.h"
 #include "Fleet.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/bench/Percentile.h"
 
 namespace {
 
 using namespace std::chrono_literals;
+using bench::percentile;
 
 /// After which a service manager starts a server again.
 constexpr std::chrono::milliseconds kRestart{300};
@@ -47,12 +48,6 @@ struct Result {
   std::vector<long> redirects;
   int lost_without_bus = 0;
 };
-
-long percentile(std::vector<long> values, std::size_t percent) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, values.size() * percent / 100)];
-}
 
 void kill(bench::Fleet& fleet, bench::Crowd& crowd, std::size_t server, Result& result) {
   const int there = crowd.noteKill(fleet.port(server));
@@ -101,13 +96,13 @@ bool print(const bench::FleetSetup& setup, const Result& result, std::chrono::se
       "max_ms=%ld "
       "redirects=%zu redirect_p50_ms=%ld redirect_p99_ms=%ld redirect_max_ms=%ld disturbed=%d "
       "bus_seconds=%lld bus_lost=%d ticks=%llu "
-      "late_percent=%.2f valid=%d%s\n",
+      "late_percent=%.2f valid=%d failed=%d\n",
       setup.bots, setup.servers, setup.hz, result.kills, result.players, result.back.size(), result.returned,
       percentile(result.back, 50), percentile(result.back, 99), percentile(result.back, 100),
       result.redirects.size(), percentile(result.redirects, 50), percentile(result.redirects, 99),
       percentile(result.redirects, 100), result.disturbed, static_cast<long long>(bus_time.count()),
       result.lost_without_bus, static_cast<unsigned long long>(ticks.all), late, is_valid ? 1 : 0,
-      failed ? " failed=1" : "");
+      failed ? 1 : 0);
   return !failed;
 }
 

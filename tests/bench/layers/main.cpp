@@ -6,20 +6,62 @@
 // In a scene there is one Object more, far from all others, under way, or sixteen more that stand scattered
 // among them. These alone use the layer, or all do. None comes to a border. Prints `allocations_per_tick=…
 // bytes_per_object=…`.
+#include <malloc.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <new>
 #include <string>
 
-#include "Heap.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
 #include "tests/bench/Scene.h"
 
-namespace bench {
+// What this program takes from the heap with operator new, the engine's library included.
+namespace {
 
+long s_allocations = 0;
+long s_bytes = 0;  // taken now, as the allocator rounds them
+
+void* take(std::size_t size) {
+  void* p = std::malloc(size > 0 ? size : 1);
+  if (p == nullptr) throw std::bad_alloc();
+  ++s_allocations;
+  s_bytes += static_cast<long>(malloc_usable_size(p));
+  return p;
+}
+
+void give(void* p) {
+  if (p != nullptr) s_bytes -= static_cast<long>(malloc_usable_size(p));
+  std::free(p);
+}
+
+}  // namespace
+
+// The only way to see every allocation in the process: replace the operators.
+void* operator new(std::size_t size) {
+  return take(size);
+}
+void* operator new[](std::size_t size) {
+  return take(size);
+}
+void operator delete(void* p) noexcept {
+  give(p);
+}
+void operator delete[](void* p) noexcept {
+  give(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  give(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+  give(p);
+}
+
+namespace bench {
 namespace {
 
 constexpr int kScattered = 16;
@@ -81,8 +123,7 @@ void scatter(const Scene& scene, Use use) {
 
 void run(const Scene& scene, Use use, const std::string& who, int ticks) {
   const int objects = scene.count();
-
-  const long bytes = heapBytes();
+  const long bytes = s_bytes;
   df::World world;
   const df::World::Scope scope(world);
   WM.setBoundary(df::Box(df::Vector(-1e5, -1e5), 5e5, 5e5));
@@ -100,10 +141,10 @@ void run(const Scene& scene, Use use, const std::string& who, int ticks) {
   }
 
   for (int i = 0; i < kWarmUpTicks; ++i) WM.update();
-  const long bytes_per_object = (heapBytes() - bytes) / objects;
-  const long allocations = heapAllocations();
+  const long bytes_per_object = (s_bytes - bytes) / objects;
+  const long allocations = s_allocations;
   for (int i = 0; i < ticks; ++i) WM.update();
-  const double per_tick = static_cast<double>(heapAllocations() - allocations) / ticks;
+  const double per_tick = static_cast<double>(s_allocations - allocations) / ticks;
   std::printf("allocations_per_tick=%g bytes_per_object=%ld\n", per_tick, bytes_per_object);
   world.shutDown();
 }

@@ -14,7 +14,6 @@
 #include "engine/world/WorldStore.h"
 
 namespace bench {
-
 namespace {
 
 constexpr int kFine = 1'000'000;

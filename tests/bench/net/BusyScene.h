@@ -27,8 +27,6 @@ class BusyScene {
   /// Every player's view is `width` by `height` cells; several players see the world's parts in turn.
   BusyScene(Kind kind, int objects, int width, int height, int players, std::uint64_t seed);
   ~BusyScene();
-  BusyScene(const BusyScene&) = delete;
-  BusyScene& operator=(const BusyScene&) = delete;
 
   void tick();
   const df::World& world() const { return m_world; }

@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace bench {
-
 namespace {
 
 b2Vec2 toBox2d(df::FixedVector v) {

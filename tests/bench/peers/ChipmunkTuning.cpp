@@ -1,5 +1,4 @@
-#include "ChipmunkTuning.h"
-
+// Finds the best size of cells and table by trial, for each kind of scene.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,7 +9,6 @@
 #include "Peers.h"
 
 namespace bench {
-
 namespace {
 
 constexpr int kMaxObjects = 100'000;

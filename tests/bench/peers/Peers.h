@@ -7,7 +7,7 @@
 namespace bench {
 
 /// A Chipmunk spatial hash by itself: cpSpatialIndexQuery, then cpSpatialIndexReindexObject. `cell` is the
-/// size of its cells, `table` the length of its hash table; ChipmunkTuning.h finds the best.
+/// size of its cells, `table` the length of its hash table; tuneChipmunk() finds the best.
 EnginePtr makeChipmunkHash(const Scene& scene, double cell, int table);
 /// A Chipmunk space that uses a spatial hash: cpSpaceBBQuery, then cpSpaceReindexShape.
 EnginePtr makeChipmunkSpace(const Scene& scene, double cell, int table);
@@ -23,5 +23,15 @@ EnginePtr makeBox2dTree(const Scene& scene);
 /// (Three quarters of its time are the clock readings that Step makes for its profile, one set per body
 /// here.)
 EnginePtr makeBox2dMotion(const Scene& scene);
+
+/// At which cell and table size Chipmunk's spatial hash is fastest.
+struct ChipmunkTuning {
+  double cell = 0;           ///< size of the hash's cells, in cells of the world
+  int table = 0;             ///< length of the hash table
+  int table_per_object = 0;  ///< the same, per object
+};
+
+/// The best for scenes like this one. Tried with at most 100,000 objects, a few ticks each.
+ChipmunkTuning tuneChipmunk(const Scene& scene);
 
 }  // namespace bench

@@ -1,7 +1,5 @@
 #include "JournalCost.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -13,9 +11,9 @@
 #include "host/rounds/Round.h"
 #include "host/world/WorldProcess.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/bench/ElapsedTime.h"
 
 namespace bench {
-
 namespace {
 
 using naiad::Journal;
@@ -51,15 +49,9 @@ class StubWorld : public naiad::WorldPort {
   df::WorldView m_view;
 };
 
-double threadNanos() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
-}
-
 double nanosPerTick(Round& round, int players) {
   naiad::SplitMix64 random(3);
-  const double began = threadNanos();
+  const double began = cpuNanoseconds();
   for (int tick = 0; tick < kTicks; ++tick) {
     for (int player = 1; player <= players; ++player) {
       if (random.below(10) >= 3) continue;
@@ -70,7 +62,7 @@ double nanosPerTick(Round& round, int players) {
     }
     round.tick(true, false);
   }
-  return (threadNanos() - began) / kTicks;
+  return (cpuNanoseconds() - began) / kTicks;
 }
 
 double plain(int players) {

@@ -22,10 +22,12 @@
 #include "RecoveryRun.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Verify.h"
+#include "tests/bench/Percentile.h"
 #include "tests/server/replay/Recorder.h"
 
 namespace {
 
+using bench::percentile;
 using naiad::test::KillResult;
 using naiad::test::RecoveryRun;
 using std::chrono::milliseconds;
@@ -110,7 +112,8 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
 }
 
 /// All of it is executed again after each kill.
-void runLongRound(const std::string& game, int kills, std::uint64_t seed, Total& total) {
+Total runLongRound(const std::string& game, int kills, std::uint64_t seed) {
+  Total total;
   RecoveryRun run(game, kPlayers, seed, kShortFrame);
   if (!run.playUntilTurn(kLongTurns, kLongPatience)) throw std::runtime_error("the round does not get on");
   for (int i = 0; i < kills; ++i) {
@@ -118,12 +121,7 @@ void runLongRound(const std::string& game, int kills, std::uint64_t seed, Total&
     add(run.kill(), total);
   }
   verify(run, game, total);
-}
-
-long percentile(std::vector<long> values, std::size_t percent) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, values.size() * percent / 100)];
+  return total;
 }
 
 int report(const char* suite, const std::string& game, const Total& total) {
@@ -139,26 +137,15 @@ int report(const char* suite, const std::string& game, const Total& total) {
   return good ? 0 : 1;
 }
 
-/// False: it could not be done.
-bool killAll(const std::string& game, int count, std::uint64_t seed, Total& total) {
+Total killAll(const std::string& game, int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  try {
-    while (total.kills < count) runRound(game, std::min(kKillsInARound, count - total.kills), random, total);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-    return false;
-  }
-  return true;
-}
-
-int kills(const std::string& game, int count, std::uint64_t seed) {
   Total total;
-  return killAll(game, count, seed, total) ? report("recovery", game, total) : 1;
+  while (total.kills < count) runRound(game, std::min(kKillsInARound, count - total.kills), random, total);
+  return total;
 }
 
 int scores(int count, std::uint64_t seed) {
-  Total total;
-  if (!killAll(naiad::test::kScoresModule, count, seed, total)) return 1;
+  const Total total = killAll(naiad::test::kScoresModule, count, seed);
   const bool good = total.scores > 0 && total.missing == 0 && total.foreign == 0 &&
                     total.verified == total.rounds && total.returned == total.players;
   std::printf(
@@ -168,37 +155,20 @@ int scores(int count, std::uint64_t seed) {
   return good ? 0 : 1;
 }
 
-int longRound(const std::string& game, int count, std::uint64_t seed) {
-  Total total;
-  try {
-    runLongRound(game, count, seed, total);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-    return 1;
-  }
-  return report("long_round", game, total);
-}
-
 /// Worlds of one round are killed at any time since their newest copy.
 int worlds(const std::string& game, int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<long> took;
-  bool verified = false;
-  try {
-    RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
-    for (int i = 0; i < count; ++i) {
-      run.play(kBetweenDeaths + milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count())));
-      const auto time = run.killWorld();
-      if (!time) break;
-      took.push_back(time->count());
-    }
-    std::string said;
-    verified = run.verify(said);
-    if (!verified) std::fprintf(stderr, "naiad_recovery: %s\n%s\n", said.c_str(), run.log().c_str());
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-    return 1;
+  RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
+  for (int i = 0; i < count; ++i) {
+    run.play(kBetweenDeaths + milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count())));
+    const auto time = run.killWorld();
+    if (!time) break;
+    took.push_back(time->count());
   }
+  std::string said;
+  const bool verified = run.verify(said);
+  if (!verified) std::fprintf(stderr, "naiad_recovery: %s\n%s\n", said.c_str(), run.log().c_str());
   const int went_on = static_cast<int>(took.size());
   std::printf("take_over game=%s kills=%d went_on=%d p50_ms=%ld p99_ms=%ld verified=%d\n", game.c_str(),
               count, went_on, percentile(took, 50), percentile(took, 99), verified ? 1 : 0);
@@ -210,19 +180,14 @@ int hangs(int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<long> took;
   int verified = 0;
-  try {
-    for (int i = 0; i < count; ++i) {
-      RecoveryRun run(kHangingModule, kPlayers, random(), std::chrono::microseconds(33'333));
-      run.play(kBetweenCopies + milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count())));
-      const auto time = run.hangWorld(df::Keyboard::H);
-      if (!time) break;
-      took.push_back(time->count());
-      std::string said;
-      verified += run.verify(said) ? 1 : 0;
-    }
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-    return 1;
+  for (int i = 0; i < count; ++i) {
+    RecoveryRun run(kHangingModule, kPlayers, random(), std::chrono::microseconds(33'333));
+    run.play(kBetweenCopies + milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count())));
+    const auto time = run.hangWorld(df::Keyboard::H);
+    if (!time) break;
+    took.push_back(time->count());
+    std::string said;
+    verified += run.verify(said) ? 1 : 0;
   }
   const int went_on = static_cast<int>(took.size());
   std::printf("hangs hangs=%d went_on=%d p50_ms=%ld max_ms=%ld verified=%d\n", count, went_on,
@@ -247,24 +212,32 @@ int journal(const std::string& game, std::uint32_t ticks) {
   return same ? 0 : 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() == 4 && words[0] == "kills")
-    return kills(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
-  if (words.size() == 4 && words[0] == "long")
-    return longRound(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
-  if (words.size() == 3 && words[0] == "scores")
-    return scores(std::atoi(words[1].c_str()), std::strtoull(words[2].c_str(), nullptr, 10));
-  if (words.size() == 4 && words[0] == "worlds")
-    return worlds(words[1], std::atoi(words[2].c_str()), std::strtoull(words[3].c_str(), nullptr, 10));
-  if (words.size() == 3 && words[0] == "hangs")
-    return hangs(std::atoi(words[1].c_str()), std::strtoull(words[2].c_str(), nullptr, 10));
-  if (words.size() == 3 && words[0] == "journal")
-    return journal(words[1], static_cast<std::uint32_t>(std::atoi(words[2].c_str())));
+/// The exit code; 2: the words mean nothing.
+int start(const std::vector<std::string>& words) {
+  const auto count = [&](std::size_t word) { return std::atoi(words[word].c_str()); };
+  const auto seed = [&](std::size_t word) { return std::strtoull(words[word].c_str(), nullptr, 10); };
+  const std::string what = words.empty() ? "" : words[0];
+  if (words.size() == 4 && what == "kills")
+    return report("recovery", words[1], killAll(words[1], count(2), seed(3)));
+  if (words.size() == 4 && what == "long")
+    return report("long_round", words[1], runLongRound(words[1], count(2), seed(3)));
+  if (words.size() == 3 && what == "scores") return scores(count(1), seed(2));
+  if (words.size() == 4 && what == "worlds") return worlds(words[1], count(2), seed(3));
+  if (words.size() == 3 && what == "hangs") return hangs(count(1), seed(2));
+  if (words.size() == 3 && what == "journal") return journal(words[1], static_cast<std::uint32_t>(count(2)));
   std::fprintf(stderr,
                "usage: naiad_recovery kills GAME COUNT SEED | long GAME COUNT SEED | scores COUNT SEED | "
                "worlds GAME COUNT SEED | hangs COUNT SEED | journal GAME TICKS\n");
   return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return start({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
+    return 1;
+  }
 }

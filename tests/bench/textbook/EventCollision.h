@@ -1,4 +1,4 @@
-// Book, Listing 4.105.
+// Book, Listing 4.105, without the setters.
 #pragma once
 
 #include "Event.h"
@@ -16,15 +16,10 @@ class EventCollision : public Event {
   Object* m_p_obj2;  // Object being collided with.
 
  public:
-  EventCollision();
   EventCollision(Object* p_o1, Object* p_o2, Vector p);
 
-  void setObject1(Object* p_new_o1);
   Object* getObject1() const;
-  void setObject2(Object* p_new_o2);
   Object* getObject2() const;
-  void setPosition(Vector new_pos);
-  Vector getPosition() const;
 };
 
 }  // namespace textbook

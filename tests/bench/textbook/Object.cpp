@@ -19,14 +19,6 @@ Object::~Object() {
   WM.removeObject(this);
 }
 
-void Object::setId(int new_id) {
-  m_id = new_id;
-}
-
-int Object::getId() const {
-  return m_id;
-}
-
 void Object::setType(std::string new_type) {
   m_type = new_type;
 }
@@ -41,30 +33,6 @@ void Object::setPosition(Vector new_pos) {
 
 Vector Object::getPosition() const {
   return m_position;
-}
-
-void Object::setAltitude(int new_altitude) {
-  m_altitude = new_altitude;
-}
-
-int Object::getAltitude() const {
-  return m_altitude;
-}
-
-void Object::setSpeed(float speed) {
-  m_speed = speed;
-}
-
-float Object::getSpeed() const {
-  return m_speed;
-}
-
-void Object::setDirection(Vector new_direction) {
-  m_direction = new_direction;
-}
-
-Vector Object::getDirection() const {
-  return m_direction;
 }
 
 void Object::setVelocity(Vector new_velocity) {
@@ -97,10 +65,6 @@ int Object::setSolidness(Solidness new_solid) {
 
 Solidness Object::getSolidness() const {
   return m_solidness;
-}
-
-void Object::setNoSoft(bool new_no_soft) {
-  m_no_soft = new_no_soft;
 }
 
 bool Object::getNoSoft() const {

@@ -1,4 +1,5 @@
-// Book, Listings 4.34, 4.99, 4.103, 4.104, 4.110.
+// Book, Listings 4.34, 4.99, 4.103, 4.104, 4.110, without the getters and setters that the workload does not
+// call.
 #pragma once
 
 #include <string>
@@ -31,19 +32,11 @@ class Object {
   // Destroy Object. Remove from game world (WorldManager).
   virtual ~Object();
 
-  void setId(int new_id);
-  int getId() const;
   void setType(std::string new_type);
   std::string getType() const;
   void setPosition(Vector new_pos);
   Vector getPosition() const;
-  void setAltitude(int new_altitude);
-  int getAltitude() const;
 
-  void setSpeed(float speed);
-  float getSpeed() const;
-  void setDirection(Vector new_direction);
-  Vector getDirection() const;
   // Set direction and speed of Object.
   void setVelocity(Vector new_velocity);
   // Get velocity of Object based on direction and speed.
@@ -54,7 +47,6 @@ class Object {
   bool isSolid() const;
   int setSolidness(Solidness new_solid);
   Solidness getSolidness() const;
-  void setNoSoft(bool new_no_soft = true);
   bool getNoSoft() const;
 
   // Handle event. Return 0 if ignored, else 1.

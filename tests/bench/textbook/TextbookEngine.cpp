@@ -8,7 +8,6 @@
 #include "WorldManager.h"
 
 namespace textbook {
-
 namespace {
 
 class Ball : public Object {

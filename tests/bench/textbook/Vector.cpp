@@ -14,16 +14,8 @@ Vector::Vector(float init_x, float init_y) {
   m_y = init_y;
 }
 
-void Vector::setX(float new_x) {
-  m_x = new_x;
-}
-
 float Vector::getX() const {
   return m_x;
-}
-
-void Vector::setY(float new_y) {
-  m_y = new_y;
 }
 
 float Vector::getY() const {

@@ -12,9 +12,7 @@ class Vector {
   Vector();
   Vector(float init_x, float init_y);
 
-  void setX(float new_x);
   float getX() const;
-  void setY(float new_y);
   float getY() const;
 
   // Return magnitude of vector.

@@ -1,60 +1,30 @@
 // dfdir as it is run: the real program, the real nats-server, real dfservers.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
 
-#include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "BusFixture.h"
 #include "QuickInterval.h"
 #include "client/lan/FoundServers.h"
 #include "host/fleet/Bus.h"
 #include "shared/fleet/BusPayloads.h"
 #include "tests/loopback/GameProgram.h"
-#include "tests/server/host/fleet/NatsServer.h"
 #include "tests/support/RunningProgram.h"
 
 namespace naiad::test {
 namespace {
 
-using namespace std::chrono_literals;
-
-class DirectoryTest : public testing::Test {
+class DirectoryTest : public BusFixture {
  protected:
-  void SetUp() override {
-    if (!busComplaint({"nats://127.0.0.1:1", "", ""}).empty()) GTEST_SKIP() << "built without libnats";
-    if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
-    char name[] = "/tmp/naiad-directory-XXXXXX";
-    ASSERT_NE(::mkdtemp(name), nullptr);
-    folder = name;
-  }
-  ~DirectoryTest() override {
-    std::error_code error;
-    if (!folder.empty()) std::filesystem::remove_all(folder, error);
-  }
-  std::string listText() const {
-    std::ifstream file(folder / "servers.json");
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string listText() const { return contentOf(folder / "servers.json"); }
   std::vector<FoundServer> listed() const {
     const auto read = readServerList(listText());
     return read ? read->sorted() : std::vector<FoundServer>();
-  }
-  static bool waitFor(const std::function<bool()>& holds) {
-    const auto end = std::chrono::steady_clock::now() + RunningProgram::kPatience;
-    while (!holds()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(10ms);
-    }
-    return true;
   }
   std::unique_ptr<RunningProgram> startDirectory(const NatsServer& bus) const {
     return std::make_unique<RunningProgram>(std::vector<std::string>{
@@ -65,8 +35,6 @@ class DirectoryTest : public testing::Test {
             {"NAIAD_BUS_ID", id},      {"NAIAD_BUS_INTERVAL", kQuickInterval},
             {"NAIAD_SERVER_NAME", id}, {"NAIAD_LINK_HOST", "127.0.0.1"}};
   }
-
-  std::filesystem::path folder;
 };
 
 TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
@@ -76,7 +44,7 @@ TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
   GameProgram berlin("dfserver", serverOf(bus, "berlin"));
   auto paris = std::make_unique<GameProgram>("dfserver", serverOf(bus, "paris"));
   ASSERT_NE(berlin.port(), 0) << berlin.log();
-  ASSERT_TRUE(waitFor([&] { return listed().size() == 2; })) << listText() << directory->printed();
+  ASSERT_TRUE(waitUntil([&] { return listed().size() == 2; })) << listText() << directory->printed();
   const FoundServer first = listed().front();
   EXPECT_EQ(first.name, "berlin");
   EXPECT_EQ(first.game, "hello");
@@ -85,11 +53,11 @@ TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
   EXPECT_NE(berlin.log().find(first.key.text()), std::string::npos) << "the link that dfserver prints";
   paris->signal(SIGKILL);
   paris.reset();
-  EXPECT_TRUE(waitFor([&] { return listed().size() == 1; })) << listText();
+  EXPECT_TRUE(waitUntil([&] { return listed().size() == 1; })) << listText();
   EXPECT_EQ(listed().front().name, "berlin");
   berlin.signal(SIGTERM);
   berlin.wait();
-  EXPECT_TRUE(waitFor([&] { return listed().empty(); })) << "it has said that it lets no players in";
+  EXPECT_TRUE(waitUntil([&] { return listed().empty(); })) << "it has said that it lets no players in";
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0) << directory->printed();
   EXPECT_FALSE(std::filesystem::exists(folder / "servers.json")) << "a list that is not kept up";
@@ -113,7 +81,7 @@ TEST_F(DirectoryTest, HostilePayloadsAreCountedAndCostNothing) {
   liar->publish({presenceSubject("x2"), "{\"v\":1}"});
   liar->publish({presenceSubject("x3"), presence.payload()});
   liar->publish({presenceSubject("honest"), presence.payload()});
-  EXPECT_TRUE(waitFor([&] { return listed().size() == 1; })) << listText();
+  EXPECT_TRUE(waitUntil([&] { return listed().size() == 1; })) << listText();
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0);
   for (const char* count : {" heard=1", " unreadable=1", " foreign=1", " bus_received=4", " bus_ignored=1"})
@@ -138,7 +106,7 @@ TEST_F(DirectoryTest, WhatIsWrongIsASentenceAndACode) {
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--listen", "192.0.2.1:0", "--identity", folder / "key"}, 4,
                 "192.0.2.1");
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder / "none" / "list"}, 5, "cannot be written");
-  expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder}, 5, "cannot be written");
+  expectRefusal({"--bus", "nats://127.0.0.1:1", "--list", folder.string()}, 5, "cannot be written");
 }
 
 }  // namespace

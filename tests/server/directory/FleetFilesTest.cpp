@@ -1,38 +1,25 @@
 // What deploy/fleet/make-fleet makes: a bus with TLS on which each may say and hear its own, tried with the
 // real nats-server, a real directory and a real server.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
-#include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iterator>
-#include <map>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "BusFixture.h"
 #include "QuickInterval.h"
 #include "host/fleet/Bus.h"
 #include "shared/fleet/BusPayloads.h"
 #include "tests/loopback/GameProgram.h"
-#include "tests/server/host/fleet/NatsServer.h"
 #include "tests/support/RunningProgram.h"
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 namespace {
 
-using namespace std::chrono_literals;
 namespace fs = std::filesystem;
-
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// NatsServer has a store of its own.
 std::string withoutStore(std::string conf) {
@@ -40,21 +27,14 @@ std::string withoutStore(std::string conf) {
   return conf.erase(begin, conf.find("}\n", begin) + 2 - begin);
 }
 
-class FleetFilesTest : public testing::Test {
+class FleetFilesTest : public BusFixture {
  protected:
   void SetUp() override {
-    if (!busComplaint({"nats://127.0.0.1:1", "", ""}).empty()) GTEST_SKIP() << "built without libnats";
-    if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
-    char name[] = "/tmp/naiad-fleet-XXXXXX";
-    ASSERT_NE(::mkdtemp(name), nullptr);
-    folder = fs::path(name) / "fleet";
+    BusFixture::SetUp();
+    if (IsSkipped()) return;
     ASSERT_EQ(make("127.0.0.1 tron=2 maze=1"), 0);
-    nats = std::make_unique<NatsServer>(withoutStore(textOf(folder / "bus" / "nats.conf")));
+    nats = std::make_unique<NatsServer>(withoutStore(contentOf(folder / "bus" / "nats.conf")));
     ASSERT_TRUE(nats->start()) << nats->log();
-  }
-  ~FleetFilesTest() override {
-    std::error_code error;
-    if (!folder.empty()) fs::remove_all(folder.parent_path(), error);
   }
   int make(const std::string& words) const {
     const std::string command =
@@ -63,7 +43,7 @@ class FleetFilesTest : public testing::Test {
   }
   /// The address of the bus in a file, at the port that it has in this test.
   std::string urlIn(const fs::path& file) const {
-    const std::string text = textOf(folder / file);
+    const std::string text = contentOf(folder / file);
     const std::size_t begin = text.find("tls://");
     std::string url = text.substr(begin, text.find('\n', begin) - begin);
     const std::string here = nats->url();
@@ -72,16 +52,8 @@ class FleetFilesTest : public testing::Test {
   std::unique_ptr<Bus> connect(const fs::path& file, std::vector<std::string> subjects = {}) const {
     return connectBus({urlIn(file), "", folder / "bus" / "ca.pem", std::move(subjects)});
   }
-  static bool waitFor(const std::function<bool()>& holds) {
-    const auto end = std::chrono::steady_clock::now() + RunningProgram::kPatience;
-    while (!holds()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(5ms);
-    }
-    return true;
-  }
 
-  fs::path folder;
+  const fs::path folder = BusFixture::folder / "fleet";
   std::unique_ptr<NatsServer> nats;
 };
 
@@ -94,9 +66,8 @@ TEST_F(FleetFilesTest, SecretsAreTheOwnersAlone) {
     EXPECT_EQ(facts.st_mode & 077, 0u) << file;
   }
   EXPECT_FALSE(fs::exists(folder / "bus" / "ca.key")) << "the key of the authority is not kept";
-  EXPECT_EQ(
-      textOf(folder / "bus" / "nats.conf").find(textOf(folder / "bus" / "reader.password").substr(0, 32)),
-      std::string::npos)
+  EXPECT_FALSE(has(contentOf(folder / "bus" / "nats.conf"),
+                   contentOf(folder / "bus" / "reader.password").substr(0, 32)))
       << "passwords are hashed";
   EXPECT_EQ(make("127.0.0.1 tron=2"), 1) << "it is there already";
 }
@@ -104,10 +75,10 @@ TEST_F(FleetFilesTest, SecretsAreTheOwnersAlone) {
 TEST_F(FleetFilesTest, EachServerSaysAndHearsItsOwnAlone) {
   const auto directory = connect("directory/dfdir.env", {"naiad.presence.*"});
   const auto tron = connect("servers/tron-1.conf", {sendOnSubject("tron-1"), sendOnSubject("maze-1")});
-  ASSERT_TRUE(waitFor([&] { return directory->isConnected() && tron->isConnected(); }))
+  ASSERT_TRUE(waitUntil([&] { return directory->isConnected() && tron->isConnected(); }))
       << directory->takeNews() << nats->log();
   std::vector<BusMessage> heard;
-  EXPECT_TRUE(waitFor([&] {
+  EXPECT_TRUE(waitUntil([&] {
     tron->publish({presenceSubject("maze-1"), "a lie"});
     tron->publish({sendOnSubject("tron-2"), "a lie"});
     tron->publish({presenceSubject("tron-1"), "here"});
@@ -116,7 +87,7 @@ TEST_F(FleetFilesTest, EachServerSaysAndHearsItsOwnAlone) {
   }));
   for (const BusMessage& one : heard) EXPECT_EQ(one.subject, presenceSubject("tron-1"));
   heard.clear();
-  EXPECT_TRUE(waitFor([&] {
+  EXPECT_TRUE(waitUntil([&] {
     directory->publish({presenceSubject("tron-2"), "a lie"});
     directory->publish({sendOnSubject("maze-1"), "for another"});
     directory->publish({sendOnSubject("tron-1"), "for it"});
@@ -125,7 +96,8 @@ TEST_F(FleetFilesTest, EachServerSaysAndHearsItsOwnAlone) {
   }));
   for (const BusMessage& one : heard) EXPECT_EQ(one.subject, sendOnSubject("tron-1"));
   for (const char* said : {"Publish Violation", "Subscription Violation"})
-    EXPECT_TRUE(waitFor([&] { return nats->log().find(said) != std::string::npos; })) << said << nats->log();
+    EXPECT_TRUE(waitUntil([&] { return nats->log().find(said) != std::string::npos; }))
+        << said << nats->log();
 }
 
 TEST_F(FleetFilesTest, WithoutItsAuthorityOrPasswordTheBusIsClosed) {
@@ -135,7 +107,7 @@ TEST_F(FleetFilesTest, WithoutItsAuthorityOrPasswordTheBusIsClosed) {
   const auto trusting = connectBus({url, "", ""});  // the authorities of the system
   const auto plain = connectBus({"nats" + url.substr(3), "", ""});
   for (const auto* const p_bus : {&stranger, &trusting, &plain}) {
-    EXPECT_TRUE(waitFor([&] { return (*p_bus)->counters().failures > 0; }));
+    EXPECT_TRUE(waitUntil([&] { return (*p_bus)->counters().failures > 0; }));
     EXPECT_FALSE((*p_bus)->isConnected());
   }
 }
@@ -149,7 +121,7 @@ TEST_F(FleetFilesTest, TheDirectoryListsTheServerOfAFile) {
                             folder / "servers.json"});
   EXPECT_TRUE(directory.prints("maze-1 is there")) << directory.printed() << server.log() << nats->log();
   EXPECT_TRUE(
-      waitFor([&] { return textOf(folder / "servers.json").find("\"maze-1\"") != std::string::npos; }));
+      waitUntil([&] { return contentOf(folder / "servers.json").find("\"maze-1\"") != std::string::npos; }));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "BusFixture.h"
 #include "QuickInterval.h"
 #include "host/auth/ServerIdentity.h"
 #include "host/fleet/Bus.h"
@@ -27,7 +28,6 @@
 #include "tests/loopback/RawClient.h"
 #include "tests/loopback/TestClient.h"
 #include "tests/loopback/TestServer.h"
-#include "tests/server/host/fleet/NatsServer.h"
 #include "tests/support/RunningProgram.h"
 
 namespace naiad::test {
@@ -35,11 +35,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class LobbyTest : public testing::Test {
+class LobbyTest : public BusFixture {
  protected:
   void SetUp() override {
-    if (!busComplaint({"nats://127.0.0.1:1", "", ""}).empty()) GTEST_SKIP() << "built without libnats";
-    if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
+    BusFixture::SetUp();
+    if (IsSkipped()) return;
     ASSERT_TRUE(bus.start()) << bus.log();
   }
   std::unique_ptr<GameProgram> startServer(const std::string& id, int places,
@@ -96,11 +96,10 @@ TEST_F(LobbyTest, PlayersAreSentToAServerOfTheirGame) {
   EXPECT_EQ(bob->session().welcome().game, "hello");
   EXPECT_EQ(ann->connection().address().port, maze->port());
   const auto eve = join(lobby, "eve", "chess");
-  EXPECT_NE(eve->connection().sentence().find("chess"), std::string::npos) << eve->connection().sentence();
+  EXPECT_TRUE(has(eve->connection().sentence(), "chess"));
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0);
-  EXPECT_NE(directory->printed().find(" hellos=3 sent_on=2 no_game=1"), std::string::npos)
-      << directory->printed();
+  EXPECT_TRUE(has(directory->printed(), " hellos=3 sent_on=2 no_game=1"));
 }
 
 TEST_F(LobbyTest, PlayersAreSentToARoomOfTheirGame) {
@@ -182,7 +181,7 @@ class RunningLobby {
 
 TEST_F(LobbyTest, StrangersWhoSayNothingOrNonsenseCostItNothing) {
   EXPECT_EQ(LobbySettings().hello_time, 5s);
-  TestServer server([](df::World& world) { populateBusyWorld(world, 5); }, home.server());
+  TestServer server(busyWorld(5), home.server());
   Presence presence;
   presence.id = "berlin";
   presence.host = "127.0.0.1";

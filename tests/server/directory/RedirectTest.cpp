@@ -4,7 +4,6 @@
 #include <signal.h>
 
 #include <chrono>
-#include <memory>
 #include <string>
 
 #include "LyingServer.h"
@@ -13,30 +12,21 @@
 #include "host/auth/PasswordHash.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/lan/LanNetworks.h"
-#include "tests/loopback/BusyWorld.h"
 #include "tests/loopback/GameProgram.h"
-#include "tests/loopback/Home.h"
+#include "tests/loopback/LoopbackFixture.h"
 #include "tests/loopback/RecordingServer.h"
-#include "tests/loopback/TestServer.h"
 
 namespace naiad::test {
 namespace {
 
 using State = Connection::State;
 
-class RedirectTest : public testing::Test {
+class RedirectTest : public LoopbackFixture {
  protected:
-  static std::function<void(df::World&)> world() {
-    return [](df::World& world) { populateBusyWorld(world, 5); };
-  }
   bool serve(TestClient& client, const std::function<bool()>& done) {
     return serveUntil(context, {&client}, done);
   }
-  /// The sentence that it ends with; empty if it was let in.
-  std::string refusal(TestClient& client) {
-    EXPECT_TRUE(serve(client, [&] { return client.joined() || client.connection().isOver(); }));
-    return client.joined() ? std::string() : client.connection().sentence();
-  }
+  using LoopbackFixture::refusal;
   std::string refusal(const ClientSetup& setup) {
     TestClient client(context, liar.port(), setup);
     return refusal(client);
@@ -47,13 +37,11 @@ class RedirectTest : public testing::Test {
     KnownServers(home.knownServers()).admit("127.0.0.1", port, facts, key);
   }
 
-  Home home;
-  asio::io_context context;
   LyingServer liar{context, home.identity("liar")};
 };
 
 TEST_F(RedirectTest, AClientThatIsSentOnPlaysThere) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   liar.sendTo(server.port(), *server.fingerprint());
   TestClient client(context, liar.port(), home.player("ann"));
   EXPECT_EQ(refusal(client), "");
@@ -76,7 +64,7 @@ TEST_F(RedirectTest, CrowdsAreSpreadOverASecond) {
 }
 
 TEST_F(RedirectTest, AServerThatIsFullSendsOn) {
-  TestServer roomy(world(), home.server("roomy"));
+  TestServer roomy(busyWorld(5), home.server("roomy"));
   liar.answer(wire::Refused::FULL, "The server is full.",
               LyingServer::linkTo("127.0.0.1", roomy.port(), *roomy.fingerprint()));
   EXPECT_EQ(refusal(home.player("ann")), "");
@@ -116,7 +104,7 @@ TEST_F(RedirectTest, TheOtherServerGetsANameAndNeitherPasswordNorToken) {
 }
 
 TEST_F(RedirectTest, NoTokenOfThatServerIsSentThereEither) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   ClientSetup setup = home.player("ann");
   setup.sessions = home.sessions();
   {
@@ -153,7 +141,7 @@ TEST_F(RedirectTest, APinnedKeyIsNotReplaced) {
 }
 
 TEST_F(RedirectTest, TheServerThereIsNotPinned) {
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   liar.sendTo(server.port(), *server.fingerprint());
   ASSERT_EQ(refusal(home.player("ann")), "");
   EXPECT_EQ(pins().find(server.fingerprint()->text()), std::string::npos) << "a stranger has named the key";
@@ -163,7 +151,7 @@ TEST_F(RedirectTest, TheServerThereIsNotPinned) {
 TEST_F(RedirectTest, WhereTheServerHasBecomeFullTheFirstOneIsAskedForAnother) {
   LyingServer full(context, home.identity("full"));
   full.answer(wire::Refused::FULL, "Full.", "");
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   liar.sendTo(full.port(), full.key());
   ClientSetup setup = home.player("ann");
   setup.options.password = "xyzzy-secret";
@@ -195,7 +183,7 @@ TEST_F(RedirectTest, AfterTheEndOfTheServerTheFirstOneIsAskedForAnother) {
   ASSERT_NE(killed.port(), 0) << killed.log();
   const auto key =
       ServerIdentity::loadOrMake(home.identity("killed"), std::chrono::system_clock::now()).fingerprint();
-  TestServer server(world(), home.server());
+  TestServer server(busyWorld(5), home.server());
   liar.sendTo(killed.port(), key);
   TestClient client(context, liar.port(), home.player("ann"));
   client.connection().askAgainAfter(std::chrono::milliseconds(100));
@@ -272,7 +260,7 @@ TEST_F(RedirectTest, OnlyARefusalForWantOfAPlaceSendsOn) {
 TEST_F(RedirectTest, ThePasswordOfTheOtherServerIsNotAskedFor) {
   HostOptions options = home.server();
   options.password = PasswordHash::of("xyzzy", {.memory_kib = 64, .passes = 1}).text();
-  TestServer server(world(), options);
+  TestServer server(busyWorld(5), options);
   liar.sendTo(server.port(), *server.fingerprint());
   TestClient client(context, liar.port(), home.player("ann"));
   EXPECT_EQ(refusal(client), "This server wants a password.");

@@ -6,6 +6,7 @@
 #include "client/lan/FoundServers.h"
 #include "client/lan/ListDownload.h"
 #include "server/directory/FleetList.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -44,14 +45,12 @@ TEST(ServerListTest, IsWhatAClientReads) {
 TEST(ServerListTest, RoomsAreInItAndTheListStaysOfTheLengthThatClientsTake) {
   Presence server = listedServer("a");
   server.rooms = {{"hall", "lobby", 3, 64}, {"duel", "tron", 0, 2}};
-  EXPECT_NE(serverListText({server}).find(
-                R"("rooms": [{"name": "hall", "game": "lobby", "players": 3, "max_players": 64}, )"
-                R"({"name": "duel", "game": "tron", "players": 0, "max_players": 2}])"),
-            std::string::npos)
-      << serverListText({server});
+  EXPECT_TRUE(test::has(serverListText({server}),
+                        R"("rooms": [{"name": "hall", "game": "lobby", "players": 3, "max_players": 64}, )"
+                        R"({"name": "duel", "game": "tron", "players": 0, "max_players": 2}])"));
   EXPECT_TRUE(readServerList(serverListText({server})));
   server.rooms.clear();
-  EXPECT_EQ(serverListText({server}).find("rooms"), std::string::npos);
+  EXPECT_FALSE(test::has(serverListText({server}), "rooms"));
   for (int i = 0; i < 64; ++i) server.rooms.push_back({"r" + std::to_string(i), "g", 0, 1});
   server.name = server.game = std::string(Presence::kMaxName, '"');
   const std::string text = serverListText(std::vector<Presence>(kMaxListedServers, server));

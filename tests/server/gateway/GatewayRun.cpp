@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include <fstream>
-#include <stdexcept>
 
 namespace naiad::test {
 namespace {
@@ -27,9 +26,6 @@ std::string wasmBytes() {
 }
 
 GatewayHome::GatewayHome() {
-  std::string name = std::filesystem::temp_directory_path() / "naiad-gateway-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-  m_folder = name;
   std::filesystem::create_directories(path("page/folder"));
   write(path("page/index.html"), indexText());
   write(path("page/client.wasm"), wasmBytes());
@@ -37,11 +33,6 @@ GatewayHome::GatewayHome() {
   write(path("page/.hidden"), "secret");
   write(path("page/folder/other.js"), "secret");
   write(path("secret.txt"), "secret");
-}
-
-GatewayHome::~GatewayHome() {
-  std::error_code ignored;
-  std::filesystem::remove_all(m_folder, ignored);
 }
 
 GatewaySettings GatewayHome::settings(const ShortKey& key) const {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "server/gateway/Gateway.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/WaitUntil.h"
 
 namespace naiad::test {
 
@@ -16,16 +18,13 @@ namespace naiad::test {
 class GatewayHome {
  public:
   GatewayHome();
-  ~GatewayHome();
-  GatewayHome(const GatewayHome&) = delete;
-  GatewayHome& operator=(const GatewayHome&) = delete;
 
   std::filesystem::path path(const std::string& name) const { return m_folder / name; }
   /// For a gateway to a server with this key, on a free port.
   GatewaySettings settings(const ShortKey& key) const;
 
  private:
-  std::filesystem::path m_folder;
+  TempFolder m_folder;
 };
 
 /// What stands in the page's files.
@@ -76,16 +75,5 @@ class GatewayRun {
   std::uint16_t m_port;
   std::thread m_thread;
 };
-
-/// Ask again until it is so; false after 30 s.
-template <class Condition>
-bool comesTrue(Condition condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::yield();
-  }
-  return true;
-}
 
 }  // namespace naiad::test

@@ -15,10 +15,6 @@ namespace {
 
 class GatewayPlay : public testing::Test {
  protected:
-  /// A game that sends back what it gets, and a WebSocket to it that has said so much as to be led there.
-  std::unique_ptr<FakeGame> makeGame(FakeGame::OnFrame on_frame = {}) {
-    return std::make_unique<FakeGame>(home.path("identity"), home.path("visitors"), std::move(on_frame));
-  }
   static bool echoes(WebClient& browser, const std::string& text) {
     browser.sendFrame(2, text);
     const auto answer = browser.frame();
@@ -38,13 +34,23 @@ class GatewayPlay : public testing::Test {
     return reply ? reply->status : 0;
   }
 
+  /// A game that sends back what it gets, unless said otherwise, and a gateway to it.
+  void start(FakeGame::OnFrame on_frame = {}, const std::function<void(GatewaySettings&)>& change = {}) {
+    game = std::make_unique<FakeGame>(home.path("identity"), home.path("visitors"), std::move(on_frame));
+    GatewaySettings settings = home.settings(game->key());
+    if (change) change(settings);
+    gateway = std::make_unique<GatewayRun>(settings);
+  }
+  static void ignore(ReliableChannel&, const std::string&) {}
+
   GatewayHome home;
+  std::unique_ptr<FakeGame> game;
+  std::unique_ptr<GatewayRun> gateway;
 };
 
 TEST_F(GatewayPlay, EachMessageIsAFrame) {
-  const auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient browser(gateway.port());
+  start();
+  WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play());
   for (const std::size_t size : {1u, 125u, 126u, 1024u})
     EXPECT_TRUE(echoes(browser, std::string(size, 'a'))) << size;
@@ -62,9 +68,8 @@ TEST_F(GatewayPlay, EachMessageIsAFrame) {
 }
 
 TEST_F(GatewayPlay, WhatIsNoMessageOfOursClosesItWithTheCodeForThat) {
-  const auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
-  const std::uint16_t port = gateway.port();
+  start();
+  const std::uint16_t port = gateway->port();
   const std::string large(kMaxClientFrame + 1, 'x');
   const std::string large_hello(kMaxHelloFrame + 1, 'x');
   EXPECT_EQ(codeAfter(port, false, [](WebClient& b) { b.sendFrame(1, "text"); }), 1003);
@@ -88,9 +93,8 @@ TEST_F(GatewayPlay, WhatIsNoMessageOfOursClosesItWithTheCodeForThat) {
 }
 
 TEST_F(GatewayPlay, AFragmentThatOnlyClaimsToBeHugeCostsNothing) {
-  const auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient browser(gateway.port());
+  start();
+  WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play() && echoes(browser, "hello"));
   browser.send(std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10) + "mask");
   const int code = browser.waitForClose();
@@ -98,11 +102,10 @@ TEST_F(GatewayPlay, AFragmentThatOnlyClaimsToBeHugeCostsNothing) {
 }
 
 TEST_F(GatewayPlay, OnlyItsOwnPageMayOpenOne) {
-  const auto game = makeGame();
-  auto settings = home.settings(game->key());
-  settings.origins.push_back(*WebOrigin::parse("https://play.example"));
-  GatewayRun gateway(settings);
-  const std::uint16_t port = gateway.port();
+  start({}, [](GatewaySettings& settings) {
+    settings.origins.push_back(*WebOrigin::parse("https://play.example"));
+  });
+  const std::uint16_t port = gateway->port();
   EXPECT_EQ(statusOf(port, "Origin: https://play.example\r\nHost: play.example\r\n"), 101);
   EXPECT_EQ(statusOf(port, "Origin: https://evil.example\r\n"), 403);
   EXPECT_EQ(statusOf(port, "Origin: null\r\n"), 403);
@@ -117,15 +120,14 @@ TEST_F(GatewayPlay, OnlyItsOwnPageMayOpenOne) {
   EXPECT_EQ(elsewhere.reply()->status, 404);
   EXPECT_EQ(game->visitors().size(), 0u);
   bool quoted = false;
-  for (const std::string& line : gateway.lines())
+  for (const std::string& line : gateway->lines())
     quoted = quoted || line.find("https://evil.example") != line.npos;
   EXPECT_TRUE(quoted);
 }
 
 TEST_F(GatewayPlay, TheAddressIsThatOfTheSocketWhateverIsClaimed) {
-  const auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient browser(gateway.port(), "127.0.0.7");
+  start();
+  WebClient browser(gateway->port(), "127.0.0.7");
   browser.requestPlay(
       "X-Forwarded-For: 192.0.2.9\r\nForwarded: for=192.0.2.9\r\nX-Real-IP: 192.0.2.9\r\nTrue-Client-IP: "
       "192.0.2.9\r\n");
@@ -133,10 +135,10 @@ TEST_F(GatewayPlay, TheAddressIsThatOfTheSocketWhateverIsClaimed) {
   ASSERT_TRUE(echoes(browser, "hello"));
   ASSERT_EQ(game->visitors().size(), 1u);
   EXPECT_TRUE(game->visitors()[0].starts_with("127.0.0.7:")) << game->visitors()[0];
-  WebClient liar(gateway.port());
+  WebClient liar(gateway->port());
   liar.send("PROXY TCP4 192.0.2.9 192.0.2.1 4000 80\r\nGET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_GE(liar.reply()->status, 400);
-  WebClient second(gateway.port());
+  WebClient second(gateway->port());
   second.send(std::string("\r\n\r\n\0\r\nQUIT\n\x21\x11\0\x0c", 16) + "aaaabbbbccdd");
   EXPECT_TRUE(second.waitForHangup());
   EXPECT_EQ(game->visitors().size(), 1u);
@@ -145,38 +147,34 @@ TEST_F(GatewayPlay, TheAddressIsThatOfTheSocketWhateverIsClaimed) {
 TEST_F(GatewayPlay, AServerWithAnotherKeyHearsNotAByte) {
   FakeGame impostor(home.path("other"), home.path("visitors"));
   const auto real = ServerIdentity::loadOrMake(home.path("identity"), std::chrono::system_clock::now());
-  GatewayRun gateway(home.settings(ShortKey::of(real.fingerprint())));
-  WebClient browser(gateway.port());
+  gateway = std::make_unique<GatewayRun>(home.settings(ShortKey::of(real.fingerprint())));
+  WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play());
   browser.sendMessage(WebClient::hello("ann"));
   EXPECT_EQ(browser.waitForClose(), 4001);
-  EXPECT_TRUE(comesTrue([&] { return impostor.handshakes() == 1 && impostor.connections() == 0; }))
+  EXPECT_TRUE(waitUntil([&] { return impostor.handshakes() == 1 && impostor.connections() == 0; }))
       << "it was connected, and hung up on";
   EXPECT_TRUE(impostor.frames().empty());
-  EXPECT_EQ(gateway.counters().wrong_keys, 1u);
+  EXPECT_EQ(gateway->counters().wrong_keys, 1u);
 }
 
 TEST_F(GatewayPlay, AServerThatIsCrowdedIsTriedAgain) {
-  const auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
+  start();
   game->hangUpOn(3);
-  WebClient browser(gateway.port());
+  WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play());
   EXPECT_TRUE(echoes(browser, "hello"));
   EXPECT_EQ(game->visitors().size(), 4u);
-  EXPECT_EQ(gateway.counters().unreachable, 0u);
+  EXPECT_EQ(gateway->counters().unreachable, 0u);
 }
 
 TEST_F(GatewayPlay, WithoutAServerThePageIsToldSo) {
-  auto game = makeGame();
-  auto settings = home.settings(game->key());
-  settings.open_time = std::chrono::seconds(2);
-  GatewayRun gateway(settings);
-  WebClient before(gateway.port());
+  start({}, [](GatewaySettings& settings) { settings.open_time = std::chrono::seconds(2); });
+  WebClient before(gateway->port());
   ASSERT_TRUE(before.play() && echoes(before, "hello"));
   game->endAll(false);
   EXPECT_EQ(before.waitForClose(), 4000) << "it broke off";
-  WebClient ended(gateway.port());
+  WebClient ended(gateway->port());
   ASSERT_TRUE(ended.play() && echoes(ended, "hello"));
   game->broadcast("goodbye");
   game->endAll(true);
@@ -184,14 +182,14 @@ TEST_F(GatewayPlay, WithoutAServerThePageIsToldSo) {
   EXPECT_EQ(ended.waitForClose(), 1000);
   game.reset();
   const auto hello = [](WebClient& b) { b.sendFrame(2, "hello"); };
-  EXPECT_EQ(codeAfter(gateway.port(), false, hello), 4000) << "there is none";
+  EXPECT_EQ(codeAfter(gateway->port(), false, hello), 4000) << "there is none";
   asio::io_context context;
   asio::local::stream_protocol::acceptor none(
       context, asio::local::stream_protocol::endpoint(home.path("visitors").string()));
   std::thread rude([&] { none.accept(); });  // and hangs up
-  EXPECT_EQ(codeAfter(gateway.port(), false, hello), 4000);
+  EXPECT_EQ(codeAfter(gateway->port(), false, hello), 4000);
   rude.join();
-  EXPECT_EQ(WebClient(gateway.port()).ask("/")->status, 200);
+  EXPECT_EQ(WebClient(gateway->port()).ask("/")->status, 200);
 }
 
 TEST_F(GatewayPlay, ASilentServerIsGivenUp) {
@@ -200,40 +198,33 @@ TEST_F(GatewayPlay, ASilentServerIsGivenUp) {
       context, asio::local::stream_protocol::endpoint(home.path("visitors").string()));
   auto settings = home.settings(*ShortKey::parse("aaaaaaaaaaaaaaaaaaaaaaaaaa"));
   settings.open_time = std::chrono::milliseconds(200);
-  GatewayRun gateway(settings);
-  EXPECT_EQ(codeAfter(gateway.port(), false, [](WebClient& b) { b.sendFrame(2, "hello"); }), 4000);
+  gateway = std::make_unique<GatewayRun>(settings);
+  EXPECT_EQ(codeAfter(gateway->port(), false, [](WebClient& b) { b.sendFrame(2, "hello"); }), 4000);
 }
 
 TEST_F(GatewayPlay, WhenTheGatewayEndsPlayersAreTold) {
-  const auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient ann(gateway.port());
-  WebClient waiting(gateway.port());
+  start();
+  WebClient ann(gateway->port());
+  WebClient waiting(gateway->port());
   ASSERT_TRUE(ann.play() && echoes(ann, "hello"));
   ASSERT_TRUE(waiting.play());
-  gateway.stop();
+  gateway->stop();
   EXPECT_EQ(ann.waitForClose(), 1001);
   EXPECT_EQ(waiting.waitForClose(), 1001);
-  gateway.join();
-  EXPECT_TRUE(comesTrue([&] { return game->connections() == 0; }));
+  gateway->join();
+  EXPECT_TRUE(waitUntil([&] { return game->connections() == 0; }));
 }
 
 TEST_F(GatewayPlay, AWebSocketWithoutAHelloEnds) {
-  const auto game = makeGame();
-  auto settings = home.settings(game->key());
-  settings.hello_time = std::chrono::milliseconds(200);
-  GatewayRun gateway(settings);
-  EXPECT_EQ(codeAfter(gateway.port(), false, [](WebClient&) {}), 1008);
+  start({}, [](GatewaySettings& settings) { settings.hello_time = std::chrono::milliseconds(200); });
+  EXPECT_EQ(codeAfter(gateway->port(), false, [](WebClient&) {}), 1008);
   EXPECT_EQ(game->handshakes(), 0u);
 }
 
 TEST_F(GatewayPlay, ASilentBrowserIsPingedAndADeadOneEnds) {
-  const auto game = makeGame();
-  auto settings = home.settings(game->key());
-  settings.ping_time = std::chrono::milliseconds(200);
-  GatewayRun gateway(settings);
-  WebClient alive(gateway.port());
-  WebClient dead(gateway.port());
+  start({}, [](GatewaySettings& settings) { settings.ping_time = std::chrono::milliseconds(200); });
+  WebClient alive(gateway->port());
+  WebClient dead(gateway->port());
   ASSERT_TRUE(alive.play() && echoes(alive, "hello"));
   ASSERT_TRUE(dead.play() && echoes(dead, "hello"));
   for (int i = 0; i < 5; ++i) {
@@ -243,50 +234,48 @@ TEST_F(GatewayPlay, ASilentBrowserIsPingedAndADeadOneEnds) {
     alive.sendFrame(10, ping->payload);
   }
   EXPECT_TRUE(dead.waitForHangup());
-  EXPECT_EQ(gateway.counters().gone_silent, 1u);
+  EXPECT_EQ(gateway->counters().gone_silent, 1u);
   EXPECT_TRUE(echoes(alive, "still there"));
 }
 
 TEST_F(GatewayPlay, AFloodOfPingsEndsIt) {
-  const auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient ann(gateway.port());
-  WebClient flood(gateway.port());
+  start();
+  WebClient ann(gateway->port());
+  WebClient flood(gateway->port());
   ASSERT_TRUE(ann.play() && echoes(ann, "hello"));
   ASSERT_TRUE(flood.play() && echoes(flood, "hello"));
   for (int i = 0; i < 100; ++i) flood.sendFrame(9, "ping");
   EXPECT_TRUE(flood.waitForHangup());
-  EXPECT_EQ(gateway.counters().control_floods, 1u);
+  EXPECT_EQ(gateway->counters().control_floods, 1u);
   EXPECT_TRUE(echoes(ann, "still there"));
 }
 
 TEST_F(GatewayPlay, PlacesAreLimitedForOneAddressAndInAll) {
-  const auto game = makeGame();
-  auto settings = home.settings(game->key());
-  settings.max_visitors = 2;
-  settings.max_per_address = 1;
-  GatewayRun gateway(settings);
-  const auto enter = [&gateway](WebClient& browser) {
+  start({}, [](GatewaySettings& settings) {
+    settings.max_visitors = 2;
+    settings.max_per_address = 1;
+  });
+  const auto enter = [this](WebClient& browser) {
     if (!browser.play()) return -2;
     browser.sendFrame(2, "hello");
     const auto answer = browser.frame();
     return !answer ? -1 : answer->opcode == 8 ? answer->closeCode() : 0;
   };
-  auto first = std::make_unique<WebClient>(gateway.port(), "127.0.0.2");
-  WebClient second(gateway.port(), "127.0.0.2");
-  WebClient third(gateway.port(), "127.0.0.2");
+  auto first = std::make_unique<WebClient>(gateway->port(), "127.0.0.2");
+  WebClient second(gateway->port(), "127.0.0.2");
+  WebClient third(gateway->port(), "127.0.0.2");
   EXPECT_EQ(enter(*first), 0);
   EXPECT_EQ(enter(second), 0) << "a player's second stream";
   EXPECT_EQ(enter(third), 4003);
-  WebClient other(gateway.port(), "127.0.0.3");
-  WebClient others_second(gateway.port(), "127.0.0.3");
+  WebClient other(gateway->port(), "127.0.0.3");
+  WebClient others_second(gateway->port(), "127.0.0.3");
   EXPECT_EQ(enter(other), 0);
   EXPECT_EQ(enter(others_second), 0);
-  WebClient late(gateway.port(), "127.0.0.4");
+  WebClient late(gateway->port(), "127.0.0.4");
   EXPECT_EQ(enter(late), 4003);
   first.reset();
-  EXPECT_TRUE(comesTrue([&] {
-    WebClient again(gateway.port(), "127.0.0.4");
+  EXPECT_TRUE(waitUntil([&] {
+    WebClient again(gateway->port(), "127.0.0.4");
     return enter(again) == 0;
   })) << "a place that was given back";
 }
@@ -294,38 +283,36 @@ TEST_F(GatewayPlay, PlacesAreLimitedForOneAddressAndInAll) {
 TEST_F(GatewayPlay, AThousandHalfOpenConnectionsKeepNobodyOut) {
   constexpr int kStrangers = 1200;
   if (allowOpenFiles(3 * kStrangers) < 3 * kStrangers) GTEST_SKIP() << "too few open files are allowed";
-  const auto game = makeGame();
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient ann(gateway.port(), "127.0.9.1");
+  start();
+  WebClient ann(gateway->port(), "127.0.9.1");
   ASSERT_TRUE(ann.play() && echoes(ann, "hello"));
   std::vector<std::unique_ptr<WebClient>> strangers;
   for (int i = 0; i < kStrangers; ++i) {
     strangers.push_back(
-        std::make_unique<WebClient>(gateway.port(), "127.0.0." + std::to_string(1 + i % 200)));
+        std::make_unique<WebClient>(gateway->port(), "127.0.0." + std::to_string(1 + i % 200)));
     if (i % 3 == 1) strangers.back()->send("GET / HTTP/1.1\r\nHost: ");
     if (i % 3 == 2) strangers.back()->requestPlay();
     if (i % 100 == 0) {
       EXPECT_TRUE(echoes(ann, "move " + std::to_string(i)));
     }
   }
-  EXPECT_TRUE(comesTrue([&] { return gateway.counters().connections > kStrangers; }));
-  EXPECT_LE(gateway.guests(), home.settings(game->key()).max_newcomers + 1);
-  WebClient bob(gateway.port(), "127.0.8.1");
+  EXPECT_TRUE(waitUntil([&] { return gateway->counters().connections > kStrangers; }));
+  EXPECT_LE(gateway->guests(), home.settings(game->key()).max_newcomers + 1);
+  WebClient bob(gateway->port(), "127.0.8.1");
   EXPECT_EQ(bob.ask("/")->status, 200);
-  WebClient bobs_game(gateway.port(), "127.0.8.1");
+  WebClient bobs_game(gateway->port(), "127.0.8.1");
   EXPECT_TRUE(bobs_game.play() && echoes(bobs_game, "hello"));
   EXPECT_TRUE(echoes(ann, "still there"));
   EXPECT_EQ(game->visitors().size(), 2u) << "the game heard of none of them";
 }
 
 TEST_F(GatewayPlay, MessagesThatAreThereTogetherAreSentTogether) {
-  const auto game = makeGame([](ReliableChannel&, const std::string&) {});
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient browser(gateway.port());
+  start(ignore);
+  WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play());
   browser.sendFrame(2, "hello");
-  ASSERT_TRUE(comesTrue([&] { return game->frameCount() == 1; }));
-  const GatewayCounters before = gateway.counters();
+  ASSERT_TRUE(waitUntil([&] { return game->frameCount() == 1; }));
+  const GatewayCounters before = gateway->counters();
   std::vector<std::string> messages;
   std::string bytes;
   for (int i = 0; i < 10; ++i) {
@@ -333,12 +320,12 @@ TEST_F(GatewayPlay, MessagesThatAreThereTogetherAreSentTogether) {
     bytes += WebClient::frameBytes(2, messages.back());
   }
   browser.send(bytes);
-  ASSERT_TRUE(comesTrue([&] { return game->frameCount() == 11; }));
+  ASSERT_TRUE(waitUntil([&] { return game->frameCount() == 11; }));
   game->broadcast(messages);
   for (const std::string& message : messages) EXPECT_EQ(browser.frame()->payload, message);
   const auto frames = game->frames();
   EXPECT_TRUE(std::equal(messages.begin(), messages.end(), frames.begin() + 1));
-  const GatewayCounters after = gateway.counters();
+  const GatewayCounters after = gateway->counters();
   EXPECT_EQ(after.messages_up - before.messages_up, 10u);
   EXPECT_EQ(after.messages_down - before.messages_down, 10u);
   EXPECT_EQ(after.writes_up - before.writes_up, 1u);
@@ -349,12 +336,11 @@ TEST_F(GatewayPlay, MessagesThatAreThereTogetherAreSentTogether) {
 TEST_F(GatewayPlay, AnswersToPingsAreNeverWithinAMessage) {
   constexpr int kMessages = 40;
   constexpr int kPings = 12;
-  const auto game = makeGame([](ReliableChannel&, const std::string&) {});
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient slow(gateway.port(), "127.0.0.1", 2048);
+  start(ignore);
+  WebClient slow(gateway->port(), "127.0.0.1", 2048);
   ASSERT_TRUE(slow.play());
   slow.sendFrame(2, "hello");
-  ASSERT_TRUE(comesTrue([&] { return game->frameCount() == 1; }));
+  ASSERT_TRUE(waitUntil([&] { return game->frameCount() == 1; }));
   std::vector<std::string> messages;
   for (int i = 0; i < kMessages; ++i)
     messages.push_back(std::string(static_cast<std::size_t>(3000 + i), static_cast<char>('A' + i)));
@@ -382,16 +368,15 @@ TEST_F(GatewayPlay, ASlowLineHasFreshPicturesAndNoBacklog) {
   constexpr std::size_t kPicture = 2000;
   constexpr std::size_t kLine = 32'000;  // bytes a second
   constexpr std::size_t kMaxUnderWay = kLine * 4 / 10;
-  std::atomic<std::size_t> sent = 0;
-  const auto game = makeGame([](ReliableChannel&, const std::string&) {});
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient slow(gateway.port(), "127.0.0.1", 2048);
+  const auto sent = std::make_shared<std::atomic<std::size_t>>(0);  // the game outlives this test
+  start(ignore);
+  WebClient slow(gateway->port(), "127.0.0.1", 2048);
   ASSERT_TRUE(slow.play());
   slow.sendFrame(2, "hello");
   // As dfserver: what has not left yet is skipped, not queued.
-  game->every(std::chrono::milliseconds(33), [&sent](ReliableChannel& channel) {
+  game->every(std::chrono::milliseconds(33), [sent](ReliableChannel& channel) {
     if (channel.unsentBytes() > 0) return;
-    sent += kPicture;
+    *sent += kPicture;
     channel.send(std::string(kPicture, 'p'));
   });
   std::size_t received = 0;
@@ -404,36 +389,32 @@ TEST_F(GatewayPlay, ASlowLineHasFreshPicturesAndNoBacklog) {
     if (allowed > received) slow.takeSome(std::min<std::size_t>(allowed - received, 640));
     while (const auto frame = slow.takeFrame()) {
       received += frame->payload.size();
-      if (received > kLine) worst = std::max(worst, sent - received);  // once the line is full
+      if (received > kLine) worst = std::max(worst, *sent - received);  // once the line is full
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the line's pace
   }
   EXPECT_LE(worst, kMaxUnderWay);
-  EXPECT_EQ(gateway.counters().too_slow, 0u);
+  EXPECT_EQ(gateway->counters().too_slow, 0u);
   RecordProperty("bytes_under_way", std::to_string(worst));
 }
 
 TEST_F(GatewayPlay, ABrowserThatDoesNotReadAtAllEnds) {
-  const auto game = makeGame([](ReliableChannel&, const std::string&) {});
-  auto settings = home.settings(game->key());
-  settings.stall_time = std::chrono::milliseconds(300);
-  GatewayRun gateway(settings);
-  WebClient stuck(gateway.port(), "127.0.0.1", 2048);
+  start(ignore, [](GatewaySettings& settings) { settings.stall_time = std::chrono::milliseconds(300); });
+  WebClient stuck(gateway->port(), "127.0.0.1", 2048);
   ASSERT_TRUE(stuck.play());
   stuck.sendFrame(2, "hello");
   game->every(std::chrono::milliseconds(5), [](ReliableChannel& channel) {
     if (channel.unsentBytes() == 0) channel.send(std::string(10'000, 'p'));
   });
-  EXPECT_TRUE(comesTrue([&] { return gateway.counters().too_slow == 1; }));
-  EXPECT_TRUE(comesTrue([&] { return gateway.guests() == 0; })) << "though it never answers the close";
+  EXPECT_TRUE(waitUntil([&] { return gateway->counters().too_slow == 1; }));
+  EXPECT_TRUE(waitUntil([&] { return gateway->guests() == 0; })) << "though it never answers the close";
 }
 
 TEST_F(GatewayPlay, ABrowserThatSendsFasterThanTheServerReadsIsNotRead) {
   std::promise<void> go_on;
   const auto waited = go_on.get_future().share();
-  const auto game = makeGame([waited](ReliableChannel&, const std::string&) { waited.wait(); });
-  GatewayRun gateway(home.settings(game->key()));
-  WebClient browser(gateway.port());
+  start([waited](ReliableChannel&, const std::string&) { waited.wait(); });
+  WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play());
   browser.sendFrame(2, "hello");
   std::thread sender([&browser] {
@@ -442,15 +423,15 @@ TEST_F(GatewayPlay, ABrowserThatSendsFasterThanTheServerReadsIsNotRead) {
   });
   // It comes to a stop: the same count, many turns of the loop later.
   std::uint64_t before = 0;
-  EXPECT_TRUE(comesTrue([&] {
-    const std::uint64_t now = gateway.counters().messages_up;
+  EXPECT_TRUE(waitUntil([&] {
+    const std::uint64_t now = gateway->counters().messages_up;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     return now > 1 && std::exchange(before, now) == now;
   }));
   EXPECT_LT(before, 2000u) << "of 5000: the rest waits at the browser";
   go_on.set_value();
   sender.join();
-  EXPECT_TRUE(comesTrue([&] { return game->frameCount() == 5001; }));
+  EXPECT_TRUE(waitUntil([&] { return game->frameCount() == 5001; }));
   const auto frames = game->frames();
   for (std::size_t i = 1; i < frames.size(); ++i)
     ASSERT_EQ(frames[i], std::string(kMaxClientFrame, static_cast<char>('a' + (i - 1) % 26))) << i;

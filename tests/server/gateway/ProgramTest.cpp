@@ -8,6 +8,7 @@
 #include "GatewayRun.h"
 #include "WebClient.h"
 #include "tests/support/RunningProgram.h"
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 namespace {
@@ -19,7 +20,7 @@ class DfwebProgram : public testing::Test {
     words.insert(words.begin(), "dfweb");
     RunningProgram dfweb(words);
     EXPECT_EQ(dfweb.finish(), code) << text;
-    EXPECT_NE(dfweb.printed().find(text), std::string::npos) << dfweb.printed();
+    EXPECT_TRUE(has(dfweb.printed(), text));
   }
 
   GatewayHome home;
@@ -50,12 +51,9 @@ TEST_F(DfwebProgram, PrintsTheAddressForPlayersAndEndsInOrder) {
   ASSERT_TRUE(dfweb.prints("leads browsers")) << dfweb.printed();
   std::uint16_t port = 0;
   std::ifstream(home.path("port")) >> port;
-  EXPECT_NE(dfweb.printed().find("Players open https://play.example/#" + game.key().text()),
-            std::string::npos);
-  EXPECT_NE(dfweb.printed().find("Players open http://127.0.0.1:" + std::to_string(port) + "/#" +
-                                 game.key().text()),
-            std::string::npos)
-      << dfweb.printed();
+  EXPECT_TRUE(has(dfweb.printed(), "Players open https://play.example/#" + game.key().text()));
+  EXPECT_TRUE(has(dfweb.printed(),
+                  "Players open http://127.0.0.1:" + std::to_string(port) + "/#" + game.key().text()));
   WebClient browser(port);
   EXPECT_EQ(browser.ask("/")->body, indexText());
   WebClient player(port);
@@ -65,7 +63,7 @@ TEST_F(DfwebProgram, PrintsTheAddressForPlayersAndEndsInOrder) {
   dfweb.signal(SIGTERM);
   EXPECT_EQ(player.waitForClose(), 1001);
   EXPECT_EQ(dfweb.finish(), 0);
-  EXPECT_NE(dfweb.printed().find("played=1"), std::string::npos) << dfweb.printed();
+  EXPECT_TRUE(has(dfweb.printed(), "played=1"));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 //
 // This source has Boost's Asio, so it can have nothing that includes the standalone one.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/socket.h>
 
 #include <boost/asio/local/connect_pair.hpp>
@@ -12,11 +11,11 @@
 #include <boost/asio/write.hpp>
 #include <chrono>
 #include <deque>
-#include <filesystem>
 
 #include "host/auth/ServerIdentity.h"
 #include "server/gateway/SecureSocket.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad::test {
 namespace {
@@ -46,10 +45,7 @@ class SocketPair {
 
  private:
   void shakeHands() {
-    std::string name = std::filesystem::temp_directory_path() / "naiad-socket-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    m_server = ServerIdentity::loadOrMake(name, std::chrono::system_clock::now()).tls();
-    std::filesystem::remove_all(name);
+    m_server = ServerIdentity::loadOrMake(TempFolder(), std::chrono::system_clock::now()).tls();
     ASSERT_TRUE(from->startTls(m_server->get(), SecureSocket::Role::kServer));
     ASSERT_TRUE(to->startTls(m_client->get(), SecureSocket::Role::kClient));
     int done = 0;

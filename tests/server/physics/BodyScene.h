@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/managers/WorldManager.h"
@@ -12,22 +14,27 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
 #include "physics/body/Body.h"
+#include "physics/body/BodyLayer.h"
 #include "physics/body/EventContactEnd.h"
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/Seconds.h"
 
 namespace df::test {
 
-class BodyScene : public testing::Test {
+/// A world that is current during a test, with cells twice as high as wide, and what it logged.
+class PhysicsWorld : public testing::Test {
  protected:
-  BodyScene() : scope(world) {
+  PhysicsWorld() : scope(world) {
     world.log().setSink([this](const std::string& line) { log.push_back(line); });
-    PM.setAspect(1);
   }
-  ~BodyScene() override { world.shutDown(); }
+  ~PhysicsWorld() override { world.shutDown(); }
   void ticks(int n) {
-    for (int i = 0; i < n; ++i) world.update();
+    for (int i = 0; i < n; ++i) world.tick();
   }
+
+  std::vector<std::string> log;
+  World world;
+  World::Scope scope;
 
  public:
   /// A HARD Object without mass.
@@ -56,15 +63,52 @@ class BodyScene : public testing::Test {
     return p_crate;
   }
 
+  template <class Its = Body>
+  static Its* turningCrate(Vector place, Vector half = Vector(0.5, 0.5), double mass = 1) {
+    Its* p_crate = crate<Its>(place, half, mass);
+    p_crate->setTurning();
+    return p_crate;
+  }
+  /// Gravity of 10 per second², and a floor whose surface is y = 0.
+  static Object* layFloor(double half_width = 50, double half_height = 5) {
+    PM.setGravity(perSecondSquared(Vector(0, 10)));
+    return wall(Vector(0, half_height), Vector(half_width, half_height));
+  }
+};
+
+class BodyScene : public PhysicsWorld {
  protected:
+  BodyScene() { PM.setAspect(1); }
+  void ticks(int n) {
+    for (int i = 0; i < n; ++i) world.update();
+  }
+  /// For the solvers' counters; there is one from the first body on.
+  const naiad::physics::BodyLayer& layer() { return *world.findLayer<naiad::physics::BodyLayer>(); }
+
+ public:
   /// Per second.
   static Vector speedOf(const Body* p_body) {
     return Vector(30 * p_body->getVelocity().x(), 30 * p_body->getVelocity().y());
   }
+  static double kineticOf(const Body* p_body) {
+    const Vector v = p_body->getVelocity();
+    const double turning = p_body->getInertia() * p_body->getSpin() * p_body->getSpin();
+    return 0.5 * (p_body->getMass() * (v.x() * v.x() + v.y() * v.y()) + (p_body->isTurning() ? turning : 0));
+  }
+};
 
-  std::vector<std::string> log;
+/// A world beside that of the test, current while this is in scope.
+struct OwnWorld {
+  explicit OwnWorld(double aspect = 1) {
+    world.log().setSink([](const std::string&) {});
+    PM.setAspect(aspect);
+  }
+  OwnWorld(const OwnWorld&) = delete;
+  OwnWorld& operator=(const OwnWorld&) = delete;
+  ~OwnWorld() { world.shutDown(); }
+
   World world;
-  World::Scope scope;
+  World::Scope scope{world};
 };
 
 /// Records its contact events.
@@ -86,6 +130,17 @@ class Listener : public Body {
     }
     return 1;
   }
+  /// Each pair's contacts begin and end by turns. Returns which of them have begun last.
+  std::map<std::pair<const Object*, const Object*>, bool> expectTurns() const {
+    std::map<std::pair<const Object*, const Object*>, bool> touches;
+    for (const Note& note : notes) {
+      bool& is_touching = touches[{note.p_first, note.p_second}];
+      EXPECT_NE(is_touching, note.is_begin);
+      is_touching = note.is_begin;
+    }
+    return touches;
+  }
+
   std::vector<Note> notes;
 };
 

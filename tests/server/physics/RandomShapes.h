@@ -7,6 +7,7 @@
 
 #include "physics/geometry/ConvexShape.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/server/physics/Shapes.h"
 
 namespace naiad::physics::test {
 

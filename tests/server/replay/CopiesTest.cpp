@@ -2,21 +2,21 @@
 // left.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "host/journal/RoundHistory.h"
-#include "host/world/Descendants.h"
 #include "host/world/WorldCopies.h"
 #include "tests/server/replay/FrailRound.h"
+#include "tests/support/Processes.h"
 #include "tests/support/Sanitizers.h"
+#include "tests/support/WaitUntil.h"
 
 namespace naiad {
 namespace {
@@ -27,27 +27,8 @@ constexpr const char* kWorld = "dfserver";
 constexpr const char* kByCopy = "the game goes on: a copy of its world executed ";
 constexpr const char* kByAnother = "the game goes on: another world executed ";
 
-std::string nameOf(pid_t process) {
-  std::string name;
-  std::getline(std::ifstream("/proc/" + std::to_string(process) + "/comm"), name);
-  return name;
-}
-
 bool isAlive(pid_t process) {
   return kill(process, 0) == 0;
-}
-
-struct ProcessStatus {
-  std::string state;
-  std::string parent;
-};
-
-ProcessStatus statusOf(pid_t process) {
-  std::string line;
-  std::getline(std::ifstream("/proc/" + std::to_string(process) + "/stat"), line);
-  ProcessStatus status;
-  std::istringstream(line.substr(line.rfind(')') + 1)) >> status.state >> status.parent;
-  return status;
 }
 
 /// Rounds of less than RepeatCheck::kDelay ticks have one world; in longer ones another is held against it.
@@ -61,31 +42,22 @@ class CopiesTest : public FrailRound {
   }
   /// Those that descend from this process, in the order of their numbers, so of their beginning.
   static std::vector<pid_t> find(const std::string& name) {
-    std::vector<pid_t> found;
-    for (const Descendant& one : findDescendants()) {
-      if (nameOf(one.process) == name) found.push_back(one.process);
-    }
-    std::sort(found.begin(), found.end());
-    return found;
+    return test::processesBelow(getpid(), name);
   }
   /// What is made on the way has its name and waits, however busy the machine is.
   void play(int ticks) {
     FrailRound::play(ticks);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    bool is_settled = false;
-    while (!(is_settled = isSettled()) && std::chrono::steady_clock::now() < end)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before it is asked again
-    EXPECT_TRUE(is_settled);
+    EXPECT_TRUE(test::waitUntil(isSettled));
   }
   // A copy has the name of a world until it takes its own, and a keeper has one world. The worlds are looked
   // at first, so that a copy is seen under one of its names.
   static bool isSettled() {
-    std::set<std::string> keepers;
+    std::set<pid_t> keepers;
     for (const pid_t one : find(kWorld)) {
-      if (!keepers.insert(statusOf(one).parent).second) return false;
+      const auto facts = test::factsOf(one);
+      if (!facts || !keepers.insert(facts->parent).second) return false;
     }
-    const std::vector<pid_t> copies = find(kCopy);
-    return std::all_of(copies.begin(), copies.end(), [](pid_t copy) { return statusOf(copy).state == "S"; });
+    return std::ranges::all_of(find(kCopy), [](pid_t copy) { return test::stateOf(copy) == 'S'; });
   }
   /// Plays until there is a copy: of a world that took over only once its keeper has ended what was left.
   void playToACopy() {
@@ -93,12 +65,8 @@ class CopiesTest : public FrailRound {
     EXPECT_FALSE(find(kCopy).empty());
   }
   static void waitUntilGone(const std::vector<pid_t>& processes) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    for (const pid_t one : processes) {
-      while (isAlive(one) && std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before it is asked again
-      EXPECT_FALSE(isAlive(one)) << nameOf(one);
-    }
+    for (const pid_t one : processes)
+      EXPECT_TRUE(test::waitUntil([one] { return !isAlive(one); })) << test::factsOf(one)->name;
   }
   /// The processes of worlds, keepers and copies.
   static std::vector<pid_t> findAll() {
@@ -113,9 +81,7 @@ class CopiesTest : public FrailRound {
     return log.find(text) != std::string::npos;
   }
   std::size_t count(const std::string& text) const {
-    std::size_t found = 0;
-    for (std::size_t at = 0; (at = log.find(text, at)) != std::string::npos; ++at) ++found;
-    return found;
+    return static_cast<std::size_t>(test::countIn(log, text));
   }
   /// Press the key, and hold that the world goes on.
   void survive(df::Keyboard::Key key) {
@@ -289,7 +255,7 @@ TEST_F(CopiesTest, ACopyThatAnswersOtherwiseIsNotGoneOnWith) {
   EXPECT_FALSE(tick());
   EXPECT_TRUE(logs("a copy of the game's world is other in tick 51 before")) << log;
   ASSERT_TRUE(world->end());
-  EXPECT_NE(world->end()->text.find("another world did not do the same"), std::string::npos);
+  EXPECT_TRUE(test::has(world->end()->text, "another world did not do the same"));
   waitUntilGone(all);
 }
 

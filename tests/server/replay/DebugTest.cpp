@@ -1,15 +1,12 @@
 // dfreplay --until T --debug, as a program: the world of the round stands before tick T, for a debugger. A
 // small script stands in for gdb.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/stat.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -18,6 +15,7 @@
 #include "tests/server/replay/FrailRound.h"
 #include "tests/support/RunProgram.h"
 #include "tests/support/Sanitizers.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -74,10 +72,7 @@ class DebugTest : public FrailRound {
   std::string command(int tick) const {
     return "dfreplay " + file.string() + " --until " + std::to_string(tick) + " --debug --game " + module;
   }
-  std::string called() const {
-    std::ifstream text(recorder.folder() / "gdb.txt");
-    return {std::istreambuf_iterator<char>(text), {}};
-  }
+  std::string called() const { return test::contentOf(recorder.folder() / "gdb.txt"); }
 
   fs::path file;
 };
@@ -90,8 +85,7 @@ TEST_F(DebugTest, TheLineOfASecondDeathStopsTheGameBeforeIt) {
   const auto [code, said] = runLine(line);
   EXPECT_EQ(code, 0) << said;
   const std::string process = restAfter(said, "The world is process ");
-  EXPECT_NE(process.find(", before tick " + std::to_string(deathTick(true)) + " of the round"),
-            std::string::npos)
+  EXPECT_TRUE(test::has(process, ", before tick " + std::to_string(deathTick(true)) + " of the round"))
       << said;
   const std::string number = process.substr(0, process.find(','));
   EXPECT_EQ(called().find("called: -q -p " + number + " -ex handle SIGSTOP nostop noprint nopass\nState:\tT"),
@@ -99,7 +93,7 @@ TEST_F(DebugTest, TheLineOfASecondDeathStopsTheGameBeforeIt) {
       << called();
   const std::string end =
       "The world ended in tick " + std::to_string(deathTick(true)) + (test::kSanitized ? "" : ": SIGSEGV.");
-  EXPECT_NE(said.find(end), std::string::npos) << said;
+  EXPECT_TRUE(test::has(said, end));
 }
 
 TEST_F(DebugTest, ADeathThatWasLeftOutLaterHappensAgain) {
@@ -108,8 +102,7 @@ TEST_F(DebugTest, ADeathThatWasLeftOutLaterHappensAgain) {
   ASSERT_LT(deathTick(false), deathTick(true));
   const auto [code, said] = runLine(command(deathTick(false)));
   EXPECT_EQ(code, 0) << said;
-  EXPECT_NE(said.find("The world ended in tick " + std::to_string(deathTick(false))), std::string::npos)
-      << said;
+  EXPECT_TRUE(test::has(said, "The world ended in tick " + std::to_string(deathTick(false))));
 }
 
 TEST_F(DebugTest, AGameThatLivesThroughTheTickPlaysOnToItsDeath) {
@@ -117,9 +110,8 @@ TEST_F(DebugTest, AGameThatLivesThroughTheTickPlaysOnToItsDeath) {
   makeDebugger();
   const auto [code, said] = runLine(command(20));
   EXPECT_EQ(code, 0) << said;
-  EXPECT_NE(said.find("before tick 20 of the round"), std::string::npos) << said;
-  EXPECT_NE(said.find("The world ended in tick " + std::to_string(deathTick(true))), std::string::npos)
-      << said;
+  EXPECT_TRUE(test::has(said, "before tick 20 of the round"));
+  EXPECT_TRUE(test::has(said, "The world ended in tick " + std::to_string(deathTick(true))));
 }
 
 TEST_F(DebugTest, ADebuggerThatFailsIsAnError) {
@@ -127,7 +119,7 @@ TEST_F(DebugTest, ADebuggerThatFailsIsAnError) {
   makeDebugger("exit 7");
   const auto [code, said] = runLine(command(20));
   EXPECT_EQ(code, 3) << said;
-  EXPECT_NE(said.find("gdb ended with code 7"), std::string::npos) << said;
+  EXPECT_TRUE(test::has(said, "gdb ended with code 7"));
 }
 
 TEST_F(DebugTest, WithoutADebuggerASentenceSaysWhatToType) {
@@ -144,24 +136,22 @@ TEST_F(DebugTest, WithoutADebuggerASentenceSaysWhatToType) {
     if (!process.empty()) kill(std::atoi(process.c_str()), SIGCONT);
   }
   EXPECT_EQ(pclose(p_out), 0) << said;
-  EXPECT_NE(said.find("gdb -p "), std::string::npos) << said;
-  EXPECT_NE(said.find("The world ended in tick " + std::to_string(deathTick(true))), std::string::npos)
-      << said;
+  EXPECT_TRUE(test::has(said, "gdb -p "));
+  EXPECT_TRUE(test::has(said, "The world ended in tick " + std::to_string(deathTick(true))));
 }
 
 TEST_F(DebugTest, ATickThatTheRoundDoesNotHaveIsRefused) {
   playToTheLastDeath();
   const auto [code, said] = runLine(command(5000));
   EXPECT_EQ(code, 3) << said;
-  EXPECT_NE(said.find("in tick " + std::to_string(deathTick(true)) + ", before tick 5000"), std::string::npos)
-      << said;
+  EXPECT_TRUE(test::has(said, "in tick " + std::to_string(deathTick(true)) + ", before tick 5000"));
 }
 
 TEST_F(DebugTest, BothOptionsGoTogether) {
   for (const char* p_one : {"--debug", "--until 5"}) {
     const auto [code, said] = runLine(std::string("dfreplay FILE ") + p_one);
     EXPECT_EQ(code, 2) << said;
-    EXPECT_NE(said.find("--debug and --until TICK go together"), std::string::npos) << said;
+    EXPECT_TRUE(test::has(said, "--debug and --until TICK go together"));
   }
 }
 

@@ -2,26 +2,20 @@
 // loaded before all others (disk/disk.cpp) stands between the server and its disk.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <iterator>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "host/journal/DfrReader.h"
 #include "host/journal/JournalWriter.h"
 #include "host/journal/Salvage.h"
-#include "tests/server/host/admin/Talk.h"
+#include "tests/server/replay/ServerFixture.h"
 #include "tests/server/replay/disk/SyncNote.h"
 #include "tests/support/Sanitizers.h"
 
@@ -29,32 +23,15 @@ namespace naiad {
 namespace {
 
 namespace fs = std::filesystem;
+using test::contentOf;
+using test::countIn;
+using test::waitUntil;
 
 constexpr std::chrono::milliseconds kFrame{5};
-constexpr std::chrono::seconds kPatience{60};
 /// When a round begins the writer is woken; then it comes by itself.
 constexpr std::int64_t kWakeNanos = 1'500'000'000;
 /// A disk that takes longer than this is busy; a writer that waits longer than this sleeps.
 constexpr std::int64_t kSleepNanos = 100'000'000;
-
-std::string bytesOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::size_t countTurns(const fs::path& path) {
-  const std::string bytes = bytesOf(path);
-  DfrReader reader(bytes);
-  std::size_t turns = 0;
-  while (const auto record = reader.next()) turns += std::holds_alternative<WorldTurn>(*record) ? 1 : 0;
-  return turns;
-}
-
-int countIn(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
-  return count;
-}
 
 /// From the begin of a sync to the end of the next, where the writer slept in between: what may be lost.
 std::vector<std::int64_t> periodsOf(const std::vector<SyncNote>& notes) {
@@ -66,103 +43,43 @@ std::vector<std::int64_t> periodsOf(const std::vector<SyncNote>& notes) {
   return periods;
 }
 
-class DiskTest : public testing::Test {
+class DiskTest : public test::ServerFixture {
  protected:
   void SetUp() override {
     if (test::kSanitized) GTEST_SKIP() << "a sanitizer's runtime has to be loaded first";
-    char name[] = "/tmp/naiad-disk-XXXXXX";
-    ASSERT_NE(mkdtemp(name), nullptr);
-    folder = name;
-    disk = folder / "disk";
     fs::create_directory(disk);
   }
   void TearDown() override {
-    if (player > 0) {
-      kill(player, SIGKILL);
-      waitpid(player, nullptr, 0);
-    }
-    if (server > 0) end(SIGKILL);
-    if (!folder.empty()) fs::remove_all(folder);
+    if (player > 0) end(player, SIGKILL);
+    if (server > 0) end(server, SIGKILL);
   }
 
   void start() {
-    const std::string known = bytesOf(folder / "port");  // a round goes on where its players look for it
-    const std::string port = "--port=" + std::to_string(std::atoi(known.c_str()));
+    const std::string same = "--port=" + port();  // a round goes on where its players look for it
     fs::remove(folder / "port");
-    server = fork();
-    if (server == 0) {
-      if (chdir(folder.c_str()) != 0) _exit(126);
-      [[maybe_unused]] const bool out = freopen("out.txt", "a", stdout) != nullptr;
-      [[maybe_unused]] const bool err = freopen("out.txt", "a", stderr) != nullptr;
-      setenv("LD_PRELOAD", NAIAD_BINARY_DIR "/../lib/test_disk.so", 1);
-      setenv("DF_TEST_DISK", disk.c_str(), 1);
-      execl(NAIAD_BINARY_DIR "/dfserver", "dfserver", "--game=hello", "--insecure", port.c_str(),
-            "--port-file=port", "--journal=rounds", "--control=control.sock", "--state=state",
-            "--frame-time=5000", nullptr);
-      _exit(127);
-    }
-    ASSERT_TRUE(waitUntil([this] { return !bytesOf(folder / "port").empty(); })) << log();
+    server = run({"dfserver", "--game=hello", "--insecure", same, "--port-file=port", "--journal=rounds",
+                  "--control=control.sock", "--state=state", "--frame-time=5000"},
+                 "out.txt",
+                 {{"LD_PRELOAD", NAIAD_BINARY_DIR "/../lib/test_disk.so"}, {"DF_TEST_DISK", disk.string()}});
+    ASSERT_TRUE(waitUntil([this] { return !contentOf(folder / "port").empty(); })) << log();
     if (player == 0) startPlayer();
   }
   /// The disk has half a minute's rest where no player is. This one looks for a lost server.
   void startPlayer() {
-    const std::string address = "127.0.0.1:" + std::to_string(std::atoi(bytesOf(folder / "port").c_str()));
-    player = fork();
-    if (player == 0) {
-      if (chdir(folder.c_str()) != 0) _exit(126);
-      [[maybe_unused]] const bool out = freopen("player.txt", "a", stdout) != nullptr;
-      [[maybe_unused]] const bool err = freopen("player.txt", "a", stderr) != nullptr;
-      execl(NAIAD_BINARY_DIR "/dfbot", "dfbot", address.c_str(), "--insecure", "--rejoin", "--random=1",
-            "--seconds=3600", nullptr);
-      _exit(127);
-    }
+    player = run({"dfbot", "127.0.0.1:" + port(), "--insecure", "--rejoin", "--random=1", "--seconds=3600"},
+                 "player.txt");
     ASSERT_TRUE(isLogged("joined with")) << log();
-  }
-  void end(int signal) {
-    kill(server, signal);
-    waitpid(server, nullptr, 0);
-    server = 0;
-  }
-  template <class Done>
-  static bool waitUntil(Done done) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (!done()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // before it is looked at again
-    }
-    return true;
-  }
-  std::string log() const { return bytesOf(folder / "out.txt"); }
-  bool isLogged(const std::string& text) const {
-    return waitUntil([&] { return log().find(text) != std::string::npos; });
-  }
-  /// A number of dfctl status.
-  long status(const std::string& name) const {
-    const std::string answer = test::Talk(folder / "control.sock").ask(R"({"command":"status"})");
-    const std::size_t at = answer.find("\"" + name + "\":");
-    return at == std::string::npos ? -1 : std::atol(answer.c_str() + at + name.size() + 3);
-  }
-  bool playTicks(long count) const {
-    const long end = status("ticks") + count;
-    return waitUntil([&] { return status("ticks") >= end; });
   }
   void set(const char* name) const { std::ofstream(disk / name).flush(); }
   void unset(const char* name) const { fs::remove(disk / name); }
   std::vector<SyncNote> syncs() const {
-    const std::string bytes = bytesOf(disk / "syncs");
+    const std::string bytes = contentOf(disk / "syncs");
     std::vector<SyncNote> notes(bytes.size() / sizeof(SyncNote));
     std::copy_n(bytes.data(), notes.size() * sizeof(SyncNote), reinterpret_cast<char*>(notes.data()));
     return notes;
   }
-  fs::path round() const {
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder / "rounds", error)) return entry.path();
-    return {};
-  }
 
-  fs::path folder;
-  fs::path disk;  ///< what the library reads
-  pid_t server = 0;
+  const fs::path disk = folder / "disk";  ///< what the library reads
   pid_t player = 0;
 };
 
@@ -182,7 +99,7 @@ TEST_F(DiskTest, ADiskThatStallsHoldsUpNoTick) {
   unset("stall");
   const std::size_t before = syncs().size();
   ASSERT_TRUE(waitUntil([&] { return syncs().size() > before + 1; }));
-  EXPECT_EQ(log().find("not written down"), std::string::npos) << log();
+  EXPECT_FALSE(test::has(log(), "not written down"));
   EXPECT_GT(countTurns(round()), before_stall) << "and they are in the file";
 }
 
@@ -201,15 +118,15 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
     })) << log();
     if (cut == 0) {
       const std::vector<std::int64_t> periods = periodsOf(syncs());
-      EXPECT_LE(*std::min_element(periods.begin(), periods.end()), 1'000'000'000);
+      EXPECT_LE(*std::ranges::min_element(periods), 1'000'000'000);
     }
     ASSERT_TRUE(playTicks(static_cast<long>(random() % 200)));
-    end(SIGKILL);
+    end(server, SIGKILL);
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const SyncNote last = syncs().back();
     const fs::path file = round();
-    const std::string on_disk = bytesOf(file).substr(0, static_cast<std::size_t>(last.size));
+    const std::string on_disk = contentOf(file).substr(0, static_cast<std::size_t>(last.size));
     salvageRounds((folder / "rounds").string());  // all that the world got, by memory that a power cut takes
     const std::size_t all = countTurns(file);
     std::ofstream(file, std::ios::binary | std::ios::trunc) << on_disk << std::string(100, '\0');
@@ -231,7 +148,7 @@ TEST_F(DiskTest, AServerThatIsKilledBeforeTheDiskHasTheFileGoesOn) {
   start();
   ASSERT_TRUE(playTicks(50)) << log();
   EXPECT_EQ(round(), fs::path()) << "the disk has nothing";
-  end(SIGKILL);
+  end(server, SIGKILL);
   unset("stall");
   start();
   EXPECT_TRUE(isLogged("is back, in the round that goes on")) << log();
@@ -242,11 +159,11 @@ TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
   set("full");
   EXPECT_TRUE(isLogged("the round is not written down any more, and goes on: ")) << log();
-  EXPECT_NE(log().find("No space left on device"), std::string::npos) << log();
+  EXPECT_TRUE(test::has(log(), "No space left on device"));
   EXPECT_TRUE(playTicks(100));
   unset("full");
-  end(SIGKILL);
-  const std::string bytes = bytesOf(round());
+  end(server, SIGKILL);
+  const std::string bytes = contentOf(round());
   EXPECT_EQ(DfrReader(bytes).header().flags & kDfrStopped, kDfrStopped);
   start();
   EXPECT_TRUE(isLogged("its journal had stopped before")) << log();
@@ -261,18 +178,18 @@ TEST_F(DiskTest, ARoundThatAFullDiskEndedTheJournalOfIsNotKept) {
   for (int i = 0; i < 2; ++i) {  // found by the proof, and known before it
     const std::string said =
         test::Talk(folder / "control.sock").ask(R"({"command":"restart","arguments":{"when":"keep"}})");
-    EXPECT_NE(said.find("The round cannot be kept: its journal has stopped"), std::string::npos) << said;
+    EXPECT_TRUE(test::has(said, "The round cannot be kept: its journal has stopped"));
   }
   EXPECT_TRUE(playTicks(100));
   const std::string cancelled = test::Talk(folder / "control.sock").ask(R"({"command":"cancel"})");
-  EXPECT_NE(cancelled.find("\"ok\":false"), std::string::npos) << "nothing was planned: " << cancelled;
+  EXPECT_TRUE(test::has(cancelled, "\"ok\":false")) << "nothing was planned: ";
 }
 
 TEST_F(DiskTest, ADiskThatCannotBeWrittenIsSaidAndTheGameGoesOn) {
   set("read-only");
   start();
   EXPECT_TRUE(isLogged("the round is not written down any more, and goes on: ")) << log();
-  EXPECT_NE(log().find("Read-only file system"), std::string::npos) << log();
+  EXPECT_TRUE(test::has(log(), "Read-only file system"));
   EXPECT_TRUE(playTicks(100));
   EXPECT_EQ(round(), fs::path());
 }

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,7 +16,6 @@
 #include <fstream>
 #include <future>
 #include <iomanip>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -29,52 +26,23 @@
 #include "host/rounds/RoundHandover.h"
 #include "host/world/WorldCopies.h"
 #include "shared/net/base/Limits.h"
-#include "tests/server/host/admin/Talk.h"
+#include "tests/server/replay/ServerFixture.h"
+#include "tests/support/Processes.h"
 #include "tests/support/RunProgram.h"
 
 namespace naiad {
 namespace {
 
 namespace fs = std::filesystem;
+using test::contentOf;
+using test::countIn;
+using test::waitUntil;
 
 constexpr const char* kIsBack = "is back, in the round that goes on";
 
-std::string contentOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-int timesIn(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
-  return count;
-}
-
-/// The parent of a process, and its state; 0: it is gone.
-std::pair<pid_t, char> parentOf(pid_t process) {
-  const std::string text = contentOf("/proc/" + std::to_string(process) + "/stat");
-  const std::size_t end = text.rfind(')');
-  if (end == std::string::npos || end + 4 >= text.size()) return {0, 'X'};
-  return {std::atoi(text.c_str() + end + 4), text[end + 2]};
-}
-
 bool isGone(pid_t process) {
-  const char state = parentOf(process).second;
+  const char state = test::stateOf(process);
   return state == 'X' || state == 'Z';
-}
-
-/// All that are below this one.
-std::vector<pid_t> processesBelow(pid_t top) {
-  std::vector<pid_t> found;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const pid_t process = std::atoi(entry.path().filename().c_str());
-    for (pid_t above = parentOf(process).first; above > 1; above = parentOf(above).first) {
-      if (above != top) continue;
-      found.push_back(process);
-      break;
-    }
-  }
-  return found;
 }
 
 /// What the descriptors of a process are.
@@ -144,38 +112,15 @@ class Visitor {
 /// A dfreplay that does not come to its end.
 constexpr const char* kHangs = "echo $$ > replay.pid; exec sleep 300";
 
-class KeepTest : public testing::Test {
- public:
-  static constexpr std::chrono::seconds kPatience{60};
-
+class KeepTest : public test::ServerFixture {
  protected:
-  void SetUp() override {
-    char name[] = "/tmp/naiad-keep-XXXXXX";
-    ASSERT_NE(mkdtemp(name), nullptr);
-    folder = name;
-    fs::copy_file(NAIAD_BINARY_DIR "/../lib/games/hello.so", folder / "mine.so");
-  }
+  void SetUp() override { fs::copy_file(NAIAD_BINARY_DIR "/../lib/games/hello.so", folder / "mine.so"); }
   void TearDown() override {
     endBots(SIGKILL);
     if (server > 0 && kill(server, SIGKILL) == 0) waitpid(server, nullptr, 0);
     if (const pid_t one = replay(); one > 0) kill(one, SIGKILL);
-    if (!folder.empty()) fs::remove_all(folder);
   }
 
-  pid_t run(std::vector<std::string> words, const char* p_output) const {
-    const pid_t process = fork();
-    if (process != 0) return process;
-    if (chdir(folder.c_str()) != 0) _exit(126);
-    [[maybe_unused]] const bool out = freopen(p_output, "a", stdout) != nullptr;
-    [[maybe_unused]] const bool err = freopen(p_output, "a", stderr) != nullptr;
-    setenv("HOME", folder.c_str(), 1);
-    if (words.front().front() != '/') words.front() = NAIAD_BINARY_DIR "/" + words.front();
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    execv(pointers[0], pointers.data());
-    _exit(127);
-  }
   /// `games`: options that say what is played.
   void start(const std::string& journal, const std::vector<std::string>& games = {"--game=./mine.so"}) {
     fs::remove(folder / "join");
@@ -184,12 +129,8 @@ class KeepTest : public testing::Test {
         "--identity=key", "--state=off",      "--frame-time=5000", "--control=control.sock"};
     words.insert(words.end(), games.begin(), games.end());
     words.push_back("--journal=" + (journal.empty() ? "off" : journal));
-    server = run(words, "out.txt");
+    server = run(words);
     ASSERT_TRUE(waitUntil([this] { return !contentOf(folder / "join").empty(); })) << log();
-  }
-  std::string port() const {
-    const std::string known = contentOf(folder / "port");
-    return known.empty() ? "0" : std::to_string(std::atoi(known.c_str()));
   }
   /// Two more; in this room, if it has a name.
   void startBots(const std::string& room = {}) {
@@ -209,35 +150,13 @@ class KeepTest : public testing::Test {
     return test::runProgram(NAIAD_BINARY_DIR "/dfctl --control " + (folder / "control.sock").string() + " " +
                             command + " 2>&1 </dev/null");
   }
-  template <class Done>
-  static bool waitUntil(Done done) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (!done()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // before it is looked at again
-    }
-    return true;
-  }
-  long status(const std::string& name) const {
-    const std::string answer = test::Talk(folder / "control.sock").ask(R"({"command":"status"})");
-    const std::size_t at = answer.find("\"" + name + "\":");
-    return at == std::string::npos ? -1 : std::atol(answer.c_str() + at + name.size() + 3);
-  }
-  bool playTicks(long count) const {
-    const long end = status("ticks") + count;
-    return waitUntil([&] { return status("ticks") >= end; });
-  }
   /// Another version of the game is installed.
   void install(const std::string& bytes) const {
     std::ofstream(folder / "new.so", std::ios::binary) << bytes;
     fs::rename(folder / "new.so", folder / "mine.so");
   }
-  std::string log() const { return contentOf(folder / "out.txt"); }
   bool areBack(int times) const {
-    return waitUntil([&] { return timesIn(log(), kIsBack) >= times; });
-  }
-  bool isLogged(const std::string& text) const {
-    return waitUntil([&] { return log().find(text) != std::string::npos; });
+    return waitUntil([&] { return countIn(log(), kIsBack) >= times; });
   }
   /// The server's program, and the dfreplay beside it, are these from now on.
   void installPrograms(const std::string& replay_script) {
@@ -279,14 +198,13 @@ class KeepTest : public testing::Test {
   void expectToHoldAlone(const std::string& inode) const {
     const std::string socket = "socket:[" + inode + "]";
     EXPECT_EQ(descriptorsOf(server).count(socket), 1u) << socket;
-    for (const pid_t process : processesBelow(server))
+    for (const pid_t process : test::processesBelow(server))
       EXPECT_EQ(descriptorsOf(process).count(socket), 0u)
           << contentOf("/proc/" + std::to_string(process) + "/cmdline");
   }
   void expectOneWholeRound() {
     endBots(SIGKILL);
-    kill(server, SIGTERM);
-    waitpid(std::exchange(server, 0), nullptr, 0);
+    end(server, SIGTERM);
     expectOneWholeRound(folder / "rounds");
   }
   void expectOneWholeRound(const fs::path& rounds) const {
@@ -299,9 +217,7 @@ class KeepTest : public testing::Test {
     EXPECT_EQ(code, 0) << said << log();
   }
 
-  fs::path folder;
   std::string dfserver = "dfserver";
-  pid_t server = 0;
   std::vector<pid_t> bots;
 };
 
@@ -319,7 +235,7 @@ TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
     Visitor visitor(std::atoi(port().c_str()));
     const auto [code, said] = control("restart --keep");
     ASSERT_EQ(code, 0) << said << log();
-    EXPECT_NE(said.find("The round goes on in the program that is installed."), std::string::npos) << said;
+    EXPECT_TRUE(test::has(said, "The round goes on in the program that is installed."));
     ASSERT_TRUE(areBack(2 * i)) << log();
     visitor.end();
     EXPECT_EQ(visitor.refused(), 0) << "of " << visitor.streams() << " and " << visitor.datagrams();
@@ -328,19 +244,18 @@ TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
     EXPECT_TRUE(lives()) << "it is the same process";
     EXPECT_EQ(inodeOf(false), streams) << "players who come meanwhile wait";
     EXPECT_EQ(inodeOf(true), datagrams);
-    EXPECT_EQ(contentOf(folder / "replay.fds").find("socket:"), std::string::npos)
-        << contentOf(folder / "replay.fds");
+    EXPECT_FALSE(test::has(contentOf(folder / "replay.fds"), "socket:"));
     ASSERT_TRUE(playTicks(50));
     expectToHoldAlone(streams);
     expectToHoldAlone(datagrams);
     if (i == 1) open_before = descriptorsOf(server).size();
   }
-  EXPECT_NE(log().find("the round is executed again in this program: "), std::string::npos) << log();
-  EXPECT_EQ(log().find("the server was killed"), std::string::npos) << log();
+  EXPECT_TRUE(test::has(log(), "the round is executed again in this program: "));
+  EXPECT_FALSE(test::has(log(), "the server was killed"));
   // Each copy of the world that waits has one here, and the first of them may have been made since.
   EXPECT_TRUE(waitUntil([&] { return descriptorsOf(server).size() <= open_before + WorldCopies::kKept + 1; }))
       << open_before << ", and then " << descriptorsOf(server).size();
-  for (const pid_t process : processesBelow(server)) EXPECT_NE(parentOf(process).second, 'Z') << process;
+  for (const pid_t process : test::processesBelow(server)) EXPECT_NE(test::stateOf(process), 'Z') << process;
   expectOneWholeRound();
 }
 
@@ -353,8 +268,7 @@ TEST_F(KeepTest, AGameThatPlaysTheSameGoesOnWithTheRoundAndAlsoAfterAKill) {
   EXPECT_EQ(code, 0) << said << log();
   EXPECT_TRUE(areBack(2)) << log();
   ASSERT_TRUE(playTicks(100));
-  kill(server, SIGKILL);
-  waitpid(server, nullptr, 0);
+  end(server, SIGKILL);
   start("rounds");
   EXPECT_TRUE(areBack(4)) << log();
   expectOneWholeRound();
@@ -367,14 +281,13 @@ TEST_F(KeepTest, AGameThatPlaysOtherwiseIsRefusedAndThePlayersFinish) {
   install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 1) << said;
-  EXPECT_NE(said.find("The round cannot go on in the program that is installed: tick "), std::string::npos)
-      << said;
-  EXPECT_NE(said.find("The server restarts when all have left"), std::string::npos) << said;
+  EXPECT_TRUE(test::has(said, "The round cannot go on in the program that is installed: tick "));
+  EXPECT_TRUE(test::has(said, "The server restarts when all have left"));
   EXPECT_TRUE(playTicks(100)) << "the game goes on";
   EXPECT_EQ(status("players"), 2);
-  EXPECT_EQ(timesIn(log(), " hosts mine on "), 1);
+  EXPECT_EQ(countIn(log(), " hosts mine on "), 1);
   endBots(SIGKILL);
-  EXPECT_TRUE(waitUntil([this] { return timesIn(log(), " hosts mine on ") == 2; })) << log();
+  EXPECT_TRUE(waitUntil([this] { return countIn(log(), " hosts mine on ") == 2; })) << log();
   EXPECT_TRUE(lives());
   EXPECT_TRUE(playTicks(50)) << "in the other game: " << log();
 }
@@ -390,23 +303,21 @@ TEST_F(KeepTest, TheRoundsOfAllRoomsGoOn) {
   for (const char* p_room : {"one", "two"}) {
     const std::string line =
         "room " + std::string(p_room) + ": the round is executed again in this program: ";
-    EXPECT_EQ(timesIn(log(), line), 1) << log();
+    EXPECT_EQ(countIn(log(), line), 1) << log();
   }
   EXPECT_EQ(status("players"), 4);
   ASSERT_TRUE(playTicks(50));
   install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));
   const auto [other_code, other_said] = control("restart --keep");
   EXPECT_EQ(other_code, 1);
-  EXPECT_NE(other_said.find("The round cannot go on in the program that is installed: room one: tick "),
-            std::string::npos)
-      << other_said;
+  EXPECT_TRUE(
+      test::has(other_said, "The round cannot go on in the program that is installed: room one: tick "));
   EXPECT_EQ(control("cancel").first, 0);
   EXPECT_TRUE(playTicks(50));
   EXPECT_EQ(status("players"), 4);
   install(contentOf(NAIAD_BINARY_DIR "/../lib/games/hello.so"));
   endBots(SIGKILL);
-  kill(server, SIGTERM);
-  waitpid(std::exchange(server, 0), nullptr, 0);
+  end(server, SIGTERM);
   expectOneWholeRound(folder / "rounds/one");
   expectOneWholeRound(folder / "rounds/two");
 }
@@ -415,8 +326,7 @@ TEST_F(KeepTest, WithoutAJournalASentenceSaysSo) {
   start("");
   const auto [code, said] = control("restart keep");
   EXPECT_EQ(code, 1) << said;
-  EXPECT_NE(said.find("No round can be kept here: that takes dfserver with --journal."), std::string::npos)
-      << said;
+  EXPECT_TRUE(test::has(said, "No round can be kept here: that takes dfserver with --journal."));
   EXPECT_TRUE(playTicks(10));
 }
 
@@ -429,12 +339,11 @@ TEST_F(KeepTest, ADfreplayThatIsKilledIsSaidAndTheGameGoesOn) {
   EXPECT_TRUE(playTicks(50)) << "the game goes on beside it";
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 1);
-  EXPECT_NE(said.find("The round cannot be kept: that is being tried already."), std::string::npos) << said;
+  EXPECT_TRUE(test::has(said, "The round cannot be kept: that is being tried already."));
   kill(replay(), SIGKILL);
   const auto [first_code, first_said] = first.get();
   EXPECT_EQ(first_code, 1);
-  EXPECT_NE(first_said.find("dfreplay, which tries that out, was ended by signal 9"), std::string::npos)
-      << first_said;
+  EXPECT_TRUE(test::has(first_said, "dfreplay, which tries that out, was ended by signal 9"));
   EXPECT_TRUE(playTicks(50));
   EXPECT_EQ(status("players"), 2);
   EXPECT_EQ(control("cancel").first, 0) << "it was to begin again when all have left";
@@ -459,11 +368,11 @@ TEST_F(KeepTest, AProgramThatDoesNotTakeTheOptionsIsRefused) {
   installScript("dfserver", "echo 'dfserver: there is no option --journal' >&2; exit 2");
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 1);
-  EXPECT_NE(said.find("dfserver does not start with the options of this server: dfserver: there is no option "
-                      "--journal"),
-            std::string::npos)
-      << said;
-  EXPECT_NE(said.find("The round cannot be kept: "), std::string::npos) << said;
+  EXPECT_TRUE(
+      test::has(said,
+                "dfserver does not start with the options of this server: dfserver: there is no option "
+                "--journal"));
+  EXPECT_TRUE(test::has(said, "The round cannot be kept: "));
   EXPECT_NE(control("cancel").first, 0) << "nor is it begun later";
   EXPECT_TRUE(playTicks(10));
   EXPECT_TRUE(lives());

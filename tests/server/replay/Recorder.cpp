@@ -1,7 +1,5 @@
 #include "tests/server/replay/Recorder.h"
 
-#include <stdlib.h>
-
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <fstream>
@@ -98,19 +96,9 @@ fs::path waitForFile(const fs::path& folder) {
 
 }  // namespace
 
-Recorder::Recorder() {
-  char name[] = "/tmp/naiad-rounds-XXXXXX";
-  if (mkdtemp(name) == nullptr) throw std::runtime_error("no folder in /tmp");
-  m_folder = name;
-}
-
-Recorder::~Recorder() {
-  fs::remove_all(m_folder);
-}
-
 fs::path Recorder::record(const Recording& what) {
   const std::string module = GameModule::find(what.game).string();
-  const fs::path rounds = fs::path(m_folder) / ("seed-" + std::to_string(what.seed));
+  const fs::path rounds = m_folder / ("seed-" + std::to_string(what.seed));
   HostOptions options;
   options.journal = rounds.string();
   options.seed = static_cast<std::int64_t>(what.seed);

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/TempFolder.h"
+
 namespace naiad {
 
 struct Recording {
@@ -18,17 +20,12 @@ struct Recording {
 /// A folder of its own for files and worlds, removed at the end.
 class Recorder {
  public:
-  Recorder();
-  ~Recorder();
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
-
-  const std::filesystem::path& folder() const { return m_folder; }
+  const std::filesystem::path& folder() const { return m_folder.path(); }
   /// The file.
   std::filesystem::path record(const Recording& what);
 
  private:
-  std::filesystem::path m_folder;
+  test::TempFolder m_folder;
 };
 
 }  // namespace naiad

@@ -6,6 +6,7 @@
 
 #include "tests/server/replay/FrailRound.h"
 #include "tests/support/Sanitizers.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -22,8 +23,8 @@ TEST_F(TakeOverTest, AWorldThatCrashesByAKeyGoesOnWithoutIt) {
   EXPECT_EQ(world->view().players.size(), 2u) << "who joined in that tick is there";
   // A sanitizer takes the signal, and ends the process.
   const std::string how = test::kSanitized ? "ended with code" : "crashed (SIGSEGV)";
-  EXPECT_NE(log.find("the game " + how), std::string::npos) << log;
-  EXPECT_NE(log.find("another world takes over"), std::string::npos) << log;
+  EXPECT_TRUE(test::has(log, "the game " + how));
+  EXPECT_TRUE(test::has(log, "another world takes over"));
   play(60);
   EXPECT_EQ(verify(), "");
 }
@@ -51,7 +52,7 @@ TEST_F(TakeOverTest, ASecondDeathAtTheSamePlaceEndsTheRound) {
   EXPECT_FALSE(tick());
   ASSERT_TRUE(world->end());
   EXPECT_EQ(world->end()->why, WorldEnd::kCrashed);
-  EXPECT_NE(log.find(" again; the round is kept; to see where: dfreplay "), std::string::npos) << log;
+  EXPECT_TRUE(test::has(log, " again; the round is kept; to see where: dfreplay "));
   EXPECT_EQ(verify(), "");
 }
 
@@ -69,7 +70,7 @@ TEST_F(TakeOverTest, AWorldThatHangsByAKeyGoesOnWithoutIt) {
   play(50);
   press(df::Keyboard::H);
   ASSERT_TRUE(tick()) << log;
-  EXPECT_NE(log.find("did not answer "), std::string::npos) << log;
+  EXPECT_TRUE(test::has(log, "did not answer "));
   play(20);
   EXPECT_EQ(verify(), "");
 }

@@ -17,6 +17,7 @@
 #include "server/replay/Verify.h"
 #include "tests/server/replay/Recorder.h"
 #include "tests/support/Sanitizers.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -48,8 +49,8 @@ TEST_P(ShippedGameTest, ThreeRoundsOfItAreTheSameAgain) {
     bool same = false;
     const std::string text = verify(file, "", same);
     EXPECT_TRUE(same) << "seed " << seed << ": " << text;
-    EXPECT_NE(text.find("verified ticks="), std::string::npos) << text;
-    EXPECT_EQ(text.find("is another one than it was"), std::string::npos) << text;
+    EXPECT_TRUE(test::has(text, "verified ticks="));
+    EXPECT_FALSE(test::has(text, "is another one than it was"));
   }
 }
 
@@ -74,10 +75,10 @@ TEST_P(UnsteadyGameTest, IsFoundAtItsTick) {
   EXPECT_LE(replay.firstDifference(), 49u);
   std::ostringstream out;
   EXPECT_FALSE(verifyRound(round, stage, out));
-  EXPECT_NE(out.str().find("tick 4"), std::string::npos) << out.str();
-  EXPECT_NE(out.str().find("row  1"), std::string::npos) << out.str();
-  EXPECT_NE(out.str().find("recorded |"), std::string::npos) << out.str();
-  EXPECT_NE(out.str().find("again    |"), std::string::npos) << out.str();
+  EXPECT_TRUE(test::has(out.str(), "tick 4"));
+  EXPECT_TRUE(test::has(out.str(), "row  1"));
+  EXPECT_TRUE(test::has(out.str(), "recorded |"));
+  EXPECT_TRUE(test::has(out.str(), "again    |"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, UnsteadyGameTest,
@@ -130,8 +131,8 @@ TEST_F(RoundTest, InputsArePrinted) {
   std::ostringstream out;
   printInputs(RecordedRound(file), out);
   EXPECT_EQ(out.str().find("tick=1 player=1 joins name=\"bot1\""), 0u) << out.str().substr(0, 200);
-  EXPECT_NE(out.str().find("key="), std::string::npos);
-  EXPECT_NE(out.str().find("ticks=400 read to its end: the game stopped"), std::string::npos);
+  EXPECT_TRUE(test::has(out.str(), "key="));
+  EXPECT_TRUE(test::has(out.str(), "ticks=400 read to its end: the game stopped"));
 }
 
 TEST_F(RoundTest, FactsSayWhichGameItWasAndNoPathOrAddress) {
@@ -140,8 +141,8 @@ TEST_F(RoundTest, FactsSayWhichGameItWasAndNoPathOrAddress) {
   EXPECT_EQ(round.fact(kFactModule).size(), 64u);
   bool has_sprite = false;
   for (const auto& [name, value] : round.facts()) {
-    EXPECT_EQ(name.find("/tmp"), std::string::npos) << name;
-    EXPECT_EQ(value.find("/tmp"), std::string::npos) << value;
+    EXPECT_FALSE(test::has(name, "/tmp"));
+    EXPECT_FALSE(test::has(value, "/tmp"));
     has_sprite = has_sprite || name.starts_with("file sprites/");
   }
   EXPECT_TRUE(has_sprite) << "files that it read are noted";
@@ -152,12 +153,11 @@ TEST_F(RoundTest, ATornFileIsVerifiedToItsLastWholeTurn) {
   bool same = false;
   const std::string text = verify(file, "", same);
   EXPECT_TRUE(same) << text;
-  EXPECT_NE(text.find("a file that has no end"), std::string::npos) << text;
+  EXPECT_TRUE(test::has(text, "a file that has no end"));
 }
 
 TEST_F(RoundTest, AnotherGameOfThatNameIsRefused) {
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = test::contentOf(file);
   // The facts are said again, with another hash: later ones count.
   const fs::path other = recorder.folder() / "other.dfr";
   const std::size_t after_header = kDfrHeaderSize;
@@ -170,7 +170,7 @@ TEST_F(RoundTest, AnotherGameOfThatNameIsRefused) {
     const RoundStage stage(round, "");
     FAIL() << "it was taken";
   } catch (const RoundError& error) {
-    EXPECT_NE(std::string(error.what()).find("is another version than the recorded one"), std::string::npos);
+    EXPECT_TRUE(test::has(std::string(error.what()), "is another version than the recorded one"));
   }
 }
 
@@ -243,8 +243,7 @@ TEST_F(RoundTest, KeysOfThePlayerOfRounds) {
   EXPECT_EQ(at(milliseconds(1000)), 400u) << "64 times: to the end";
   EXPECT_TRUE(controls.isPaused());
   const Picture picture = controls.compose(80, 25);
-  EXPECT_NE(picture.rowText(24).find("paused  0:13  tick 400 of 400  x64  player "), std::string::npos)
-      << picture.rowText(24);
+  EXPECT_TRUE(test::has(picture.rowText(24), "paused  0:13  tick 400 of 400  x64  player "));
   const std::uint32_t eyes = controls.player();
   press(df::Keyboard::TAB);
   EXPECT_NE(controls.player(), eyes);

@@ -40,8 +40,6 @@ class LightBot {
 
   LightBot(const Harbour& harbour, int index);
   ~LightBot();
-  LightBot(const LightBot&) = delete;
-  LightBot& operator=(const LightBot&) = delete;
 
   /// Begin to log in.
   void start();

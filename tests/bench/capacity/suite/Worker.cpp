@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <sstream>
 #include <stdexcept>
 
 #include "../../path/Argv.h"
@@ -90,16 +89,6 @@ std::string Worker::ask(const std::string& line, const std::string& word, std::c
 
 double Worker::cpu() const {
   return cpuMicros(m_clock);
-}
-
-std::map<std::string, double> figuresOf(const std::string& line) {
-  std::map<std::string, double> figures;
-  std::istringstream words(line);
-  for (std::string word; words >> word;) {
-    const std::size_t equals = word.find('=');
-    if (equals != std::string::npos) figures[word.substr(0, equals)] = std::stod(word.substr(equals + 1));
-  }
-  return figures;
 }
 
 }  // namespace bench::capacity

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <ctime>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -36,8 +35,5 @@ class Worker {
   clockid_t m_clock{};
   std::string m_heard;
 };
-
-/// The numbers of "word key=value key=value".
-std::map<std::string, double> figuresOf(const std::string& line);
 
 }  // namespace bench::capacity

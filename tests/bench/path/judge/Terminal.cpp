@@ -6,7 +6,6 @@
 #include "../scene/Status.h"
 
 namespace bench::path {
-
 namespace {
 
 constexpr std::uint8_t kWhite = 7;

@@ -4,7 +4,6 @@
 #include <utility>
 
 namespace bench::path {
-
 namespace {
 
 constexpr std::size_t kHeader = 20;  // of IPv4

@@ -9,14 +9,16 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstring>
 
+#include "../Argv.h"
 #include "tests/bench/UserMap.h"
 
 namespace bench::path {
-
 namespace {
 
+constexpr int kCannotRun = 127;
 constexpr int kMtu = 1500;
 const char* const kDevice = "link0";
 
@@ -43,6 +45,12 @@ int openTun() {
   if (ioctl(fd, TUNSETIFF, &device) == 0) return fd;
   close(fd);
   throw NotAllowed("tun-device-not-allowed");
+}
+
+void redirect(const std::string& log) {
+  const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  if (in < 0 || out < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(out, 2) < 0) _exit(kCannotRun);
 }
 
 /// ioctl() on a device through a socket of the present namespace.
@@ -109,8 +117,21 @@ void NetworkNamespace::configure(const std::string& address, const std::string& 
   configuration.bringUp(kDevice);
 }
 
-void NetworkNamespace::enter() const {
-  if (setns(m_namespace, CLONE_NEWNET) != 0) throw NotAllowed("network-namespace-cannot-be-entered");
+void NetworkNamespace::become(const std::vector<std::string>& command, const std::string& log) const {
+  if (setns(m_namespace, CLONE_NEWNET) != 0) _exit(kCannotRun);
+  setsid();
+  if (!log.empty()) redirect(log);
+  std::vector<char*> argv = argvOf(command);
+  execvp(argv[0], argv.data());
+  std::fprintf(stderr, "naiad_link: %s cannot be run\n", argv[0]);
+  _exit(kCannotRun);
+}
+
+pid_t NetworkNamespace::start(const std::vector<std::string>& command, const std::string& log) const {
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("a process cannot be forked");
+  if (child == 0) become(command, log);
+  return child;
 }
 
 }  // namespace bench::path

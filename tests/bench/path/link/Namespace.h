@@ -1,8 +1,11 @@
 // A network of its own for a process and its children, with one end of the link in it.
 #pragma once
 
+#include <sys/types.h>
+
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace bench::path {
 
@@ -28,13 +31,17 @@ class NetworkNamespace {
   NetworkNamespace(const NetworkNamespace&) = delete;
   NetworkNamespace& operator=(const NetworkNamespace&) = delete;
 
-  /// Move the calling process into it.
-  void enter() const;
+  /// Runs `command` in it, in a session of its own. With a `log`, that file is its stdout and stderr, and it
+  /// has no stdin. Throws std::runtime_error if it cannot be forked; a program that cannot be run ends with
+  /// 127.
+  pid_t start(const std::vector<std::string>& command, const std::string& log) const;
   /// Reads and writes IP packets, without blocking.
   int tun() const { return m_tun; }
 
  private:
   void configure(const std::string& address, const std::string& peer) const;
+  /// Moves the calling process into it, and becomes the command.
+  [[noreturn]] void become(const std::vector<std::string>& command, const std::string& log) const;
 
   int m_tun = -1;
   int m_namespace = -1;

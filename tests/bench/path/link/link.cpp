@@ -26,7 +26,6 @@
 
 #include "../Punctual.h"
 #include "../SharedFile.h"
-#include "Child.h"
 #include "Namespace.h"
 
 namespace {
@@ -95,7 +94,7 @@ int carry(const Options& options) {
   Link link(server_network.tun(), client_network.tun(), direction(options, "down", options.seed * 2),
             direction(options, "up", options.seed * 2 + 1), *counters);
   becomePunctual();
-  const pid_t server = startIn(server_network, options.server, options.server_log);
+  const pid_t server = server_network.start(options.server, options.server_log);
   const Nanoseconds late = monotonicNow() + kServerStarts;
   while (!isThere(options.ready_file)) {
     // One that ends well has left something behind that serves.
@@ -105,7 +104,7 @@ int carry(const Options& options) {
     }
     link.run(kRound);
   }
-  const pid_t client = startIn(client_network, options.client, "");
+  const pid_t client = client_network.start(options.client, "");
   for (;;) {
     link.run(kRound);
     if (const auto code = reap(client)) return *code;

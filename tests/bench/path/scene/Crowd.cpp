@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 namespace bench::path {
-
 namespace {
 
 constexpr int kRight = (kWidth - 1) * kUnits;

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 namespace bench::path {
-
 namespace {
 
 constexpr int kDigitsColumn = 5;  // after "tick="

@@ -1,17 +1,14 @@
 #include "Measurement.h"
 
-#include <cstdlib>
-#include <filesystem>
 #include <future>
-#include <sstream>
 #include <stdexcept>
 
 #include "../judge/Quantile.h"
 #include "Peers.h"
 #include "Subprocess.h"
+#include "tests/support/TempFolder.h"
 
 namespace bench::path {
-
 namespace {
 
 using Words = std::vector<std::string>;
@@ -21,26 +18,6 @@ constexpr const char* kSeparator = ":::";
 constexpr int kNotAllowed = 77;
 constexpr const char* kAddress = "10.77.0.1";
 constexpr const char* kLoopbackAddress = "127.77.0.1";  // the link can carry it, too
-
-/// A folder that goes when the run is over.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "naiad-path-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made for a run");
-    m_name = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(m_name, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::string& name() const { return m_name; }
-
- private:
-  std::string m_name;
-};
 
 void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
@@ -78,27 +55,17 @@ Words judgeCommand(const Place& place, const Peer& peer, const Effort& effort) {
   return words;
 }
 
-Figures parse(const std::string& line) {
-  Figures figures;
-  std::istringstream text(line);
-  for (std::string word; text >> word;) {
-    const std::size_t sign = word.find('=');
-    if (sign != std::string::npos) figures[word.substr(0, sign)] = std::stod(word.substr(sign + 1));
-  }
-  return figures;
-}
-
 Figures runOnce(const std::string& program, const Condition& condition, const Effort& effort,
                 std::uint64_t seed) {
-  const Folder folder;
+  const naiad::test::TempFolder folder;
   const std::string address = isOurs(program) && !servesOthers() ? kLoopbackAddress : kAddress;
-  const Place place{kBin, folder.name(), address, seed};
+  const Place place{kBin, folder.string(), address, seed};
   const Peer peer = preparePeer(program, place);
   Words command = linkCommand(place, peer, condition);
   append(command, judgeCommand(place, peer, effort));
   const Finished finished = runProgram(command);
   if (finished.code != 0) throw std::runtime_error(program + " could not be measured");
-  return parse(finished.output);
+  return figuresOf(finished.output);
 }
 
 }  // namespace
@@ -112,8 +79,8 @@ std::optional<std::string> notAllowedBecause() {
 
 bool servesOthers() {
   static const bool s_serves = [] {
-    const Folder folder;
-    const Place place{kBin, folder.name(), kAddress, 1};
+    const naiad::test::TempFolder folder;
+    const Place place{kBin, folder.string(), kAddress, 1};
     Words command = linkCommand(place, preparePeer("dfclient", place), {});
     command.emplace_back("true");
     return runProgram(command).code == 0;

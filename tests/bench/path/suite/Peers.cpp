@@ -13,7 +13,6 @@
 #include "Subprocess.h"
 
 namespace bench::path {
-
 namespace {
 
 using Words = std::vector<std::string>;

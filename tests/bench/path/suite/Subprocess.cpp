@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <sstream>
 #include <stdexcept>
 
 #include "../Argv.h"
@@ -37,6 +38,16 @@ Finished runProgram(const std::vector<std::string>& command) {
   waitpid(pid, &status, 0);
   finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return finished;
+}
+
+std::map<std::string, double> figuresOf(const std::string& line) {
+  std::map<std::string, double> figures;
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals != std::string::npos) figures[word.substr(0, equals)] = std::stod(word.substr(equals + 1));
+  }
+  return figures;
 }
 
 }  // namespace bench::path

@@ -1,6 +1,7 @@
 // Runs programs and listens to them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,8 @@ struct Finished {
 
 /// Run a command to its end. Its stderr is ours. Throws std::runtime_error if it cannot be started.
 Finished runProgram(const std::vector<std::string>& command);
+
+/// The numbers of "word key=value key=value".
+std::map<std::string, double> figuresOf(const std::string& line);
 
 }  // namespace bench::path

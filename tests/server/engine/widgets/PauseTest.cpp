@@ -144,7 +144,10 @@ TEST_F(PauseTest, JoinsAndLeavesInAPauseAreSent) {
   world.input().leave(players[1]);
   world.tick();
   EXPECT_TRUE(world.isPaused());
-  EXPECT_EQ(received, (std::vector<std::string>{"game:df-join", "game:df-leave"}));
+  EXPECT_EQ(received, (Received{"game:df-join", "game:df-leave"}));
+  const EventStep step;
+  EXPECT_EQ(WM.onEvent(&step), 0);
+  EXPECT_EQ(world.events().sendToAll(step), 1) << "as the events of the network are";
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <iterator>
 
 #include "host/admin/BanList.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
@@ -22,12 +22,6 @@ asio::ip::address at(const std::string& text) {
 
 class BanListTest : public testing::Test {
  protected:
-  BanListTest() {
-    std::string name = testing::TempDir() + "naiad-bans-XXXXXX";
-    folder = mkdtemp(name.data());
-  }
-  ~BanListTest() override { fs::remove_all(folder); }
-
   fs::path file() const { return folder / "bans.sqlite3"; }
   BanList::Clock clock() {
     return [this] { return now; };
@@ -58,7 +52,7 @@ class BanListTest : public testing::Test {
     return count;
   }
 
-  fs::path folder;
+  const test::TempFolder folder;
   Ban::Time now{1'800'000'000s};
   AdminWorker worker;
 };

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
-#include <atomic>
-#include <condition_variable>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -17,6 +14,8 @@
 #include "shared/admin/AdminJson.h"
 #include "shared/admin/ControlPath.h"
 #include "shared/net/stream/TcpListener.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -28,12 +27,7 @@ const char* const kPing = R"({"command":"ping"})";
 
 class ControlSocketTest : public testing::Test {
  protected:
-  ControlSocketTest() {
-    std::string name = testing::TempDir() + "naiad-control-XXXXXX";
-    folder = mkdtemp(name.data());
-    options.path = folder / "control.sock";
-  }
-  ~ControlSocketTest() override { fs::remove_all(folder); }
+  ControlSocketTest() { options.path = folder / "control.sock"; }
 
   /// Answers with the command; "say" waits until release().
   std::unique_ptr<ControlSocket> open() {
@@ -70,7 +64,7 @@ class ControlSocketTest : public testing::Test {
   }
   bool exists() const { return fs::exists(fs::symlink_status(options.path)); }
 
-  fs::path folder;
+  const test::TempFolder folder;
   ControlListening options;
   WatchFeed feed;
   std::mutex mutex;
@@ -227,7 +221,7 @@ TEST_F(ControlSocketTest, OnePlaceIsKeptForShortCommands) {
   }
   Talk last(options.path);
   EXPECT_EQ(last.ask(kPing), R"({"ok":true,"text":"ping"})");
-  EXPECT_NE(last.ask(R"({"command":"watch"})").find("short commands"), std::string::npos);
+  EXPECT_TRUE(test::has(last.ask(R"({"command":"watch"})"), "short commands"));
   EXPECT_FALSE(last.readLine()) << "it has had its time";
   Talk next(options.path);
   EXPECT_EQ(next.ask(kPing), R"({"ok":true,"text":"ping"})") << "the place is free again";

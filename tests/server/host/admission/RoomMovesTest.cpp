@@ -40,9 +40,8 @@ class DoorPort : public WorldPort {
   void close(const WorldTurn& /*rest*/) override { ended = WorldEnd(); }
 
   std::size_t count(df::InputQueue::Kind kind, std::uint32_t player) const {
-    return static_cast<std::size_t>(std::count_if(inputs.begin(), inputs.end(), [&](const auto& input) {
-      return input.kind == kind && input.player == player;
-    }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        inputs, [&](const auto& input) { return input.kind == kind && input.player == player; }));
   }
   std::vector<df::InputQueue::Input> inputs;
   std::vector<df::SentPlayer> sent;
@@ -224,8 +223,7 @@ TEST_F(RoomMovesTest, RequestsBeyondTwoASecondAreDropped) {
   list.mutable_list_rooms();
   for (int i = 0; i < 100; ++i) ann.receive(list);
   const auto lists = [&] {
-    return std::count_if(ann.sent.begin(), ann.sent.end(),
-                         [](const auto& message) { return message.has_rooms(); });
+    return std::ranges::count_if(ann.sent, [](const auto& message) { return message.has_rooms(); });
   };
   EXPECT_EQ(lists(), 4);
   EXPECT_EQ(counters.room_requests_dropped, 96u);
@@ -278,8 +276,7 @@ TEST_F(RoomMovesTest, AGameThatSendsWithoutEndFloodsNoPlayer) {
     ports["lobby"]->sent.assign(64, {sessionOf(ann).player(), "nowhere"});
     tick();
   }
-  const auto lines =
-      std::count_if(ann.sent.begin(), ann.sent.end(), [](const auto& message) { return message.has_chat(); });
+  const auto lines = std::ranges::count_if(ann.sent, [](const auto& message) { return message.has_chat(); });
   EXPECT_LE(lines, 12) << "in 3.3 s";
   EXPECT_GE(lines, 4);
 }

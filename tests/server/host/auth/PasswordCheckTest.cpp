@@ -26,10 +26,6 @@ AddressPrefix prefix(int number) {
 }
 
 struct PasswordCheckTest : testing::Test {
-  void make(PasswordCheck::Limits limits, PasswordHash::Cost cost = kCheap) {
-    check = std::make_unique<PasswordCheck>(context.get_executor(), PasswordHash::of("open sesame", cost),
-                                            limits);
-  }
   void ask(const AddressPrefix& from, const std::string& password, std::function<void(Answer)> done) {
     check->check(from, false, password, now, [this, done = std::move(done)](Answer answer) {
       EXPECT_EQ(std::this_thread::get_id(), home);
@@ -47,7 +43,8 @@ struct PasswordCheckTest : testing::Test {
   }
 
   asio::io_context context;
-  std::unique_ptr<PasswordCheck> check;
+  std::unique_ptr<PasswordCheck> check = std::make_unique<PasswordCheck>(
+      context.get_executor(), PasswordHash::of("open sesame", kCheap), PasswordCheck::Limits());
   Time now{};
   std::vector<Answer> answers;
   const std::thread::id home = std::this_thread::get_id();
@@ -63,14 +60,13 @@ TEST(PasswordHash, KnowsTheRightPasswordOnly) {
 }
 
 TEST_F(PasswordCheckTest, AnotherPasswordHoldsFromThenOn) {
-  make({});
   ask(1, "open sesame");
   EXPECT_EQ(run(), std::vector{Answer::kRight});
   check->setHash(PasswordHash::of("xyzzy", kCheap));
   ask(2, "open sesame");
   ask(3, "xyzzy");
   std::vector<Answer> both = run();
-  std::sort(both.begin(), both.end());
+  std::ranges::sort(both);
   EXPECT_EQ(both, (std::vector{Answer::kRight, Answer::kWrong}));
 }
 
@@ -98,7 +94,6 @@ TEST(PasswordHash, TextIsAPasswordOrAHash) {
 }
 
 TEST_F(PasswordCheckTest, AnswersRightAndWrongLater) {
-  make({});
   ask(1, "open sesame");
   ask(2, "open barley");
   EXPECT_TRUE(answers.empty());
@@ -108,7 +103,6 @@ TEST_F(PasswordCheckTest, AnswersRightAndWrongLater) {
 }
 
 TEST_F(PasswordCheckTest, WrongTriesFromOnePlaceAreFew) {
-  make({});
   for (int i = 0; i < 5; ++i) {
     ask(1, "guess");
     EXPECT_EQ(run(), std::vector{Answer::kWrong});
@@ -123,7 +117,6 @@ TEST_F(PasswordCheckTest, WrongTriesFromOnePlaceAreFew) {
 }
 
 TEST_F(PasswordCheckTest, RightTriesAreNotCounted) {
-  make({});
   for (int i = 0; i < 64; ++i) {  // a class behind one address
     ask(1, "open sesame");
     EXPECT_EQ(run(), std::vector{Answer::kRight});
@@ -132,26 +125,23 @@ TEST_F(PasswordCheckTest, RightTriesAreNotCounted) {
 }
 
 TEST_F(PasswordCheckTest, TriesAtOnceDoNotGetAroundTheLimit) {
-  make({});
   for (int i = 0; i < 7; ++i) ask(1, "guess");
   const auto all = run();
-  EXPECT_EQ(std::count(all.begin(), all.end(), Answer::kWrong), 5);
-  EXPECT_EQ(std::count(all.begin(), all.end(), Answer::kBusy), 2);
+  EXPECT_EQ(std::ranges::count(all, Answer::kWrong), 5);
+  EXPECT_EQ(std::ranges::count(all, Answer::kBusy), 2);
 }
 
 TEST_F(PasswordCheckTest, FloodMeetsAShortQueue) {
-  make({});
   for (int i = 0; i < 100; ++i)
     ask(i, "open sesame");  // nothing is answered meanwhile, for the loop does not run
   const auto all = run();
   ASSERT_EQ(all.size(), 100u);
-  EXPECT_EQ(std::count(all.begin(), all.end(), Answer::kRight), 8);
-  EXPECT_EQ(std::count(all.begin(), all.end(), Answer::kBusy), 92);
+  EXPECT_EQ(std::ranges::count(all, Answer::kRight), 8);
+  EXPECT_EQ(std::ranges::count(all, Answer::kBusy), 92);
   EXPECT_EQ(check->counters().busy, 92u);
 }
 
 TEST_F(PasswordCheckTest, WhatCannotBeAPasswordIsNeitherComparedNorCounted) {
-  make({});
   for (int i = 0; i < 100; ++i) ask(1, i % 2 == 0 ? std::string() : std::string(kMaxPassword + 1, 'x'));
   EXPECT_TRUE(answers.empty());
   EXPECT_EQ(run(), std::vector(100, Answer::kWrong));
@@ -164,7 +154,6 @@ TEST_F(PasswordCheckTest, WhatCannotBeAPasswordIsNeitherComparedNorCounted) {
 
 /// Attackers who ask again as soon as they have an answer, from a network each.
 TEST_F(PasswordCheckTest, EightyAddressesThatGuessKeepNoPlayerOut) {
-  make({});
   const auto network = [](int i) {
     return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256));
   };
@@ -197,7 +186,6 @@ TEST_F(PasswordCheckTest, EightyAddressesThatGuessKeepNoPlayerOut) {
 }
 
 TEST_F(PasswordCheckTest, PrefixesThatPlayComeFirst) {
-  make({});
   std::vector<int> order;
   for (int i = 0; i < 9; ++i) {
     check->check(AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256)),
@@ -210,7 +198,6 @@ TEST_F(PasswordCheckTest, PrefixesThatPlayComeFirst) {
 }
 
 TEST_F(PasswordCheckTest, MayBeDestroyedInItsCallbackAndIsSilentAfterwards) {
-  make({});
   int calls = 0;
   for (int i = 0; i < 3; ++i) {
     check->check(prefix(i), false, "open sesame", now, [&, marker = std::string(100, 'm')](Answer) {
@@ -227,7 +214,6 @@ TEST_F(PasswordCheckTest, CallbacksDieOnTheOwnersThread) {
     std::thread::id home;
     ~Canary() { EXPECT_EQ(std::this_thread::get_id(), home); }
   };
-  make({});
   for (int i = 0; i < 8; ++i) {
     check->check(prefix(i), false, "open sesame", now,
                  [canary = std::make_shared<Canary>(Canary{home})](Answer) {});

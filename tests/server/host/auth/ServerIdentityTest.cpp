@@ -4,12 +4,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <thread>
 #include <vector>
 
 #include "host/auth/ServerIdentity.h"
 #include "shared/net/base/SafeFile.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -19,13 +20,6 @@ namespace fs = std::filesystem;
 const auto kNow = std::chrono::system_clock::from_time_t(1'800'000'000);
 
 struct ServerIdentityTest : testing::Test {
-  ServerIdentityTest() {
-    std::string name = testing::TempDir() + "naiad-identity-XXXXXX";
-    base = mkdtemp(name.data());
-    directory = base / "config" / "naiad";
-  }
-  ~ServerIdentityTest() override { fs::remove_all(base); }
-
   ServerIdentity loadOrMake() const { return ServerIdentity::loadOrMake(directory, kNow); }
   static std::string contentOf(const fs::path& path) {
     return readSmallFile(path, 100'000).value_or("(missing)");
@@ -46,8 +40,8 @@ struct ServerIdentityTest : testing::Test {
     return "(none)";
   }
 
-  fs::path base;
-  fs::path directory;
+  const test::TempFolder base;
+  fs::path directory = base / "config" / "naiad";
 };
 
 TEST_F(ServerIdentityTest, AFolderInWhichEveryUserCanWriteIsRefused) {
@@ -59,7 +53,7 @@ TEST_F(ServerIdentityTest, AFolderInWhichEveryUserCanWriteIsRefused) {
                 directory.string());
   EXPECT_FALSE(fs::exists(directory / "key.pem"));
   fs::permissions(directory, fs::perms::owner_all | fs::perms::group_all);
-  EXPECT_NE(loadOrMake().warning().find("its group can write in it"), std::string::npos);
+  EXPECT_TRUE(test::has(loadOrMake().warning(), "its group can write in it"));
   fs::permissions(directory, fs::perms::owner_all);
   EXPECT_EQ(loadOrMake().warning(), "");
 }
@@ -68,8 +62,7 @@ TEST_F(ServerIdentityTest, AKeyThatIsAPipeIsNotWaitedFor) {
   fs::create_directories(base);
   const fs::path pipe = base / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_NE(complaint([&] { ServerIdentity::load(pipe, pipe); }).find("is not a regular file"),
-            std::string::npos);
+  EXPECT_TRUE(test::has(complaint([&] { ServerIdentity::load(pipe, pipe); }), "is not a regular file"));
 }
 
 TEST_F(ServerIdentityTest, IsMadeOnceAndUsedAgain) {
@@ -101,8 +94,7 @@ TEST_F(ServerIdentityTest, CertificateMayBeMadeAgainForTheSameKey) {
 TEST_F(ServerIdentityTest, LostKeyIsNotReplacedSilently) {
   loadOrMake();
   fs::remove(directory / "key.pem");
-  EXPECT_NE(complaint([&] { loadOrMake(); }).find("is missing, though its certificate is there"),
-            std::string::npos);
+  EXPECT_TRUE(test::has(complaint([&] { loadOrMake(); }), "is missing, though its certificate is there"));
   EXPECT_FALSE(fs::exists(directory / "key.pem"));
 }
 

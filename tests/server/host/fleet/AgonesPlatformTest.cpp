@@ -6,7 +6,6 @@
 #include <stop_token>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "FakeSidecar.h"
 #include "host/fleet/AgonesPlatform.h"
@@ -70,7 +69,7 @@ TEST(AgonesPlatform, PlayersAreACounterAndAListAndHealthComesFromTheTick) {
   EXPECT_TRUE(sidecar.waitFor(R"(PATCH /v1beta1/counters/players {"count":"2","capacity":"64"})"));
   EXPECT_TRUE(sidecar.waitFor("POST /allocate {}"));
   const auto requests = sidecar.requests();
-  EXPECT_EQ(std::count(requests.begin(), requests.end(), "POST /health {}"), 0) << "no tick yet";
+  EXPECT_EQ(std::ranges::count(requests, "POST /health {}"), 0) << "no tick yet";
   const Ticks ticks(platform);
   EXPECT_TRUE(sidecar.waitFor("POST /health {}"));
 }

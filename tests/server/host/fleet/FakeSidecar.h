@@ -63,7 +63,7 @@ class FakeSidecar {
   }
   bool waitFor(const std::string& request, std::size_t times = 1) {
     return wait([&](const auto& requests) {
-      return static_cast<std::size_t>(std::count(requests.begin(), requests.end(), request)) >= times;
+      return static_cast<std::size_t>(std::ranges::count(requests, request)) >= times;
     });
   }
   std::vector<std::string> requests() {

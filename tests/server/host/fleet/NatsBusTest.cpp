@@ -10,12 +10,12 @@
 
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "NatsServer.h"
+#include "tests/support/WaitUntil.h"
 
 namespace naiad {
 namespace {
@@ -141,14 +141,6 @@ class NatsBusTest : public testing::Test {
     if (!test::NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
   }
   static std::unique_ptr<Bus> connect(const std::string& url) { return connectBus({url, "", ""}); }
-  static bool waitFor(const std::function<bool()>& holds) {
-    const auto end = std::chrono::steady_clock::now() + 60s;
-    while (std::chrono::steady_clock::now() < end) {
-      if (holds()) return true;
-      std::this_thread::yield();
-    }
-    return false;
-  }
 };
 
 TEST_F(NatsBusTest, PresenceArrives) {
@@ -159,7 +151,7 @@ TEST_F(NatsBusTest, PresenceArrives) {
   const auto bus = connect(server.url());
   bus->publish({"naiad.presence.a", "here"});
   EXPECT_EQ(listener.next(), "naiad.presence.a here");
-  EXPECT_TRUE(waitFor([&] { return bus->counters().published == 1; }));
+  EXPECT_TRUE(test::waitUntil([&] { return bus->counters().published == 1; }));
   EXPECT_EQ(bus->takeNews(), "the bus is connected");
   EXPECT_EQ(bus->takeNews(), "");
 }
@@ -171,7 +163,7 @@ TEST_F(NatsBusTest, OneOfEachResultIsKeptHoweverOftenItIsSent) {
   ASSERT_TRUE(listener.makeResults());
   for (int times = 0; times < 2; ++times) {
     const auto bus = connect(server.url());
-    ASSERT_TRUE(waitFor([&] { return bus->isConnected(); }));
+    ASSERT_TRUE(test::waitUntil([&] { return bus->isConnected(); }));
     for (const int number : {1, 2, 1, 3}) bus->publish(kept(number));
     bus->finish(60s);
     EXPECT_EQ(bus->counters().published, 4u);
@@ -183,24 +175,25 @@ TEST_F(NatsBusTest, WhatWasPublishedWhileTheBusWasGoneArrivesOnceItIsBackAndTooM
   test::NatsServer server;
   ASSERT_TRUE(server.start()) << server.log();
   const auto bus = connect(server.url());
-  ASSERT_TRUE(waitFor([&] { return bus->isConnected(); }));
+  ASSERT_TRUE(test::waitUntil([&] { return bus->isConnected(); }));
   bus->publish(kept(0));
-  EXPECT_TRUE(waitFor([&] { return bus->counters().failures > 0; })) << "there is no stream yet";
+  EXPECT_TRUE(test::waitUntil([&] { return bus->counters().failures > 0; })) << "there is no stream yet";
   {
     const Listener listener(server.url());
     ASSERT_TRUE(listener.makeResults());
     EXPECT_TRUE(listener.waitForResults(1));
   }
-  EXPECT_TRUE(waitFor([&] { return bus->counters().published == 1; }));
+  EXPECT_TRUE(test::waitUntil([&] { return bus->counters().published == 1; }));
   server.kill();
-  EXPECT_TRUE(waitFor([&] { return !bus->isConnected(); }));
+  EXPECT_TRUE(test::waitUntil([&] { return !bus->isConnected(); }));
   const auto begin = std::chrono::steady_clock::now();
   for (int number = 1; number <= 4200; ++number) bus->publish(kept(number));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s) << "nothing waits";
   EXPECT_EQ(bus->counters().dropped, 4200u - Bus::kMaxKept);
-  EXPECT_TRUE(waitFor([&] { return bus->takeNews().find("cannot be reached") != std::string::npos; }));
+  EXPECT_TRUE(
+      test::waitUntil([&] { return bus->takeNews().find("cannot be reached") != std::string::npos; }));
   ASSERT_TRUE(server.start()) << server.log();
-  EXPECT_TRUE(waitFor([&] { return bus->counters().published == 1 + Bus::kMaxKept; }));
+  EXPECT_TRUE(test::waitUntil([&] { return bus->counters().published == 1 + Bus::kMaxKept; }));
   EXPECT_EQ(bus->counters().connections, 2u);
   EXPECT_EQ(Listener(server.url()).results(), 1 + Bus::kMaxKept);
 }
@@ -211,10 +204,10 @@ TEST_F(NatsBusTest, WhatOthersSayUnderItsSubjectsIsHeardAlsoOnceTheBusIsBack) {
   const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}});
   const auto mouth = connect(server.url());
   for (const std::string text : {"here", "back"}) {
-    ASSERT_TRUE(waitFor([&] { return ear->isConnected() && mouth->isConnected(); }));
+    ASSERT_TRUE(test::waitUntil([&] { return ear->isConnected() && mouth->isConnected(); }));
     std::vector<BusMessage> heard;
     // It may be connected a moment before it listens.
-    EXPECT_TRUE(waitFor([&] {
+    EXPECT_TRUE(test::waitUntil([&] {
       mouth->publish({"naiad.other.a", "none of its"});
       mouth->publish({"naiad.presence.a", text});
       heard = ear->takeMessages();
@@ -225,7 +218,7 @@ TEST_F(NatsBusTest, WhatOthersSayUnderItsSubjectsIsHeardAlsoOnceTheBusIsBack) {
     EXPECT_EQ(heard[0].payload, text);
     if (text == "back") break;
     server.kill();
-    ASSERT_TRUE(waitFor([&] { return !ear->isConnected() && !mouth->isConnected(); }));
+    ASSERT_TRUE(test::waitUntil([&] { return !ear->isConnected() && !mouth->isConnected(); }));
     ear->takeMessages();
     ASSERT_TRUE(server.start()) << server.log();
   }
@@ -245,7 +238,7 @@ TEST_F(NatsBusTest, AServerMayPublishItsOwnPresenceAlone) {
   bus->publish({"naiad.presence.a", "here"});
   EXPECT_EQ(listener.next(), "naiad.presence.a here") << "nats-server refused the other";
   const auto stranger = connect(server.url("a:wrong"));
-  EXPECT_TRUE(waitFor([&] { return stranger->counters().failures > 0; }));
+  EXPECT_TRUE(test::waitUntil([&] { return stranger->counters().failures > 0; }));
   const std::string news = stranger->takeNews();
   EXPECT_NE(news.find("cannot be reached"), std::string::npos) << news;
   EXPECT_EQ(news.find("wrong"), std::string::npos) << "no password in the log";

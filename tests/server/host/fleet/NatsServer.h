@@ -2,17 +2,17 @@
 #pragma once
 
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
-#include <vector>
+
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 
@@ -23,15 +23,9 @@ class NatsServer {
 
   /// `config`: more lines of its configuration.
   explicit NatsServer(const std::string& config = "") {
-    char name[] = "/tmp/naiad-nats-XXXXXX";
-    if (::mkdtemp(name) != nullptr) m_folder = name;
     std::ofstream(m_folder / "config") << config << "\n";
   }
-  ~NatsServer() {
-    kill();
-    std::error_code error;
-    std::filesystem::remove_all(m_folder, error);
-  }
+  ~NatsServer() { kill(); }
   NatsServer(const NatsServer&) = delete;
   NatsServer& operator=(const NatsServer&) = delete;
 
@@ -45,7 +39,7 @@ class NatsServer {
       const std::string log = m_folder / "log";
       ::execl(kProgram, kProgram, "-a", "127.0.0.1", "-p", port.c_str(), "-js", "-sd",
               (m_folder / "store").c_str(), "-c", (m_folder / "config").c_str(), "-l", log.c_str(),
-              "--ports_file_dir", m_folder.c_str(), nullptr);
+              "--ports_file_dir", m_folder.path().c_str(), nullptr);
       _exit(127);
     }
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -64,10 +58,7 @@ class NatsServer {
   std::string url(const std::string& user = "") const {
     return "nats://" + (user.empty() ? "" : user + "@") + "127.0.0.1:" + m_port;
   }
-  std::string log() const {
-    std::ifstream file(m_folder / "log");
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string log() const { return contentOf(m_folder / "log"); }
 
  private:
   std::filesystem::path portsFile() const {
@@ -75,15 +66,14 @@ class NatsServer {
   }
   /// {"nats":["nats://127.0.0.1:40123"]}; written once it listens.
   bool readPort() {
-    std::ifstream file(portsFile());
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = contentOf(portsFile());
     const std::size_t begin = text.find("127.0.0.1:");
     if (begin == std::string::npos || text.find('"', begin) == std::string::npos) return false;
     m_port = text.substr(begin + 10, text.find('"', begin) - begin - 10);
     return true;
   }
 
-  std::filesystem::path m_folder;
+  TempFolder m_folder;
   std::string m_port;
   pid_t m_process = -1;
 };

@@ -5,12 +5,12 @@
 #include <unistd.h>
 
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "host/fleet/ServiceNotify.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
@@ -20,14 +20,9 @@ using std::chrono::milliseconds;
 
 class ServiceNotifyTest : public testing::Test {
  protected:
-  ServiceNotifyTest() {
-    std::string folder = testing::TempDir() + "naiad-notify-XXXXXX";
-    base = mkdtemp(folder.data());
-    listenAt((base / "notify").string());
-  }
+  ServiceNotifyTest() { listenAt((base / "notify").string()); }
   ~ServiceNotifyTest() override {
     if (socket >= 0) ::close(socket);
-    std::filesystem::remove_all(base);
   }
   /// '@': a name without a file.
   void listenAt(const std::string& path) {
@@ -56,7 +51,7 @@ class ServiceNotifyTest : public testing::Test {
   }
   static std::vector<std::string> texts(std::initializer_list<std::string> all) { return all; }
 
-  std::filesystem::path base;
+  const test::TempFolder base;
   int socket = -1;
   std::map<std::string, std::string> variables;
 };

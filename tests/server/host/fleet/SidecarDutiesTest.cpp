@@ -131,7 +131,7 @@ TEST_F(SidecarDutiesTest, FactsThatCannotBeReadAreAskedForAgainWhileTheRestGoesO
     duties.setReady();
     play({});
     const All all = said(200, body);
-    EXPECT_EQ(std::count(all.begin(), all.end(), "GET /gameserver"), 1);
+    EXPECT_EQ(std::ranges::count(all, "GET /gameserver"), 1);
     EXPECT_EQ(duties.counters().failures, failures + 1);
     EXPECT_FALSE(duties.facts());
     EXPECT_EQ(duties.wake(), now + SidecarDuties::kRetry);

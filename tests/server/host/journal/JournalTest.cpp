@@ -9,7 +9,6 @@
 #include <condition_variable>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -18,6 +17,8 @@
 #include "host/journal/Journal.h"
 #include "host/journal/JournalWriter.h"
 #include "host/journal/Salvage.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -84,16 +85,27 @@ std::shared_ptr<Journal> journalOn(Disk& disk, std::size_t ring = kRing) {
                                    ring, false);
 }
 
-TEST(JournalTest, WhatIsAddedIsOnTheDiskAfterATurnOfTheWriter) {
+/// A journal on such a disk, and its writer.
+class JournalTest : public testing::Test {
+ protected:
+  void begin(std::size_t ring = kRing) {
+    journal = journalOn(disk, ring);
+    writer.add(journal);
+  }
+  bool drains() { return writer.drain(std::chrono::seconds(60)); }
+
   Disk disk;
-  const auto journal = journalOn(disk);
   JournalWriter writer;
-  writer.add(journal);
+  std::shared_ptr<Journal> journal;
+};
+
+TEST_F(JournalTest, WhatIsAddedIsOnTheDiskAfterATurnOfTheWriter) {
+  begin();
   for (int i = 0; i < 100; ++i) ASSERT_TRUE(journal->add(turnRecord()));
-  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  ASSERT_TRUE(drains());
   EXPECT_EQ(countTurns(disk.bytes), 100u);
   journal->finish("is over");
-  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  ASSERT_TRUE(drains());
   DfrReader reader(disk.bytes);
   while (reader.next()) continue;
   EXPECT_EQ(reader.end(), DfrEnd::kDone);
@@ -102,70 +114,58 @@ TEST(JournalTest, WhatIsAddedIsOnTheDiskAfterATurnOfTheWriter) {
 }
 
 // Who reads a file knows its facts before its first turn, also if they came while its header was written.
-TEST(JournalTest, FactsAreBeforeTheRecordsThatWereAddedAfterThem) {
-  Disk disk;
-  const auto journal = journalOn(disk);
-  JournalWriter writer;
+TEST_F(JournalTest, FactsAreBeforeTheRecordsThatWereAddedAfterThem) {
   disk.setStalled(true);
-  writer.add(journal);
+  begin();
   writer.wake();
   disk.waitUntilSomebodyWaits();
   journal->addFacts({{"file ship.txt", "1"}});
   ASSERT_TRUE(journal->add(turnRecord()));
   disk.setStalled(false);
-  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  ASSERT_TRUE(drains());
   DfrReader reader(disk.bytes);
   EXPECT_EQ(reader.facts().count("file ship.txt"), 1u);
   EXPECT_TRUE(reader.next());
 }
 
 // While the disk stalls, adding returns: this test would hang otherwise.
-TEST(JournalTest, ADiskThatStallsKeepsNobodyWaiting) {
-  Disk disk;
-  const auto journal = journalOn(disk, std::size_t{1} << 20);
-  JournalWriter writer;
-  writer.add(journal);
+TEST_F(JournalTest, ADiskThatStallsKeepsNobodyWaiting) {
+  begin(std::size_t{1} << 20);
   disk.setStalled(true);
   ASSERT_TRUE(journal->add(turnRecord()));
   writer.wake();
   disk.waitUntilSomebodyWaits();
   for (int tick = 0; tick < 300; ++tick) ASSERT_TRUE(journal->add(turnRecord()));  // ten seconds
   disk.setStalled(false);
-  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  ASSERT_TRUE(drains());
   EXPECT_EQ(countTurns(disk.bytes), 301u);
 }
 
-TEST(JournalTest, ADiskThatIsTooSlowForTheRingStopsTheJournal) {
-  Disk disk;
-  const auto journal = journalOn(disk);
-  JournalWriter writer;
-  writer.add(journal);
+TEST_F(JournalTest, ADiskThatIsTooSlowForTheRingStopsTheJournal) {
+  begin();
   ASSERT_TRUE(journal->add(turnRecord()));
-  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  ASSERT_TRUE(drains());
   disk.setStalled(true);
   std::size_t added = 0;
   while (journal->add(turnRecord())) ++added;
   EXPECT_LE(added, kRing);
   EXPECT_EQ(journal->takeProblem(), "the disk is too slow");
   disk.setStalled(false);
-  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  ASSERT_TRUE(drains());
   EXPECT_EQ(disk.flags, kDfrStopped);
   EXPECT_EQ(journal->takeProblem(), std::nullopt) << "it is said once";
 }
 
-TEST(JournalTest, AFullDiskStopsTheJournalAndIsSaidOnce) {
-  Disk disk;
-  const auto journal = journalOn(disk);
-  JournalWriter writer;
-  writer.add(journal);
+TEST_F(JournalTest, AFullDiskStopsTheJournalAndIsSaidOnce) {
+  begin();
   ASSERT_TRUE(journal->add(turnRecord()));
-  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  ASSERT_TRUE(drains());
   {
     const std::lock_guard lock(disk.mutex);
     disk.error = ENOSPC;
   }
   ASSERT_TRUE(journal->add(turnRecord()));
-  ASSERT_TRUE(writer.drain(std::chrono::seconds(60)));
+  ASSERT_TRUE(drains());
   EXPECT_FALSE(journal->add(turnRecord()));
   EXPECT_EQ(journal->takeProblem(), "disk: No space left on device");
   EXPECT_EQ(journal->takeProblem(), std::nullopt);
@@ -173,9 +173,8 @@ TEST(JournalTest, AFullDiskStopsTheJournalAndIsSaidOnce) {
   EXPECT_EQ(countTurns(disk.bytes), 1u);
 }
 
-TEST(JournalTest, WhileNoPlayerIsThereTheDiskHasHalfAMinutesRest) {
-  Disk disk;
-  const auto journal = journalOn(disk);
+TEST_F(JournalTest, WhileNoPlayerIsThereTheDiskHasHalfAMinutesRest) {
+  journal = journalOn(disk);
   journal->setCalm(true);
   ASSERT_TRUE(journal->flush());
   EXPECT_FALSE(disk.bytes.empty()) << "the file is begun at once";
@@ -203,13 +202,15 @@ TEST(JournalTest, WhileNoPlayerIsThereTheDiskHasHalfAMinutesRest) {
 
 class JournalFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    char name[] = "/tmp/naiad-journal-XXXXXX";
-    ASSERT_NE(mkdtemp(name), nullptr);
-    folder = name;
+  /// Rounds of another process have other ids.
+  static DfrHeader headerOf(std::uint8_t first, std::uint8_t last = 3) {
+    DfrHeader header;
+    header.uuid = {first, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8),
+                   last};
+    return header;
   }
-  void TearDown() override { fs::remove_all(folder); }
-  fs::path folder;
+
+  const test::TempFolder folder;
 };
 
 TEST_F(JournalFileTest, ItsFileIsForThisUserAlone) {
@@ -223,16 +224,14 @@ TEST_F(JournalFileTest, ItsFileIsForThisUserAlone) {
   EXPECT_EQ(facts.st_mode & 0777, 0600u);
   ASSERT_EQ(stat(path.parent_path().c_str(), &facts), 0);
   EXPECT_EQ(facts.st_mode & 0777, 0700u);
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = test::contentOf(path);
   EXPECT_EQ(DfrReader(bytes).header().flags, kDfrStopped);
 }
 
 // What waits for the disk when the process is killed is in the file after the next start: no turn is lost.
 TEST_F(JournalFileTest, AKilledServersRoundGetsTheTurnsThatHadNotReachedTheDisk) {
   const fs::path path = folder / "hello.dfr";
-  DfrHeader header;
-  header.uuid = {0x5A, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8), 3};
+  const DfrHeader header = headerOf(0x5A);
   const pid_t child = fork();
   if (child == 0) {
     Journal journal(std::make_unique<JournalFileSink>(path.string()), header, {{"game", "hello"}}, kRing,
@@ -248,17 +247,14 @@ TEST_F(JournalFileTest, AKilledServersRoundGetsTheTurnsThatHadNotReachedTheDisk)
   if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
   fs::resize_file(path, fs::file_size(path) + 7);  // torn in the middle of a chunk
   EXPECT_EQ(salvageRounds(folder.string()).size(), 1u);
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(countTurns(bytes), 150u);
+  EXPECT_EQ(countTurns(test::contentOf(path)), 150u);
   EXPECT_TRUE(salvageRounds(folder.string()).empty()) << "and the memory is free";
 }
 
 // A thread of its own begins the file, some time after the world has had its first turns.
 TEST_F(JournalFileTest, AServerThatWasKilledBeforeItsFileWasBegunHasItAfterwards) {
   const fs::path path = folder / "hello-first.dfr";
-  DfrHeader header;
-  header.uuid = {0x5C, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8), 3};
+  DfrHeader header = headerOf(0x5C);
   header.seed = 7;
   for (const bool is_made : {false, true}) {
     const pid_t child = fork();
@@ -275,8 +271,7 @@ TEST_F(JournalFileTest, AServerThatWasKilledBeforeItsFileWasBegunHasItAfterwards
     if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
     EXPECT_EQ(fs::exists(path), is_made);
     EXPECT_EQ(salvageRounds(folder.string()).size(), 1u);
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const std::string bytes = test::contentOf(path);
     DfrReader reader(bytes);
     std::size_t turns = 0;
     while (reader.next()) ++turns;
@@ -294,9 +289,7 @@ TEST_F(JournalFileTest, ARingNamesNoFileElsewhere) {
   for (const std::string name : {"../escaped.dfr", "/tmp/naiad-escaped.dfr", ".dfr", "hello.so", "..dfr"}) {
     const pid_t child = fork();
     if (child == 0) {
-      DfrHeader header;
-      header.uuid = {0x5D, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8),
-                     static_cast<std::uint8_t>(++number)};
+      const DfrHeader header = headerOf(0x5D, static_cast<std::uint8_t>(++number));
       Journal journal(std::make_unique<JournalFileSink>((folder / "x.dfr").string()), header, {}, kRing, true,
                       std::nullopt, ringFolder((folder / "rounds").string()), name);
       journal.add(turnRecord());
@@ -314,9 +307,7 @@ TEST_F(JournalFileTest, ARingNamesNoFileElsewhere) {
 
 TEST_F(JournalFileTest, ARoundThatIsBeingPlayedIsLeftAlone) {
   const fs::path path = folder / "hello.dfr";
-  DfrHeader header;
-  header.uuid = {0x5B, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8), 3};
-  Journal journal(std::make_unique<JournalFileSink>(path.string()), header, {}, kRing, true);
+  Journal journal(std::make_unique<JournalFileSink>(path.string()), headerOf(0x5B), {}, kRing, true);
   journal.add(turnRecord());
   journal.flush();
   journal.add(turnRecord());
@@ -326,26 +317,24 @@ TEST_F(JournalFileTest, ARoundThatIsBeingPlayedIsLeftAlone) {
 }
 
 TEST_F(JournalFileTest, MemoryOfARoundThatHasNoFileIsFreedByTheNextServerOfItsFolder) {
-  const auto uuid = [self = getpid()](std::uint8_t first) {
-    return std::array<std::uint8_t, 16>{first, static_cast<std::uint8_t>(self),
-                                        static_cast<std::uint8_t>(self >> 8), 4};
-  };
+  const auto dead = headerOf(1, 4).uuid;
+  const auto lives = headerOf(2, 4).uuid;
   const auto pathOf = [](const auto& round) { return "/dev/shm/naiad-" + uuidText(round); };
   const pid_t child = fork();
   if (child == 0) {
-    const TurnRing ring(4096, uuid(1), true, 0, ringFolder(folder.string()));
+    const TurnRing ring(4096, dead, true, 0, ringFolder(folder.string()));
     if (!ring.isShared()) _exit(77);
     kill(getpid(), SIGKILL);
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
-  const TurnRing played(4096, uuid(2), true, 0, ringFolder(folder.string()));
+  const TurnRing played(4096, lives, true, 0, ringFolder(folder.string()));
   salvageRounds((folder / "another").string());
-  EXPECT_TRUE(fs::exists(pathOf(uuid(1)))) << "it may be another server's, which is about to need it";
+  EXPECT_TRUE(fs::exists(pathOf(dead))) << "it may be another server's, which is about to need it";
   salvageRounds(folder.string());
-  EXPECT_FALSE(fs::exists(pathOf(uuid(1))));
-  EXPECT_TRUE(fs::exists(pathOf(uuid(2)))) << "its process lives";
+  EXPECT_FALSE(fs::exists(pathOf(dead)));
+  EXPECT_TRUE(fs::exists(pathOf(lives))) << "its process lives";
 }
 
 TEST_F(JournalFileTest, AFolderThatIsNotThereIsAnError) {
@@ -357,9 +346,7 @@ TEST_F(JournalFileTest, NoFileIsWrittenOver) {
   std::ofstream(folder / "hello.dfr") << "kept";
   JournalFileSink sink((folder / "hello.dfr").string());
   EXPECT_THROW(sink.write("x"), std::system_error);
-  std::string text;
-  std::ifstream(folder / "hello.dfr") >> text;
-  EXPECT_EQ(text, "kept");
+  EXPECT_EQ(test::contentOf(folder / "hello.dfr"), "kept");
 }
 
 TEST_F(JournalFileTest, TheOldestRoundsMakeRoom) {

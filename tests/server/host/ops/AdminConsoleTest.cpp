@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <asio/executor_work_guard.hpp>
 #include <deque>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,6 +20,7 @@
 #include "shared/admin/AdminAnswer.h"
 #include "tests/server/host/rooms/Clients.h"
 #include "tests/support/FakeChannel.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
@@ -36,10 +35,7 @@ class AdminConsoleTest : public testing::Test {
   AdminConsoleTest() {
     controls.setReload([this] { return context.options; });
   }
-  ~AdminConsoleTest() override {
-    worker.finish();
-    std::filesystem::remove_all(context.options.state);
-  }
+  ~AdminConsoleTest() override { worker.finish(); }
 
   static AdminCaller socket() { return {Level::kAdmin, Place::kSocket, "user 0, process 1"}; }
   static AdminCaller player(const std::string& name, std::uint64_t session, Level level = Level::kPlayer) {
@@ -98,17 +94,17 @@ class AdminConsoleTest : public testing::Test {
     }
     return lines_of_admins;
   }
-  static HostOptions options() {
+  HostOptions options() const {
     HostOptions options;
     options.address = "127.0.0.1";
     options.port = 0;
     options.insecure = true;
     options.grace = 0;
-    std::string folder = std::filesystem::temp_directory_path() / "naiad-console-XXXXXX";
-    options.state = mkdtemp(folder.data());
+    options.state = folder.string();
     return options;
   }
 
+  const test::TempFolder folder;
   std::vector<std::string> log;
   std::deque<test::Client> lines;
   std::vector<RoomPlan> plans;
@@ -325,7 +321,7 @@ TEST_F(AdminConsoleTest, AMutedPlayerTellsNobodyAnything) {
   EXPECT_TRUE(give({"tell", "Bob", "hi"}, player("Ann", ann)).ok);
   EXPECT_TRUE(give({"mute", "Ann"}).ok);
   EXPECT_FALSE(give({"tell", "Bob", "hi"}, player("Ann", ann)).ok);
-  const auto told = std::count_if(bob.sent.begin(), bob.sent.end(), [](const wire::ServerMessage& message) {
+  const auto told = std::ranges::count_if(bob.sent, [](const wire::ServerMessage& message) {
     return message.chat().text() == "Ann tells you: hi";
   });
   EXPECT_EQ(told, 1);

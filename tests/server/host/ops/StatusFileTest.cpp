@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "host/ops/StatusFile.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Version.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -40,17 +39,13 @@ TEST(StatusFile, AHostileNameStaysInItsQuotes) {
 }
 
 TEST(StatusFile, IsThereWhileItLivesAndGoneAfterwards) {
-  std::string name = fs::temp_directory_path() / "naiad-status-XXXXXX";
-  const fs::path home = mkdtemp(name.data());
+  const test::TempFolder home;
   {
     const StatusFile file(home / "status.json", statusFacts(), kLink);
-    std::stringstream text;
-    text << std::ifstream(home / "status.json").rdbuf();
-    EXPECT_EQ(text.str(), statusText(statusFacts(), kLink));
+    EXPECT_EQ(test::contentOf(home / "status.json"), statusText(statusFacts(), kLink));
   }
   EXPECT_FALSE(fs::exists(home / "status.json"));
   EXPECT_THROW(StatusFile(home / "none" / "status.json", statusFacts(), kLink), std::runtime_error);
-  fs::remove_all(home);
 }
 
 }  // namespace

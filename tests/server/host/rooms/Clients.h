@@ -1,10 +1,7 @@
 // Clients on channels that lead nowhere, for tests of what a host does with hellos.
 #pragma once
 
-#include <deque>
-#include <memory>
 #include <string>
-#include <utility>
 
 #include "host/rooms/SessionTable.h"
 #include "naiad.pb.h"

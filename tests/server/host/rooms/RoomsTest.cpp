@@ -187,8 +187,8 @@ class AuditTurnsTest : public RoomsTest {
   /// In how many ticks somebody's picture was wanted, of the player's own world.
   std::size_t wanted(std::size_t number, const Client& client) const {
     const std::vector<std::uint32_t>& all = ports[number]->pictured;
-    const auto own = std::count(all.begin(), all.end(), client.welcome().player());
-    EXPECT_EQ(own + std::count(all.begin(), all.end(), 0u), static_cast<std::ptrdiff_t>(all.size()));
+    const auto own = std::ranges::count(all, client.welcome().player());
+    EXPECT_EQ(own + std::ranges::count(all, 0u), static_cast<std::ptrdiff_t>(all.size()));
     return static_cast<std::size_t>(own);
   }
 };

@@ -1,12 +1,9 @@
 // The round of a server that was killed: what its file says, and a world that goes on with it.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -15,6 +12,8 @@
 #include "host/journal/RoundRecovery.h"
 #include "host/journal/TurnRing.h"
 #include "host/rounds/Round.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -90,13 +89,9 @@ class EchoWorld : public WorldPort {
 class RecoveryTest : public testing::Test {
  protected:
   void SetUp() override {
-    char name[] = "/tmp/naiad-recovery-XXXXXX";
-    ASSERT_NE(mkdtemp(name), nullptr);
-    folder = name;
     path = (folder / "hello.dfr").string();
     packed = spellDfrHeader({}) + spellDfrMeta({{"game", "hello"}});
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   /// One turn, and what EchoWorld answers to it.
   void turn(std::vector<Input> inputs, bool with_result = true) {
@@ -108,10 +103,11 @@ class RecoveryTest : public testing::Test {
     if (with_result) writeResult(count);
   }
   /// What EchoWorld answers to the turn of that number.
-  void writeResult(std::uint32_t turn) {
+  void writeResult(std::uint32_t turn) { writeCheck(static_cast<std::uint8_t>(turn % 200 + 1)); }
+  void writeCheck(std::uint8_t check) {
     TickResult result;
     result.has_check = true;
-    result.check = static_cast<std::uint8_t>(turn % 200 + 1);
+    result.check = check;
     writer.write(result, records);
   }
   void session(const KeptSession& one) { writer.write(one, records); }
@@ -150,6 +146,12 @@ class RecoveryTest : public testing::Test {
     world->setOnTick([this] { ++reported; });
   }
 
+  /// The world begins, and answers as long as it is asked.
+  void executeAgain() {
+    p_echo->ready = true;
+    world->checkProcess(1);
+    p_echo->answer();
+  }
   /// A round in whose second turn a world crashed; the one that took over answered as to that number. It is
   /// executed again.
   void crashInSecondTurn(std::uint32_t answered_as) {
@@ -159,12 +161,10 @@ class RecoveryTest : public testing::Test {
     writeResult(answered_as);
     turn({});
     goOn();
-    p_echo->ready = true;
-    world->checkProcess(1);
-    p_echo->answer();
+    executeAgain();
   }
 
-  fs::path folder;
+  const test::TempFolder folder;
   std::string path;
   std::string packed;
   std::string records;
@@ -241,9 +241,7 @@ TEST_F(RecoveryTest, TheScoresOfAllRepeatedTurnsAreGivenOutSinceTheLastMayNotBeW
   play();
   goOn();
   EXPECT_EQ(world->name().id, uuidText(round->header().uuid));
-  p_echo->ready = true;
-  world->checkProcess(1);
-  p_echo->answer();
+  executeAgain();
   ASSERT_EQ(recovered, 53u);
   const std::vector<df::AddedScore> scores = world->takeScores();
   ASSERT_EQ(scores.size(), 54u) << "that of the closing turn, too";
@@ -281,9 +279,7 @@ TEST_F(RecoveryTest, AWorldHasAllTurnsAgainBeforeItIsReady) {
 TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
   play();
   goOn();
-  p_echo->ready = true;
-  world->checkProcess(1);
-  p_echo->answer();
+  executeAgain();
   world->addInput(keyOf(2, df::Keyboard::C, df::KEY_PRESSED));
   world->tick(true, false);
   p_echo->answer();
@@ -293,8 +289,7 @@ TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
   for (int i = 0; i < 55; ++i) ASSERT_TRUE(sent.next()) << i;
   EXPECT_TRUE(sent.atEnd()) << "the world can read it as one stream";
   ASSERT_TRUE(disk->drain(std::chrono::seconds(60)));
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = test::contentOf(path);
   DfrReader reader(bytes);
   std::uint32_t turns = 0;
   std::uint32_t results = 0;
@@ -347,8 +342,7 @@ TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedHasOneResult) {
   ASSERT_GE(p_echo->turns.size(), 2u);
   EXPECT_TRUE(p_echo->turns[1].empty()) << "without the key that the world before died of";
   ASSERT_TRUE(disk->drain(std::chrono::seconds(60)));
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = test::contentOf(path);
   DfrReader reader(bytes);
   int results = 0;
   while (const auto record = reader.next()) results += std::holds_alternative<TickResult>(*record) ? 1 : 0;
@@ -363,14 +357,9 @@ TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedIsHeldAgainstTheFile) {
 TEST_F(RecoveryTest, AWorldThatAnswersOtherwiseIsNotGoneOnWith) {
   play();
   turn({}, false);
-  TickResult result;
-  result.has_check = true;
-  result.check = 255;
-  writer.write(result, records);
+  writeCheck(255);
   goOn();
-  p_echo->ready = true;
-  world->checkProcess(1);
-  p_echo->answer();
+  executeAgain();
   EXPECT_FALSE(said.empty());
   ASSERT_TRUE(world->end());
   EXPECT_EQ(world->end()->why, WorldEnd::kNotRecovered);
@@ -380,10 +369,8 @@ TEST_F(RecoveryTest, AWorldThatAnswersOtherwiseIsNotGoneOnWith) {
 TEST_F(RecoveryTest, AWorldThatEndsMeanwhileIsNotGoneOnWith) {
   play();
   goOn();
-  p_echo->ready = true;
   p_echo->dies_at = 10;
-  world->checkProcess(1);
-  p_echo->answer();
+  executeAgain();
   world->checkProcess(2);
   EXPECT_NE(said.find("crashed (SIGSEGV)"), std::string::npos) << said;
   ASSERT_TRUE(world->end());
@@ -409,16 +396,11 @@ TEST_F(RecoveryTest, WhatIsOtherIsFoundAtItsTurnThoughMoreAreUnderWay) {
   turn({joinOf(1)});
   for (int i = 0; i < 9; ++i) turn({});
   turn({}, false);
-  TickResult other;
-  other.has_check = true;
-  other.check = 255;
-  writer.write(other, records);
+  writeCheck(255);
   for (int i = 0; i < 9; ++i) turn({});
   goOn();
-  p_echo->ready = true;
   p_echo->ahead = 8;
-  world->checkProcess(1);
-  p_echo->answer();
+  executeAgain();
   EXPECT_NE(said.find("in tick 11 "), std::string::npos) << said;
 }
 

@@ -1,7 +1,6 @@
 // What a round stores is what its world gets, and before it does.
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 

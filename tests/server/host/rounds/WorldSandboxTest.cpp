@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 #include "host/rounds/WorldSandbox.h"
 #include "host/world/WorldStart.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
@@ -18,16 +18,11 @@ namespace fs = std::filesystem;
 class WorldSandboxTest : public testing::Test {
  protected:
   WorldSandboxTest() {
-    std::string name = fs::temp_directory_path() / "naiad-place-XXXXXX";
-    m_folder = fs::canonical(mkdtemp(name.data()));
     fs::create_directories(m_folder / "game/sprites");
     fs::create_directories(m_folder / "secret/sprites");
     options.identity = m_folder / "identity";
   }
-  ~WorldSandboxTest() override {
-    m_home ? setenv("HOME", m_home->c_str(), 1) : unsetenv("HOME");
-    fs::remove_all(m_folder);
-  }
+  ~WorldSandboxTest() override { m_home ? setenv("HOME", m_home->c_str(), 1) : unsetenv("HOME"); }
 
   bool reads(const fs::path& path) const {
     const auto paths = makeWorldSandbox(options, place).sandbox.readable;
@@ -43,7 +38,8 @@ class WorldSandboxTest : public testing::Test {
   }
 
   const std::optional<std::string> m_home = homeNow();  ///< tests set others
-  fs::path m_folder;
+  const test::TempFolder m_temp;
+  const fs::path m_folder = fs::canonical(m_temp.path());
   HostOptions options;
   GamePlace place;
 };

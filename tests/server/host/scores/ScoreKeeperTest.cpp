@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,7 +10,6 @@
 #include <condition_variable>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <set>
@@ -21,6 +19,8 @@
 #include <vector>
 
 #include "host/scores/ScoreKeeper.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -40,14 +40,6 @@ void addAll(ScoreKeeper& keeper, const std::string& round, std::uint32_t tick,
 
 class ScoreKeeperTest : public testing::Test {
  protected:
-  ScoreKeeperTest() {
-    char name[] = "/tmp/naiad-scores-XXXXXX";
-    if (::mkdtemp(name) != nullptr) folder = name;
-  }
-  ~ScoreKeeperTest() override {
-    std::error_code error;
-    fs::remove_all(folder, error);
-  }
   static df::AddedScore of(const std::string& name, std::int64_t points,
                            const std::string& table = "arcade") {
     return {table, {name, points}};
@@ -55,12 +47,9 @@ class ScoreKeeperTest : public testing::Test {
   std::vector<ScoreRow> stored(const std::string& table = "", std::size_t count = 100'000) const {
     return ScoreStore(folder / "scores.sqlite3", "game").best(table, count);
   }
-  std::string content() const {
-    std::ifstream file(folder / "scores.sqlite3", std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string content() const { return test::contentOf(folder / "scores.sqlite3"); }
 
-  fs::path folder;
+  const test::TempFolder folder;
 };
 
 TEST_F(ScoreKeeperTest, TheNextServerKnowsThem) {
@@ -144,7 +133,7 @@ TEST_F(ScoreKeeperTest, AFileThatCannotBeUsedStaysAsItIsAndIsSaidOnce) {
     std::ofstream(folder / "scores.sqlite3", std::ios::binary) << bytes;
     ScoreKeeper keeper(folder, "game");
     const std::string news = keeper.takeNews();
-    EXPECT_NE(news.find("warning: The file of scores"), std::string::npos) << news;
+    EXPECT_TRUE(test::has(news, "warning: The file of scores"));
     EXPECT_EQ(keeper.takeNews(), "");
     EXPECT_FALSE(keeper.hasFile());
     EXPECT_FALSE(keeper.read("", 10, [](const auto&, const auto&) { FAIL(); }));
@@ -201,7 +190,7 @@ TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
     for (std::uint32_t t = 1; t <= 5000; ++t) addAll(keeper, "round", t, {of("ann", t)});
     sync();  // the writing was tried
     EXPECT_EQ(keeper.counters().written, 1u);
-    EXPECT_NE(keeper.takeNews().find("cannot be written"), std::string::npos);
+    EXPECT_TRUE(test::has(keeper.takeNews(), "cannot be written"));
     EXPECT_EQ(problem, "") << "readers do not wait for writers";
   }
   const std::uint64_t dropped = keeper.counters().dropped;

@@ -1,7 +1,6 @@
 // The audit of pictures over a bad network: an honest server has no wrong cell, one with a fault has.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>

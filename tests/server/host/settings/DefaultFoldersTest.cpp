@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/settings/DefaultFolders.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad {
 namespace {
@@ -17,12 +18,6 @@ namespace fs = std::filesystem;
 
 class DefaultFoldersTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "naiad-folders-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
   HostOptions parse(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"dfserver", "--state", (folder / "state").string()});
     std::vector<const char*> words;
@@ -36,7 +31,7 @@ class DefaultFoldersTest : public testing::Test {
     return [this](const LogEvent& event) { lines.push_back(event.text); };
   }
 
-  fs::path folder;
+  const test::TempFolder folder;
   std::vector<std::string> lines;
 };
 

@@ -17,6 +17,8 @@
 #include "host/settings/HostOptions.h"
 #include "host/settings/RoomList.h"
 #include "shared/options/Options.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -84,18 +86,13 @@ TEST(HostOptions, ARunningServerNamesWhatNeedsARestart) {
 class Games {
  public:
   Games() {
-    std::string name = testing::TempDir() + "naiad-games-XXXXXX";
-    m_folder = mkdtemp(name.data());
     for (const char* game : {"hello.so", "tron.so"}) std::ofstream(m_folder / game) << "no module";
-    setenv("NAIAD_GAMES", m_folder.c_str(), 1);
+    setenv("NAIAD_GAMES", m_folder.path().c_str(), 1);
   }
-  ~Games() {
-    unsetenv("NAIAD_GAMES");
-    std::filesystem::remove_all(m_folder);
-  }
+  ~Games() { unsetenv("NAIAD_GAMES"); }
 
  private:
-  std::filesystem::path m_folder;
+  const test::TempFolder m_folder;
 };
 
 /// What dfserver says to these rooms.
@@ -139,8 +136,8 @@ TEST(HostOptions, ARoomThatMakesNoSenseIsNamedWithTheNearestThatDoes) {
   EXPECT_EQ(complaintOf({"a b=hello"}), "dfserver: --room \"a\": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
   for (const char* name : {"=hello", "-x=hello", "a/b=hello", "\xc3\xbc=hello", "\033[2J=hello"}) {
     const std::string said = complaintOf({name});
-    EXPECT_NE(said.find("is no name of a room: 1 to 32 of"), std::string::npos) << said;
-    EXPECT_EQ(said.find('\033'), std::string::npos);
+    EXPECT_TRUE(test::has(said, "is no name of a room: 1 to 32 of"));
+    EXPECT_FALSE(test::has(said, "\033"));
   }
   EXPECT_EQ(complaintOf({"a=hello", "b=tron", "A=hello"}),
             "dfserver: --room A: there are two rooms of this name");
@@ -151,8 +148,8 @@ TEST(HostOptions, ARoomThatMakesNoSenseIsNamedWithTheNearestThatDoes) {
   EXPECT_EQ(complaintOf({"a=hello,max-player=3"}),
             "dfserver: --room a: a room has no setting \"max-player\"; did you mean max-players?");
   EXPECT_EQ(complaintOf({"a=hello,max-players"}), "dfserver: --room a: max-players=VALUE is wanted");
-  EXPECT_NE(complaintOf({"a=hello,max-players=many"}).find("--room a: max-players: "), std::string::npos);
-  EXPECT_NE(complaintOf({"a=hello,players=private"}).find("--room a: players: "), std::string::npos);
+  EXPECT_TRUE(test::has(complaintOf({"a=hello,max-players=many"}), "--room a: max-players: "));
+  EXPECT_TRUE(test::has(complaintOf({"a=hello,players=private"}), "--room a: players: "));
   std::vector<std::string> many;
   for (int i = 0; i < 65; ++i) many.push_back("room-" + std::to_string(i) + "=hello");
   std::vector<const char*> all;
@@ -174,7 +171,7 @@ TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
 
 TEST(HostOptions, TheNearestRoomIsNamed) {
   EXPECT_EQ(unknownRoom("tronn", {"lobby", "tron"}), "There is no room \"tronn\"; did you mean \"tron\"?");
-  EXPECT_EQ(unknownRoom("x\033[2J", {"lobby", "tron"}).find('\033'), std::string::npos);
+  EXPECT_FALSE(test::has(unknownRoom("x\033[2J", {"lobby", "tron"}), "\033"));
   EXPECT_EQ(unknownRoom("", {"lobby", "tron"}), "There is no room \"\". There are: lobby, tron.");
 }
 
@@ -363,7 +360,7 @@ TEST_F(ProgramOptions, NonsenseIsNamedWithItsPlace) {
   config = {{"local_client", "perhaps"}};
   EXPECT_EQ(complaint().rfind("df-config.txt:3: local_client: ", 0), 0u) << complaint();
   config = {{"key", "key.pem"}};
-  EXPECT_NE(complaint().find("--certificate"), std::string::npos) << complaint();
+  EXPECT_TRUE(test::has(complaint(), "--certificate"));
   config.clear();
   EXPECT_EQ(complaint(), "");
 }
@@ -431,7 +428,7 @@ TEST(HostOptions, WhatIsPrintedAsAConfigurationIsOne) {
   std::vector<const char*> words = given;
   words.push_back("--print-config");
   const std::string first = printed(words);
-  EXPECT_NE(first.find("\nport = 0\n"), std::string::npos) << first;
+  EXPECT_TRUE(test::has(first, "\nport = 0\n"));
   std::ofstream(path) << first;
   EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), first);
   std::remove(path.c_str());
@@ -439,8 +436,8 @@ TEST(HostOptions, WhatIsPrintedAsAConfigurationIsOne) {
 
 TEST(HostOptions, APasswordIsNotPrinted) {
   const std::string text = printed({"--password", "verysecret", "--print-config"});
-  EXPECT_EQ(text.find("verysecret"), std::string::npos);
-  EXPECT_NE(text.find("# password is given, and not printed\n"), std::string::npos);
+  EXPECT_FALSE(test::has(text, "verysecret"));
+  EXPECT_TRUE(test::has(text, "# password is given, and not printed\n"));
 }
 
 TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
@@ -450,10 +447,8 @@ TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
   HostOptions options;
   EXPECT_EQ(parse({"--config", path.c_str(), "--check-config"}, options), CommandLine::kUsageError);
   const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_NE(said.find("dfserver: " + path + ":1: there is no option \"prot\"; did you mean port?\n"),
-            std::string::npos)
-      << said;
-  EXPECT_NE(said.find("dfserver: " + path + ":3: max-players: "), std::string::npos) << said;
+  EXPECT_TRUE(test::has(said, "dfserver: " + path + ":1: there is no option \"prot\"; did you mean port?\n"));
+  EXPECT_TRUE(test::has(said, "dfserver: " + path + ":3: max-players: "));
   std::ofstream(path) << "port = 1\n";
   EXPECT_EQ(printed({"--config", path.c_str(), "--check-config"}), "");
   std::ofstream(path) << "certificate = x\n";
@@ -466,8 +461,8 @@ TEST(HostOptions, AVariableThatIsNoneIsAWarning) {
   HostOptions options;
   EXPECT_EQ(parse({}, options), CommandLine::kRun);
   unsetenv("NAIAD_MAX_PLAYER");
-  EXPECT_EQ(std::count(options.warnings.begin(), options.warnings.end(),
-                       "there is no variable NAIAD_MAX_PLAYER; did you mean NAIAD_MAX_PLAYERS?"),
+  EXPECT_EQ(std::ranges::count(options.warnings,
+                               "there is no variable NAIAD_MAX_PLAYER; did you mean NAIAD_MAX_PLAYERS?"),
             1);
 }
 
@@ -498,9 +493,7 @@ TEST(HostOptions, VariablesOfTheClientAreNoMistakes) {
     HostOptions options;
     parse({"--check-config"}, options);
     unsetenv(variable.c_str());
-    EXPECT_EQ(
-        std::count(options.warnings.begin(), options.warnings.end(), "there is no variable " + variable), 0)
-        << variable;
+    EXPECT_EQ(std::ranges::count(options.warnings, "there is no variable " + variable), 0) << variable;
   }
 }
 

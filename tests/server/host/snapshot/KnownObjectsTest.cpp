@@ -30,8 +30,7 @@ class KnownObjectsTest : public testing::Test {
     return sent;
   }
   bool isPending(std::uint32_t id) const {
-    return std::count(known.pendingIds().begin(), known.pendingIds().end(), id) == 1 &&
-           known.at(id).pending != 0;
+    return std::ranges::count(known.pendingIds(), id) == 1 && known.at(id).pending != 0;
   }
 
   KnownObjects known;

@@ -14,9 +14,9 @@ namespace {
 
 using test::cellsAt;
 /// A WorldView by hand, of one player who sees cells (0, 0) to (79, 23).
-class ViewScene {
- public:
-  ViewScene() {
+class PublisherTest : public testing::Test {
+ protected:
+  PublisherTest() {
     m_view.boundary = {cellsAt(0, 0), cellsAt(80, 24)};
     m_view.players.push_back({});
     m_view.players[0].id = 1;
@@ -38,6 +38,11 @@ class ViewScene {
   }
   void drew(std::uint32_t slot, df::FixedVector position, char32_t ch = U'@') {
     drew({slot, 1}, {{position, ch, df::CYAN}});
+  }
+  /// It is where it drew a character.
+  void drawn(std::uint32_t slot, df::FixedVector position, df::FixedVector velocity = {}) {
+    changed(slot, position, velocity);
+    drew(slot, position);
   }
   /// It drew the frame whose turn it is in the tick that is published next, and says so.
   void showed(std::uint32_t slot, df::FixedVector position, const Look& look) {
@@ -80,95 +85,87 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
 }
 
 // For any number of calls, in any tick.
-TEST(Publisher, TheSharedMotionIsThatOfTheModelAtTheTick) {
-  ViewScene scene;
-  const auto expectShared = [&scene](std::uint32_t slot) {
-    const Motion now = rebase(scene.publisher.find(slot)->state.motion, scene.publisher.tick());
+TEST_F(PublisherTest, TheSharedMotionIsThatOfTheModelAtTheTick) {
+  const auto expectShared = [&](std::uint32_t slot) {
+    const Motion now = rebase(publisher.find(slot)->state.motion, publisher.tick());
     for (int asked = 0; asked < 2; ++asked) {
-      EXPECT_EQ(scene.publisher.sharedMotion(slot).motion, now) << "slot " << slot;
+      EXPECT_EQ(publisher.sharedMotion(slot).motion, now) << "slot " << slot;
     }
     BitWriter one, other;
-    writeMotion(one, scene.publisher.sharedMotion(slot), Origin{});
+    writeMotion(one, publisher.sharedMotion(slot), Origin{});
     writeMotion(other, now, Origin{});
     EXPECT_EQ(one.bytes(), other.bytes());
   };
-  scene.changed(1, cellsAt(10, 10), cellsAt(0.25, 0));
-  scene.changed(2, cellsAt(20, 5));
+  changed(1, cellsAt(10, 10), cellsAt(0.25, 0));
+  changed(2, cellsAt(20, 5));
   for (int tick = 0; tick < 20; ++tick) {
-    if (tick == 7) scene.changed(2, cellsAt(20, 5), cellsAt(0, 0.5));
-    if (tick == 12) scene.changed(40, cellsAt(1, 1), cellsAt(0.125, 0.5));
-    scene.publish();
+    if (tick == 7) changed(2, cellsAt(20, 5), cellsAt(0, 0.5));
+    if (tick == 12) changed(40, cellsAt(1, 1), cellsAt(0.125, 0.5));
+    publish();
     expectShared(1);
     expectShared(2);
     if (tick >= 12) expectShared(40);
   }
 }
 
-TEST(Publisher, StraightFlightIsPublishedOnce) {
-  ViewScene scene;
+TEST_F(PublisherTest, StraightFlightIsPublishedOnce) {
   df::FixedVector position = cellsAt(5, 5);
   const df::FixedVector velocity = cellsAt(0.3, 0.1);
-  scene.changed(0, position, velocity);
-  scene.drew(0, position);
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kAllGroups);
+  drawn(0, position, velocity);
+  EXPECT_EQ(groupsOf(publish(), 0), kAllGroups);
   for (int i = 0; i < 100; ++i) {
     position = position + velocity;
-    scene.changed(0, position, velocity);
-    scene.drew(0, position);
-    ASSERT_TRUE(scene.publish().empty()) << "tick " << i;
+    drawn(0, position, velocity);
+    ASSERT_TRUE(publish().empty()) << "tick " << i;
   }
-  EXPECT_EQ(scene.publisher.correctionCount(), 0u);
+  EXPECT_EQ(publisher.correctionCount(), 0u);
 }
 
-TEST(Publisher, AViewObjectStandsWhereverTheViewsGo) {
-  ViewScene scene;
+TEST_F(PublisherTest, AViewObjectStandsWhereverTheViewsGo) {
   for (int i = 0; i < 50; ++i) {
     const df::FixedVector corner = cellsAt(100 + 0.3 * i, 7.5);  // of the world's own view
-    scene.view().corner = corner;
-    scene.view().players[0].view_corner = cellsAt(-3.0 * i, 900);  // far from there
-    scene.changed(1, cellsAt(40, 1)).on_view = true;
-    scene.drew(1, corner + cellsAt(38, 1), U'H');
-    scene.view().drawn.back().on_view = true;
-    EXPECT_EQ(scene.publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
+    view().corner = corner;
+    view().players[0].view_corner = cellsAt(-3.0 * i, 900);  // far from there
+    changed(1, cellsAt(40, 1)).on_view = true;
+    drew(1, corner + cellsAt(38, 1), U'H');
+    view().drawn.back().on_view = true;
+    EXPECT_EQ(publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
   }
-  const Publisher::Model& model = *scene.publisher.find(1);
+  const Publisher::Model& model = *publisher.find(1);
   EXPECT_TRUE(model.state.body.on_view);
   EXPECT_EQ(model.state.body.solidness, df::SPECTRAL) << "no object meets it";
   ASSERT_EQ(model.state.look.sequence.glyphCount(), 1u);
   const CellPosition cell =
-      glyphCell(positionAt(model.state.motion, scene.publisher.tick()), model.state.look.sequence[0][0]);
+      glyphCell(positionAt(model.state.motion, publisher.tick()), model.state.look.sequence[0][0]);
   EXPECT_EQ(cell, (CellPosition{38, 1}));
   EXPECT_GT(model.reach, Publisher::Model::kWide) << "so it is sent to every client";
 }
 
-TEST(Publisher, ABackgroundThatIsNoColourIsNone) {
-  ViewScene scene;
-  const auto published = [&scene](df::Color background) {
-    scene.view().background = background;
-    scene.publish();
-    return scene.publisher.world().background;
+TEST_F(PublisherTest, ABackgroundThatIsNoColourIsNone) {
+  const auto published = [&](df::Color background) {
+    view().background = background;
+    publish();
+    return publisher.world().background;
   };
   EXPECT_EQ(published(df::BLUE), df::BLUE);
   EXPECT_EQ(published(df::CUSTOM), df::BLACK);
   EXPECT_EQ(published(df::UNDEFINED_COLOR), df::BLACK);
 }
 
-TEST(Publisher, AcceleratedFlightIsPublishedOnce) {
-  ViewScene scene;
+TEST_F(PublisherTest, AcceleratedFlightIsPublishedOnce) {
   df::FixedVector position = cellsAt(5, 5);
   df::FixedVector velocity = cellsAt(0, 0);
   const df::FixedVector acceleration = cellsAt(0.01, 0.003);
   for (int i = 0; i < 60; ++i) {
-    scene.changed(0, position, velocity).acceleration = acceleration;
-    scene.drew(0, position);
-    ASSERT_EQ(scene.publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
+    changed(0, position, velocity).acceleration = acceleration;
+    drew(0, position);
+    ASSERT_EQ(publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
     position = position + velocity;
     velocity = velocity + acceleration;
   }
 }
 
-TEST(Publisher, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
-  ViewScene scene;
+TEST_F(PublisherTest, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
   df::FixedVector position = cellsAt(10, 10);
   df::FixedVector velocity = cellsAt(0.125, 0);
   Motion modelled{1, position, velocity, {}};
@@ -176,129 +173,115 @@ TEST(Publisher, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
   for (int i = 0; i < 200; ++i) {
     if (i == 20) velocity = cellsAt(0.0625, 0.0625);  // a turn that shows only after some ticks
     if (i == 90) velocity = cellsAt(-0.125, 0);
-    scene.changed(0, position, velocity);
-    scene.drew(0, position);
-    const auto changes = scene.publish();
-    const std::uint32_t tick = scene.publisher.tick();
+    drawn(0, position, velocity);
+    const auto changes = publish();
+    const std::uint32_t tick = publisher.tick();
     const df::FixedVector expected = positionAt(modelled, tick);
     const bool wrong =
         df::cellOf(expected.x) != df::cellOf(position.x) || df::cellOf(expected.y) != df::cellOf(position.y);
-    if (i == 0) modelled = scene.publisher.find(0)->state.motion;
+    if (i == 0) modelled = publisher.find(0)->state.motion;
     if (i > 0) {
       ASSERT_EQ(changes.size(), wrong ? 1u : 0u) << "tick " << i;
     }
     if (wrong) {
       EXPECT_EQ(changes[0].groups, kMotion);
-      modelled = scene.publisher.find(0)->state.motion;
+      modelled = publisher.find(0)->state.motion;
       ++corrections;
     }
-    const df::FixedVector published = positionAt(scene.publisher.find(0)->state.motion, tick);
+    const df::FixedVector published = positionAt(publisher.find(0)->state.motion, tick);
     ASSERT_EQ(df::cellOf(published.x), df::cellOf(position.x));
     ASSERT_EQ(df::cellOf(published.y), df::cellOf(position.y));
     position = position + velocity;
   }
-  EXPECT_EQ(scene.publisher.correctionCount(), static_cast<std::uint64_t>(corrections));
+  EXPECT_EQ(publisher.correctionCount(), static_cast<std::uint64_t>(corrections));
   EXPECT_GE(corrections, 2);
   EXPECT_LE(corrections, 4);
 }
 
-TEST(Publisher, ATurnOfAnObjectThatDrawsNothingIsCorrectedToo) {
-  ViewScene scene;
-  scene.changed(0, cellsAt(10, 10), cellsAt(1, 0));
-  scene.drew({0, 1}, {});
-  scene.publish();
-  scene.changed(0, cellsAt(11, 10), cellsAt(0, 1));
-  scene.drew({0, 1}, {});
-  EXPECT_TRUE(scene.publish().empty());
-  scene.changed(0, cellsAt(11, 11), cellsAt(0, 1));
-  scene.drew({0, 1}, {});
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
+TEST_F(PublisherTest, ATurnOfAnObjectThatDrawsNothingIsCorrectedToo) {
+  changed(0, cellsAt(10, 10), cellsAt(1, 0));
+  drew({0, 1}, {});
+  publish();
+  changed(0, cellsAt(11, 10), cellsAt(0, 1));
+  drew({0, 1}, {});
+  EXPECT_TRUE(publish().empty());
+  changed(0, cellsAt(11, 11), cellsAt(0, 1));
+  drew({0, 1}, {});
+  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
 }
 
-TEST(Publisher, ABlockedObjectIsPublishedAsStandingStill) {
-  ViewScene scene;
-  scene.changed(0, cellsAt(10, 10), cellsAt(1, 0));
-  scene.drew(0, cellsAt(10, 10));
-  scene.publish();
-  scene.changed(0, cellsAt(10, 10));  // blocked: no velocity
-  scene.drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
-  EXPECT_FALSE(isMoving(scene.publisher.find(0)->state.motion));
+TEST_F(PublisherTest, ABlockedObjectIsPublishedAsStandingStill) {
+  drawn(0, cellsAt(10, 10), cellsAt(1, 0));
+  publish();
+  changed(0, cellsAt(10, 10));  // blocked: no velocity
+  drew(0, cellsAt(10, 10));
+  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
+  EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
   for (int i = 0; i < 10; ++i) {  // not reported again while it stands
-    scene.drew(0, cellsAt(10, 10));
-    EXPECT_TRUE(scene.publish().empty());
+    drew(0, cellsAt(10, 10));
+    EXPECT_TRUE(publish().empty());
   }
 }
 
-TEST(Publisher, AnObjectThatIsNotReportedStandsStillEvenIfItLastMoved) {
-  ViewScene scene;
-  scene.changed(0, cellsAt(10, 10), cellsAt(1, 0));
-  scene.drew(0, cellsAt(10, 10));
-  scene.publish();
-  scene.drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
-  EXPECT_FALSE(isMoving(scene.publisher.find(0)->state.motion));
+TEST_F(PublisherTest, AnObjectThatIsNotReportedStandsStillEvenIfItLastMoved) {
+  drawn(0, cellsAt(10, 10), cellsAt(1, 0));
+  publish();
+  drew(0, cellsAt(10, 10));
+  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
+  EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
 }
 
-TEST(Publisher, SolidObjectsThatStandAreExactOnceAClientPredicts) {
-  ViewScene scene;
+TEST_F(PublisherTest, SolidObjectsThatStandAreExactOnceAClientPredicts) {
   const df::FixedVector position = cellsAt(10.3, 10.2);
-  scene.changed(0, position);
-  scene.drew(0, position);
-  scene.publish();
-  EXPECT_NE(scene.publisher.find(0)->state.motion.position, position) << "coarse is shorter";
-  scene.view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
-  scene.drew(0, position);
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
-  EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position);
+  drawn(0, position);
+  publish();
+  EXPECT_NE(publisher.find(0)->state.motion.position, position) << "coarse is shorter";
+  view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
+  drew(0, position);
+  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
+  EXPECT_EQ(publisher.find(0)->state.motion.position, position);
   // One that comes to rest within its cell is exact again.
-  scene.changed(0, position, cellsAt(0.1, 0));
-  scene.drew(0, position);
-  scene.publish();
-  scene.changed(0, position + cellsAt(0.05, 0));
-  scene.drew(0, position + cellsAt(0.05, 0));
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kMotion);
-  EXPECT_EQ(scene.publisher.find(0)->state.motion.position, position + cellsAt(0.05, 0));
+  drawn(0, position, cellsAt(0.1, 0));
+  publish();
+  drawn(0, position + cellsAt(0.05, 0));
+  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
+  EXPECT_EQ(publisher.find(0)->state.motion.position, position + cellsAt(0.05, 0));
 }
 
-TEST(Publisher, ANewCharacterIsALookAndNothingElse) {
-  ViewScene scene;
-  scene.changed(0, cellsAt(10, 10));
-  scene.drew(0, cellsAt(10, 10), U'a');
-  scene.publish();
-  scene.drew(0, cellsAt(10, 10), U'b');
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
-  EXPECT_EQ(scene.publisher.find(0)->state.look.sequence[0][0].ch, U'b');
-  EXPECT_EQ(scene.publisher.correctionCount(), 0u);
+TEST_F(PublisherTest, ANewCharacterIsALookAndNothingElse) {
+  changed(0, cellsAt(10, 10));
+  drew(0, cellsAt(10, 10), U'a');
+  publish();
+  drew(0, cellsAt(10, 10), U'b');
+  EXPECT_EQ(groupsOf(publish(), 0), kLook);
+  EXPECT_EQ(publisher.find(0)->state.look.sequence[0][0].ch, U'b');
+  EXPECT_EQ(publisher.correctionCount(), 0u);
 }
 
-TEST(Publisher, BoxAndAltitudeAreBodyAndLook) {
-  ViewScene scene;
-  scene.changed(0, cellsAt(10, 10));
-  scene.drew(0, cellsAt(10, 10));
-  scene.publish();
-  scene.changed(0, cellsAt(10, 10)).box = {cellsAt(-1, -1), cellsAt(2, 2)};
-  scene.drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kBody);
-  df::ObjectFacts& facts = scene.changed(0, cellsAt(10, 10));
+TEST_F(PublisherTest, BoxAndAltitudeAreBodyAndLook) {
+  drawn(0, cellsAt(10, 10));
+  publish();
+  changed(0, cellsAt(10, 10)).box = {cellsAt(-1, -1), cellsAt(2, 2)};
+  drew(0, cellsAt(10, 10));
+  EXPECT_EQ(groupsOf(publish(), 0), kBody);
+  df::ObjectFacts& facts = changed(0, cellsAt(10, 10));
   facts.box = {cellsAt(-1, -1), cellsAt(2, 2)};
   facts.altitude = 4;
-  scene.drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
-  EXPECT_EQ(scene.publisher.find(0)->state.look.altitude, 4);
+  drew(0, cellsAt(10, 10));
+  EXPECT_EQ(groupsOf(publish(), 0), kLook);
+  EXPECT_EQ(publisher.find(0)->state.look.altitude, 4);
 }
 
-TEST(Publisher, AHalfCellSpriteFliesFree) {
-  ViewScene scene;
+TEST_F(PublisherTest, AHalfCellSpriteFliesFree) {
   df::FixedVector position = cellsAt(5.3, 5.1);
   const df::FixedVector velocity = cellsAt(0.37, 0.11);
   std::size_t corrections = 0;
   for (int i = 0; i < 1000; ++i) {
-    scene.changed(0, position, velocity);
+    changed(0, position, velocity);
     std::vector<df::DrawCommand> sprite;
     for (int k = 0; k < 4; ++k) sprite.push_back({position + cellsAt(k - 1.5, -0.5), U'#', df::RED});
-    scene.drew({0, 1}, sprite);
-    const std::size_t changes = scene.publish().size();
+    drew({0, 1}, sprite);
+    const std::size_t changes = publish().size();
     ASSERT_TRUE(i == 0 || changes == 0 || i >= 64) << "tick " << i;
     corrections += i > 0 ? changes : 0;
     position = position + velocity;
@@ -308,94 +291,84 @@ TEST(Publisher, AHalfCellSpriteFliesFree) {
   EXPECT_LE(corrections, 2u);
 }
 
-TEST(Publisher, AHiddenObjectLosesItsLookAndGetsItBack) {
-  ViewScene scene;
-  scene.changed(0, cellsAt(10, 10));
-  scene.drew(0, cellsAt(10, 10));
-  scene.publish();
-  scene.changed(0, cellsAt(10, 10)).shown = false;
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
-  EXPECT_EQ(scene.publisher.find(0)->state.look.select(0), nullptr);
-  EXPECT_TRUE(scene.publish().empty());
-  scene.changed(0, cellsAt(10, 10));
-  scene.drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook);
+TEST_F(PublisherTest, AHiddenObjectLosesItsLookAndGetsItBack) {
+  drawn(0, cellsAt(10, 10));
+  publish();
+  changed(0, cellsAt(10, 10)).shown = false;
+  EXPECT_EQ(groupsOf(publish(), 0), kLook);
+  EXPECT_EQ(publisher.find(0)->state.look.select(0), nullptr);
+  EXPECT_TRUE(publish().empty());
+  drawn(0, cellsAt(10, 10));
+  EXPECT_EQ(groupsOf(publish(), 0), kLook);
 }
 
-TEST(Publisher, ASolidObjectThatStopsAndHidesIsHiddenAtOnce) {
-  ViewScene scene;
-  scene.view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
-  scene.changed(0, cellsAt(10.3, 10), cellsAt(0.2, 0));
-  scene.drew(0, cellsAt(10.3, 10));
-  scene.publish();
-  scene.changed(0, cellsAt(10.35, 10)).shown = false;  // its path has to be made exact in the same tick
-  EXPECT_EQ(groupsOf(scene.publish(), 0), kLook | kMotion);
-  EXPECT_EQ(scene.publisher.find(0)->state.look.select(0), nullptr);
+TEST_F(PublisherTest, ASolidObjectThatStopsAndHidesIsHiddenAtOnce) {
+  view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
+  drawn(0, cellsAt(10.3, 10), cellsAt(0.2, 0));
+  publish();
+  changed(0, cellsAt(10.35, 10)).shown = false;  // its path has to be made exact in the same tick
+  EXPECT_EQ(groupsOf(publish(), 0), kLook | kMotion);
+  EXPECT_EQ(publisher.find(0)->state.look.select(0), nullptr);
 }
 
-TEST(Publisher, AnObjectThatLeavesEveryViewKeepsItsLook) {
-  ViewScene scene;
+TEST_F(PublisherTest, AnObjectThatLeavesEveryViewKeepsItsLook) {
   df::FixedVector position = cellsAt(78, 5);
   const df::FixedVector velocity = cellsAt(1, 0);
   for (int i = 0; i < 20; ++i) {
-    scene.changed(0, position, velocity);
-    if (df::cellOf(position.x) < 80) scene.drew(0, position);
-    const auto changes = scene.publish();
+    changed(0, position, velocity);
+    if (df::cellOf(position.x) < 80) drew(0, position);
+    const auto changes = publish();
     ASSERT_EQ(changes.size(), i == 0 ? 1u : 0u) << "tick " << i;
     position = position + velocity;
   }
-  EXPECT_NE(scene.publisher.find(0)->state.look.select(0), nullptr);
+  EXPECT_NE(publisher.find(0)->state.look.select(0), nullptr);
 }
 
-TEST(Publisher, ADeathAndABirthInOneSlotAreOneChangeToTheNewGeneration) {
-  ViewScene scene;
-  scene.changed(3, cellsAt(10, 10));
-  scene.publish();
-  scene.view().vanished.push_back({3, 1});
-  scene.changed(3, cellsAt(11, 11)).key.generation = 2;
-  const auto changes = scene.publish();
+TEST_F(PublisherTest, ADeathAndABirthInOneSlotAreOneChangeToTheNewGeneration) {
+  changed(3, cellsAt(10, 10));
+  publish();
+  view().vanished.push_back({3, 1});
+  changed(3, cellsAt(11, 11)).key.generation = 2;
+  const auto changes = publish();
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].groups, kAllGroups);
-  EXPECT_EQ(scene.publisher.find(3)->generation, 2u);
-  scene.view().vanished.push_back({3, 1});  // an old death
-  EXPECT_TRUE(scene.publish().empty());
-  scene.view().vanished.push_back({3, 2});
-  EXPECT_EQ(groupsOf(scene.publish(), 3), 0);
-  EXPECT_EQ(scene.publisher.find(3), nullptr);
+  EXPECT_EQ(publisher.find(3)->generation, 2u);
+  view().vanished.push_back({3, 1});  // an old death
+  EXPECT_TRUE(publish().empty());
+  view().vanished.push_back({3, 2});
+  EXPECT_EQ(groupsOf(publish(), 3), 0);
+  EXPECT_EQ(publisher.find(3), nullptr);
 }
 
-TEST(Publisher, LooseCharactersShareOneObjectBeneathAll) {
-  ViewScene scene;
-  scene.drew({}, {{cellsAt(5, 5), U'x', df::RED}});
-  scene.drew({}, {{cellsAt(60, 20), U'y', df::RED}});
-  EXPECT_EQ(groupsOf(scene.publish(), kLooseSlot), kAllGroups);
-  const ObjectState& state = scene.publisher.find(kLooseSlot)->state;
+TEST_F(PublisherTest, LooseCharactersShareOneObjectBeneathAll) {
+  drew({}, {{cellsAt(5, 5), U'x', df::RED}});
+  drew({}, {{cellsAt(60, 20), U'y', df::RED}});
+  EXPECT_EQ(groupsOf(publish(), kLooseSlot), kAllGroups);
+  const ObjectState& state = publisher.find(kLooseSlot)->state;
   ASSERT_EQ(state.look.sequence[0].size(), 2u);
   EXPECT_EQ(glyphCell(state.motion.position, state.look.sequence[0][1]), (CellPosition{60, 20}));
   EXPECT_EQ(state.look.altitude, 0);
   EXPECT_EQ(state.order, 0u);
-  EXPECT_EQ(groupsOf(scene.publish(), kLooseSlot), kLook) << "nothing drawn: nothing shown";
-  EXPECT_TRUE(scene.publish().empty());
+  EXPECT_EQ(groupsOf(publish(), kLooseSlot), kLook) << "nothing drawn: nothing shown";
+  EXPECT_TRUE(publish().empty());
 }
 
-TEST(Publisher, ADrawingTooLargeToDescribeIsSentOnce) {
-  ViewScene scene;
+TEST_F(PublisherTest, ADrawingTooLargeToDescribeIsSentOnce) {
   const std::vector<df::DrawCommand> flood(kMaxGlyphs + 100, {cellsAt(5, 5), U'█', df::RED});
-  scene.changed(0, cellsAt(5, 5));
-  scene.drew({0, 1}, flood);
-  EXPECT_EQ(scene.publish().size(), 1u);
+  changed(0, cellsAt(5, 5));
+  drew({0, 1}, flood);
+  EXPECT_EQ(publish().size(), 1u);
   for (int i = 0; i < 3; ++i) {
-    scene.drew({0, 1}, flood);
-    EXPECT_TRUE(scene.publish().empty());
+    drew({0, 1}, flood);
+    EXPECT_TRUE(publish().empty());
   }
 }
 
-TEST(Publisher, SlotsBeyondTheLastAreRefusedAndCounted) {
-  ViewScene scene;
-  scene.changed(kLooseSlot, cellsAt(5, 5));
-  EXPECT_TRUE(scene.publish().empty());
-  EXPECT_EQ(scene.publisher.refusedCount(), 1u);
-  EXPECT_EQ(scene.publisher.find(kLooseSlot), nullptr);
+TEST_F(PublisherTest, SlotsBeyondTheLastAreRefusedAndCounted) {
+  changed(kLooseSlot, cellsAt(5, 5));
+  EXPECT_TRUE(publish().empty());
+  EXPECT_EQ(publisher.refusedCount(), 1u);
+  EXPECT_EQ(publisher.find(kLooseSlot), nullptr);
 }
 
 // The proof of the whole chain: what a client draws is what the world drew, cell for cell, at every tick.
@@ -434,7 +407,7 @@ void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int
   }
 }
 
-TEST(Publisher, AReplicaDrawsWhatTheWorldDrawsAtEveryTick) {
+TEST_F(PublisherTest, AReplicaDrawsWhatTheWorldDrawsAtEveryTick) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     test::WorldConfig config;
     config.players = 1 + seed % 3;
@@ -444,7 +417,7 @@ TEST(Publisher, AReplicaDrawsWhatTheWorldDrawsAtEveryTick) {
   }
 }
 
-TEST(Publisher, ALivelyWorldIsDrawnAsWell) {
+TEST_F(PublisherTest, ALivelyWorldIsDrawnAsWell) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     test::WorldConfig config;
     config.turn = config.restyle = config.reshape = config.vanish = config.hide = 0.2;
@@ -454,14 +427,13 @@ TEST(Publisher, ALivelyWorldIsDrawnAsWell) {
   }
 }
 
-TEST(Publisher, WorldsOfStraightFlightCostNothing) {
+TEST_F(PublisherTest, WorldsOfStraightFlightCostNothing) {
   test::WorldConfig config;
   config.turn = config.block = config.restyle = config.reshape = config.vanish = config.hide = 0;
   config.scribble = config.speech = config.refollow = 0;
   config.view_width = 100;
   config.view_height = 40;
   test::SimulatedWorld world(config, 9);
-  Publisher publisher;
   std::size_t changes = 0;
   for (int i = 0; i < 200; ++i) {
     world.tick(i > 20);
@@ -480,77 +452,74 @@ Sequence wheel() {
 }
 
 // With any selector it is published once, and drawn right from then on.
-TEST(Publisher, ALookThatChangesByItselfIsPublishedOnce) {
+TEST_F(PublisherTest, ALookThatChangesByItselfIsPublishedOnce) {
   for (const Selector& selector :
        {Selector::clock(1, 3), Selector::clock(1, 5, false), Selector::turning(1, 123456789, 98765432),
         Selector::turning(1, 0, -1'000'003), Selector::fixed(2)}) {
-    ViewScene scene;
+    publisher = Publisher();
     const Look look{wheel(), 2, selector};
-    scene.changed(0, cellsAt(10, 10));
-    scene.showed(0, cellsAt(10, 10), look);
-    ASSERT_EQ(scene.publish().size(), 1u);
-    EXPECT_EQ(scene.publisher.find(0)->state.look, look);
-    EXPECT_TRUE(scene.publisher.find(0)->recurs) << "worth a name from the beginning";
+    changed(0, cellsAt(10, 10));
+    showed(0, cellsAt(10, 10), look);
+    ASSERT_EQ(publish().size(), 1u);
+    EXPECT_EQ(publisher.find(0)->state.look, look);
+    EXPECT_TRUE(publisher.find(0)->recurs) << "worth a name from the beginning";
     for (int i = 0; i < 5000; ++i) {
-      scene.showed(0, cellsAt(10, 10), look);
-      ASSERT_TRUE(scene.publish().empty()) << i;
+      showed(0, cellsAt(10, 10), look);
+      ASSERT_TRUE(publish().empty()) << i;
     }
   }
 }
 
-TEST(Publisher, AnotherPaceIsPublishedWithTheFirstFrameThatDiffers) {
-  ViewScene scene;
+TEST_F(PublisherTest, AnotherPaceIsPublishedWithTheFirstFrameThatDiffers) {
   Look look{wheel(), 2, Selector::turning(1, 0, 1 << 24)};  // a frame takes 64 ticks
-  scene.changed(0, cellsAt(10, 10));
-  scene.showed(0, cellsAt(10, 10), look);
-  scene.publish();
+  changed(0, cellsAt(10, 10));
+  showed(0, cellsAt(10, 10), look);
+  publish();
   const Look before = look;
-  look.selector = Selector::turning(scene.view().tick, before.selector.angleAt(scene.view().tick), 1 << 25);
+  look.selector = Selector::turning(view().tick, before.selector.angleAt(view().tick), 1 << 25);
   int published = 0;
   for (int i = 0; i < 500; ++i) {
-    const std::uint32_t tick = scene.view().tick + 1;
-    scene.showed(0, cellsAt(10, 10), look);
-    const auto changes = scene.publish();
+    const std::uint32_t tick = view().tick + 1;
+    showed(0, cellsAt(10, 10), look);
+    const auto changes = publish();
     const bool differs = published == 0 && look.select(tick) != before.select(tick);
     ASSERT_EQ(changes.size(), differs ? 1u : 0u) << tick;
     if (!differs) continue;
     ++published;
     EXPECT_EQ(changes[0].groups, kLook);
-    EXPECT_TRUE(scene.publisher.find(0)->state.look.sequence.isSharedWith(look.sequence));
+    EXPECT_TRUE(publisher.find(0)->state.look.sequence.isSharedWith(look.sequence));
   }
   EXPECT_EQ(published, 1);
 }
 
-TEST(Publisher, ADrawnLookOverridesTheDeclaredOne) {
-  ViewScene scene;
+TEST_F(PublisherTest, ADrawnLookOverridesTheDeclaredOne) {
   const Look look{wheel(), 2, Selector::clock(1, 3)};
-  scene.changed(0, cellsAt(10, 10));
-  scene.declares(look);
-  scene.drew({0, 1}, {{cellsAt(10, 10), U'?', df::RED}});
-  scene.publish();
-  const Look& published = scene.publisher.find(0)->state.look;
+  changed(0, cellsAt(10, 10));
+  declares(look);
+  drew({0, 1}, {{cellsAt(10, 10), U'?', df::RED}});
+  publish();
+  const Look& published = publisher.find(0)->state.look;
   EXPECT_EQ(published.sequence, (Sequence{{{0, 0, U'?', df::RED}}}));
   EXPECT_EQ(published.selector, Selector{});
-  scene.showed(0, cellsAt(10, 10), look);
-  scene.publish();
+  showed(0, cellsAt(10, 10), look);
+  publish();
   EXPECT_EQ(published.sequence, wheel());
   EXPECT_EQ(published.selector, look.selector);
 }
 
-TEST(Publisher, ATurningObjectThatFliesOverFractionsOfCellsIsPublishedOnce) {
-  ViewScene scene;
+TEST_F(PublisherTest, ATurningObjectThatFliesOverFractionsOfCellsIsPublishedOnce) {
   const Look look{wheel(), 2, Selector::turning(1, 5, 55'555'555)};
   df::FixedVector position = cellsAt(1.25, 3.5);
   const df::FixedVector velocity = cellsAt(0.3, 0.07);
-  scene.changed(0, position, velocity);
-  scene.showed(0, position, look);
-  scene.publish();
+  changed(0, position, velocity);
+  showed(0, position, look);
+  publish();
   int changes = 0;
   for (int i = 0; i < 60; ++i) {
     position = position + velocity;
-    scene.changed(0, position, velocity);
-    scene.showed(0, position, look);
-    changes += scene.publish().empty() ? 0 : 1;
+    changed(0, position, velocity);
+    showed(0, position, look);
+    changes += publish().empty() ? 0 : 1;
   }
   EXPECT_EQ(changes, 0);
 }

@@ -60,7 +60,7 @@ TEST(RedundantResend, TheMostUrgentComeFirstAndTheBudgetHolds) {
   constexpr std::size_t kEach = RedundantResend::kBits / 4;
   for (std::uint32_t i = 0; i < 10; ++i) many.redundancy.addRecord(many.sent[i], kEach, i);
   auto repeated = many.next(kEach);
-  std::sort(repeated.begin(), repeated.end());
+  std::ranges::sort(repeated);
   EXPECT_EQ(repeated, (std::vector<std::uint32_t>{many.ids[6], many.ids[7], many.ids[8], many.ids[9]}));
 }
 

@@ -1,7 +1,6 @@
 #include "SimulatedWorld.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "shared/replica/ViewFollow.h"
 #include "shared/values/Vector.h"
@@ -214,8 +213,8 @@ void SimulatedWorld::speak() {
   if (chance(0.3)) return;
   const df::PlayerText text{id, static_cast<int>(m_rng.below(10)), static_cast<int>(m_rng.below(3)),
                             df::WHITE, "Score " + std::to_string(m_rng.below(1000)) + " é"};
-  const auto after = std::find_if(player.texts.begin(), player.texts.end(),
-                                  [id](const df::PlayerText& other) { return other.id > id; });
+  const auto after =
+      std::ranges::find_if(player.texts, [id](const df::PlayerText& other) { return other.id > id; });
   player.texts.insert(after, text);
 }
 
@@ -225,12 +224,11 @@ void SimulatedWorld::draw() {
       const Thing& thing = m_things[slot];
       if (!thing.facts.shown || thing.facts.altitude != altitude) continue;
       const df::FixedBox box = df::translate(thing.facts.box, thing.facts.position);
-      const bool in_view =
-          std::any_of(m_view.players.begin(), m_view.players.end(), [&](const df::PlayerFacts& player) {
-            const df::FixedVector corner{df::fromCells(df::cellOf(player.view_corner.x)),
-                                         df::fromCells(df::cellOf(player.view_corner.y))};
-            return df::intersects(box, {corner, cellsAt(m_config.view_width, m_config.view_height)});
-          });
+      const bool in_view = std::ranges::any_of(m_view.players, [&](const df::PlayerFacts& player) {
+        const df::FixedVector corner{df::fromCells(df::cellOf(player.view_corner.x)),
+                                     df::fromCells(df::cellOf(player.view_corner.y))};
+        return df::intersects(box, {corner, cellsAt(m_config.view_width, m_config.view_height)});
+      });
       if (!in_view) continue;
       if (thing.p_told != nullptr) {
         m_view.looks.push_back({static_cast<std::uint32_t>(m_view.drawn.size()), thing.p_told});

@@ -42,6 +42,11 @@ df::Sprite saucer(int slowdown) {
   return makeSprite({"~.-.~(o_o)", "~.-.~(_o_)", "~.-.~(__o)"}, 5, slowdown, '~');
 }
 
+void place(df::Object& object, df::Sprite& sprite, int x) {
+  object.setSprite(&sprite);
+  object.setPosition(df::Vector(x, 10));
+}
+
 /// A world, and a client that gets all that is sent to it.
 class Show {
  public:
@@ -149,8 +154,7 @@ TEST(SpriteLook, AClientShowsTheFramesThatThePublishedEngineDraws) {
     Show show;
     df::Sprite sprite = makeSprite({"a", "b", "c", "d"}, 1, slowdown);
     df::Object object;
-    object.setSprite(&sprite);
-    object.setPosition(df::Vector(20, 10));
+    place(object, sprite, 20);
     PublishedAnimation published{4, slowdown};
     std::string wanted;
     std::string seen;
@@ -188,8 +192,7 @@ TEST(SpriteLook, AChangeOfAnAnimationShowsInTheSameTick) {
   df::Sprite sprite = saucer(4);
   df::Sprite other = makeSprite({"xx", "yy", "zz"}, 2, 2);
   df::Object object;
-  object.setSprite(&sprite);
-  object.setPosition(df::Vector(20, 10));
+  place(object, sprite, 20);
   const std::vector<std::function<void()>> meddling = {
       [&] { object.setSpriteIndex(2); },
       [&] { object.setSpriteSlowdownCount(-1); },  // stopped
@@ -225,11 +228,9 @@ TEST(SpriteLook, AStoppedAnimationAndAStaticLookCostNothing) {
   Show show;
   df::Sprite sprite = saucer(3);
   df::Object stopped;
-  stopped.setSprite(&sprite);
-  stopped.setPosition(df::Vector(20, 10));
+  place(stopped, sprite, 20);
   df::Object fixed;
-  fixed.setSprite(&sprite);
-  fixed.setPosition(df::Vector(40, 10));
+  place(fixed, sprite, 40);
   fixed.setStaticLook();
   show.ticks(50);
   stopped.setSpriteSlowdownCount(-1);
@@ -242,10 +243,8 @@ TEST(SpriteLook, ASpriteThatBlinksCostsNothing) {
   df::Sprite sprite = makeSprite({"abc", "~~~"}, 3, 3, '~');
   df::Sprite other = makeSprite({"~", "o", "~"}, 1, 2, '~');  // which begins with nothing
   df::Object object, late;
-  object.setSprite(&sprite);
-  object.setPosition(df::Vector(20, 10));
-  late.setSprite(&other);
-  late.setPosition(df::Vector(30, 10));
+  place(object, sprite, 20);
+  place(late, other, 30);
   show.ticks(20);
   EXPECT_EQ(show.ticks(100), idle(100));
 }
@@ -254,8 +253,7 @@ TEST(SpriteLook, ASpriteThatDrawsNothingHasNoLook) {
   Show show;
   df::Sprite sprite = makeSprite({"~", "~"}, 1, 2, '~');
   df::Object object;
-  object.setSprite(&sprite);
-  object.setPosition(df::Vector(20, 10));
+  place(object, sprite, 20);
   show.ticks(10);
   EXPECT_EQ(show.ticks(50), idle(50));
 }
@@ -268,8 +266,7 @@ TEST(SpriteLook, CharactersDrawnBesideTheSpriteAreShown) {
   };
   df::Sprite sprite = saucer(3);
   Named object;
-  object.setSprite(&sprite);
-  object.setPosition(df::Vector(20, 10));
+  place(object, sprite, 20);
   object.setVelocity(df::Vector(0.3, 0.1));
   show.ticks(60);
 }

@@ -15,7 +15,7 @@ TEST(BuildId, OfTheLibraryIsWhatItsFileSays) {
   const std::string& id = ownBuildId();
   ASSERT_GE(id.size(), 2 * kShownBuildId);
   ASSERT_LE(id.size(), kMaxBuildId);
-  EXPECT_TRUE(std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isxdigit(c) != 0; })) << id;
+  EXPECT_TRUE(std::ranges::all_of(id, [](unsigned char c) { return std::isxdigit(c) != 0; })) << id;
   const auto [code, notes] =
       test::runProgram("readelf -n '" NAIAD_BINARY_DIR "/../lib/libdragonfly.so' 2>/dev/null");
   if (code != 0) GTEST_SKIP() << "there is no readelf";

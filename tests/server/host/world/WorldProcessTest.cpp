@@ -212,9 +212,9 @@ TEST_F(WorldProcessTest, WhatItPrintsIsPassedOnToTheLastLine) {
 TEST_F(WorldProcessTest, OneThatFloodsEndsAsEver) {
   EXPECT_EQ(play("head -c 2000000 /dev/zero | tr '\\0' '\\n'; echo end; exit 3").text, "ended with code 3");
   EXPECT_LT(printed.size(), 20'000u);
-  EXPECT_NE(std::find_if(printed.begin(), printed.end(),
-                         [](const std::string& line) { return line.ends_with("are left out"); }),
-            printed.end());
+  EXPECT_NE(
+      std::ranges::find_if(printed, [](const std::string& line) { return line.ends_with("are left out"); }),
+      printed.end());
 }
 
 TEST_F(WorldProcessTest, AnAnswerIsATick) {

@@ -104,6 +104,20 @@ class WorldServerTest : public testing::Test {
   static df::InputQueue::Input join(std::uint32_t player) {
     return {.kind = df::InputQueue::kJoin, .player = player, .name = "ann", .color = df::RED};
   }
+  /// Player 7, who saw this tick, clicks in two columns of the row in which it flies. How often that hits.
+  int hitsOfClicks(const df::ViewedTick& seen, int x, int other_x) {
+    for (const int column : {x, other_x}) {
+      turn({{.kind = df::InputQueue::kMouse,
+             .player = 7,
+             .seen = seen,
+             .button = df::Mouse::LEFT,
+             .mouse_action = df::CLICKED,
+             .x = column,
+             .y = 5}});
+    }
+    end();
+    return hits;
+  }
 
   int hits = 0;
   bool over = false;
@@ -140,18 +154,7 @@ TEST_F(WorldServerTest, AClickHitsWhatWasOnThePlayersScreen) {
   turn({join(7)});
   while (view.tick < 12) turn();
   // The player saw tick 10, by the models of tick 8: there it was in cell 20, and by now it is elsewhere.
-  df::InputQueue::Input click{.kind = df::InputQueue::kMouse,
-                              .player = 7,
-                              .seen = {true, 8, 10},
-                              .button = df::Mouse::LEFT,
-                              .mouse_action = df::CLICKED,
-                              .x = 20,
-                              .y = 5};
-  turn({click});
-  click.x = 21;
-  turn({click});
-  end();
-  EXPECT_EQ(hits, 1);
+  EXPECT_EQ(hitsOfClicks({true, 8, 10}, 20, 21), 1);
 }
 
 class ScrollingWorldServerTest : public WorldServerTest {
@@ -163,18 +166,7 @@ TEST_F(ScrollingWorldServerTest, AClickIsInTheViewAsItWasOnThePlayersScreen) {
   turn({join(7)});
   while (view.tick < 80) turn();
   // In tick 78 it was in cell 88, two thirds into a view of 80 cells; now both are farther to the right.
-  df::InputQueue::Input click{.kind = df::InputQueue::kMouse,
-                              .player = 7,
-                              .seen = {true, 76, 78},
-                              .button = df::Mouse::LEFT,
-                              .mouse_action = df::CLICKED,
-                              .x = 53,
-                              .y = 5};
-  turn({click});
-  click.x = 55;
-  turn({click});
-  end();
-  EXPECT_EQ(hits, 1);
+  EXPECT_EQ(hitsOfClicks({true, 76, 78}, 53, 55), 1);
 }
 
 TEST_F(WorldServerTest, AKeyThatEndsTheGameIsForTheHostToJudge) {

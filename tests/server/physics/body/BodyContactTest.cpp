@@ -24,8 +24,7 @@ TEST_F(BodyContacts, BothGetOneEventWithTheImpulse) {
 }
 
 TEST_F(BodyContacts, WhatLiesStillSaysNothingAndCostsNothing) {
-  PM.setGravity(perSecondSquared(Vector(0, 10)));
-  wall(Vector(0, 5), Vector(50, 5));
+  layFloor();
   auto* p_crate = crate<Listener>(Vector(0, -0.75));
   p_crate->setContactEnds();
   ticks(60);
@@ -40,8 +39,7 @@ TEST_F(BodyContacts, WhatLiesStillSaysNothingAndCostsNothing) {
 }
 
 TEST_F(BodyContacts, AnObjectThatGoesLetsFallWhatLayOnIt) {
-  PM.setGravity(perSecondSquared(Vector(0, 10)));
-  Object* p_floor = wall(Vector(0, 1), Vector(5, 1));
+  Object* p_floor = layFloor(5, 1);
   Body* p_crate = crate(Vector(0, -0.5));
   Body* p_upper = crate(Vector(0, -1.5));
   ticks(10);
@@ -53,8 +51,7 @@ TEST_F(BodyContacts, AnObjectThatGoesLetsFallWhatLayOnIt) {
 }
 
 TEST_F(BodyContacts, OneThatStepsAsideDoesSo) {
-  PM.setGravity(perSecondSquared(Vector(0, 10)));
-  Object* p_floor = wall(Vector(0, 1), Vector(5, 1));
+  Object* p_floor = layFloor(5, 1);
   Body* p_crate = crate(Vector(0, -0.5));
   ticks(10);
   p_floor->setPosition(Vector(0, 6));
@@ -158,8 +155,7 @@ TEST_F(BodyContacts, AHandlerMayTurnTheBallAway) {
 }
 
 TEST_F(BodyContacts, ABoxThatChangesIsTheNewShape) {
-  PM.setGravity(perSecondSquared(Vector(0, 10)));
-  wall(Vector(0, 5), Vector(50, 5));
+  layFloor();
   auto* p_body = new Body;  // its box: a character, one by one here
   p_body->setPosition(Vector(0, -3));
   ticks(60);
@@ -170,8 +166,7 @@ TEST_F(BodyContacts, ABoxThatChangesIsTheNewShape) {
 }
 
 TEST_F(BodyContacts, DragAndSpringsCountInContactToo) {
-  PM.setGravity(perSecondSquared(Vector(0, 10)));
-  wall(Vector(0, 5), Vector(50, 5));
+  layFloor();
   Body* p_drop = crate(Vector(0, -0.5));
   p_drop->setDrag(0.05);
   p_drop->setFriction(0);
@@ -186,18 +181,14 @@ TEST_F(BodyContacts, DragAndSpringsCountInContactToo) {
 }
 
 TEST_F(BodyContacts, TheAspectCountsForWhatIsHit) {
-  World there;
-  const World::Scope inside(there);
-  auto* p_floor = new Object;
-  p_floor->setBox(Box(Vector(-10, 0), 20, 2));
-  p_floor->setPosition(Vector(0, 10));
+  OwnWorld there(2);
+  wall(Vector(0, 11), Vector(10, 1));
   auto* p_ball = new Body;
   p_ball->setCircle(2);  // one cell high to either side
   p_ball->setPosition(Vector(0, 5));
   p_ball->setVelocity(Vector(0, 0.5));
-  for (int i = 0; i < 20; ++i) there.update();
+  for (int i = 0; i < 20; ++i) there.world.update();
   EXPECT_NEAR(p_ball->getPosition().y(), 9, 1e-9);
-  there.shutDown();
 }
 
 TEST_F(BodyContacts, LeavingTheWorldIsAnEventAndNoWall) {

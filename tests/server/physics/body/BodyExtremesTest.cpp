@@ -1,16 +1,10 @@
 // What no game should do, done to each kind of body: it stays bounded, it is the same every time, what cannot
 // be worked out is frozen, counted and named in the log, and no other body is affected.
-#include <gtest/gtest.h>
 
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
-#include <string>
-#include <vector>
 
-#include "engine/world/WorldLog.h"
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
 #include "tests/support/NotANumber.h"

@@ -1,7 +1,5 @@
 // Fields however stiff: what they cost, and what stays of the energy.
-#include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "physics/body/Field.h"
 #include "tests/server/physics/BodyScene.h"

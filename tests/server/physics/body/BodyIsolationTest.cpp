@@ -6,9 +6,7 @@
 #include <cstdint>
 #include <ostream>
 #include <tuple>
-#include <vector>
 
-#include "engine/world/WorldLog.h"
 #include "tests/server/physics/BodyScene.h"
 
 namespace df::test {
@@ -42,22 +40,10 @@ Body* slab(Vector place, double width, double angle) {
 
 Pair pairAt(Vector place, Link link) {
   const Pair pair = {slab(place, 1.2, 0.3), slab(place + Vector(2, -0.5), 0.8, -0.2)};
-  switch (link) {
-    case Link::kDistance:
-      PM.addDistance(pair.p_a, pair.p_b);
-      break;
-    case Link::kRope:
-      PM.addRope(pair.p_a, pair.p_b);
-      break;
-    case Link::kHinge:
-      PM.addHinge(pair.p_a, pair.p_b, place + Vector(1, -0.2));
-      break;
-    case Link::kSpring:
-      PM.addSpring(pair.p_a, pair.p_b, 0.1, 0.01);
-      break;
-    case Link::kNone:
-      break;
-  }
+  if (link == Link::kDistance) PM.addDistance(pair.p_a, pair.p_b);
+  if (link == Link::kRope) PM.addRope(pair.p_a, pair.p_b);
+  if (link == Link::kHinge) PM.addHinge(pair.p_a, pair.p_b, place + Vector(1, -0.2));
+  if (link == Link::kSpring) PM.addSpring(pair.p_a, pair.p_b, 0.1, 0.01);
   return pair;
 }
 
@@ -91,10 +77,7 @@ Pair addOthers(const Others& others) {
 
 // Those who share a floor have it from different ticks on: the watched pair falls from higher up.
 std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_floor = false) {
-  World world;
-  const World::Scope scope(world);
-  world.log().setSink([](const std::string&) {});
-  PM.setAspect(1);
+  OwnWorld own;
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   const bool has_others = others.speed != kNobody;
   Pair far;
@@ -113,11 +96,10 @@ std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_f
     if (others.takes_off && tick == 30) {
       for (Body* p_body : {far.p_a, far.p_b}) p_body->setVelocity(Vector(0, -1));
     }
-    world.update();
+    own.world.update();
     take(bits, pair.p_a);
     take(bits, pair.p_b);
   }
-  world.shutDown();
   return bits;
 }
 
@@ -132,8 +114,8 @@ TEST_P(BodyIsolation, APairIsTheSameAloneAndBesideAnother) {
       for (const bool is_removed : {false, true}) {
         const std::vector<std::uint64_t> beside =
             bitsOf(link, {other_link, speed, added, is_removed}, is_shared);
-        std::size_t first = 0;
-        while (first < alone.size() && alone[first] == beside[first]) ++first;
+        const auto end = std::mismatch(alone.begin(), alone.end(), beside.begin()).first;
+        const auto first = static_cast<std::size_t>(end - alone.begin());
         EXPECT_EQ(first, alone.size())
             << "from tick " << first / 12 << ": the other at speed " << speed << ", added "
             << kAddedNames[static_cast<std::size_t>(added)] << (is_removed ? ", removed" : "");

@@ -1,8 +1,6 @@
 // How bodies look: pictures at some angles, turns made of pictures, and what is published of them.
-#include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "engine/managers/WorldManager.h"
 #include "engine/world/Capture.h"
@@ -20,6 +18,9 @@
 
 namespace naiad::physics {
 namespace {
+
+using test::boxShape;
+using test::circleShape;
 
 constexpr double kPi = 3.141592653589793;
 constexpr double kAspect = 2;
@@ -42,18 +43,6 @@ std::vector<std::string> textOf(const Appearance& appearance) {
   return rows;
 }
 
-ConvexShape box(double half_width, double half_height) {
-  ConvexShape shape;
-  EXPECT_EQ(makeBox(half_width, half_height, {}, {}, 0, shape), ShapeStatus::kOk);
-  return shape;
-}
-
-ConvexShape circle(double radius) {
-  ConvexShape shape;
-  EXPECT_EQ(makeCircle(radius, {}, shape), ShapeStatus::kOk);
-  return shape;
-}
-
 std::vector<std::string> drawn(const ConvexShape& shape, double degrees, const FrameStyle& style = {}) {
   return textOf(drawShapes(std::span(&shape, 1), rotationBy(degrees * kPi / 180), kAspect, style));
 }
@@ -61,27 +50,27 @@ std::vector<std::string> drawn(const ConvexShape& shape, double degrees, const F
 using Rows = std::vector<std::string>;
 
 TEST(BodyLook, OutlinesRunAsTheEdgesDo) {
-  EXPECT_EQ(drawn(box(6, 3), 0), (Rows{"+----------+", "|          |", "+----------+"}));
-  EXPECT_EQ(drawn(box(4, 4), 45), (Rows{"    /\\    ", "  //  \\\\  ", "//      \\\\", "\\\\      //",
-                                        "  \\\\  //  ", "    \\/    "}));
-  EXPECT_EQ(drawn(circle(4), 0), (Rows{" /----\\ ", "/      \\", "\\      /", " \\----/ "}));
+  EXPECT_EQ(drawn(boxShape(6, 3), 0), (Rows{"+----------+", "|          |", "+----------+"}));
+  EXPECT_EQ(drawn(boxShape(4, 4), 45), (Rows{"    /\\    ", "  //  \\\\  ", "//      \\\\", "\\\\      //",
+                                             "  \\\\  //  ", "    \\/    "}));
+  EXPECT_EQ(drawn(circleShape(4), 0), (Rows{" /----\\ ", "/      \\", "\\      /", " \\----/ "}));
 }
 
 TEST(BodyLook, WhatIsThinIsALine) {
-  EXPECT_EQ(drawn(box(6, 0.3), 0), (Rows{"------------"}));
-  EXPECT_EQ(drawn(box(6, 0.3), 90), (Rows{"|", "|", "|", "|", "|", "|"}));
+  EXPECT_EQ(drawn(boxShape(6, 0.3), 0), (Rows{"------------"}));
+  EXPECT_EQ(drawn(boxShape(6, 0.3), 90), (Rows{"|", "|", "|", "|", "|", "|"}));
 }
 
 TEST(BodyLook, WhatIsSmallIsACharacter) {
-  EXPECT_EQ(drawn(circle(0.5), 0), (Rows{"o"}));
-  EXPECT_EQ(drawn(box(0.5, 1), 0), (Rows{"#"}));
+  EXPECT_EQ(drawn(circleShape(0.5), 0), (Rows{"o"}));
+  EXPECT_EQ(drawn(boxShape(0.5, 1), 0), (Rows{"#"}));
 }
 
 TEST(BodyLook, ASpokeShowsHowACircleIsTurned) {
   FrameStyle style;
   style.spoke = true;
-  EXPECT_NE(drawn(circle(4), 0, style), drawn(circle(4), 90, style));
-  EXPECT_EQ(drawn(circle(4), 0), drawn(circle(4), 90));
+  EXPECT_NE(drawn(circleShape(4), 0, style), drawn(circleShape(4), 90, style));
+  EXPECT_EQ(drawn(circleShape(4), 0), drawn(circleShape(4), 90));
 }
 
 TEST(BodyLook, SpritesTurnByTheNearestCell) {
@@ -101,7 +90,7 @@ TEST(BodyLook, FillingsAreAsLargeAsTheShape) {
   FrameStyle style;
   style.how = df::BodyDrawing::FILL;
   for (int degrees = 0; degrees < 360; degrees += 7) {
-    const ConvexShape shape = box(8, 6);
+    const ConvexShape shape = boxShape(8, 6);
     const Appearance cells =
         drawShapes(std::span(&shape, 1), rotationBy(degrees * kPi / 180), kAspect, style);
     EXPECT_NEAR(static_cast<double>(cells.size()), 16 * 12 / kAspect, 8) << degrees;
@@ -109,14 +98,14 @@ TEST(BodyLook, FillingsAreAsLargeAsTheShape) {
 }
 
 TEST(BodyLook, SymmetricShapesShowTheirSequenceSeveralTimesInATurn) {
-  EXPECT_EQ(symmetryOf(std::vector{box(4, 4)}), 4u);
-  EXPECT_EQ(symmetryOf(std::vector{box(4, 3)}), 2u);
-  EXPECT_EQ(symmetryOf(std::vector{circle(3)}), 0u);
-  EXPECT_EQ(symmetryOf(std::vector{box(4, 4), circle(3)}), 1u);
+  EXPECT_EQ(symmetryOf(std::vector{boxShape(4, 4)}), 4u);
+  EXPECT_EQ(symmetryOf(std::vector{boxShape(4, 3)}), 2u);
+  EXPECT_EQ(symmetryOf(std::vector{circleShape(3)}), 0u);
+  EXPECT_EQ(symmetryOf(std::vector{boxShape(4, 4), circleShape(3)}), 1u);
   ConvexShape triangle;
   ASSERT_EQ(makePolygon(std::vector<Vec2>{{0, -3}, {3, 2}, {-3, 2}}, 0, triangle), ShapeStatus::kOk);
   EXPECT_EQ(symmetryOf(std::vector{triangle}), 1u);
-  EXPECT_EQ(drawTurn(std::vector{circle(3)}, kAspect, {}).frames.size(), 1u);
+  EXPECT_EQ(drawTurn(std::vector{circleShape(3)}, kAspect, {}).frames.size(), 1u);
 }
 
 TEST(BodyLook, EveryTurnMayBePublished) {
@@ -124,7 +113,7 @@ TEST(BodyLook, EveryTurnMayBePublished) {
   for (const df::BodyDrawing how : {df::BodyDrawing::OUTLINE, df::BodyDrawing::FILL}) {
     style.how = how;
     for (const double size : {0.01, 0.5, 3.0, 20.0, 60.0}) {
-      const TurnFrames turn = drawTurn(std::vector{box(size, size / 2)}, kAspect, style);
+      const TurnFrames turn = drawTurn(std::vector{boxShape(size, size / 2)}, kAspect, style);
       ASSERT_GE(turn.frames.size(), 1u);
       EXPECT_LE(turn.frames.size(), kMaxFrames);
       if (turn.frames.size() > 1) {
@@ -155,10 +144,10 @@ double between(double a, double b) {
 TEST(BodyLook, WhatTurnsFreelyKeepsItsSelector) {
   for (const double spin : {0.1, -0.031, 3.0, 1e-5}) {
     BodyLook look;
-    look.update(form(box(6, 3), 0.3, spin), {}, kAspect, 1);
+    look.update(form(boxShape(6, 3), 0.3, spin), {}, kAspect, 1);
     ASSERT_TRUE(look.hasNewFrames());
     for (std::uint32_t tick = 2; tick < 20'000; ++tick) {
-      look.update(form(box(6, 3), 0.3 + spin * (tick - 1), spin), {}, kAspect, tick);
+      look.update(form(boxShape(6, 3), 0.3 + spin * (tick - 1), spin), {}, kAspect, tick);
       ASSERT_FALSE(look.hasNewFrames() || look.hasNewSelector()) << spin << " in tick " << tick;
     }
   }
@@ -167,7 +156,7 @@ TEST(BodyLook, WhatTurnsFreelyKeepsItsSelector) {
 // However it is jerked about, what is shown is the angle to within three quarters of a frame.
 TEST(BodyLook, TheFrameShownIsNearTheAngle) {
   SplitMix64 random(1);
-  for (const ConvexShape& shape : {box(6, 3), box(4, 4), circle(5)}) {
+  for (const ConvexShape& shape : {boxShape(6, 3), boxShape(4, 4), circleShape(5)}) {
     BodyLook look;
     double angle = 0, spin = 0.1;
     for (std::uint32_t tick = 1; tick < 3000; ++tick) {
@@ -188,11 +177,11 @@ TEST(BodyLook, TheFrameShownIsNearTheAngle) {
 
 TEST(BodyLook, WhatNeverTurnsIsOnePicture) {
   BodyLook look;
-  look.update(form(box(6, 3), 0.5, 0), {}, kAspect, 1);
+  look.update(form(boxShape(6, 3), 0.5, 0), {}, kAspect, 1);
   EXPECT_EQ(look.frames().size(), 1u);
-  look.update(form(box(6, 3), 0.5, 0), {}, kAspect, 2);
+  look.update(form(boxShape(6, 3), 0.5, 0), {}, kAspect, 2);
   EXPECT_FALSE(look.hasNewFrames());
-  look.update(form(box(6, 3), 0.6, 0), {}, kAspect, 3);
+  look.update(form(boxShape(6, 3), 0.6, 0), {}, kAspect, 3);
   EXPECT_TRUE(look.hasNewFrames());
   EXPECT_GT(look.frames().size(), 1u);
 }

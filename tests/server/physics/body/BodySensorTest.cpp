@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <set>
 #include <tuple>
-#include <utility>
 
-#include "physics/body/BodyLayer.h"
 #include "tests/server/physics/BodyScene.h"
 
 namespace df {

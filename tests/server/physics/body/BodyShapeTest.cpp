@@ -1,28 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "engine/managers/WorldManager.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
-#include "physics/body/Body.h"
-#include "physics/body/PhysicsManager.h"
+#include "tests/server/physics/BodyScene.h"
 #include "tests/support/NotANumber.h"
 
 namespace df {
 namespace {
 
-class BodyShapes : public testing::Test {
- protected:
-  BodyShapes() : scope(world) {
-    world.log().setSink([](const std::string&) {});
-  }
-  ~BodyShapes() override { world.shutDown(); }
-  World world;
-  World::Scope scope;
-};
+using BodyShapes = test::PhysicsWorld;
 
 TEST_F(BodyShapes, TheBoxGoesAroundTheShape) {
   auto* p_body = new Body;

@@ -4,12 +4,9 @@
 // NAIAD_SHOTS=100000 makes as many of them.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
-#include "engine/world/WorldLog.h"
-#include "physics/body/BodyLayer.h"
 #include "physics/body/BodyLimits.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/physics/BodyScene.h"
@@ -72,12 +69,6 @@ struct Found {
   bool isBad() const { return is_through || is_unmet || is_frozen || has_gained || has_lost; }
 };
 
-double energyOf(const Body* p_body) {
-  const Vector v = p_body->getVelocity();
-  return 0.5 * (p_body->getMass() * (v.x() * v.x() + v.y() * v.y()) +
-                p_body->getInertia() * p_body->getSpin() * p_body->getSpin());
-}
-
 // Is the box beyond the wall, and level with it?
 bool isThrough(const Body* p_box, const Object* p_wall, double angle, double length) {
   const Vector d = p_box->getPosition() - p_wall->getPosition();
@@ -87,10 +78,7 @@ bool isThrough(const Body* p_box, const Object* p_wall, double angle, double len
 }
 
 Found shoot(const Shot& shot) {
-  World world;
-  const World::Scope scope(world);
-  world.log().setSink([](const std::string&) {});
-  PM.setAspect(1);
+  OwnWorld own;
   Object* p_wall = nullptr;
   Body* p_body = nullptr;
   if (shot.kind == WallKind::kStatic) {
@@ -122,14 +110,16 @@ Found shoot(const Shot& shot) {
   p_box->setFriction(shot.friction);
   p_box->setRestitution(shot.restitution);
   const bool is_dynamic = shot.kind == WallKind::kDynamic;
-  const auto energy = [&] { return energyOf(p_box) + (is_dynamic ? energyOf(p_body) : 0); };
+  const auto energy = [&] {
+    return BodyScene::kineticOf(p_box) + (is_dynamic ? BodyScene::kineticOf(p_body) : 0);
+  };
   const double before = energy();
   const int arrival = static_cast<int>(std::ceil((room - kHalfWall) / closing));
   Found found;
   bool has_turned = false;  // the wall, far enough to show its other side
   bool is_limited = false;  // its spin: what is taken off it is lost
   for (int tick = 0; tick < arrival + 2; ++tick) {
-    world.update();
+    own.world.update();
     const double angle = is_dynamic ? p_body->getAngle() : 0;
     has_turned = has_turned || std::fabs(angle) > 0.5 || (is_dynamic && std::fabs(p_body->getSpin()) > 0.5);
     found.is_through = found.is_through || (!has_turned && isThrough(p_box, p_wall, angle, shot.length));
@@ -142,7 +132,6 @@ Found shoot(const Shot& shot) {
     }
   }
   found.is_unmet = p_box->notes.empty();
-  world.shutDown();
   return found;
 }
 

@@ -1,7 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodySurroundings.h"
 #include "shared/values/SplitMix64.h"

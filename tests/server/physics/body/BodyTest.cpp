@@ -1,42 +1,17 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "engine/events/EventOut.h"
-#include "engine/events/EventStep.h"
-#include "engine/managers/WorldManager.h"
 #include "engine/world/Capture.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
-#include "physics/body/Body.h"
-#include "physics/body/BodyLayer.h"
 #include "physics/body/Field.h"
-#include "physics/body/PhysicsManager.h"
-#include "physics/body/Seconds.h"
 #include "shared/replica/Motion.h"
+#include "tests/server/physics/BodyScene.h"
 #include "tests/support/NotANumber.h"
 
 namespace df {
 namespace {
 
-class Bodies : public testing::Test {
- protected:
-  Bodies() : scope(world) {
-    world.log().setSink([this](const std::string& line) { log.push_back(line); });
-  }
-  ~Bodies() override { world.shutDown(); }
-  void ticks(int n) {
-    for (int i = 0; i < n; ++i) world.update();
-  }
-  std::vector<std::string> log;
-  World world;
-  World::Scope scope;
-};
+using Bodies = test::PhysicsWorld;
 
 void expectNear(Vector a, Vector b, double tolerance) {
   EXPECT_NEAR(a.x(), b.x(), tolerance);
@@ -223,19 +198,14 @@ TEST_F(Bodies, AThrustBeyondAllBoundsMakesItAsFastAsABodyCanBe) {
 
 TEST_F(Bodies, ASceneFarAwayMovesAsAtTheOrigin) {
   const auto fly = [](Vector offset) {
-    World there;
-    const World::Scope inside(there);
-    there.log().setSink([](const std::string&) {});
+    test::OwnWorld there(2);
     PM.setGravity(Vector(0, 0.0321));
     auto* p_body = new Body;
     static_cast<Object*>(p_body)->setPosition(offset + Vector(0.25, 0.125));
     p_body->setVelocity(Vector(0.1, -0.7));
     p_body->setDrag(0.01);
-    for (int i = 0; i < 100; ++i) there.update();
-    const FixedVector at = there.store().position(p_body->key().slot);
-    const FixedVector from = *toFixed(offset);
-    there.shutDown();
-    return at - from;
+    for (int i = 0; i < 100; ++i) there.world.update();
+    return there.world.store().position(p_body->key().slot) - *toFixed(offset);
   };
   const FixedVector home = fly(Vector(0, 0));
   EXPECT_EQ(fly(Vector(1e6, -1e6)), home);

@@ -1,25 +1,15 @@
 // df::Cloth with as many threads as a game asks for.
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cmath>
 
-#include "engine/managers/WorldManager.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
-#include "physics/body/PhysicsManager.h"
 #include "physics/body/SoftObject.h"
+#include "tests/server/physics/BodyScene.h"
 
 namespace df {
 namespace {
 
-class SoftCloth : public testing::Test {
+class SoftCloth : public test::PhysicsWorld {
  protected:
-  SoftCloth() : scope(world) { PM.setGravity(Vector(0, 0.02)); }
-  ~SoftCloth() override { world.shutDown(); }
-
-  World world;
-  World::Scope scope;
+  SoftCloth() { PM.setGravity(Vector(0, 0.02)); }
 };
 
 TEST_F(SoftCloth, HasTheThreadsThatAreAskedForWithinLimits) {

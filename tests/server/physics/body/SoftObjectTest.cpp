@@ -1,38 +1,33 @@
-#include <gtest/gtest.h>
+// Soft bodies as Objects: rest, events, what lies and hangs on them, their stiffness and their drawing.
+#include <algorithm>
 
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include "engine/managers/WorldManager.h"
 #include "engine/world/Capture.h"
-#include "engine/world/EventCollision.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
-#include "physics/body/Body.h"
-#include "physics/body/PhysicsManager.h"
 #include "physics/body/SoftLayer.h"
 #include "physics/body/SoftObject.h"
+#include "tests/server/physics/BodyScene.h"
 #include "tests/support/NotANumber.h"
 
 namespace df {
 namespace {
 
-class SoftObjects : public testing::Test {
+class SoftObjects : public test::PhysicsWorld {
  protected:
-  SoftObjects() : scope(world) {
-    world.log().setSink([this](const std::string& line) { log.push_back(line); });
-    PM.setGravity(Vector(0, 0.02));
+  SoftObjects() { PM.setGravity(Vector(0, 0.02)); }
+
+  /// A rope between two pins, 20 long.
+  static Rope* bridge() {
+    auto* p_rope = new Rope(Vector(10, 10), Vector(30, 10), 1, 50);
+    p_rope->pin(0);
+    p_rope->pin(p_rope->getNodeCount() - 1);
+    return p_rope;
   }
-  ~SoftObjects() override { world.shutDown(); }
-  void ticks(int n) {
-    for (int i = 0; i < n; ++i) world.tick();
+  static void pinSides(Cloth& cloth) {
+    for (int row = 0; row < cloth.getRows(); ++row) {
+      cloth.pin(cloth.getNode(0, row));
+      cloth.pin(cloth.getNode(cloth.getColumns() - 1, row));
+    }
   }
-  std::vector<std::string> log;
-  World world;
-  World::Scope scope;
 };
 
 struct Floor : Object {
@@ -127,9 +122,7 @@ TEST_F(SoftObjects, ASleeperWakesWhenItsFloorGoesAndWhenSomethingComes) {
   auto* p_blob = new Blob(Vector(20, 15), 3);
   ticks(500);
   ASSERT_TRUE(p_blob->isAsleep());
-  auto* p_stone = new Body;
-  p_stone->setBoxShape(1, 1);
-  p_stone->setPosition(Vector(20, 5));
+  auto* p_stone = crate(Vector(20, 5), Vector(0.5, 0.5));
   const double top = p_blob->getPosition().y();
   ticks(60);
   EXPECT_LT(p_stone->getPosition().y(), top);
@@ -143,12 +136,8 @@ TEST_F(SoftObjects, ASleeperWakesWhenItsFloorGoesAndWhenSomethingComes) {
 }
 
 TEST_F(SoftObjects, ACrateLiesOnARopeBridge) {
-  auto* p_rope = new Rope(Vector(10, 10), Vector(30, 10), 1, 50);
-  p_rope->pin(0);
-  p_rope->pin(p_rope->getNodeCount() - 1);
-  auto* p_crate = new Hearing<Body>;
-  p_crate->setBoxShape(4, 1);
-  p_crate->setPosition(Vector(20, 8));
+  const Rope* p_rope = bridge();
+  auto* p_crate = crate<Hearing<Body>>(Vector(20, 8), Vector(2, 0.5));
   ticks(900);
   EXPECT_LE(p_crate->heard, 3);  // it bounces
   EXPECT_EQ(p_crate->p_other, p_rope);
@@ -162,12 +151,8 @@ TEST_F(SoftObjects, ACrateLiesOnARopeBridge) {
 }
 
 TEST_F(SoftObjects, WhatLiesOnARopeIsPublishedTheSameInEachTick) {
-  auto* p_rope = new Rope(Vector(10, 10), Vector(30, 10), 1, 50);
-  p_rope->pin(0);
-  p_rope->pin(p_rope->getNodeCount() - 1);
-  auto* p_crate = new Body;
-  p_crate->setBoxShape(4, 1);
-  p_crate->setPosition(Vector(20, 8));
+  const Rope* p_rope = bridge();
+  auto* p_crate = crate(Vector(20, 8), Vector(2, 0.5));
   world.store().setWatched(true);
   ticks(900);
   const ObjectFacts of_rope = world.store().facts(p_rope->key().slot);
@@ -193,30 +178,18 @@ TEST_F(SoftObjects, WhatLiesOnARopeIsPublishedTheSameInEachTick) {
 
 TEST_F(SoftObjects, ATurningStackLiesOnACloth) {
   auto* p_cloth = new Cloth(Vector(8, 12), 24, 2, 1, 200);
-  for (int row = 0; row < p_cloth->getRows(); ++row) {
-    p_cloth->pin(p_cloth->getNode(0, row));
-    p_cloth->pin(p_cloth->getNode(p_cloth->getColumns() - 1, row));
-  }
-  Body* p_below = nullptr;
-  for (const double y : {11.0, 9.5}) {
-    auto* p_crate = new Body;
-    p_crate->setBoxShape(6, 1);
-    p_crate->setTurning();
-    p_crate->setPosition(Vector(20, y));
-    if (p_below == nullptr) {
-      p_below = p_crate;
-      continue;
-    }
-    ticks(600);
-    EXPECT_NEAR(p_crate->getAngle(), 0, 0.1);
-    EXPECT_NEAR(p_below->getPosition().y() - p_crate->getPosition().y(), 1, 0.05);
-    EXPECT_NEAR(p_crate->getPosition().x(), 20, 0.5);
-    EXPECT_GT(p_below->getPosition().y(), 11.37);  // 12, less half a crate and the thickness of the cloth
-    EXPECT_LT(p_below->getPosition().y(), 13.5);
-    const double y_before = p_below->getPosition().y();
-    ticks(60);
-    EXPECT_NEAR(p_below->getPosition().y(), y_before, 0.01);
-  }
+  pinSides(*p_cloth);
+  const Body* p_below = turningCrate(Vector(20, 11), Vector(3, 0.5));
+  const Body* p_crate = turningCrate(Vector(20, 9.5), Vector(3, 0.5));
+  ticks(600);
+  EXPECT_NEAR(p_crate->getAngle(), 0, 0.1);
+  EXPECT_NEAR(p_below->getPosition().y() - p_crate->getPosition().y(), 1, 0.05);
+  EXPECT_NEAR(p_crate->getPosition().x(), 20, 0.5);
+  EXPECT_GT(p_below->getPosition().y(), 11.37);  // 12, less half a crate and the thickness of the cloth
+  EXPECT_LT(p_below->getPosition().y(), 13.5);
+  const double y_before = p_below->getPosition().y();
+  ticks(60);
+  EXPECT_NEAR(p_below->getPosition().y(), y_before, 0.01);
 }
 
 TEST_F(SoftObjects, ABlowKeepsTheMomentum) {
@@ -250,9 +223,7 @@ TEST_F(SoftObjects, TwoBlobsGetEventsOfEachOther) {
 
 TEST_F(SoftObjects, ABlobLiesOnACrateOnAFloor) {
   new Floor(Vector(0, 20));
-  auto* p_crate = new Body;
-  p_crate->setBoxShape(8, 2);
-  p_crate->setPosition(Vector(20, 19));
+  auto* p_crate = crate(Vector(20, 19), Vector(4, 1));
   auto* p_blob = new Blob(Vector(20, 14), 3);
   ticks(400);
   EXPECT_NEAR(p_crate->getPosition().y(), 19, 0.02);
@@ -362,9 +333,8 @@ TEST_F(SoftObjects, BadNumbersAreRefused) {
 
 TEST_F(SoftObjects, WhatGoesWrongStaysAlone) {
   const auto scene = [&](bool with_runaway) {
-    World alone;
-    const World::Scope inner(alone);
-    alone.log().setSink([](const std::string&) {});
+    test::OwnWorld own(2);
+    World& alone = own.world;
     PM.setGravity(Vector(0, 0.02));
     auto* p_blob = new Blob(Vector(20, 10), 2);
     SoftBody* p_runaway = nullptr;
@@ -385,13 +355,9 @@ TEST_F(SoftObjects, WhatGoesWrongStaysAlone) {
     } else {
       alone.tick();
     }
-    const Vector at = p_blob->getPosition();
-    alone.shutDown();
-    return at;
+    return p_blob->getPosition();
   };
-  const Vector with = scene(true), without = scene(false);
-  EXPECT_EQ(with.x(), without.x());
-  EXPECT_EQ(with.y(), without.y());
+  EXPECT_EQ(scene(true), scene(false));
 }
 
 struct Vandal : Blob {
@@ -440,20 +406,14 @@ TEST_F(SoftObjects, TheFirstOneMayComeFromAHandlerOfABody) {
 
 TEST_F(SoftObjects, TheRunIsTheSameEveryTime) {
   const auto run = [] {
-    World alone;
-    const World::Scope inner(alone);
+    test::OwnWorld own(2);
+    World& alone = own.world;
     PM.setGravity(Vector(0, 0.02));
     new Floor(Vector(0, 20));
     auto* p_blob = new Blob(Vector(20, 10), 2);
     auto* p_cloth = new Cloth(Vector(10, 14), 20, 2);
-    for (int row = 0; row < p_cloth->getRows(); ++row) {
-      p_cloth->pin(p_cloth->getNode(0, row));
-      p_cloth->pin(p_cloth->getNode(p_cloth->getColumns() - 1, row));
-    }
-    auto* p_crate = new Body;
-    p_crate->setBoxShape(2, 1);
-    p_crate->setTurning();
-    p_crate->setPosition(Vector(17, 5));
+    pinSides(*p_cloth);
+    const Body* p_crate = turningCrate(Vector(17, 5), Vector(1, 0.5));
     std::vector<double> trace;
     for (int i = 0; i < 200; ++i) {
       alone.tick();
@@ -463,7 +423,6 @@ TEST_F(SoftObjects, TheRunIsTheSameEveryTime) {
       }
     }
     EXPECT_LT(p_crate->getPosition().y(), 19);
-    alone.shutDown();
     return trace;
   };
   EXPECT_EQ(run(), run());
@@ -506,14 +465,13 @@ TEST_F(SoftObjects, AForceAtItsEndBendsABeam) {
 
 TEST_F(SoftObjects, CirclesAreRoundInTheMetric) {
   auto* p_blob = new Blob(Vector(20, 10), 4);
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+  std::vector<double> x, y;
   for (int i = 0; i < p_blob->getNodeCount(); ++i) {
-    const Vector at = p_blob->getNodePosition(i);
-    left = std::min(left, at.x()), right = std::max(right, at.x());
-    top = std::min(top, at.y()), bottom = std::max(bottom, at.y());
+    x.push_back(p_blob->getNodePosition(i).x());
+    y.push_back(p_blob->getNodePosition(i).y());
   }
-  EXPECT_NEAR(right - left, 8, 0.2);
-  EXPECT_NEAR(bottom - top, 4, 0.1);
+  EXPECT_NEAR(std::ranges::max(x) - std::ranges::min(x), 8, 0.2);
+  EXPECT_NEAR(std::ranges::max(y) - std::ranges::min(y), 4, 0.1);
 }
 
 TEST_F(SoftObjects, SoftBodiesAreDrawn) {

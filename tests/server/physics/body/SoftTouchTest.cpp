@@ -1,5 +1,4 @@
 // The contact events of soft bodies.
-#include <gtest/gtest.h>
 
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"

@@ -1,13 +1,10 @@
 // Crowds in the broad phase: the rule by which they are thinned, and that it costs no more than they are
 // many.
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "physics/broadphase/BroadPhase.h"
 #include "tests/server/physics/RandomShapes.h"

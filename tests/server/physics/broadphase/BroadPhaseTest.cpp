@@ -1,6 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <set>
 
 #include "physics/broadphase/BroadPhase.h"

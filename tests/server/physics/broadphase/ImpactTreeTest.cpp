@@ -1,8 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "physics/broadphase/ImpactTree.h"
 #include "tests/server/physics/RandomShapes.h"

@@ -1,31 +1,21 @@
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include "physics/flight/FlightDrag.h"
 #include "physics/flight/FlightField.h"
 #include "physics/flight/FlightSpring.h"
 #include "physics/geometry/Place.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/server/physics/BitHash.h"
 
 namespace naiad::physics {
 namespace {
 
-class Hash {
+class Hash : public test::BitHash {
  public:
-  void add(double value) {
-    m_hash = (m_hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3 ^ m_hash >> 32;
-  }
-  void add(const Flown& f) {
-    add(f.displacement.x), add(f.displacement.y);
-    add(f.velocity.x), add(f.velocity.y);
-  }
-  std::uint64_t value() const { return m_hash; }
-
- private:
-  std::uint64_t m_hash = 0xcbf29ce484222325;
+  using BitHash::add;
+  void add(const Flown& f) { add(f.displacement), add(f.velocity); }
 };
 
 struct Whirl : ForceField {

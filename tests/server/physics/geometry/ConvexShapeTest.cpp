@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <cstdio>
 #include <limits>
 
@@ -47,8 +45,7 @@ TEST(Rotation, TurningIsExactAndStaysOnTheCircle) {
 
 TEST(ConvexShape, RefusesWhatIsNoShapeAndLeavesTheOldOne) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  ConvexShape shape;
-  ASSERT_EQ(makeCircle(2, {}, shape), ShapeStatus::kOk);
+  ConvexShape shape = test::circleShape(2);
   for (const double bad : {nan, inf, -inf}) {
     EXPECT_EQ(makeCircle(bad, {}, shape), ShapeStatus::kNotFinite);
     EXPECT_EQ(makeCircle(1, {0, bad}, shape), ShapeStatus::kNotFinite);
@@ -88,8 +85,7 @@ TEST(ConvexShape, RefusesWhatIsNoShapeAndLeavesTheOldOne) {
 
 TEST(Mass, HasTheTextbooksValues) {
   ConvexShape shape;
-  ASSERT_EQ(makeBox(1.5, 0.5, {}, {}, 0, shape), ShapeStatus::kOk);
-  Mass mass = massOf(shape, 2);
+  Mass mass = massOf(test::boxShape(1.5, 0.5), 2);
   EXPECT_NEAR(mass.mass, 6, 1e-15);
   EXPECT_NEAR(mass.inertia, 6 * (9.0 + 1) / 12, 1e-14);
   EXPECT_LE(length(mass.centre), 1e-16);
@@ -210,8 +206,7 @@ TEST(ShapeQuery, ARayStopsAtTheSurface) {
 }
 
 TEST(ShapeQuery, ARayFromFarAwayHitsWhereItShould) {
-  ConvexShape shape;
-  ASSERT_EQ(makeBox(0.5, 0.5, {}, {}, 0, shape), ShapeStatus::kOk);
+  const ConvexShape shape = test::boxShape(0.5, 0.5);
   // Through the corner between two edges, too.
   for (const double y : {0.0, 0.25, -0.5 + 1e-9, 0.5 - 1e-9}) {
     const RayHit hit = castRay(shape, {-1e6, y}, {1e9, 0});
@@ -254,10 +249,8 @@ TEST(ShapeRaster, CoversTheCellsWhoseCentresAreInside) {
 }
 
 TEST(ShapeRaster, WhatIsHugeIsCutOff) {
-  ConvexShape box;
-  ASSERT_EQ(makeBox(1e6, 1e6, {}, {}, 0, box), ShapeStatus::kOk);
   TurnedShape placed;
-  turn(box, {}, placed);
+  turn(test::boxShape(1e6, 1e6), {}, placed);
   std::vector<CellSpan> spans;
   rasterise(placed, {}, 1, spans, 100);
   ASSERT_EQ(spans.size(), 201U);

@@ -1,33 +1,18 @@
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cstdint>
-
 #include "physics/broadphase/BroadPhase.h"
 #include "physics/geometry/Manifold.h"
 #include "physics/geometry/Mass.h"
 #include "physics/geometry/ShapeQuery.h"
 #include "physics/geometry/TimeOfImpact.h"
+#include "tests/server/physics/BitHash.h"
 #include "tests/server/physics/RandomShapes.h"
 
 namespace naiad::physics {
 namespace {
 
-class Hash {
- public:
-  void add(std::uint64_t value) { m_hash = (m_hash ^ value) * 0x100000001b3 ^ m_hash >> 32; }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(Vec2 v) { add(v.x), add(v.y); }
-  std::uint64_t value() const { return m_hash; }
-
- private:
-  std::uint64_t m_hash = 0xcbf29ce484222325;
-};
-
 // One number for all of the geometry. Whatever compiled this, at whatever level: the same.
 TEST(Manifold, AndAllGeometryIsTheSameBitsEverywhere) {
   SplitMix64 random(1);
-  Hash hash;
+  test::BitHash hash;
   BroadPhase broad;
   for (std::uint32_t i = 0; i < 3000; ++i) {
     const ConvexShape a = test::anyShape(random), b = test::anyShape(random);

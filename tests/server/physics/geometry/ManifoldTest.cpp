@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <cstdio>
 #include <cstring>
 
@@ -15,12 +13,7 @@ using test::anyRotation;
 using test::anyShape;
 using test::anyVec;
 using test::between;
-
-ConvexShape box(double half_width, double half_height) {
-  ConvexShape shape;
-  EXPECT_EQ(makeBox(half_width, half_height, {}, {}, 0, shape), ShapeStatus::kOk);
-  return shape;
-}
+using test::boxShape;
 
 double smallest(const Manifold& m) {
   return m.count == 2 ? std::min(m.points[0].separation, m.points[1].separation) : m.points[0].separation;
@@ -115,7 +108,7 @@ TEST(ShapeDistance, LongCapsulesThatCrossOverlap) {
 }
 
 TEST(Manifold, BoxesAlongTheAxesAreExact) {
-  const ConvexShape big = box(0.5, 0.5), plank = box(3, 0.3);
+  const ConvexShape big = boxShape(0.5, 0.5), plank = boxShape(3, 0.3);
   for (const double gap : {0.0, 0x1p-20, -0x1p-20, 0x1p-45, -0x1p-8}) {
     for (const Rotation q : {Rotation{1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
       for (const double side : {0.0, 0.25, -0.75}) {
@@ -248,7 +241,7 @@ TEST(Manifold, TurnsWithTheScene) {
 }
 
 TEST(Manifold, IdsAndNormalStayWhileBoxesRockOnEachOther) {
-  const ConvexShape below = box(0.5, 0.5), above = box(0.5, 0.5);
+  const ConvexShape below = boxShape(0.5, 0.5), above = boxShape(0.5, 0.5);
   SplitMix64 random(7);
   Manifold first;
   ASSERT_TRUE(collide(below, {}, above, {}, {0.1, -0.999}, 0.05, first));
@@ -276,7 +269,7 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRockOnEachOther) {
 }
 
 TEST(Manifold, AWrongMemoryDoesNoHarm) {
-  const ConvexShape a = box(0.5, 0.5), b = box(0.5, 0.5);
+  const ConvexShape a = boxShape(0.5, 0.5), b = boxShape(0.5, 0.5);
   TurnedShape ta, tb;
   turn(a, {}, ta);
   turn(b, {}, tb);
@@ -291,8 +284,7 @@ TEST(Manifold, AWrongMemoryDoesNoHarm) {
 }
 
 TEST(Manifold, CirclesInOnePlaceHaveANormal) {
-  ConvexShape circle;
-  ASSERT_EQ(makeCircle(0.5, {}, circle), ShapeStatus::kOk);
+  const ConvexShape circle = test::circleShape(0.5);
   Manifold m;
   ASSERT_TRUE(collide(circle, {}, circle, {}, {}, 0, m));
   EXPECT_EQ(length(m.normal), 1);

@@ -266,22 +266,14 @@ TEST(ImpactProperty, BadNumbersAreRefused) {
   const int id = world.add(good);
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = HUGE_VAL;
   for (const double bad : {nan, inf, -inf, 2e30}) {
-    ImpactBody body;
-    body.velocity.x = bad;
-    EXPECT_EQ(world.add(body), -1);
-    EXPECT_FALSE(world.set(id, body));
-    body = good;
-    body.acceleration.y = bad;
-    EXPECT_FALSE(world.set(id, body));
-    body = good;
-    body.half.x = bad;
-    EXPECT_FALSE(world.set(id, body));
-    body = good;
-    body.inverse_mass = bad;
-    EXPECT_FALSE(world.set(id, body));
-    body = good;
-    body.place.dx = bad;
-    EXPECT_FALSE(world.set(id, body));
+    std::vector<ImpactBody> bodies(5, good);
+    bodies[0].velocity.x = bad;
+    bodies[1].acceleration.y = bad;
+    bodies[2].half.x = bad;
+    bodies[3].inverse_mass = bad;
+    bodies[4].place.dx = bad;
+    EXPECT_EQ(world.add(bodies[0]), -1);
+    for (const ImpactBody& body : bodies) EXPECT_FALSE(world.set(id, body));
     EXPECT_EQ(world.step(bad), ImpactStepStatus::kRefused);
   }
   ImpactBody point;
@@ -358,17 +350,17 @@ TEST(ImpactProperty, TheLowestFreeIdIsGiven) {
 }
 
 TEST(ImpactProperty, AllocatesNothingOnceWarm) {
-  if (!test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
+  if (!naiad::test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
   ImpactWorld world;
   SplitMix64 random(3);
   Scene scene = randomScene(6);
   for (ImpactBody& body : scene.bodies) body.restitution = 1;
   fill(world, scene);
   for (int tick = 0; tick < 300; ++tick) world.step();
-  const auto before = test::allocationsSoFar();
+  const auto before = naiad::test::allocationsSoFar();
   const auto impacts = world.counters().impacts;
   for (int tick = 0; tick < 100; ++tick) world.step();
-  EXPECT_EQ(test::allocationsSoFar(), before);
+  EXPECT_EQ(naiad::test::allocationsSoFar(), before);
   EXPECT_GT(world.counters().impacts, impacts);
 }
 

@@ -13,8 +13,7 @@ using test::kDown;
 using test::kTick;
 
 JointScene pendulum() {
-  JointScene scene;
-  scene.point({0, 0}, 0);
+  JointScene scene = test::nailed();
   scene.point({1, 0});
   scene.join(JointKind::kDistance, 0, 1, 1);
   scene.connect();
@@ -104,8 +103,7 @@ TEST(JointPendulum, MethodsHaveTheirOrder) {
 }
 
 TEST(JointPendulum, RigidBodyOnAHingeSwingsAsAPhysicalPendulum) {
-  JointScene scene;
-  scene.point({0, 0}, 0);
+  JointScene scene = test::nailed();
   scene.rigid({1, 0}, 2, 0.5);  // I/m·r + r = 1.25: the equivalent length
   scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
   scene.connect();
@@ -148,8 +146,7 @@ std::array<double, 4> doublePendulum(double time, int steps) {
 }
 
 double doublePendulumError(JointOptions options, double* drift) {
-  JointScene scene;
-  scene.point({0, 0}, 0);
+  JointScene scene = test::nailed();
   scene.point({1, 0});
   scene.point({2, 0});
   scene.join(JointKind::kDistance, 0, 1, 1);

@@ -76,8 +76,7 @@ TEST(JointRope, GoesTheSameWayByEitherMethod) {
 // A chain between two points, at rest after some drag, against a·cosh(x/a).
 double sagOf(int links) {
   const double span = 10, total = 12;
-  JointScene scene;
-  scene.point({0, 0}, 0);
+  JointScene scene = test::nailed();
   for (int i = 1; i < links; ++i) {  // the two sides of a triangle that is as long
     const double s = static_cast<double>(i) / links;
     const double depth = std::sqrt(0.25 * (total * total - span * span));
@@ -109,8 +108,7 @@ TEST(JointRope, HangsAsACatenary) {
 }
 
 TEST(JointRope, PullsButDoesNotPush) {
-  JointScene scene;
-  scene.point({0, 0}, 0);
+  JointScene scene = test::nailed();
   scene.point({0, 0.5});
   scene.join(JointKind::kRope, 0, 1, 2);
   scene.connect();

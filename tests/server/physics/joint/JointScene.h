@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/joint/JointSolver.h"
+#include "tests/server/physics/SceneRandom.h"
 
 namespace naiad::physics::test {
 
@@ -94,48 +95,30 @@ struct JointScene {
       if (joint.is_broken || joint.kind == JointKind::kMouse) continue;
       const Vec2 displacement = anchorOffset(joint);
       const Rotation turned = inverse(body(joint.a).rotation * joint.reference) * body(joint.b).rotation;
+      const double away = length(displacement), turn = std::abs(turned.s);
       double gap = 0;
-      switch (joint.kind) {
-        case JointKind::kDistance:
-          gap = std::abs(length(displacement) - joint.length);
-          break;
-        case JointKind::kRope:
-          gap = std::max(0.0, length(displacement) - joint.length);
-          break;
-        case JointKind::kWeld:
-          gap = std::max(length(displacement), std::abs(turned.s));
-          break;
-        case JointKind::kHinge:
-          gap = length(displacement);
-          break;
-        case JointKind::kSlider:
-          gap = std::max(std::abs(cross(body(joint.a).rotation * joint.axis, displacement)),
-                         std::abs(turned.s));
-          break;
-        default:
-          break;
-      }
+      if (joint.kind == JointKind::kDistance) gap = std::abs(away - joint.length);
+      if (joint.kind == JointKind::kRope) gap = away - joint.length;
+      if (joint.kind == JointKind::kHinge) gap = away;
+      if (joint.kind == JointKind::kWeld) gap = std::max(away, turn);
+      if (joint.kind == JointKind::kSlider)
+        gap = std::max(std::abs(cross(body(joint.a).rotation * joint.axis, displacement)), turn);
       worst = std::max(worst, gap);
     }
     return worst;
   }
 };
 
-/// Numbers for scenes; not for anything else.
-struct SceneRandom {
-  std::uint64_t state = 1;
-  double operator()() {  // in [0, 1)
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<double>(state >> 11) * 0x1p-53;
-  }
-  double between(double low, double high) { return low + (high - low) * (*this)(); }
-  int below(int n) { return static_cast<int>((*this)() * n); }
-};
+/// Body 0 is an immovable point at the origin.
+inline JointScene nailed() {
+  JointScene scene;
+  scene.point({0, 0}, 0);
+  return scene;
+}
 
 /// A rope of `links` rods from (0, 0) along x; the last of its points is `ratio` times as heavy.
 inline JointScene ropeOf(int links, double ratio) {
-  JointScene scene;
-  scene.point({0, 0}, 0);
+  JointScene scene = nailed();
   for (int i = 1; i <= links; ++i) {
     scene.point({static_cast<double>(i), 0}, i == links ? 1 / ratio : 1);
     scene.join(JointKind::kDistance, i - 1, i, 1);

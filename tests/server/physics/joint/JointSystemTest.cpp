@@ -64,8 +64,7 @@ TEST(JointSystem, RandomLoopsKeepTheirJoints) {
   SceneRandom random;
   for (int round = 0; round < 30; ++round) {
     const int count = 4 + random.below(8);
-    JointScene scene;
-    scene.point({0, 0}, 0);
+    JointScene scene = test::nailed();
     for (int i = 1; i < count; ++i) {  // a closed chain
       const double angle = 2 * std::acos(-1.0) * i / count;
       scene.point({2 * std::cos(angle) - 2, 2 * std::sin(angle)}, random.between(0.3, 3));
@@ -113,8 +112,7 @@ TEST(JointSystem, ClosedOneOfAHundredKeepsItsMomentum) {
 }
 
 TEST(JointSystem, RedundantRowsAreLeftOutAndCounted) {
-  JointScene scene;
-  scene.point({0, 0}, 0);
+  JointScene scene = test::nailed();
   scene.rigid({1, 0}, 1, 0.2);
   for (int i = 0; i < 3; ++i) scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
   scene.joinAt(JointKind::kDistance, 0, 1, {0, 0});
@@ -132,8 +130,7 @@ TEST(JointSystem, RedundantRowsAreLeftOutAndCounted) {
 }
 
 TEST(JointSystem, ContradictionsStayBoundedAndAreCounted) {
-  JointScene scene;
-  scene.point({0, 0}, 0);
+  JointScene scene = test::nailed();
   scene.point({1, 0});
   scene.point({2.5, 0}, 0);
   scene.join(JointKind::kDistance, 0, 1, 1);

@@ -1,25 +1,15 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "engine/world/Capture.h"
 #include "physics/kits/Bridge.h"
 #include "physics/kits/Obstacle.h"
 #include "tests/server/physics/BodyScene.h"
+#include "tests/support/NotANumber.h"
 
 namespace df::test {
 namespace {
 
-class Bridges : public testing::Test {
+class Bridges : public PhysicsWorld {
  protected:
-  Bridges() : scope(world) { PM.setGravity(Vector(0, 0.02)); }
-  ~Bridges() override { world.shutDown(); }
-  void ticks(int n) {
-    for (int i = 0; i < n; ++i) world.tick();
-  }
-  World world;
-  World::Scope scope;
+  Bridges() { PM.setGravity(Vector(0, 0.02)); }
 };
 
 TEST_F(Bridges, ItHangsBetweenItsEnds) {
@@ -43,11 +33,8 @@ TEST_F(Bridges, ItHangsBetweenItsEnds) {
 
 TEST_F(Bridges, ACrateLiesOnIt) {
   makeBridge(Vector(10, 10), Vector(42, 10), 8);
-  auto* p_crate = new Body;
-  p_crate->setBoxShape(6, 2);
-  p_crate->setTurning();
+  Body* p_crate = turningCrate(Vector(26, 8), Vector(3, 1));
   p_crate->setFriction(0.8);
-  p_crate->setPosition(Vector(26, 8));
   ticks(600);
   EXPECT_GT(p_crate->getPosition().y(), 8);
   EXPECT_LT(p_crate->getPosition().y(), 18);
@@ -55,7 +42,6 @@ TEST_F(Bridges, ACrateLiesOnIt) {
 }
 
 TEST_F(Bridges, OfNothingIsNone) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(makeBridge(Vector(0, 0), Vector(10, 0), 0).empty());
   EXPECT_TRUE(makeBridge(Vector(0, 0), Vector(10, 0), -3).empty());
   EXPECT_TRUE(makeBridge(Vector(0, 0), Vector(10, 0), 100).empty());
@@ -66,9 +52,7 @@ TEST_F(Bridges, OfNothingIsNone) {
 
 TEST_F(Bridges, BodiesLieOnAnObstacle) {
   const auto* p_floor = new Obstacle(Vector(0, 20), 40, 2, '%', BLUE);
-  auto* p_crate = new Body;
-  p_crate->setBoxShape(4, 2);
-  p_crate->setPosition(Vector(20, 10));
+  const Body* p_crate = crate(Vector(20, 10), Vector(2, 1));
   ticks(300);
   EXPECT_NEAR(p_crate->getPosition().y() + 1, 19.5, 1e-6);
   EXPECT_EQ(p_floor->getPosition(), Vector(0, 20));

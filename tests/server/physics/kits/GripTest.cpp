@@ -1,12 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <optional>
 
 #include "physics/body/SoftObject.h"
 #include "physics/kits/Grip.h"
 #include "tests/server/physics/BodyScene.h"
+#include "tests/support/NotANumber.h"
 
 namespace df::test {
 namespace {
@@ -14,7 +11,7 @@ namespace {
 using Grips = BodyScene;
 
 double apart(Vector a, Vector b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
+  return (a - b).getMagnitude();
 }
 
 TEST_F(Grips, ABodyFollowsAndFliesOn) {
@@ -65,7 +62,6 @@ TEST_F(Grips, TheMassMakesNoDifference) {
 }
 
 TEST_F(Grips, NothingIsThereOrAnotherGripHoldsIt) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   new Blob(Vector(3, 4), 2);
   wall(Vector(20, 20), Vector(1, 1));
   Grip mine, yours;
@@ -106,13 +102,11 @@ TEST_F(Grips, ItEndsWithWhatItHoldsOrWithItself) {
 TEST(Grip, MayOutliveTheWorld) {
   std::optional<Grip> body, soft;
   {
-    World world;
-    const World::Scope scope(world);
+    const OwnWorld gone;
     BodyScene::crate(Vector(3, 4));
     new Blob(Vector(20, 4), 2);
     ASSERT_EQ(body.emplace().grab(Vector(3, 4)), 0);
     ASSERT_EQ(soft.emplace().grab(Vector(20, 4)), 0);
-    world.shutDown();
   }
   EXPECT_FALSE(body->isHolding());
   EXPECT_FALSE(soft->isHolding());

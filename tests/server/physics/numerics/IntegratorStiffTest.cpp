@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "physics/numerics/IntegratorAutomatic.h"
 #include "tests/server/physics/ElasticField.h"
@@ -20,6 +21,23 @@ void print(const char* name, double error, const IntegratorCounters& c) {
       static_cast<long long>(c.rejected), static_cast<long long>(c.jacobians),
       static_cast<long long>(c.newton_failures), static_cast<long long>(c.stiff_calls));
 }
+
+// What flies in a field, tick after tick.
+struct Flyer {
+  Vec2 p, v;
+  IntegratorCounters counters = {};
+
+  void fly(const ForceField& field, double from, double dt, const IntegratorOptions& options = {}) {
+    Flown flown;
+    ASSERT_EQ(flyField(field, p, v, from, dt, options, flown, counters), IntegratorStatus::kDone) << from;
+    p += flown.displacement;
+    v = flown.velocity;
+  }
+  /// Two seconds, 30 ticks each.
+  void flyOn(const ForceField& field) {
+    for (int i = 0; i < 60; ++i) fly(field, i / 30.0, 1 / 30.0);
+  }
+};
 
 struct VanDerPol : ForceField {
   double epsilon = 1e-6;
@@ -49,21 +67,15 @@ TEST(Stiff, VanDerPol) {
         field.knows_jacobian = knows;
         IntegratorOptions options;
         options.method = method;
-        IntegratorCounters counters;
-        Vec2 p = {2, 0}, v = {};
-        for (int i = 0; i < ticks; ++i) {
-          Flown flown;
-          ASSERT_EQ(flyField(field, p, v, 2.0 * i / ticks, 2.0 / ticks, options, flown, counters),
-                    IntegratorStatus::kDone);
-          p += flown.displacement;
-          v = flown.velocity;
-        }
-        const double error = std::max(std::fabs(p.x - static_cast<double>(truth[0])),
-                                      std::fabs(v.x - static_cast<double>(truth[1])));
+        Flyer its = {{2, 0}, {}};
+        for (int i = 0; i < ticks; ++i) its.fly(field, 2.0 * i / ticks, 2.0 / ticks, options);
+        const double error = std::max(std::fabs(its.p.x - static_cast<double>(truth[0])),
+                                      std::fabs(its.v.x - static_cast<double>(truth[1])));
         if (ticks == 60)
-          print(knows ? "van der Pol, 60 ticks" : "van der Pol, Jacobian by differences", error, counters);
+          print(knows ? "van der Pol, 60 ticks" : "van der Pol, Jacobian by differences", error,
+                its.counters);
         EXPECT_LE(error, 1e-4);
-        EXPECT_EQ(counters.failed_calls, 0);
+        EXPECT_EQ(its.counters.failed_calls, 0);
       }
     }
   }
@@ -81,19 +93,10 @@ void elasticPendulum(double k, int reference_steps, double bound) {
   };
   const double duration = 2;
   const auto truth = quadSolve<4>(system, 0, q(duration), {1, 0, 0, 0}, reference_steps, 4);
-  const ElasticField field = rod(k);
-  IntegratorCounters counters;
-  Vec2 p = {1, 0}, v = {};
-  for (int i = 0; i < 60; ++i) {
-    Flown flown;
-    ASSERT_EQ(flyField(field, p, v, i / 30.0, 1 / 30.0, {}, flown, counters), IntegratorStatus::kDone) << i;
-    p += flown.displacement;
-    v = flown.velocity;
-  }
-  const double error = length(p - Vec2{static_cast<double>(truth[0]), static_cast<double>(truth[1])});
-  char name[64];
-  std::snprintf(name, sizeof name, "elastic pendulum k=%g", k);
-  print(name, error, counters);
+  Flyer bob = {{1, 0}, {}};
+  bob.flyOn(rod(k));
+  const double error = length(bob.p - Vec2{static_cast<double>(truth[0]), static_cast<double>(truth[1])});
+  print(("elastic pendulum k=" + std::to_string(k)).c_str(), error, bob.counters);
   EXPECT_LE(error, bound);
 }
 
@@ -112,17 +115,10 @@ TEST(Stiff, ElasticPendulumNearlyRigid) {
   const auto truth = quadSolve<2>(rigid, 0, 2, {0, 0}, 1000, 4);
   const Vec2 end = {static_cast<double>(cosq(truth[0])), static_cast<double>(sinq(truth[0]))};
   for (const double k : {1e8, 1e10}) {
-    const ElasticField field = rod(k);
-    IntegratorCounters counters;
-    Vec2 p = {1, 0}, v = {};
-    for (int i = 0; i < 60; ++i) {
-      Flown flown;
-      ASSERT_EQ(flyField(field, p, v, i / 30.0, 1 / 30.0, {}, flown, counters), IntegratorStatus::kDone) << i;
-      p += flown.displacement;
-      v = flown.velocity;
-    }
-    print("elastic pendulum, nearly rigid", length(p - end), counters);
-    EXPECT_LE(length(p - end), 1e-4) << k;
+    Flyer bob = {{1, 0}, {}};
+    bob.flyOn(rod(k));
+    print("elastic pendulum, nearly rigid", length(bob.p - end), bob.counters);
+    EXPECT_LE(length(bob.p - end), 1e-4) << k;
   }
 }
 
@@ -138,23 +134,15 @@ TEST(Stiff, ChargedParticle) {
   } field;
   for (const double b : {1.0, 1e2, 1e3, 1e4}) {
     field.b = b;
-    IntegratorCounters counters;
-    Vec2 p = {}, v = {1, 0};
-    for (int i = 0; i < 60; ++i) {
-      Flown flown;
-      ASSERT_EQ(flyField(field, p, v, i / 30.0, 1 / 30.0, {}, flown, counters), IntegratorStatus::kDone) << i;
-      p += flown.displacement;
-      v = flown.velocity;
-    }
+    Flyer its = {{}, {1, 0}};
+    its.flyOn(field);
     // v' = E − B·(−v_y, v_x): drift (5/B, 0), and (1 − 5/B, 0) turning backwards at B
     const Quad t = 2, w = q(b), u = 1 - 5 / w;
     const Vec2 end = {static_cast<double>(5 / w * t + u * sinq(w * t) / w),
                       static_cast<double>(-u * (1 - cosq(w * t)) / w)};
-    char name[64];
-    std::snprintf(name, sizeof name, "charged particle B=%g", b);
-    print(name, length(p - end), counters);
-    EXPECT_LE(length(p - end), 1e-8);
-    const Vec2 rest = v - Vec2{5 / b, 0};
+    print(("charged particle B=" + std::to_string(b)).c_str(), length(its.p - end), its.counters);
+    EXPECT_LE(length(its.p - end), 1e-8);
+    const Vec2 rest = its.v - Vec2{5 / b, 0};
     EXPECT_NEAR(length(rest), std::fabs(1 - 5 / b), 1e-8);
   }
 }
@@ -176,34 +164,24 @@ TEST(Stiff, AStrongMagnetTurnsAndDoesNotBrake) {
       field.rate = rate;
       field.slope = slope;
       field.across = {};
-      IntegratorCounters counters;
-      Vec2 p = {}, v = {0.1, 0.05};
+      Flyer its = {{}, {0.1, 0.05}};
       for (int i = 0; i < 100; ++i) {
         field.calls = 0;
-        Flown flown;
-        ASSERT_EQ(flyField(field, p, v, i, 1, {}, flown, counters), IntegratorStatus::kDone) << rate;
+        its.fly(field, i, 1);
         if (std::fabs(rate) > 64) {
           EXPECT_LE(field.calls, 66);
         }
-        p += flown.displacement;
-        v = flown.velocity;
-        ASSERT_NEAR(length(v), length(Vec2{0.1, 0.05}), 1e-8) << rate << ' ' << i;
-        ASSERT_LE(length(p), 6 * length(Vec2{0.1, 0.05}) / std::fabs(rate)) << rate << ' ' << i;
+        ASSERT_NEAR(length(its.v), length(Vec2{0.1, 0.05}), 1e-8) << rate << ' ' << i;
+        ASSERT_LE(length(its.p), 6 * length(Vec2{0.1, 0.05}) / std::fabs(rate)) << rate << ' ' << i;
       }
     }
     if (std::fabs(rate) < 100) continue;
     field.slope = 0;
     field.across = {0, 0.01};
-    IntegratorCounters counters;
-    Vec2 p = {}, v = {};
-    for (int i = 0; i < 100; ++i) {
-      Flown flown;
-      ASSERT_EQ(flyField(field, p, v, i, 1, {}, flown, counters), IntegratorStatus::kDone) << rate;
-      p += flown.displacement;
-      v = flown.velocity;
-    }
-    EXPECT_NEAR(p.x * rate, -1, 0.05) << rate;  // 100 ticks at 0.01 / rate, within a turn's diameter
-    EXPECT_NEAR(p.y * rate, 0, 0.05) << rate;
+    Flyer its;
+    for (int i = 0; i < 100; ++i) its.fly(field, i, 1);
+    EXPECT_NEAR(its.p.x * rate, -1, 0.05) << rate;  // 100 ticks at 0.01 / rate, within a turn's diameter
+    EXPECT_NEAR(its.p.y * rate, 0, 0.05) << rate;
   }
 }
 
@@ -303,19 +281,16 @@ TEST(Stiff, WhatNoLimitFollowsIsSolvedCoarsely) {
       IntegratorOptions options;
       options.max_evaluations = most;
       options.max_steps = most == 1 ? 16 : options.max_steps;
-      Vec2 p = {1, 0}, v = {0.1, 0.2};
+      Flyer its = {{1, 0}, {0.1, 0.2}};
       const auto energy = [&] {
-        const double square = lengthSquared(p);
-        return 0.5 * lengthSquared(v) + 0.25 * k * square * square - p.y;
+        const double square = lengthSquared(its.p);
+        return 0.5 * lengthSquared(its.v) + 0.25 * k * square * square - its.p.y;
       };
       const double start = energy();
       for (int i = 0; i < 30; ++i) {
-        IntegratorCounters counters;
-        Flown flown;
-        ASSERT_EQ(flyField(field, p, v, i, 1, options, flown, counters), IntegratorStatus::kDone) << k;
-        EXPECT_LE(counters.evaluations, most == 1 ? 400 : 18'000) << k;
-        p += flown.displacement;
-        v = flown.velocity;
+        its.counters = {};
+        its.fly(field, i, 1, options);
+        EXPECT_LE(its.counters.evaluations, most == 1 ? 400 : 18'000) << k;
         ASSERT_LE(energy(), start * (1 + 1e-3) + 1) << k << ' ' << most << ' ' << i;
       }
     }

@@ -1,8 +1,6 @@
 // Bodies that are made in one place: bounded work, and no effect on what can lie side by side.
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "RigidScene.h"
@@ -87,8 +85,7 @@ TEST(RigidCrowd, ATrayTouchesAllItsMarbles) {
   makeBox(12, 0.5, {}, {}, 0, tray[0]);
   makeBox(0.5, 3, {-12, -3}, {}, 0, tray[1]);
   makeBox(0.5, 3, {12, -3}, {}, 0, tray[2]);
-  RigidBody holds = movable({0, -0.5}, tray[0], 50);
-  world.add(holds, tray);
+  world.add(movable({0, -0.5}, tray[0], 50), tray);
   const ConvexShape marble = circleShape(0.4);
   for (int i = 0; i < 100; ++i) {
     world.add(movable({-9.0 + 0.9 * (i % 20) + 0.1 * (i / 20), -1.5 - 0.9 * (i / 20)}, marble), marble);

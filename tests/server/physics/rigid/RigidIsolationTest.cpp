@@ -1,10 +1,6 @@
 // Groups that do not touch do not see each other: how often one is swept, or solved at once, is its own
 // affair.
-#include <gtest/gtest.h>
 
-#include <array>
-#include <bit>
-#include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -19,21 +15,6 @@ using namespace test;
 constexpr int kGroupTicks = 200;
 constexpr double kFar = 2000;  // cells between the groups
 constexpr int kShotAt = 90;    // when what has gone to sleep is hit
-
-using Bits = std::array<std::uint64_t, 9>;
-
-Bits bitsOf(const RigidBody& body) {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-  return {static_cast<std::uint64_t>(body.place.cell_x),
-          static_cast<std::uint64_t>(body.place.cell_y),
-          bits(body.place.dx),
-          bits(body.place.dy),
-          bits(body.rotation.c),
-          bits(body.rotation.s),
-          bits(body.velocity.x),
-          bits(body.velocity.y),
-          bits(body.spin)};
-}
 
 // What happens elsewhere.
 enum class Elsewhere { kNothing, kRest, kJoints, kHeap, kJointedHeap, kBullets };

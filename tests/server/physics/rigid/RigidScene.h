@@ -1,27 +1,19 @@
 // Scenes of rigid bodies: crates of 1 cell, 30 ticks a second, g = 10 cells/s².
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "physics/geometry/Mass.h"
 #include "physics/rigid/RigidWorld.h"
+#include "tests/server/physics/Shapes.h"
 
 namespace naiad::physics::test {
 
 inline constexpr double kGravityPerTick = 10.0 / 900;
-
-inline ConvexShape boxShape(double half_width, double half_height) {
-  ConvexShape shape;
-  makeBox(half_width, half_height, {}, {}, 0, shape);
-  return shape;
-}
-
-inline ConvexShape circleShape(double radius) {
-  ConvexShape shape;
-  makeCircle(radius, {}, shape);
-  return shape;
-}
 
 inline RigidBody movable(Vec2 where, const ConvexShape& shape, double mass = 1) {
   RigidBody body;
@@ -31,6 +23,14 @@ inline RigidBody movable(Vec2 where, const ConvexShape& shape, double mass = 1) 
   body.inverse_inertia = of.mass / (mass * of.inertia);
   body.acceleration = {0, kGravityPerTick};
   body.friction = 0.5;
+  return body;
+}
+
+/// A body that no gravity pulls.
+inline RigidBody floating(Vec2 where, const ConvexShape& shape, Vec2 velocity = {}, double mass = 1) {
+  RigidBody body = movable(where, shape, mass);
+  body.acceleration = {};
+  body.velocity = velocity;
   return body;
 }
 
@@ -44,6 +44,27 @@ inline RigidBody immovable(Vec2 where) {
 
 inline Vec2 whereIs(const RigidWorld& world, int id) {
   return world.body(id).place - Place{};
+}
+
+/// Half the square of its speed, less what it can fall.
+inline double energyOf(const RigidBody& body) {
+  return -kGravityPerTick * (body.place - Place{}).y + 0.5 * lengthSquared(body.velocity) +
+         0.5 / body.inverse_inertia * body.spin * body.spin;
+}
+
+using Bits = std::array<std::uint64_t, 9>;
+
+inline Bits bitsOf(const RigidBody& body) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  return {static_cast<std::uint64_t>(body.place.cell_x),
+          static_cast<std::uint64_t>(body.place.cell_y),
+          bits(body.place.dx),
+          bits(body.place.dy),
+          bits(body.rotation.c),
+          bits(body.rotation.s),
+          bits(body.velocity.x),
+          bits(body.velocity.y),
+          bits(body.spin)};
 }
 
 inline RigidOptions sleepless() {

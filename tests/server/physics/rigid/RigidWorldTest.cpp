@@ -1,11 +1,10 @@
 // What rigid bodies promise: each bound is a target of the laboratory.
-#include <gtest/gtest.h>
 
-#include <bit>
-#include <cstdint>
 #include <limits>
 
 #include "RigidScene.h"
+#include "tests/server/physics/BitHash.h"
+#include "tests/server/physics/SceneRandom.h"
 #include "tests/support/AllocationCount.h"
 
 namespace naiad::physics {
@@ -49,48 +48,26 @@ TEST(RigidWorld, TheLightOneBearsTheHeavyOne) {
   }
 }
 
-TEST(RigidWorld, FrictionHoldsUpToItsAngle) {
-  for (const double off : {-0.01, 0.01}) {
-    RigidWorld world(sleepless());
-    const double angle = std::atan(0.5) + off * kDegree;
-    const Vec2 up = addSlope(world, angle);
-    const ConvexShape crate = boxShape(0.5, 0.25);
-    RigidBody body = movable(0.25 * up, crate);
-    body.rotation = rotationBy(angle);
-    const int id = world.add(body, crate);
-    for (int tick = 0; tick < 120; ++tick) world.step();
-    const double speed = 30 * length(world.body(id).velocity);
-    if (off < 0) {
-      EXPECT_LT(speed, 1e-3);
-    } else {
-      EXPECT_GT(speed, 1e-3);
-    }
-  }
+// A crate that lies on the slope by `up`.
+int addCrateOnSlope(RigidWorld& world, double angle, Vec2 up) {
+  const ConvexShape crate = boxShape(0.5, 0.25);
+  RigidBody body = movable(0.25 * up, crate);
+  body.rotation = rotationBy(angle);
+  return world.add(body, crate);
 }
 
 TEST(RigidWorld, SlidesAndRollsAsItShould) {
-  {
-    RigidWorld world(sleepless());
-    const double angle = 40 * kDegree;
-    const Vec2 up = addSlope(world, angle);
-    const ConvexShape crate = boxShape(0.5, 0.25);
-    RigidBody body = movable(0.25 * up, crate);
-    body.rotation = rotationBy(angle);
-    const int id = world.add(body, crate);
-    for (int tick = 0; tick < 60; ++tick) world.step();
-    const double displacement = length(whereIs(world, id) - 0.25 * up);
-    EXPECT_NEAR(displacement / (2 * 10 * (std::sin(angle) - 0.5 * std::cos(angle))), 1, 1e-9);
-  }
-  {
-    RigidWorld world(sleepless());
-    const double angle = 30 * kDegree;
-    const Vec2 up = addSlope(world, angle);
-    const ConvexShape disc = circleShape(0.5);
-    const int id = world.add(movable(0.5 * up, disc), disc);
-    for (int tick = 0; tick < 60; ++tick) world.step();
-    EXPECT_NEAR(length(whereIs(world, id) - 0.5 * up) / (10 * std::sin(angle) * 4 / 3), 1, 1e-9);
-    EXPECT_NEAR(length(world.body(id).velocity), 0.5 * std::fabs(world.body(id).spin), 1e-12);
-  }
+  RigidWorld slides(sleepless()), rolls(sleepless());
+  const double steep = 40 * kDegree, angle = 30 * kDegree;
+  const Vec2 steep_up = addSlope(slides, steep), up = addSlope(rolls, angle);
+  const int crate = addCrateOnSlope(slides, steep, steep_up);
+  const ConvexShape disc = circleShape(0.5);
+  const int id = rolls.add(movable(0.5 * up, disc), disc);
+  for (int tick = 0; tick < 60; ++tick) slides.step(), rolls.step();
+  const double displacement = length(whereIs(slides, crate) - 0.25 * steep_up);
+  EXPECT_NEAR(displacement / (2 * 10 * (std::sin(steep) - 0.5 * std::cos(steep))), 1, 1e-9);
+  EXPECT_NEAR(length(whereIs(rolls, id) - 0.5 * up) / (10 * std::sin(angle) * 4 / 3), 1, 1e-9);
+  EXPECT_NEAR(length(rolls.body(id).velocity), 0.5 * std::fabs(rolls.body(id).spin), 1e-12);
 }
 
 TEST(RigidWorld, AnElasticBallBouncesForEver) {
@@ -119,15 +96,10 @@ TEST(RigidWorld, AnElasticBoxTumblesForEver) {
   box.spin = 0.1;
   box.rotation = rotationBy(0.3);
   const int id = world.add(box, crate);
-  const auto energy = [&] {
-    const RigidBody& b = world.body(id);
-    return -kGravityPerTick * whereIs(world, id).y + 0.5 * lengthSquared(b.velocity) +
-           0.5 / b.inverse_inertia * b.spin * b.spin;
-  };
-  const double before = energy();
+  const double before = energyOf(world.body(id));
   for (int tick = 0; tick < 900; ++tick) {
     world.step();
-    ASSERT_NEAR(energy() / before, 1, 1e-12) << tick;
+    ASSERT_NEAR(energyOf(world.body(id)) / before, 1, 1e-12) << tick;
     ASSERT_LT(whereIs(world, id).y, -0.24) << tick;
   }
   EXPECT_GT(world.counters().impacts, 20);
@@ -135,11 +107,7 @@ TEST(RigidWorld, AnElasticBoxTumblesForEver) {
 
 // Nothing is passed, at any speed, turning or not, whichever body moves.
 TEST(RigidWorld, NothingGoesThrough) {
-  std::uint64_t state = 1;
-  const auto uniform = [&] {
-    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(state >> 11) * 0x1p-53;
-  };
+  SceneRandom uniform;
   for (int kind = 0; kind < 3; ++kind) {
     for (int shot = 0; shot < 2000; ++shot) {
       RigidWorld world(sleepless());
@@ -172,9 +140,8 @@ TEST(RigidWorld, MomentumStays) {
   RigidWorld world(sleepless());
   const ConvexShape crate = boxShape(0.5, 0.5);
   for (int i = 0; i < 100; ++i) {
-    RigidBody body = movable({1.2 * (i % 10), 1.2 * (i / 10)}, crate, 1 + i % 3);
-    body.acceleration = {};
-    body.velocity = {0.05 * ((i * 7) % 11 - 5), 0.05 * ((i * 5) % 13 - 6)};
+    RigidBody body = floating({1.2 * (i % 10), 1.2 * (i / 10)}, crate,
+                              {0.05 * ((i * 7) % 11 - 5), 0.05 * ((i * 5) % 13 - 6)}, 1 + i % 3);
     body.restitution = 0.5;
     world.add(body, crate);
   }
@@ -189,17 +156,14 @@ TEST(RigidWorld, MomentumStays) {
   EXPECT_LE(length(momentum() - before), 1e-12 * 100);
 }
 
-std::uint64_t hashOf(const RigidWorld& world, const Place& origin) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (int id = 0; id < world.idLimit(); ++id) {
+std::uint64_t hashOf(const RigidWorld& world, const Place& origin, int count) {
+  BitHash hash;
+  for (int id = 0; id < count; ++id) {
     const RigidBody& body = world.body(id);
-    const Vec2 at = body.place - origin;
-    for (const double x :
-         {at.x, at.y, body.velocity.x, body.velocity.y, body.rotation.c, body.rotation.s, body.spin}) {
-      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3 ^ hash >> 32;
-    }
+    hash.add(body.place - origin);
+    hash.add({body.velocity.x, body.velocity.y, body.rotation.c, body.rotation.s, body.spin});
   }
-  return hash;
+  return hash.value();
 }
 
 // A heap of boxes, discs and a chain. `poison`: an id that gets a force that nothing can be done with.
@@ -237,21 +201,10 @@ std::uint64_t heapAt(const Place& origin, bool has_poison) {
   if (has_poison) {
     EXPECT_TRUE(world.isFrozen(poisoned));
     EXPECT_EQ(world.counters().quarantined, 1);
-    RigidBody clean;
-    clean.place = origin;
     EXPECT_TRUE(world.remove(poisoned));
     EXPECT_TRUE(world.set(0, world.body(0)));
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (int id = 0; id < poisoned; ++id) {
-      const RigidBody& b = world.body(id);
-      const Vec2 at = b.place - origin;
-      for (const double x : {at.x, at.y, b.velocity.x, b.velocity.y, b.rotation.c, b.rotation.s, b.spin}) {
-        hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3 ^ hash >> 32;
-      }
-    }
-    return hash;
   }
-  return hashOf(world, origin);
+  return hashOf(world, origin, has_poison ? poisoned : world.idLimit());
 }
 
 TEST(RigidWorld, IsTheSameEverywhere) {
@@ -313,11 +266,7 @@ TEST(RigidWorld, SleepsStillAndWakesWhenItMust) {
 TEST(RigidWorld, WhatSpeedsUpDoesNotSleep) {
   RigidWorld world;
   const double angle = std::atan(0.5) + 0.01 * kDegree;
-  const Vec2 up = addSlope(world, angle);
-  const ConvexShape crate = boxShape(0.5, 0.25);
-  RigidBody body = movable(0.25 * up, crate);
-  body.rotation = rotationBy(angle);
-  const int id = world.add(body, crate);
+  const int id = addCrateOnSlope(world, angle, addSlope(world, angle));
   const double gain = kGravityPerTick * (std::sin(angle) - 0.5 * std::cos(angle));
   for (int tick = 1; tick <= 300; ++tick) {
     world.step();
@@ -328,9 +277,7 @@ TEST(RigidWorld, WhatSpeedsUpDoesNotSleep) {
 TEST(RigidWorld, ReportsWhenContactsBeginAndEnd) {
   RigidWorld world(sleepless());
   const int wall = world.add(immovable({10, 0}), boxShape(1, 5));
-  RigidBody body = movable({8, 0}, boxShape(0.5, 0.5), 2);
-  body.velocity = {0.8, 0};
-  body.acceleration = {};
+  RigidBody body = floating({8, 0}, boxShape(0.5, 0.5), {0.8, 0}, 2);
   body.restitution = 0.5;
   const int id = world.add(body, boxShape(0.5, 0.5));
   world.step();

@@ -1,7 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "SoftScene.h"
 #include "physics/soft/SoftForces.h"
 #include "tests/server/physics/RandomShapes.h"
@@ -21,10 +17,8 @@ SoftBody softBlob(Vec2 at, double friction = 0.5) {
 }
 double lowest(const SoftWorld& world, int id) {
   double most = -1e300;
-  for (int i = 0; i < static_cast<int>(world.body(id).nodes.size()); ++i) {
-    most = std::max(most, test::nodeAt(world, id, i).y);
-  }
-  return most;
+  for (const SoftNode& node : world.body(id).nodes) most = std::max(most, node.offset.y);
+  return (world.body(id).place - Place{}).y + most;
 }
 
 TEST(SoftContact, BlobRestsOnTheFloorWithItsWeight) {
@@ -36,8 +30,8 @@ TEST(SoftContact, BlobRestsOnTheFloorWithItsWeight) {
   int begun = 0;
   for (int i = 0; i < 1500; ++i) {
     ASSERT_EQ(world.step(1, {&floor, 1}), SoftStatus::kDone);
-    for (const SoftEvent& event : world.events()) begun += event.is_begin ? 1 : 0;
     for (const SoftEvent& event : world.events()) {
+      begun += event.is_begin ? 1 : 0;
       EXPECT_EQ(event.body, id);
       EXPECT_EQ(event.other, 7);
       EXPECT_FALSE(event.is_other_soft);
@@ -78,10 +72,7 @@ TEST(SoftContact, CrateLiesOnARopeBridge) {
     SoftWorld world;
     world.setGravity({0, kGravity});
     const int id = world.add(rope);
-    SoftObstacle crate = test::obstacleAt(3, cube, {0.2, -1.5}, 0.5);
-    crate.inverse_mass = 1 / mass;
-    crate.inverse_inertia = 1.5 / mass;
-    crate.acceleration = {0, kGravity};
+    SoftObstacle crate = test::crateAt(3, cube, {0.2, -1.5}, mass, 1.5);
     for (int i = 0; i < 1500; ++i) {
       world.step(1, {&crate, 1});
       test::goOn(crate);
@@ -102,10 +93,7 @@ TEST(SoftContact, CrateLiesOnACloth) {
   SoftWorld world;
   world.setGravity({0, kGravity});
   world.add(cloth);
-  SoftObstacle crate = test::obstacleAt(3, cube, {0, -1.3}, 0.5);
-  crate.inverse_mass = 0.1;
-  crate.inverse_inertia = 0.15;
-  crate.acceleration = {0, kGravity};
+  SoftObstacle crate = test::crateAt(3, cube, {0, -1.3}, 10, 1.5);
   for (int i = 0; i < 1200; ++i) {
     world.step(1, {&crate, 1});
     test::goOn(crate);
@@ -208,10 +196,7 @@ TEST(SoftContact, CrateHangsOnARope) {
   SoftWorld world;
   world.setGravity({0, kGravity});
   const int id = world.add(rope);
-  SoftObstacle crate = test::obstacleAt(3, cube, {0.5, 5.4});
-  crate.inverse_mass = 0.1;
-  crate.inverse_inertia = 0.6;
-  crate.acceleration = {0, kGravity};
+  SoftObstacle crate = test::crateAt(3, cube, {0.5, 5.4}, 10, 6, 0);
   const int held = world.attach({id, 10, 3, {0, -0.5}});
   ASSERT_GE(held, 0);
   for (int i = 0; i < 300; ++i) {

@@ -1,8 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstdlib>
-#include <vector>
 
 #include "SoftScene.h"
 #include "physics/soft/SoftCrowd.h"

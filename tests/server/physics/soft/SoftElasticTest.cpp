@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <vector>
 
 #include "SoftScene.h"
 #include "physics/soft/SoftForces.h"

@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "SoftScene.h"
+#include "tests/server/physics/BitHash.h"
 #include "tests/support/AllocationCount.h"
 
 namespace naiad::physics {
@@ -34,10 +30,7 @@ class Scene {
     world.add(makeBeam(place({-12, -5}), {6, 0}, 8, 20, 1e4, 1, true));
     world.add(makeCloth(place({-10, -9}), {4, 0}, {0, 1}, 6, 2, 2, 10, 5, 0.01));
     obstacles[0] = test::obstacleAt(0, m_slab, {0, 1}, 0.5);
-    obstacles[1] = test::obstacleAt(1, m_cube, {10.5, -9}, 0.5);
-    obstacles[1].inverse_mass = 0.5;
-    obstacles[1].inverse_inertia = 3;
-    obstacles[1].acceleration = {0, kGravity};
+    obstacles[1] = test::crateAt(1, m_cube, {10.5, -9}, 2, 6);
     for (SoftObstacle& o : obstacles) o.place.cell_x += east;
   }
   Scene(const Scene&) = delete;
@@ -55,21 +48,14 @@ class Scene {
     return there;
   }
   std::uint64_t hash(int bodies = 5) const {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    const auto add = [&hash](double value) {
-      hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3 ^ hash >> 32;
-    };
+    test::BitHash hash;
     for (int id = 0; id < bodies; ++id) {
-      const SoftBody& body = world.body(id);
-      const Vec2 at = body.place - place({});
-      add(at.x), add(at.y);
-      for (const SoftNode& node : body.nodes) {
-        add(node.offset.x), add(node.offset.y), add(node.velocity.x), add(node.velocity.y);
-      }
+      hash.add(world.body(id).place - place({}));
+      for (const SoftNode& node : world.body(id).nodes) hash.add(node.offset), hash.add(node.velocity);
     }
-    const Vec2 crate = obstacles[1].place - place({});
-    add(crate.x), add(crate.y), add(obstacles[1].spin);
-    return hash;
+    hash.add(obstacles[1].place - place({}));
+    hash.add(obstacles[1].spin);
+    return hash.value();
   }
 
   SoftWorld world;
@@ -131,15 +117,9 @@ TEST(SoftWorld, RefusesWhatIsNotSound) {
   SoftWorld world;
   const SoftBody rope = makeRope({}, {4, 0}, 4, 1, 10);
   for (const double bad : {kNan, kInfinite, -kInfinite, 1e30}) {
-    SoftBody body = rope;
-    body.nodes[2].offset.x = bad;
-    EXPECT_EQ(world.add(body), -1);
-    body = rope;
-    body.nodes[2].mass = bad;
-    EXPECT_EQ(world.add(body), -1);
-    body = rope;
-    body.stretches[1].stiffness = bad;
-    EXPECT_EQ(world.add(body), -1);
+    SoftBody displaced = rope, weighed = rope, stiffened = rope;
+    displaced.nodes[2].offset.x = weighed.nodes[2].mass = stiffened.stretches[1].stiffness = bad;
+    for (const SoftBody& body : {displaced, weighed, stiffened}) EXPECT_EQ(world.add(body), -1);
     EXPECT_EQ(world.add(makeRope({}, {bad, 0}, 4, 1, 10)), -1);
     EXPECT_EQ(world.add(makeBlob({}, bad, 8, 1, 0, 1, 1)), -1);
     EXPECT_FALSE(world.setGravity({bad, 0}));
@@ -207,10 +187,7 @@ TEST(SoftWorld, StaysBoundedInExtremes) {
 TEST(SoftWorld, BearsMassRatiosToAMillion) {
   const ConvexShape cube = test::boxShape(1, 1), slab = test::boxShape(20, 1);
   for (const double mass : {1e-3, 1e3, 1e6}) {
-    SoftObstacle all[] = {test::obstacleAt(0, slab, {0, 1}, 0.5), test::obstacleAt(1, cube, {0, -6}, 0.5)};
-    all[1].inverse_mass = 1 / mass;
-    all[1].inverse_inertia = 1.5 / mass;
-    all[1].acceleration = {0, kGravity};
+    SoftObstacle all[] = {test::obstacleAt(0, slab, {0, 1}, 0.5), test::crateAt(1, cube, {0, -6}, mass, 1.5)};
     SoftBody blob = makeBlob(placeAt({0, -2.2}), 2, 16, 1, 0.05, 0.2, 0.5, 0.01);
     blob.drag = 0.02;
     SoftWorld world;

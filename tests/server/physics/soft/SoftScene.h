@@ -7,6 +7,7 @@
 
 #include "physics/soft/SoftBuild.h"
 #include "physics/soft/SoftWorld.h"
+#include "tests/server/physics/Shapes.h"
 
 namespace naiad::physics::test {
 
@@ -34,11 +35,6 @@ inline double fastest(const SoftBody& body) {
   return most;
 }
 
-inline ConvexShape boxShape(double half_width, double half_height) {
-  ConvexShape shape;
-  makeBox(half_width, half_height, {}, {}, 0, shape);
-  return shape;
-}
 inline SoftObstacle obstacleAt(int id, const ConvexShape& shape, Vec2 at, double friction = 0) {
   SoftObstacle obstacle;
   obstacle.id = id;
@@ -46,6 +42,15 @@ inline SoftObstacle obstacleAt(int id, const ConvexShape& shape, Vec2 at, double
   obstacle.place = placeAt(at);
   obstacle.friction = friction;
   return obstacle;
+}
+/// An obstacle of that mass which gravity pulls; `inverse_inertia` is that of a mass of 1.
+inline SoftObstacle crateAt(int id, const ConvexShape& shape, Vec2 at, double mass, double inverse_inertia,
+                            double friction = 0.5) {
+  SoftObstacle crate = obstacleAt(id, shape, at, friction);
+  crate.inverse_mass = 1 / mass;
+  crate.inverse_inertia = inverse_inertia / mass;
+  crate.acceleration = {0, kGravity};
+  return crate;
 }
 /// What the layer of rigid bodies would do after a step.
 inline void goOn(SoftObstacle& o, double dt = 1) {

@@ -5,28 +5,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "physics/substep/ContactRows.h"
+#include "tests/server/physics/SceneRandom.h"
 
 namespace naiad::physics {
 namespace {
 
 constexpr float kSubstep = 0.25f;
-
-class Numbers {
- public:
-  explicit Numbers(std::uint64_t seed) : m_state(seed) {}
-  double between(double low, double high) {
-    m_state = m_state * 6364136223846793005ULL + 1442695040888963407ULL;
-    return low + (high - low) * static_cast<double>(m_state >> 11) * 0x1p-53;
-  }
-  bool chance(double part) { return between(0, 1) < part; }
-
- private:
-  std::uint64_t m_state;
-};
 
 struct Trial {
   ContactRow row;
@@ -37,43 +24,45 @@ struct Trial {
 };
 
 Trial trialOf(std::uint64_t seed) {
-  Numbers numbers(seed);
+  test::SceneRandom numbers{seed};
+  const auto number = [&](double low, double high) { return static_cast<float>(numbers.between(low, high)); };
+  const auto chance = [&](double part) { return numbers() < part; };
   Trial trial;
   ContactRow& row = trial.row;
-  row.is_held = numbers.chance(0.4);
+  row.is_held = chance(0.4);
   if (!row.is_held) {
-    row.inverse_mass_a = static_cast<float>(numbers.between(0.1, 3));
-    row.inverse_inertia_a = static_cast<float>(numbers.between(0.1, 9));
-    row.spin_a = static_cast<float>(numbers.between(-0.1, 0.1));
+    row.inverse_mass_a = number(0.1, 3);
+    row.inverse_inertia_a = number(0.1, 9);
+    row.spin_a = number(-0.1, 0.1);
   }
-  row.inverse_mass_b = static_cast<float>(numbers.between(0.1, 3));
-  row.inverse_inertia_b = static_cast<float>(numbers.between(0.1, 9));
-  row.spin_b = static_cast<float>(numbers.between(-0.1, 0.1));
+  row.inverse_mass_b = number(0.1, 3);
+  row.inverse_inertia_b = number(0.1, 9);
+  row.spin_b = number(-0.1, 0.1);
   row.velocity = {numbers.between(-0.3, 0.3), numbers.between(-0.3, 0.3)};
-  row.friction = static_cast<float>(numbers.between(0, 1));
-  row.restitution = numbers.chance(0.5) ? static_cast<float>(numbers.between(0.1, 1)) : 0;
+  row.friction = number(0, 1);
+  row.restitution = chance(0.5) ? number(0.1, 1) : 0;
   row.max_push = 0.1f;
   row.rest = 0.02f;
   const double angle = numbers.between(-3, 3);
   trial.manifold.normal = {std::cos(angle), std::sin(angle)};
-  trial.manifold.count = numbers.chance(0.6) ? 2 : 1;
+  trial.manifold.count = chance(0.6) ? 2 : 1;
   for (std::size_t i = 0; i < 2; ++i) {
     ManifoldPoint& point = trial.manifold.points[i];
     point.anchor_a = {numbers.between(-0.5, 0.5), numbers.between(-0.5, 0.5)};
     point.anchor_b = {numbers.between(-0.5, 0.5), numbers.between(-0.5, 0.5)};
     point.separation = numbers.between(-0.05, 0.05);
-    if (static_cast<int>(i) >= trial.manifold.count || numbers.chance(0.3)) continue;
-    trial.known.normal[i].kept = static_cast<float>(numbers.between(0, 0.05));
-    trial.known.friction[i].kept = static_cast<float>(numbers.between(-0.01, 0.01));
+    if (static_cast<int>(i) >= trial.manifold.count || chance(0.3)) continue;
+    trial.known.normal[i].kept = number(0, 0.05);
+    trial.known.friction[i].kept = number(-0.01, 0.01);
   }
   trial.a.spin = row.spin_a;
   trial.b.spin = row.spin_b;
-  row.is_lasting = numbers.chance(0.5);
+  row.is_lasting = chance(0.5);
   if (!row.is_lasting) return trial;
   row.fast = 0.1f;
   for (std::size_t i = 0; i < 2; ++i) {
-    trial.known.normal[i].trend = static_cast<float>(numbers.between(-0.02, 0.02));
-    trial.known.friction[i].trend = static_cast<float>(numbers.between(-0.01, 0.01));
+    trial.known.normal[i].trend = number(-0.02, 0.02);
+    trial.known.friction[i].trend = number(-0.01, 0.01);
   }
   return trial;
 }
@@ -287,13 +276,7 @@ TEST(ContactRows, AGapMayCloseAndNoMore) {
 }
 
 TEST(ContactRows, OverlapIsUndoneNoFasterThanItsLimit) {
-  Trial trial;
-  ContactRow& row = trial.row;
-  row.is_held = true;
-  row.inverse_mass_b = 1;
-  row.max_push = 0.1f;
-  trial.manifold.normal = {0, 1};
-  trial.manifold.count = 1;
+  Trial trial = lyingOne(0);
   trial.manifold.points[0].separation = -5;
   const Outcome outcome = stepOf({trial}, 1)[0];
   const float y = std::bit_cast<float>(outcome.bits[9]);

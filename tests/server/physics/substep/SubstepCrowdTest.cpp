@@ -1,5 +1,4 @@
 // Bodies that are made in one place at the fast level: bounded work, and they come apart.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 
@@ -17,9 +16,7 @@ SubstepScene crowd(int count, double spread) {
   const ConvexShape disc = circleShape(0.5);
   for (int i = 0; i < count; ++i) {
     const double x = spread * random.unit(), y = spread * random.unit();
-    RigidBody body = movable({x, y}, disc);
-    body.acceleration = {};
-    scene.add(body, disc);
+    scene.add(floating({x, y}, disc), disc);
   }
   return scene;
 }
@@ -54,9 +51,7 @@ TEST(SubstepCrowd, OfAllSizesEachKeepsFewContacts) {
     for (int i = 0; i < count; ++i) {
       const ConvexShape disc = circleShape(0.05 + 0.45 * random.unit());
       const double x = random.unit(), y = random.unit();
-      RigidBody body = movable({x, y}, disc);
-      body.acceleration = {};
-      scene.add(body, disc);
+      scene.add(floating({x, y}, disc), disc);
     }
     SubstepCounters before;
     for (int tick = 0; tick < 10; ++tick) {
@@ -84,10 +79,7 @@ TEST(SubstepCrowd, ComesApart) {
 TEST(SubstepCrowd, IsHitByWhatFliesIntoIt) {
   SubstepScene scene = crowd(300, 1);
   const ConvexShape disc = circleShape(0.5);
-  RigidBody ball = movable({-30, 0.5}, disc, 50);
-  ball.velocity = {40, 0};
-  ball.acceleration = {};
-  const int id = scene.add(ball, disc);
+  const int id = scene.add(floating({-30, 0.5}, disc, {40, 0}, 50), disc);
   scene.ticks(1);
   EXPECT_GT(scene.world.counters().near, 0);
   EXPECT_TRUE(scene.world.isStopped(id));
@@ -97,14 +89,8 @@ TEST(SubstepCrowd, IsHitByWhatFliesIntoIt) {
 TEST(SubstepCrowd, WhatLiesInOneCanLeaveThroughIt) {
   SubstepScene scene = crowd(300, 0.3);
   const ConvexShape disc = circleShape(0.5);
-  const auto addAt = [&](Vec2 where, Vec2 velocity) {
-    RigidBody body = movable(where, disc);
-    body.velocity = velocity;
-    body.acceleration = {};
-    return scene.add(body, disc);
-  };
-  for (int i = 0; i < 40; ++i) addAt({0.007 * i, -0.5}, {});
-  const int leaving = addAt({0.6, 0.55}, {-40, 0});
+  for (int i = 0; i < 40; ++i) scene.add(floating({0.007 * i, -0.5}, disc), disc);
+  const int leaving = scene.add(floating({0.6, 0.55}, disc, {-40, 0}), disc);
   scene.ticks(1);
   EXPECT_FALSE(scene.world.isStopped(leaving));
   EXPECT_GT(length(scene.at(leaving)), 5);
@@ -114,22 +100,18 @@ TEST(SubstepCrowd, WhatLiesInOneCanLeaveThroughIt) {
 TEST(SubstepCrowd, WhatIsLeftOfOneStandsInTheWayOfAnother) {
   SubstepScene scene(awake());
   const ConvexShape disc = circleShape(0.5);
-  const auto addAt = [&](Vec2 where, Vec2 velocity, double mass) {
-    RigidBody body = movable(where, disc, mass);
-    body.velocity = velocity;
-    body.acceleration = {};
-    return scene.add(body, disc);
-  };
   SplitMix64 random(3);
-  const int heavy = addAt({}, {}, 1e9);
+  const int heavy = scene.add(floating({}, disc, {}, 1e9), disc);
   for (int i = 0; i < 100; ++i) {
     const double x = random.unit() - 0.5, y = random.unit() - 0.5;
-    addAt({x, y}, {}, 1);
+    scene.add(floating({x, y}, disc), disc);
   }
   scene.ticks(100);
   ASSERT_LT(length(scene.at(heavy)), 0.1);
   std::vector<int> flying;
-  for (int i = 0; i < 100; ++i) flying.push_back(addAt({-3, 0.002 * i - 0.1}, {40, 0}, 1));
+  for (int i = 0; i < 100; ++i) {
+    flying.push_back(scene.add(floating({-3, 0.002 * i - 0.1}, disc, {40, 0}), disc));
+  }
   scene.ticks(1);
   EXPECT_EQ(std::count_if(flying.begin(), flying.end(), [&](int id) { return scene.at(id).x > 0; }), 0);
 }

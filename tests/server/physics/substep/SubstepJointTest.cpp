@@ -1,10 +1,6 @@
 // What joints hold in a SubstepWorld.
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
 
 #include "SubstepScene.h"
 
@@ -45,9 +41,7 @@ TEST(SubstepJoints, AHingeKeepsAPendulumsLength) {
 
 TEST(SubstepJoints, ADistanceIsKept) {
   Hanging scene({2, 0});
-  Joint joint;
-  joint.length = 2;
-  const int rod = scene.join(joint, JointKind::kDistance, scene.nail, scene.crate);
+  const int rod = scene.join({.length = 2}, JointKind::kDistance, scene.nail, scene.crate);
   for (int tick = 0; tick < 300; ++tick) {
     scene.ticks(1);
     ASSERT_NEAR(scene.gap(rod), 2, 1e-2) << tick;
@@ -56,9 +50,7 @@ TEST(SubstepJoints, ADistanceIsKept) {
 
 TEST(SubstepJoints, ARopeOnlyPulls) {
   Hanging scene({0, 0.5});
-  Joint joint;
-  joint.length = 2;
-  const int rope = scene.join(joint, JointKind::kRope, scene.nail, scene.crate);
+  const int rope = scene.join({.length = 2}, JointKind::kRope, scene.nail, scene.crate);
   scene.ticks(10);  // slack: it falls freely
   EXPECT_NEAR(scene.at(scene.crate).y, 0.5 + 0.5 * kGravityPerTick * 100, 0.1 * kGravityPerTick * 100);
   EXPECT_NEAR(scene.body().velocity.y, 10 * kGravityPerTick, 1e-6);
@@ -84,29 +76,26 @@ TEST(SubstepJoints, AWeldHoldsPlaceAndAngle) {
 
 TEST(SubstepJoints, ASliderSlides) {
   Hanging scene({0, 0});
-  Joint joint;
-  joint.axis = {0.6, 0.8};
-  ASSERT_GE(scene.join(joint, JointKind::kSlider, scene.nail, scene.crate), 0);
+  const Vec2 axis = {0.6, 0.8};
+  ASSERT_GE(scene.join({.axis = axis}, JointKind::kSlider, scene.nail, scene.crate), 0);
   scene.ticks(60);
   const Vec2 at = scene.at(scene.crate);
-  EXPECT_NEAR(cross(joint.axis, at), 0, 1e-2);
-  EXPECT_NEAR(dot(joint.axis, at) / (0.5 * 0.8 * kGravityPerTick * 3600), 1, 0.03);
+  EXPECT_NEAR(cross(axis, at), 0, 1e-2);
+  EXPECT_NEAR(dot(axis, at) / (0.5 * 0.8 * kGravityPerTick * 3600), 1, 0.03);
   EXPECT_NEAR(scene.body().rotation.s, 0, 1e-2);
 }
 
 TEST(SubstepJoints, AMotorReachesItsSpeed) {
   Hanging scene({0, 0});
   ASSERT_GE(scene.join({}, JointKind::kHinge, scene.nail, scene.crate), 0);
-  Joint joint;
-  joint.speed = 0.1;
-  joint.max_force = 0.01 / scene.body().inverse_inertia;
-  const int motor = scene.join(joint, JointKind::kMotor, scene.nail, scene.crate);
+  const int motor = scene.join({.speed = 0.1, .max_force = 0.01 / scene.body().inverse_inertia},
+                               JointKind::kMotor, scene.nail, scene.crate);
   ASSERT_GE(motor, 0);
   scene.ticks(5);
   EXPECT_NEAR(scene.body().spin, 0.05, 1e-4);  // no more than its torque
   scene.ticks(20);
   EXPECT_NEAR(scene.body().spin, 0.1, 1e-4);
-  joint = scene.world.joint(motor);
+  Joint joint = scene.world.joint(motor);
   joint.speed = -0.1;
   ASSERT_TRUE(scene.world.setJoint(motor, joint));
   scene.ticks(40);
@@ -117,9 +106,8 @@ TEST(SubstepJoints, AnAngleLimitHolds) {
   for (const double spin : {0.05, -0.05}) {
     Hanging scene({0, 0}, spin);
     ASSERT_GE(scene.join({}, JointKind::kHinge, scene.nail, scene.crate), 0);
-    Joint joint;
-    joint.lower = -0.5, joint.upper = 0.8;
-    ASSERT_GE(scene.join(joint, JointKind::kAngleLimit, scene.nail, scene.crate), 0);
+    const JointSettings limits = {.lower = -0.5, .upper = 0.8};
+    ASSERT_GE(scene.join(limits, JointKind::kAngleLimit, scene.nail, scene.crate), 0);
     for (int tick = 0; tick < 100; ++tick) {
       scene.ticks(1);
       const double angle = angleOf(scene.body().rotation);
@@ -135,11 +123,8 @@ TEST(SubstepJoints, AnAngleLimitHolds) {
 TEST(SubstepJoints, ASpringStaysBounded) {
   for (int exponent = -2; exponent <= 12; ++exponent) {
     Hanging scene({3, 0});
-    Joint joint;
-    joint.length = 2;
-    joint.stiffness = std::pow(10.0, exponent);
-    ASSERT_GE(scene.join(joint, JointKind::kSpring, scene.nail, scene.crate), 0);
-    const double reach = 4 + 2 * kGravityPerTick / joint.stiffness;
+    const double k = std::pow(10.0, exponent), reach = 4 + 2 * kGravityPerTick / k;
+    ASSERT_GE(scene.join({.length = 2, .stiffness = k}, JointKind::kSpring, scene.nail, scene.crate), 0);
     for (int tick = 0; tick < 300; ++tick) {
       scene.ticks(1);
       ASSERT_LT(length(scene.at(scene.crate)), reach) << exponent << ' ' << tick;
@@ -153,9 +138,7 @@ TEST(SubstepJoints, ASpringStaysBounded) {
 
 TEST(SubstepJoints, AWeakSpringSwingsAtItsRate) {
   Hanging scene({1, 0});
-  Joint joint;
-  joint.stiffness = 0.01;
-  ASSERT_GE(scene.join(joint, JointKind::kSpring, scene.nail, scene.crate), 0);
+  ASSERT_GE(scene.join({.stiffness = 0.01}, JointKind::kSpring, scene.nail, scene.crate), 0);
   RigidBody body = scene.body();
   body.acceleration = {};
   ASSERT_TRUE(scene.world.set(scene.crate, body));
@@ -166,11 +149,8 @@ TEST(SubstepJoints, AWeakSpringSwingsAtItsRate) {
 
 TEST(SubstepJoints, AMouseDrawsWithNoMoreThanItsForce) {
   Hanging scene({0, 0});
-  Joint joint;
-  joint.stiffness = 0.1, joint.damping = 0.5;
-  joint.max_force = 0.05;
-  joint.target = placeAt({5, 0});
-  const int mouse = scene.join(joint, JointKind::kMouse, -1, scene.crate);
+  const JointSettings pull = {.stiffness = 0.1, .damping = 0.5, .max_force = 0.05, .target = placeAt({5, 0})};
+  const int mouse = scene.join(pull, JointKind::kMouse, -1, scene.crate);
   ASSERT_GE(mouse, 0);
   scene.ticks(1);
   EXPECT_NEAR(scene.body().velocity.x, 0.05, 1e-4);
@@ -185,9 +165,8 @@ TEST(SubstepJoints, AMouseDrawsWithNoMoreThanItsForce) {
 TEST(SubstepJoints, BreaksAboveItsForceOnly) {
   for (const double factor : {0.5, 1.5}) {
     Hanging scene({0, 1});
-    Joint joint;
-    joint.break_force = factor * kGravityPerTick;
-    const int hinge = scene.join(joint, JointKind::kHinge, scene.nail, scene.crate, {}, {0, -1});
+    const int hinge = scene.join({.break_force = factor * kGravityPerTick}, JointKind::kHinge, scene.nail,
+                                 scene.crate, {}, {0, -1});
     scene.ticks(30);
     EXPECT_EQ(scene.world.joint(hinge).is_broken, factor < 1);
     EXPECT_EQ(scene.world.counters().broken, factor < 1 ? 1 : 0);
@@ -200,16 +179,8 @@ TEST(SubstepJoints, JoinedBodiesDoNotTouch) {
   for (const bool may_touch : {false, true}) {
     SubstepScene scene(awake());
     const ConvexShape crate = boxShape(0.5, 0.5);
-    RigidBody body = movable({0, 0}, crate);
-    body.acceleration = {};
-    const int a = scene.add(body, crate);
-    body.place = placeAt({0.5, 0});
-    const int b = scene.add(body, crate);
-    Joint joint;
-    joint.kind = JointKind::kRope;
-    joint.a = a, joint.b = b;
-    joint.length = 10;
-    const int rope = scene.world.addJoint(joint, may_touch);
+    const int a = scene.add(floating({0, 0}, crate), crate), b = scene.add(floating({0.5, 0}, crate), crate);
+    const int rope = scene.join({.length = 10}, JointKind::kRope, a, b, {}, {}, may_touch);
     ASSERT_GE(rope, 0);
     scene.ticks(30);
     EXPECT_EQ(length(scene.at(b) - scene.at(a)) > 0.9, may_touch);
@@ -223,15 +194,9 @@ TEST(SubstepJoints, JoinedBodiesDoNotTouch) {
 TEST(SubstepJoints, WhatHungOnABrokenOneTouchesAgain) {
   SubstepScene scene(awake());
   const ConvexShape crate = boxShape(0.5, 0.5);
-  RigidBody body = movable({0, 0}, crate);
-  body.acceleration = {};
-  const int a = scene.add(body, crate);
-  body.place = placeAt({0.5, 0});
-  body.velocity = {0.01, 0};
-  const int b = scene.add(body, crate);
-  Joint joint;
-  joint.break_force = 1e-6;
-  const int hinge = scene.join(joint, JointKind::kHinge, a, b, {0.25, 0}, {-0.25, 0});
+  const int a = scene.add(floating({0, 0}, crate), crate);
+  const int b = scene.add(floating({0.5, 0}, crate, {0.01, 0}), crate);
+  const int hinge = scene.join({.break_force = 1e-6}, JointKind::kHinge, a, b, {0.25, 0}, {-0.25, 0});
   scene.ticks(40);
   ASSERT_TRUE(scene.world.joint(hinge).is_broken);
   EXPECT_GT(scene.world.counters().contacts, 0);

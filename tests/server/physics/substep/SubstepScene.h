@@ -10,6 +10,17 @@
 
 namespace naiad::physics::test {
 
+/// What a joint has beside its kind and its bodies.
+struct JointSettings {
+  double length = 0;
+  Vec2 axis = {1, 0};
+  double stiffness = 0, damping = 0;
+  double lower = 0, upper = 0;
+  double speed = 0, max_force = kNoLimit;
+  Place target = {};
+  double break_force = kNoLimit;
+};
+
 /// A world whose bodies' orders are given out in turn.
 struct SubstepScene {
   explicit SubstepScene(SubstepOptions options = {}) : world(options) {}
@@ -23,11 +34,18 @@ struct SubstepScene {
     const ConvexShape shape = boxShape(half, half);
     return add(movable(where, shape), shape);
   }
-  int join(Joint joint, JointKind kind, int a, int b, Vec2 on_a = {}, Vec2 on_b = {}) {
+  int join(const JointSettings& its, JointKind kind, int a, int b, Vec2 on_a = {}, Vec2 on_b = {},
+           bool may_touch = false) {
+    Joint joint;
     joint.kind = kind;
     joint.a = a, joint.b = b;
     joint.anchor_a = on_a, joint.anchor_b = on_b;
-    return world.addJoint(joint, false);
+    joint.length = its.length, joint.axis = its.axis;
+    joint.stiffness = its.stiffness, joint.damping = its.damping;
+    joint.lower = its.lower, joint.upper = its.upper;
+    joint.speed = its.speed, joint.max_force = its.max_force;
+    joint.target = its.target, joint.break_force = its.break_force;
+    return world.addJoint(joint, may_touch);
   }
   void ticks(int n) {
     for (int i = 0; i < n; ++i) world.step();

@@ -1,11 +1,8 @@
 // Which pairs a SubstepWorld examines, and whose shapes it does that with.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 #include <random>
-#include <span>
-#include <vector>
 
 #include "tests/server/physics/substep/SubstepScene.h"
 

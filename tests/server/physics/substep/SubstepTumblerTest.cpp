@@ -1,5 +1,4 @@
 // A heap that moves: a drum that turns.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 

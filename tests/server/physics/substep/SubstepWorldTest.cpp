@@ -1,5 +1,4 @@
 // What bodies do in a SubstepWorld: they rest, sleep, wake, push, bounce and send events.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
@@ -120,10 +119,7 @@ TEST(SubstepWorld, WhatFloatsAtRestSleepsAndWhatDriftsDoesNot) {
     SubstepScene scene;
     const ConvexShape shape = boxShape(0.2, 0.2);
     for (int i = 0; i < 36; ++i) {
-      RigidBody body = movable({30 + 0.4 * (i / 6), 0.4 * (i % 6 - 2.5)}, shape);
-      body.acceleration = {};
-      body.velocity = {drift, 0};
-      scene.add(body, shape);
+      scene.add(floating({30 + 0.4 * (i / 6), 0.4 * (i % 6 - 2.5)}, shape, {drift, 0}), shape);
     }
     scene.world.setSleeping(false);
     scene.ticks(2);
@@ -221,10 +217,8 @@ TEST(SubstepWorld, AContactLastsWithoutPressure) {
   SubstepScene scene(awake());
   scene.addFloor();
   const ConvexShape crate = boxShape(0.5, 0.5);
-  RigidBody body = movable({0, -0.6}, crate);
-  body.acceleration = {};
+  RigidBody body = floating({0, -0.6}, crate, {0.05, 0.04});
   body.friction = 0;
-  body.velocity = {0.05, 0.04};
   const int id = scene.add(body, crate);
   std::size_t begun = 0;
   for (int tick = 0; tick < 100; ++tick) {
@@ -347,9 +341,7 @@ TEST(SubstepWorld, AnElasticBallReturns) {
 TEST(SubstepWorld, HalfOfTheSpeedIsLeft) {
   SubstepScene scene;
   scene.add(immovable({10, 0}), boxShape(1, 5));
-  RigidBody body = movable({5, 0}, circleShape(0.5));
-  body.acceleration = {};
-  body.velocity = {0.4, 0};
+  RigidBody body = floating({5, 0}, circleShape(0.5), {0.4, 0});
   body.restitution = 0.5;
   const int id = scene.add(body, circleShape(0.5));
   scene.ticks(40);
@@ -386,9 +378,9 @@ TEST(SubstepWorld, MomentumOfAClosedSystemStays) {
   std::vector<int> ids;
   for (int i = 0; i < 20; ++i) {
     const ConvexShape& shape = i % 2 == 0 ? crate : disc;
-    RigidBody body = movable({1.3 * (i % 5), 1.3 * (i / 5)}, shape, 1 + i % 3);
-    body.acceleration = {};
-    body.velocity = Vec2{-0.05 * (i % 5 - 2), -0.05 * (i / 5 - 1.5)} + Vec2{0.01 * (i % 3), 0.01 * (i % 7)};
+    RigidBody body = floating(
+        {1.3 * (i % 5), 1.3 * (i / 5)}, shape,
+        Vec2{-0.05 * (i % 5 - 2), -0.05 * (i / 5 - 1.5)} + Vec2{0.01 * (i % 3), 0.01 * (i % 7)}, 1 + i % 3);
     body.restitution = 0.5;
     scale += length(body.velocity) * (1 + i % 3);
     ids.push_back(scene.add(body, shape));
@@ -424,11 +416,7 @@ TEST(SubstepWorld, APileGainsNoEnergy) {
   }
   const auto energy = [&] {
     double sum = 0;
-    for (const int id : ids) {
-      const RigidBody& b = scene.world.body(id);
-      sum += -kGravityPerTick * scene.at(id).y + 0.5 * lengthSquared(b.velocity) +
-             0.5 / b.inverse_inertia * b.spin * b.spin;
-    }
+    for (const int id : ids) sum += energyOf(scene.world.body(id));
     return sum;
   };
   const double start = energy();

@@ -1,11 +1,57 @@
+// Chipmunk's spatial hash by itself, and its space as an index.
 #include <chipmunk/chipmunk.h>
 
 #include "PeerWorld.h"
 #include "Peers.h"
 
 namespace bench {
-
 namespace {
+
+using Object = PeerBody<cpFloat>;
+
+struct Query {
+  const Object& mover;
+  cpFloat x;
+  cpFloat y;
+  std::vector<Object*>& out;
+};
+
+class ChipmunkHash {
+ public:
+  using Real = cpFloat;
+
+  ChipmunkHash(const Scene& /*scene*/, double cell, int table)
+      : m_index(cpSpaceHashNew(cell, table, &boxOf, nullptr)) {}
+  ChipmunkHash(const ChipmunkHash&) = delete;
+  ChipmunkHash& operator=(const ChipmunkHash&) = delete;
+  ~ChipmunkHash() { cpSpatialIndexFree(m_index); }
+
+  void add(Object& object) { cpSpatialIndexInsert(m_index, &object, object.id); }
+
+  void touching(Object& mover, Real x, Real y, std::vector<Object*>& out) {
+    const cpBB box = cpBBNewForExtents(cpv(x, y), mover.half_width, mover.half_height);
+    Query query{mover, x, y, out};
+    cpSpatialIndexQuery(m_index, &mover, box, &found, &query);
+  }
+
+  void moved(Object& object) { cpSpatialIndexReindexObject(m_index, &object, object.id); }
+
+ private:
+  static cpBB boxOf(void* p) {
+    const auto* object = static_cast<const Object*>(p);
+    return cpBBNewForExtents(cpv(object->x, object->y), object->half_width, object->half_height);
+  }
+
+  // The hash names everybody in the cells of the box, but not the mover itself.
+  static cpCollisionID found(void* /*p_mover*/, void* p_other, cpCollisionID id, void* p_query) {
+    auto* query = static_cast<Query*>(p_query);
+    auto* other = static_cast<Object*>(p_other);
+    if (query->mover.touches(*other, query->x, query->y)) query->out.push_back(other);
+    return id;
+  }
+
+  cpSpatialIndex* m_index;
+};
 
 // Static bodies: they have positions and boxes, and the space never moves or pairs them by itself, which is
 // the least work for it. (With kinematic ones the tree takes 1.3 times as long, because it keeps their pairs
@@ -13,7 +59,6 @@ namespace {
 class ChipmunkSpace {
  public:
   using Real = cpFloat;
-  using Object = PeerBody<Real>;
 
   /// A table of length 0 means the trees.
   ChipmunkSpace(const Scene& /*scene*/, double cell, int table) : m_space(cpSpaceNew()) {
@@ -44,7 +89,7 @@ class ChipmunkSpace {
 
   void touching(Object& mover, Real x, Real y, std::vector<Object*>& out) {
     const cpBB box = cpBBNewForExtents(cpv(x, y), mover.half_width, mover.half_height);
-    Query query{mover, out};
+    Query query{mover, x, y, out};
     cpSpaceBBQuery(m_space, box, CP_SHAPE_FILTER_ALL, &found, &query);
   }
 
@@ -55,11 +100,6 @@ class ChipmunkSpace {
   }
 
  private:
-  struct Query {
-    const Object& mover;
-    std::vector<Object*>& out;
-  };
-
   // The space has compared the boxes, edges included, and these doubles are exact.
   static void found(cpShape* shape, void* p_query) {
     auto* query = static_cast<Query*>(p_query);
@@ -71,6 +111,10 @@ class ChipmunkSpace {
 };
 
 }  // namespace
+
+EnginePtr makeChipmunkHash(const Scene& scene, double cell, int table) {
+  return std::make_unique<PeerWorld<ChipmunkHash>>(scene, scene.count(), cell, table);
+}
 
 EnginePtr makeChipmunkSpace(const Scene& scene, double cell, int table) {
   return std::make_unique<PeerWorld<ChipmunkSpace>>(scene, scene.count(), cell, table);

@@ -1,14 +1,12 @@
-// Players of a fleet: each asks the directory, is sent to a server, and plays there.
+// A player of a fleet: asks the directory, is redirected to a server, and plays there.
 #pragma once
 
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
+#include <variant>
 
 #include "client/bot/BotScript.h"
 #include "client/session/Connection.h"
@@ -21,9 +19,33 @@ class Bot {
   using Time = Clock::time_point;
 
   Bot(asio::io_context& context, const naiad::ServerAddress& directory, const naiad::ServerTrust& trust,
-      int number);
+      int number)
+      : m_connection(context, directory, optionsOf(number), true, trust),
+        m_keys(static_cast<std::uint64_t>(number), 80, 24) {
+    m_connection.start();
+  }
 
-  void update(Time now);
+  void update(Time now) {
+    m_connection.update(now);
+    if (m_redirected_at == Time() && m_connection.isRedirected()) m_redirected_at = now;
+    const bool playing = isPlaying();
+    if (m_was_playing && !playing) {
+      ++m_losses;
+      m_lost = true;
+    }
+    if (!m_was_playing && playing) {
+      if (!m_redirect && m_redirected_at != Time())
+        m_redirect = std::chrono::duration_cast<std::chrono::milliseconds>(now - m_redirected_at);
+      if (m_killed_at != Time() && m_lost) m_back_at = now;
+    }
+    m_was_playing = playing;
+    if (!playing || now < m_next_key) return;
+    m_next_key = now + kBetweenKeys;
+    for (const naiad::BotAction& action : m_keys.tick()) {
+      if (const auto* const p_key = std::get_if<naiad::KeyAction>(&action))
+        m_connection.session()->sendKey(p_key->key, p_key->action, now);
+    }
+  }
   bool isPlaying() const { return m_connection.state() == naiad::Connection::State::kJoined; }
   bool isOver() const { return m_connection.isOver(); }
   const std::string& sentence() const { return m_connection.sentence(); }
@@ -35,7 +57,13 @@ class Bot {
   std::optional<std::chrono::milliseconds> redirectTime() const { return m_redirect; }
 
   /// Its server has been killed: it is back once it has lost it and plays again.
-  void noteKill(Time now);
+  void noteKill(Time now) {
+    m_killed_at = now;
+    m_back_at = {};
+    m_lost = false;
+    m_before = player();
+    m_port_before = port();
+  }
   bool isBack() const { return m_back_at != Time(); }
   bool isSamePlayer() { return player() == m_before && port() == m_port_before; }
   std::chrono::milliseconds backTime() const {
@@ -45,6 +73,17 @@ class Bot {
   int losses() const { return m_losses; }
 
  private:
+  static constexpr std::chrono::milliseconds kBetweenKeys{200};
+
+  static naiad::SessionOptions optionsOf(int number) {
+    naiad::SessionOptions options;
+    options.name = "bot" + std::to_string(number);
+    options.program = "naiad_fleet";
+    options.columns = 80;
+    options.rows = 24;
+    return options;
+  }
+
   naiad::Connection m_connection;
   naiad::RandomPlayer m_keys;
   Time m_next_key{};
@@ -57,33 +96,6 @@ class Bot {
   bool m_lost = false;
   std::uint32_t m_before = 0;
   std::uint16_t m_port_before = 0;
-};
-
-class Bots {
- public:
-  /// Numbered from `first` on.
-  Bots(const std::string& link, const std::filesystem::path& known_servers, int first, int count);
-
-  /// One turn of some milliseconds.
-  void serve();
-  /// From now on they come, so many at a time.
-  void bringIn(int at_once) { m_at_once = static_cast<std::size_t>(at_once); }
-  std::vector<std::unique_ptr<Bot>>& all() { return m_bots; }
-  std::size_t playing() const;
-  /// All have come, and play.
-  bool havePlayed() const { return playing() == m_count; }
-  /// Why one of them cannot join, or plays no more; empty: none.
-  std::string problem() const;
-  void leaveAll();
-
- private:
-  asio::io_context m_context{1};
-  naiad::ServerAddress m_directory;
-  naiad::ServerTrust m_trust;
-  int m_first;
-  std::size_t m_count;
-  std::size_t m_at_once = 0;
-  std::vector<std::unique_ptr<Bot>> m_bots;
 };
 
 }  // namespace bench

@@ -1,0 +1,52 @@
+// A busy server whose clients' streams go through a proxy, and their datagrams straight to it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "Census.h"
+#include "Compare.h"
+#include "LoopbackFixture.h"
+#include "StreamProxy.h"
+#include "Valve.h"
+
+namespace naiad::test {
+
+class ProxiedServer : public LoopbackFixture {
+ protected:
+  void start(HostOptions options) {
+    const auto populate = [this](df::World& world) {
+      countedWorld(census, 50)(world);
+      addObjects();
+    };
+    server = std::make_unique<TestServer>(populate, std::move(options));
+    proxy = std::make_unique<StreamProxy>(context, server->port());
+    valve->server_port = server->port();
+  }
+  void start() { start(home.server()); }
+  /// What a suite has in its world besides.
+  virtual void addObjects() {}
+  virtual ClientSetup player(const std::string& name) {
+    ClientSetup setup = home.player(name);
+    setup.options.open_socket = through(context, valve);
+    return setup;
+  }
+  /// From now on the newest picture is the server's.
+  bool seesTheTruth(TestClient& client) {
+    client.forgetPictures();
+    return serveUntil(context, {&client}, [&] { return showsTheTruth(client, *server); });
+  }
+  void expectNoJoinOrLeave(int players = 1) {
+    EXPECT_EQ(census.joins, players);
+    EXPECT_EQ(census.leaves, 0);
+    EXPECT_EQ(server->counters().joined, static_cast<std::uint64_t>(players));
+  }
+
+  Census census;
+  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
+  std::unique_ptr<TestServer> server;
+  std::unique_ptr<StreamProxy> proxy;
+};
+
+}  // namespace naiad::test

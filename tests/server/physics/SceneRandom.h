@@ -1,0 +1,18 @@
+// Numbers for scenes; not for anything else.
+#pragma once
+
+#include <cstdint>
+
+namespace naiad::physics::test {
+
+struct SceneRandom {
+  std::uint64_t state = 1;
+  double operator()() {  // in [0, 1)
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state >> 11) * 0x1p-53;
+  }
+  double between(double low, double high) { return low + (high - low) * (*this)(); }
+  int below(int n) { return static_cast<int>((*this)() * n); }
+};
+
+}  // namespace naiad::physics::test

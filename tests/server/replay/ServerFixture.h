@@ -1,0 +1,87 @@
+// A dfserver as it is installed, in a folder of its own, and the programs that are run beside it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "host/journal/DfrReader.h"
+#include "tests/server/host/admin/Talk.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
+#include "tests/support/WaitUntil.h"
+
+namespace naiad::test {
+
+class ServerFixture : public testing::Test {
+ protected:
+  /// Start a program in the folder: one of the build, or that of a path. What it prints goes to `p_output`.
+  pid_t run(std::vector<std::string> words, const char* p_output = "out.txt",
+            const std::map<std::string, std::string>& environment = {}) const {
+    const pid_t process = fork();
+    if (process != 0) return process;
+    if (chdir(folder.path().c_str()) != 0) _exit(126);
+    [[maybe_unused]] const bool out = freopen(p_output, "a", stdout) != nullptr;
+    [[maybe_unused]] const bool err = freopen(p_output, "a", stderr) != nullptr;
+    setenv("HOME", folder.path().c_str(), 1);
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    if (words.front().front() != '/') words.front() = NAIAD_BINARY_DIR "/" + words.front();
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    execv(pointers[0], pointers.data());
+    _exit(127);
+  }
+  /// End it; `process` is 0 afterwards.
+  static void end(pid_t& process, int signal) {
+    kill(process, signal);
+    waitpid(std::exchange(process, 0), nullptr, 0);
+  }
+  std::string log() const { return contentOf(folder / "out.txt"); }
+  bool isLogged(const std::string& text) const {
+    return waitUntil([&] { return log().find(text) != std::string::npos; });
+  }
+  /// That of the server's --port-file=port; "0" if there was no server yet.
+  std::string port() const { return std::to_string(std::atoi(contentOf(folder / "port").c_str())); }
+  /// A number of dfctl status, of the server's --control=control.sock.
+  long status(const std::string& name) const {
+    const std::string answer = Talk(folder / "control.sock").ask(R"({"command":"status"})");
+    const std::size_t at = answer.find("\"" + name + "\":");
+    return at == std::string::npos ? -1 : std::atol(answer.c_str() + at + name.size() + 3);
+  }
+  bool playTicks(long count) const {
+    const long end = status("ticks") + count;
+    return waitUntil([&] { return status("ticks") >= end; });
+  }
+  /// The file of the server's --journal=rounds; empty: there is none.
+  std::filesystem::path round() const {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "rounds", error))
+      return entry.path();
+    return {};
+  }
+  static std::size_t countTurns(const std::filesystem::path& round) {
+    const std::string bytes = contentOf(round);
+    DfrReader reader(bytes);
+    std::size_t turns = 0;
+    while (const auto record = reader.next()) turns += std::holds_alternative<WorldTurn>(*record) ? 1 : 0;
+    return turns;
+  }
+
+  TempFolder folder;
+  pid_t server = 0;
+};
+
+}  // namespace naiad::test

@@ -1,0 +1,53 @@
+// Which processes there are.
+#pragma once
+
+#include <sys/types.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/support/Text.h"
+
+namespace naiad::test {
+
+struct ProcessFacts {
+  std::string name;
+  char state;  ///< as in /proc; 'Z': it has ended, and was not waited for
+  pid_t parent;
+};
+
+/// Nothing if there is none of this number.
+inline std::optional<ProcessFacts> factsOf(pid_t process) {
+  const std::string text = contentOf("/proc/" + std::to_string(process) + "/stat");
+  const std::size_t begin = text.find('(');
+  const std::size_t end = text.rfind(')');
+  if (begin == std::string::npos || end + 4 >= text.size()) return std::nullopt;
+  return ProcessFacts{text.substr(begin + 1, end - begin - 1), text[end + 2],
+                      std::atoi(text.c_str() + end + 4)};
+}
+
+/// 'X' if it is gone.
+inline char stateOf(pid_t process) {
+  const auto facts = factsOf(process);
+  return facts ? facts->state : 'X';
+}
+
+/// Those that descend from this one and have this name, by their numbers; empty: any name.
+inline std::vector<pid_t> processesBelow(pid_t top, const std::string& name = "") {
+  std::vector<pid_t> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const pid_t process = std::atoi(entry.path().filename().c_str());
+    const auto facts = factsOf(process);
+    if (!facts || (!name.empty() && facts->name != name)) continue;
+    for (auto above = facts; above && above->parent > 1; above = factsOf(above->parent))
+      if (above->parent == top) found.push_back(process);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace naiad::test
