@@ -10,6 +10,7 @@
 #include <memory>
 #include <sstream>
 
+#include "ProgramEnd.h"
 #include "PtyTerminal.h"
 #include "tests/support/RunProgram.h"
 #include "tests/support/TempFolder.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "FakeServer.h"
+#include "ProgramEnd.h"
 #include "PtyTerminal.h"
 
 namespace naiad::test {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ProgramEnd.h"
 #include "PtyTerminal.h"
 #include "tests/support/TempFolder.h"
 

@@ -192,18 +192,6 @@ bool sameModes(const termios& a, const termios& b) {
          a.c_lflag == b.c_lflag && a.c_cc[VMIN] == b.c_cc[VMIN] && a.c_cc[VTIME] == b.c_cc[VTIME];
 }
 
-testing::AssertionResult exits(PtyTerminal& program, int code) {
-  const int status = program.waitForExit();
-  if (WIFEXITED(status) && WEXITSTATUS(status) == code) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "wait status " << status << ": " << program.output();
-}
-
-testing::AssertionResult diesOf(PtyTerminal& program, int signal) {
-  const int status = program.waitForExit();
-  if (WIFSIGNALED(status) && WTERMSIG(status) == signal) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "wait status " << status << ": " << program.output();
-}
-
 std::string linkIn(const std::string& output) {
   const std::string before = "Join from this machine with: dfclient ";
   const std::size_t found = output.find(before);

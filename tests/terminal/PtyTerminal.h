@@ -3,7 +3,6 @@
 // It can answer the kitty keyboard protocol's query, which the usual terminal multiplexers do not.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/types.h>
 #include <termios.h>
 
@@ -85,10 +84,6 @@ class PtyTerminal {
 
 /// Do two sets of modes make a terminal behave alike?
 bool sameModes(const termios& a, const termios& b);
-
-/// The program ends by itself with this code, or by this signal, within a minute.
-testing::AssertionResult exits(PtyTerminal& program, int code);
-testing::AssertionResult diesOf(PtyTerminal& program, int signal);
 
 /// The link for this machine in what a dfserver prints.
 std::string linkIn(const std::string& output);
