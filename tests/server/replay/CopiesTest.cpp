@@ -87,7 +87,8 @@ class CopiesTest : public FrailRound {
     const std::vector<pid_t> copies = find(kCopy);
     return std::all_of(copies.begin(), copies.end(), [](pid_t copy) { return statusOf(copy).state == "S"; });
   }
-  /// Plays until there is a copy: of a world that took over only once its keeper has ended what was left.
+  /// Plays until there is a copy. After a takeover there is none until the keeper has ended the other
+  /// processes.
   void playToACopy() {
     for (int i = 0; i < 1000 && find(kCopy).empty(); ++i) play(1);
     EXPECT_FALSE(find(kCopy).empty());
