@@ -95,7 +95,7 @@ class ScriptPlayer {
 class RandomPlayer {
  public:
   RandomPlayer(std::uint64_t seed, int view_width, int view_height);
-  /// The actions to send in the next tick.
+  /// Returns the actions to send in the next tick.
   std::vector<BotAction> tick();
 
  private:

@@ -34,7 +34,7 @@ class WholePicture {
     }
     m_whole = m_complete && hasAll(acks, before);
   }
-  /// The newest snapshot was complete, and none before it is missing.
+  /// True if the newest snapshot was complete and no earlier one is missing.
   bool isWhole() const { return m_whole; }
   /// The tick of the snapshot with the highest number; snapshots that arrive late do not change it.
   std::uint32_t tick() const { return m_tick; }

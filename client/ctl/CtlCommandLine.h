@@ -12,8 +12,8 @@ namespace naiad {
 std::optional<std::string> ctlCompletion(const std::string& shell);
 /// Returns the sections of the man page dfctl(1): options, commands, environment, exit status.
 std::string ctlManSections();
-/// Returns what `dfctl --option-page KIND` prints: the man page's sections for "man", or a completion script
-/// for the name of a shell; nothing for other kinds.
+/// Returns what `dfctl --option-page KIND` prints: ctlManSections() if `kind` is "man", ctlCompletion() if it
+/// is the name of a shell; nullopt for any other kind.
 std::optional<std::string> ctlPage(const std::string& kind);
 
 struct CtlCommandLine {

@@ -1,5 +1,5 @@
-// What a door keeps for a visitor, and how many it has at a time, in all and from one place: one locked file
-// for each, in a folder. A process that ends, however it ends, gives its place back.
+// The folder that a door keeps for each visitor, and the limits on visitors at the same time, in all and per
+// address. A visitor holds a locked file; the kernel unlocks it when the process ends.
 #pragma once
 
 #include <sys/types.h>
@@ -17,8 +17,8 @@ namespace naiad {
 std::optional<std::string> keyFolderName(std::string_view auth_info);
 
 /// Where a door keeps what belongs to one visitor: a folder for each key that they proved to have, so that
-/// they are known again. In it are their name, and what dfclient keeps to come back to a session. One process
-/// at a time can use it.
+/// they are known again. In it are their name, and what dfclient keeps to come back to a session. It is
+/// locked by one process at a time.
 ///
 /// Keys cost nothing, so there is a limit on folders; those that were not used for a month make room.
 class VisitorFolder {
@@ -35,7 +35,7 @@ class VisitorFolder {
   VisitorFolder(const VisitorFolder&) = delete;
   VisitorFolder& operator=(const VisitorFolder&) = delete;
 
-  /// Of the folder.
+  /// Returns the path of this visitor's folder.
   const std::filesystem::path& path() const { return m_path; }
   /// Have the use of it, while this lives. False: another process has it.
   bool take();
@@ -43,7 +43,7 @@ class VisitorFolder {
   pid_t holder() const;
   /// The name that they played under; empty if there is none.
   std::string name() const;
-  /// name() is this from now on. Throws std::system_error.
+  /// Stores the name that name() returns. Throws std::system_error.
   void keepName(const std::string& name) const;
 
  private:

@@ -29,7 +29,7 @@ class StreamLiveness {
   void noteHeard(Time now) { m_idle.heard(now); }
   /// Deadlines are about to be checked (IdleTimer).
   void listen(Time now) { m_idle.listen(now); }
-  /// How long nothing has arrived, as IdleTimer counts.
+  /// Returns how long nothing has been received (IdleTimer).
   IdleTimer::Duration silence(Time now) const { return m_idle.at(now); }
 
   /// There is a new stream: pings of the old one are lost, and the next one is due now.
@@ -39,7 +39,7 @@ class StreamLiveness {
   /// Does the oldest ping wait too long? `has_datagrams`: the server is alive, so the stream is
   /// dead.
   bool isStreamDead(Time now, bool has_datagrams) const;
-  /// Is it time for startPing()?
+  /// True if it is time for startPing().
   bool isPingDue(Time now, bool has_datagrams) const;
   /// A ping goes out: its token.
   std::uint64_t startPing(Time now);

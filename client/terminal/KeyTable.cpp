@@ -171,44 +171,14 @@ Key keyOfKitty(int code) {
   }
   if (code < 0x7F) return keyOfCharacter(static_cast<char32_t>(code)).key;
   if (code >= 57399 && code <= 57408) return code == 57399 ? NUM0 : static_cast<Key>(NUM1 + (code - 57400));
+  // From 57409 on: the rest of the keypad.
+  static constexpr std::array kKeypad = {PERIOD, SLASH,    NUM8,      MINUS,      PLUS,    RETURN,
+                                         EQUAL,  PERIOD,   LEFTARROW, RIGHTARROW, UPARROW, DOWNARROW,
+                                         PAGEUP, PAGEDOWN, HOME,      END,        INSERT,  DELETE};
+  if (code >= 57409 && code <= 57426) return kKeypad[static_cast<std::size_t>(code - 57409)];
   switch (code) {
     case 57362:
       return PAUSE;
-    case 57409:
-    case 57416:
-      return PERIOD;
-    case 57410:
-      return SLASH;
-    case 57411:
-      return NUM8;
-    case 57412:
-      return MINUS;
-    case 57413:
-      return PLUS;
-    case 57414:
-      return RETURN;
-    case 57415:
-      return EQUAL;
-    case 57417:
-      return LEFTARROW;
-    case 57418:
-      return RIGHTARROW;
-    case 57419:
-      return UPARROW;
-    case 57420:
-      return DOWNARROW;
-    case 57421:
-      return PAGEUP;
-    case 57422:
-      return PAGEDOWN;
-    case 57423:
-      return HOME;
-    case 57424:
-      return END;
-    case 57425:
-      return INSERT;
-    case 57426:
-      return DELETE;
     case 57441:
       return LEFTSHIFT;
     case 57442:

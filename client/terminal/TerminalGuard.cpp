@@ -65,8 +65,8 @@ void restoreNow() {
   g_taken = 0;
 }
 
-/// The process that can bring this one's group to the foreground: the parent of the group's leader, or of
-/// this process if the leader has gone.
+/// Returns the process that can move this process group to the foreground: the parent of the group's leader,
+/// or of this process if the leader has ended.
 pid_t shellOfGroup() {
   std::ifstream file("/proc/" + std::to_string(getpgrp()) + "/stat");
   std::string stat;
@@ -77,9 +77,9 @@ pid_t shellOfGroup() {
   return good ? parent : getppid();
 }
 
-/// Of a process that was continued in the background. It does not stop again: the shell takes it for one that
-/// runs, so a signal that is to end it would not be followed by the one that continues it. False: it is to
-/// end, or the shell or the session's terminal has gone.
+/// Waits until the process group is in the foreground: it may have been continued in the background. Returns
+/// false if the process must end, because a signal asks it to, or its shell or terminal is gone. It does not
+/// stop again: the shell thinks that it runs, and would send no SIGCONT after a signal that ends it.
 bool waitForForeground(pid_t shell) {
   while (!g_end_asked) {
     const pid_t foreground = tcgetpgrp(STDIN_FILENO);

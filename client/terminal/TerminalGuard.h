@@ -51,9 +51,9 @@ class TerminalGuard {
   void queryKitty();
   bool kittyPushed() const;
 
-  /// Stops this process as Ctrl-Z does to others; returns when it is in the foreground again. The terminal
-  /// must have been restored before. False: the process is to end, since a signal asks it to or its shell has
-  /// gone; the terminal may be another program's.
+  /// Stops this process like Ctrl-Z, and returns true when it is in the foreground again. Restore the
+  /// terminal first. Returns false if the process must end, because a signal asks it to or its shell has
+  /// ended; the terminal may then belong to another program.
   [[nodiscard]] bool stopProcess();
   /// Readable when a signal came: one byte per signal, its number.
   int signalFd() const;

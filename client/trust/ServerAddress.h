@@ -1,4 +1,4 @@
-// HOST[:PORT] as people type it, and the address of a gateway's page.
+// Addresses as people type them: HOST[:PORT], and the URL of a gateway's page.
 #pragma once
 
 #include <cstdint>

@@ -21,14 +21,14 @@ struct AdminAnswer {
   bool is_list = false;                 ///< `rows` is the answer, though it may be empty
   std::vector<AdminRow> rows;           ///< each with the same names
 
-  /// The order was obeyed; `text` says so.
+  /// Returns the answer to a command that succeeded.
   static AdminAnswer done(std::string text) { return {true, std::move(text), {}, {}, false, {}}; }
-  /// These rows; `if_empty`: the sentence instead of none.
+  /// Returns these rows, or the sentence `if_empty` if there are none.
   static AdminAnswer list(std::vector<AdminRow> rows, std::string if_empty) {
     std::string text = rows.empty() ? std::move(if_empty) : std::string();
     return {true, std::move(text), {}, {}, true, std::move(rows)};
   }
-  /// Nothing was done; `text` says why.
+  /// Returns the answer to a command that did nothing; `text` gives the reason.
   static AdminAnswer refused(std::string text) { return {false, std::move(text), {}, {}, false, {}}; }
 };
 

@@ -92,7 +92,7 @@ struct GameResult {
   int number = 0;
   std::string recording;  ///< empty: there is none
 
-  /// What parse() reads.
+  /// Returns the JSON text that parse() reads.
   std::string payload() const;
   /// "ROUND-TICK-NUMBER".
   std::string messageId() const;
@@ -111,7 +111,7 @@ struct SendOn {
   std::string to;  ///< the other server: isServerId()
   JoinLink link;   ///< to it, and to a room of it where it has rooms
 
-  /// What parse() reads.
+  /// Returns the JSON text that parse() reads.
   std::string payload() const;
   /// Nothing for what no directory writes.
   static std::optional<SendOn> parse(std::string_view payload);
@@ -165,7 +165,7 @@ struct Presence : ServerFacts {
   /// none, and says nothing of rooms.
   std::vector<PresenceRoom> rooms = {};
 
-  /// What parse() reads.
+  /// Returns the JSON text that parse() reads.
   std::string payload() const;
   /// Nothing for what no server writes.
   static std::optional<Presence> parse(std::string_view payload);

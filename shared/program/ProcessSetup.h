@@ -1,4 +1,4 @@
-// What a process asks of its system: many open files, no signals of broken pipes, threads without signals.
+// Settings of a process: the limit of open files, SIGPIPE, and threads that block all signals.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ std::size_t allowOpenFiles(std::size_t wanted);
 /// on. Programs that this process starts have the default again.
 void surviveBrokenPipes();
 
-/// Runs `job` on a thread that takes no signals: they are for the threads that were there before. Throws
-/// std::system_error if there can be no thread.
+/// Runs `job` on a new thread that blocks all signals, so that only other threads handle them. Throws
+/// std::system_error if no thread can be started.
 std::thread startWithoutSignals(std::function<void()> job);
 
 }  // namespace naiad

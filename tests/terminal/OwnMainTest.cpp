@@ -106,15 +106,15 @@ TEST_F(OwnMain, PlaysOnAfterATitleWithARunOfItsOwn) {
   expectOrderlyEnd(*game);
 }
 
-// The world outlives its runs, and whoever played in one has left it when the next one begins.
-TEST_F(OwnMain, PlayersOfOneRunLeaveBeforeThoseOfTheNextCome) {
+// The world outlives the run.
+TEST_F(OwnMain, PlayersLeaveBeforeTheNextRun) {
   auto game = start({{"LONE_TITLE", "1"}, {"LONE_USHER", "1"}});
   ASSERT_TRUE(game->waitFor("TITLE")) << game->output();
   game->type(kRight);
   ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
   game->forget();
   game->type(kRight);
-  ASSERT_TRUE(game->waitFor("$")) << game->output() << ": the key is not the new player's";
+  ASSERT_TRUE(game->waitFor("$")) << game->output() << ": the new player's key had no effect";
   game->type("q");
   expectOrderlyEnd(*game);
   EXPECT_TRUE(has(game->output(), "guests +1-1+2, ticks after q: 0\r\n"));

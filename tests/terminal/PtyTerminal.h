@@ -24,7 +24,7 @@ class PtyTerminal {
     int columns = 100;
     int rows = 30;
     bool answer_kitty = false;  ///< speak the kitty keyboard protocol
-    bool leads = false;  ///< the program leads the session, as a login shell: the terminal ends with it
+    bool leads = false;         ///< the program is the session leader, like a login shell
   };
 
   /// Starts the program. TERM is xterm-256color and the locale C.UTF-8 unless `environment` says otherwise.

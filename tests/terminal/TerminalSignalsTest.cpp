@@ -173,12 +173,12 @@ TEST_F(TerminalSignalsTest, ContinuedInTheBackgroundItComesBackWithTheForeground
   EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
 }
 
-/// Is there a dfclient in this session, other than one that has ended and was not waited for?
+/// True if there is a dfclient in this session that is not a zombie.
 bool clientRuns(pid_t session) {
   for (const auto& process : std::filesystem::directory_iterator("/proc")) {
     std::ifstream file(process.path() / "stat");
     std::string stat;
-    std::getline(file, stat);  // of what is no process, nothing
+    std::getline(file, stat);  // empty if it is not a process
     const std::size_t name = stat.find("(dfclient) ");
     if (name == std::string::npos) continue;
     char state = 'Z';
@@ -190,15 +190,15 @@ bool clientRuns(pid_t session) {
   return false;
 }
 
-/// What the client is started by.
-struct Started {
-  bool shell_leads;     ///< the session, so that its terminal ends with it
-  std::string wrapper;  ///< that the shell starts, and that starts the client; empty: none
+/// How the client is started.
+struct Launch {
+  bool shell_leads;     ///< the shell is the session leader, so the session loses its terminal with it
+  std::string wrapper;  ///< command that the shell runs to start the client; empty: none
 };
 
-class TerminalSignalsOfTest : public TerminalSignalsTest, public testing::WithParamInterface<Started> {};
+class ShellEndTest : public TerminalSignalsTest, public testing::WithParamInterface<Launch> {};
 
-TEST_P(TerminalSignalsOfTest, InTheBackgroundItEndsWithTheShell) {
+TEST_P(ShellEndTest, EndsTheClientInTheBackground) {
   PtyTerminal::Options options = shell();
   options.leads = GetParam().shell_leads;
   PtyTerminal terminal(options);
@@ -214,9 +214,9 @@ TEST_P(TerminalSignalsOfTest, InTheBackgroundItEndsWithTheShell) {
   EXPECT_FALSE(has(terminal.newOutput(), "NAIAD-HERE")) << "it draws for nobody";
 }
 
-INSTANTIATE_TEST_SUITE_P(Shells, TerminalSignalsOfTest,
-                         testing::Values(Started{false, ""}, Started{false, "sh -c"}, Started{true, ""},
-                                         Started{true, "sh -c"}));
+INSTANTIATE_TEST_SUITE_P(Shells, ShellEndTest,
+                         testing::Values(Launch{false, ""}, Launch{false, "sh -c"}, Launch{true, ""},
+                                         Launch{true, "sh -c"}));
 
 }  // namespace
 }  // namespace naiad::test

@@ -68,7 +68,7 @@ class InputQueue {
   /// Queue it, unless no player can have sent it: unknown keys, buttons and actions, clicks outside the view.
   /// Return the player's id; for a join, that is the first free one that is not before `input.player`.
   std::uint32_t push(Input input);
-  /// The highest id that a player has had; 0: there was none.
+  /// Returns the highest player id used so far; 0 before the first.
   std::uint32_t newestPlayer() const { return m_next_player - 1; }
 
   /// Send the events of all that waits. What is pushed meanwhile waits for the next time.

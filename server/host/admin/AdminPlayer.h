@@ -1,4 +1,4 @@
-// Who gives a command, and a player as commands see them.
+// The caller of an admin command, and a player as commands report them.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What came from a bus, and what waits for one, both bounded.
+// Bounded queues of a bus: messages received (BusInbox) and messages to be sent (BusQueue).
 #pragma once
 
 #include <cstddef>
@@ -48,7 +48,7 @@ class BusInbox {
   std::uint64_t m_ignored = 0;
 };
 
-/// What waits for a bus: bounded, the oldest goes first.
+/// Messages to be sent. When the queue is full, the oldest message is dropped.
 /// Not thread-safe.
 class BusQueue {
  public:

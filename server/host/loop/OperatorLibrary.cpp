@@ -10,8 +10,8 @@ namespace naiad {
 
 namespace {
 
-/// Null: it cannot be loaded (dlerror). It stays for as long as the process. It lies beside the library that
-/// this code is in: where a game has the address sanitizer, dlopen() does not look there by itself.
+/// Loads the library for good and returns its function; null if that fails (dlerror). It is loaded from next
+/// to the library with this code, because the address sanitizer's dlopen() ignores our RUNPATH.
 MakeOperatorParts* load() {
   Dl_info own{};
   std::filesystem::path path = dladdr(reinterpret_cast<const void*>(&load), &own) != 0 ? own.dli_fname : "";

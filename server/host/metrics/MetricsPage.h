@@ -29,7 +29,7 @@ struct ProcessFacts {
   static ProcessFacts read();
 };
 
-/// The families of metrics that these are.
+/// Writes the families process_… of these facts.
 void writeProcess(Exposition& out, const ProcessFacts& facts);
 
 /// Upper bounds of buckets.
@@ -37,8 +37,8 @@ inline constexpr std::array<double, 10> kRoundTripBounds{0.001, 0.005, 0.01, 0.0
                                                          0.1,   0.2,   0.4,  0.8,   2};
 inline constexpr std::array<double, 9> kLossBounds{0, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
 
-/// All that a host says of itself at one moment, as plain values: made by the thread that ticks once a
-/// second, and never changed.
+/// The values of all metrics of a host at one moment. The thread that ticks makes one once a second; it never
+/// changes.
 struct MetricsSnapshot {
   Counters counters;
   PasswordCheck::Counters passwords;

@@ -107,11 +107,11 @@ class Round {
 
   // Input, in the order it came. It counts from nextTick() on.
 
-  /// It comes in the next turn. Keys and clicks beyond kMaxInputs are dropped.
+  /// Adds an input to the next turn. Drops keys and clicks beyond kMaxInputs.
   void addInput(df::InputQueue::Input input);
   /// In the next tick only this player's input comes; 0: all players'.
   void setHeard(std::uint32_t player) { m_turn.heard_player = player; }
-  /// The game is to be over: at the end of the next tick, or if its world is in this process, without one.
+  /// Ends the game: at once if its world is in this process, else at the end of the next tick.
   void endGame();
 
   // Ticks.

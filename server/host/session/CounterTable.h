@@ -23,7 +23,7 @@ struct CounterSample {
   std::uint64_t metric_value = 0;  ///< without a part that has a sample of its own
 };
 
-/// All counters of the struct, in the order of their table. The names in them stay valid.
+/// Returns all counters of the struct, in the order of their table. The names in them are always valid.
 std::vector<CounterSample> samplesOf(const Counters& counters);
 std::vector<CounterSample> samplesOf(const PasswordCheck::Counters& counters);
 std::vector<CounterSample> samplesOf(const TcpListener::Counters& counters);

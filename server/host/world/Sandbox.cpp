@@ -22,9 +22,8 @@ namespace naiad {
 
 namespace {
 
-// Landlock: the files that a world's process may open, and nothing else of the file system. The kernel's
-// interface is used directly, by numbers, which are the same on all architectures: the headers of a machine
-// may be older than its kernel.
+// Landlock restricts the files that a world's process can open. Its system calls are called by number, the
+// same on all architectures, because the installed headers may be older than the kernel.
 constexpr long kCreateRuleset = 444;
 constexpr long kAddRule = 445;
 constexpr long kRestrictSelf = 446;

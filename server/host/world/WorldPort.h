@@ -70,8 +70,8 @@ class WorldPort {
   virtual void checkProcess(std::uint32_t /*tick*/) {}
   /// How it ended; nothing while it lives.
   virtual std::optional<WorldEnd> end() const { return {}; }
-  /// Let it come to its end; end() says when it has. `rest`: a turn that will not begin. The world of this
-  /// process, which may outlive its round, handles that in its next tick.
+  /// Ends the world; end() tells when it has ended. `rest`: the turn that will not be played. A world in this
+  /// process, which may outlive its round, gets its inputs in its next tick.
   virtual void close(const WorldTurn& /*rest*/) {}
 
  protected:

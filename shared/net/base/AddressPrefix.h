@@ -1,5 +1,4 @@
-// The key of limits per address: an IPv4 address, or an IPv6 network of 64 bits. And an address with its
-// port.
+// The key of limits per address: an IPv4 address, or an IPv6 network of 64 bits; and an address with a port.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Ranges of addresses as hosts write them, 192.0.2.0/24, 2001:db8::/32, and from how far one can be reached.
+// Ranges of addresses (192.0.2.0/24, 2001:db8::/32), and whether an address is local, private or public.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// Small files that matter: whole or not there, and, if wanted, for their owner alone; and where a user has
-// them.
+// Small files that are replaced as a whole, if requested readable by their owner alone; and a user's folders.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +9,9 @@
 
 namespace naiad {
 
-/// Throws std::system_error, as all that use files here, where the system refuses. Nothing if there is no
-/// such file. Also throws if it has more than `most` bytes, or is no regular file: a pipe would be waited
-/// for.
+/// Returns the content; nullopt if the file does not exist. Throws std::system_error if it cannot be read,
+/// has more than `most` bytes or is not a regular file. (Reading a pipe could block.) The functions below
+/// throw std::system_error, too.
 std::optional<std::string> readSmallFile(const std::filesystem::path& path, std::size_t most);
 
 /// Replace or make the file, mode 0600, so that a reader finds either the old or the new one, after a crash

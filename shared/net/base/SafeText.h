@@ -12,7 +12,7 @@
 
 namespace naiad {
 
-/// Characters of a room's name, as operators, players and links write it.
+/// Maximum number of characters in a room's name.
 inline constexpr std::size_t kMaxRoomName = 32;
 /// Rooms of a server.
 inline constexpr std::size_t kMaxRooms = 64;
@@ -46,8 +46,8 @@ inline std::string hexText(std::span<const std::uint8_t> bytes) {
 }
 std::optional<std::string> bytesOfHex(std::string_view digits);
 
-/// The number that the whole text is, in decimal digits, with a '-' before one that is negative; nothing
-/// beyond the bounds.
+/// Returns the decimal number that the whole text is; nullopt if it is malformed or not in [least, most]. '-'
+/// is accepted for signed types.
 template <class Number>
 std::optional<Number> readNumber(std::string_view text, Number least, Number most) {
   Number number{};

@@ -32,9 +32,9 @@ class ReplayWindow {
 
   enum class Verdict : std::uint8_t { kNew, kSeen, kTooOld };
 
-  /// Changes nothing.
+  /// Returns whether the number is new. Changes nothing.
   Verdict check(std::uint64_t sequence) const;
-  /// The number was kNew, and what it stands in has proved authentic.
+  /// Marks a number that was kNew as seen. Call after its packet was authenticated.
   void mark(std::uint64_t sequence);
 
   /// One more than the newest number marked; 0 before the first.

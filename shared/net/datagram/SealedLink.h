@@ -60,13 +60,13 @@ class PathGuard {
 
   /// None before the first packet.
   const std::optional<Path>& current() const { return current_; }
-  /// The peer has shown that it receives what is sent there.
+  /// True if the peer has proved that it receives packets on this path.
   bool validated() const { return validated_; }
   /// To be sent along with everything as long as the path is not validated.
   PathChallenge challenge() const { return challenge_; }
   /// Bytes that may be sent now; no limit once validated.
   std::size_t budget() const;
-  /// So many bytes of the budget are used.
+  /// Takes this many bytes from the budget.
   void sent(std::size_t bytes, Time now);
   /// It is time to challenge the path, even with an empty packet.
   bool wantsChallenge(Time now) const;

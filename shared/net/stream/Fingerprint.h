@@ -41,7 +41,7 @@ class ShortKey {
   static constexpr std::size_t kBytes = 16;
   using Bytes = std::array<std::uint8_t, kBytes>;
 
-  /// The first bits of a key's fingerprint, and those that were read elsewhere.
+  /// Returns the short name of a key, or the one with these bytes.
   static ShortKey of(const Fingerprint& key);
   static ShortKey ofBytes(const Bytes& bytes) {
     ShortKey key;

@@ -32,7 +32,7 @@ struct LinkHost {
   /// IPv6 address in brackets, without a zone; and a port of 1 … 65535, `default_port` if there is none.
   /// Nothing if it is none of these.
   static std::optional<LinkHost> parse(std::string_view text, std::uint16_t default_port = kDefaultPort);
-  /// "game.example", "[::1]:9877": `default_port` is left out; 0: no port is.
+  /// Returns "game.example" or "[::1]:9877". Leaves the port out if it is `default_port`.
   std::string text(std::uint16_t default_port = kDefaultPort) const;
 
   friend bool operator==(const LinkHost&, const LinkHost&) = default;

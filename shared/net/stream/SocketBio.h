@@ -1,5 +1,5 @@
-// OpenSSL's way to a non-blocking socket, and the guard in it. OpenSSL's own BIO for sockets raises SIGPIPE,
-// and cannot be asked why it failed.
+// An OpenSSL BIO for a non-blocking socket, and its guard against long hellos. OpenSSL's own BIO for sockets
+// raises SIGPIPE and does not tell why it failed.
 #pragma once
 
 #include <array>

@@ -63,7 +63,7 @@ void readPage(const std::string& text) {
           again->encrypted == address->encrypted);
 }
 
-/// Its text means the same, and so does the one spelling that each server has.
+/// text() and canonicalText() are read back as the same address.
 void readServer(const std::string& text) {
   const auto address = ServerAddress::parse(text);
   if (!address) return;

@@ -16,7 +16,7 @@ using namespace df;
 
 bool over = false;
 int quit_at = 0;
-std::string guests;  // who came and went, in all runs
+std::string guests;  // joins (+id) and leaves (-id) of all runs
 
 class Walker : public Object {
  public:
@@ -76,7 +76,7 @@ class Title : public Object {
   bool seen = false;
 };
 
-// Somebody who counts the players, as the games of several do.
+// Records joins and leaves, like a game for several players.
 class Usher : public Object {
  public:
   Usher() {

@@ -163,7 +163,7 @@ TEST_F(WorldProcessTest, OneThatHangsUpAndStaysIsKilled) {
   EXPECT_EQ(play("exec 3>&-; exec sleep 100").why, WorldEnd::kCrashed);
 }
 
-// Without it nobody could look at the process, or make a copy of it.
+// Without the process id the host can neither watch the process nor copy it.
 TEST_F(WorldProcessTest, IsReadyOnceItsKeeperHasNamedItsProcess) {
   int world_ends[2];
   int keeper_ends[2];
