@@ -1,13 +1,15 @@
 # Four Debian packages, by CPack: deploy/package builds them. What is installed in which is said by COMPONENT at each
 # install(); this file has what packages have beside that.
 set(debian ${CMAKE_CURRENT_SOURCE_DIR}/debian)
-# An official package of Debian would be -1, and newer.
-set(NAIAD_DEBIAN_REVISION 0naiad1)
-set(version ${PROJECT_VERSION}-${NAIAD_DEBIAN_REVISION})
+# An official package of Debian would be -1, and newer. The package for the next Debian is newer than that for this one.
+set(revision 0naiad1)
 file(STRINGS ${debian}/changelog first LIMIT_COUNT 1)
-if(NOT first MATCHES "^naiad \\(${version}\\)")
-  message(FATAL_ERROR "deploy/debian/changelog begins with \"${first}\", and the version is ${version}")
+if(NOT first MATCHES "^naiad \\(${PROJECT_VERSION}-${revision}\\)")
+  message(FATAL_ERROR "deploy/debian/changelog begins with \"${first}\", and the version is ${PROJECT_VERSION}-${revision}")
 endif()
+cmake_host_system_information(RESULT debian_version QUERY DISTRIB_VERSION_ID)
+string(APPEND revision "+deb${debian_version}")
+set(version ${PROJECT_VERSION}-${revision})
 set(triplet ${CMAKE_LIBRARY_ARCHITECTURE})
 
 # Units, users, settings.
@@ -51,7 +53,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_DEBIAN_PACKAGE_RELEASE ${NAIAD_DEBIAN_REVISION})
+set(CPACK_DEBIAN_PACKAGE_RELEASE ${revision})
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 # Programs and games are linked with the library of the same build; its dependencies are found where it is built.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})

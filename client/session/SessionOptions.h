@@ -29,7 +29,7 @@ struct SessionOptions {
   std::string game;             ///< game to play; empty: whatever runs
   std::string room;             ///< to begin in; empty: the first, or one that plays `game`
   bool stays_in_room = false;   ///< a session that goes on stays in the room where it was, whatever `room` is
-  std::string program;          ///< "dfclient 0.1.0", for the server's log
+  std::string program;          ///< "dfclient 0.2.0", for the server's log
   int columns = 0;              ///< terminal size in cells; 0: all of the view is of interest
   int rows = 0;
   std::string password;        ///< of the server, if it needs one

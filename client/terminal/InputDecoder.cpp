@@ -13,77 +13,97 @@ constexpr std::size_t kMaxParameters = 48;
 constexpr int kMaxNumber = 1 << 24;
 constexpr int kMaxCell = 9999;
 
-/// The numbers of `a:b:c;d:e;…`: up to four fields of up to three parts; -1 where nothing stands.
-struct Numbers {
-  std::array<std::array<int, 3>, 4> field{};
-  bool well_formed = true;
-};
-
-Numbers parseNumbers(std::string_view text) {
-  Numbers numbers;
-  for (auto& field : numbers.field) field.fill(-1);
-  std::size_t f = 0;
-  std::size_t p = 0;
-  for (const char c : text) {
-    if (c >= '0' && c <= '9') {
-      if (f >= 4 || p >= 3) continue;
-      int& n = numbers.field[f][p];
-      n = std::min(std::max(n, 0) * 10 + (c - '0'), kMaxNumber);
-    } else if (c == ';') {
-      ++f;
-      p = 0;
-    } else if (c == ':') {
-      ++p;
-    } else {
-      numbers.well_formed = false;
-    }
-  }
-  return numbers;
-}
-
-/// Modifiers and action of the field `modifiers:event` that xterm and kitty share.
-void applyModifiers(const Numbers& numbers, KeyEvent& event) {
-  const auto& field = numbers.field[1];
-  if (field[0] > 0) event.modifiers |= static_cast<std::uint8_t>((field[0] - 1) & 0x0F);
-  if (field[1] == 2) event.action = KeyEvent::Action::kRepeat;
-  if (field[1] == 3) event.action = KeyEvent::Action::kRelease;
-}
-
 bool isText(int code) {
   return code >= 0x20 && code != 0x7F && !(code >= 0x80 && code < 0xA0) && code <= 0x10FFFF &&
          !(code >= 0xD800 && code <= 0xDFFF) && !(code >= 0xE000 && code <= 0xF8FF);
 }
 
-/// `CSI code:shifted:base ; modifiers:event ; text u`.
-KeyEvent kittyKey(const Numbers& numbers) {
-  KeyEvent event;
-  const auto& code = numbers.field[0];
-  event.key = keyOfKitty(code[0]);
-  // On a keyboard of another script the third part is the key in the US layout.
-  if (event.key == df::Keyboard::UNDEFINED_KEY && code[2] > 0) event.key = keyOfKitty(code[2]);
-  applyModifiers(numbers, event);
-  if (event.action == KeyEvent::Action::kRelease) return event;
-  if (isText(numbers.field[2][0])) {
-    event.ch = static_cast<char32_t>(numbers.field[2][0]);
-  } else if ((event.modifiers & (kControl | kAlt | kSuper)) == 0) {
-    const int typed = (event.modifiers & kShift) != 0 && code[1] > 0 ? code[1] : code[0];
-    event.ch = isText(typed) ? static_cast<char32_t>(typed) : characterOfKeypad(code[0]);
-  }
-  return event;
-}
-
 }  // namespace
+
+/// The numbers of `a:b:c;d:e;…`: up to six fields of up to three parts; -1 where nothing stands.
+struct InputDecoder::Numbers {
+  std::array<std::array<int, 3>, 6> field{};
+  bool well_formed = true;
+
+  explicit Numbers(std::string_view text) {
+    for (auto& parts : field) parts.fill(-1);
+    std::size_t f = 0;
+    std::size_t p = 0;
+    for (const char c : text) {
+      if (c >= '0' && c <= '9') {
+        if (f >= field.size() || p >= 3) continue;
+        int& n = field[f][p];
+        n = std::min(std::max(n, 0) * 10 + (c - '0'), kMaxNumber);
+      } else if (c == ';') {
+        ++f;
+        p = 0;
+      } else if (c == ':') {
+        ++p;
+      } else {
+        well_formed = false;
+      }
+    }
+  }
+
+  /// Modifiers and action of the field `modifiers:event` that xterm and kitty share.
+  void applyModifiers(KeyEvent& event) const {
+    if (field[1][0] > 0) event.modifiers |= static_cast<std::uint8_t>((field[1][0] - 1) & 0x0F);
+    if (field[1][1] == 2) event.action = KeyEvent::Action::kRepeat;
+    if (field[1][1] == 3) event.action = KeyEvent::Action::kRelease;
+  }
+
+  /// `CSI code:shifted:base ; modifiers:event ; text u`.
+  KeyEvent kittyKey() const {
+    KeyEvent event;
+    const auto& code = field[0];
+    event.key = keyOfKitty(code[0]);
+    // On a keyboard of another script the third part is the key in the US layout.
+    if (event.key == df::Keyboard::UNDEFINED_KEY && code[2] > 0) event.key = keyOfKitty(code[2]);
+    applyModifiers(event);
+    if (event.action == KeyEvent::Action::kRelease) return event;
+    if (isText(field[2][0])) {
+      event.ch = static_cast<char32_t>(field[2][0]);
+    } else if ((event.modifiers & (kControl | kAlt | kSuper)) == 0) {
+      const int typed = (event.modifiers & kShift) != 0 && code[1] > 0 ? code[1] : code[0];
+      event.ch = isText(typed) ? static_cast<char32_t>(typed) : characterOfKeypad(code[0]);
+    }
+    return event;
+  }
+
+  /// `CSI virtual key ; scan code ; UTF-16 unit ; down ; control keys ; repeats _`; `ch` is the whole
+  /// character.
+  KeyEvent windowsKey(int ch) const {
+    constexpr int kRightAlt = 1;
+    constexpr int kLeftControl = 8;
+    const int held = std::max(field[4][0], 0);
+    KeyEvent event;
+    event.key = keyOfWindows(field[0][0], field[1][0], (held & 0x100) != 0);
+    if (event.key == df::Keyboard::UNDEFINED_KEY && ch > 0 && ch < 0x20)
+      event = keyOfControl(static_cast<unsigned char>(ch));
+    if ((held & 0x10) != 0) event.modifiers |= kShift;
+    // Windows reports AltGr, which types characters, as both.
+    const bool alt_gr = (held & kRightAlt) != 0 && (held & kLeftControl) != 0 && isText(ch);
+    if (!alt_gr && (held & 0x0C) != 0) event.modifiers |= kControl;
+    if (!alt_gr && (held & 0x03) != 0) event.modifiers |= kAlt;
+    if (field[3][0] <= 0) {
+      event.action = KeyEvent::Action::kRelease;
+    } else if (isText(ch) && (event.modifiers & (kControl | kAlt)) == 0) {
+      event.ch = static_cast<char32_t>(ch);
+    }
+    return event;
+  }
+};
 
 std::vector<TerminalEvent> InputDecoder::feed(std::string_view bytes, Time now) {
   Events out = flush(now);
-  for (const char c : bytes) takeByte(static_cast<unsigned char>(c), out);
   if (!bytes.empty()) m_last = now;
+  for (const char c : bytes) takeByte(static_cast<unsigned char>(c), out);
   return out;
 }
 
 std::vector<TerminalEvent> InputDecoder::flush(Time now) {
-  Events out;
-  const auto due = deadline();
+  Events out = m_spelled ? m_spelled->flush(now) : Events();
+  const auto due = ownDeadline();
   if (!due || now < *due) return out;
   if (m_state == State::kEscape && !m_pasting) {
     if (m_meta) emitKey(out, keyOfControl(0x1B));
@@ -96,6 +116,12 @@ std::vector<TerminalEvent> InputDecoder::flush(Time now) {
 }
 
 std::optional<InputDecoder::Time> InputDecoder::deadline() const {
+  const auto own = ownDeadline();
+  const auto spelled = m_spelled ? m_spelled->deadline() : std::nullopt;
+  return own && spelled ? std::min(own, spelled) : own ? own : spelled;
+}
+
+std::optional<InputDecoder::Time> InputDecoder::ownDeadline() const {
   if (m_state == State::kEscape && !m_pasting) return m_last + kEscapeDelay;
   if (m_pasting) return m_last + kPasteDelay;
   if (m_state != State::kGround) return m_last + kSequenceDelay;
@@ -231,28 +257,32 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   }
   const char prefix = m_parameters.empty() ? '\0' : m_parameters[0];
   if (!ss3 && prefix == '<' && (final == 'M' || final == 'm')) {
-    const Numbers numbers = parseNumbers(std::string_view(m_parameters).substr(1));
+    const Numbers numbers(std::string_view(m_parameters).substr(1));
     const auto& f = numbers.field;
     const bool complete = numbers.well_formed && f[0][0] >= 0 && f[1][0] > 0 && f[2][0] > 0;
     if (complete) emitMouse(out, f[0][0], f[1][0] - 1, f[2][0] - 1, final == 'm');
     return enterState(State::kGround);
   }
   if (!ss3 && prefix == '?' && final == 'u') {
-    const Numbers numbers = parseNumbers(std::string_view(m_parameters).substr(1));
+    const Numbers numbers(std::string_view(m_parameters).substr(1));
     if (numbers.well_formed && !m_pasting) out.emplace_back(KittyReply{std::max(numbers.field[0][0], 0)});
     return enterState(State::kGround);
   }
-  Numbers numbers = parseNumbers(m_parameters);
+  Numbers numbers(m_parameters);
   if (!numbers.well_formed) return enterState(State::kGround);
   if (!ss3 && final == 'u') {
-    KeyEvent event = kittyKey(numbers);
+    KeyEvent event = numbers.kittyKey();
     if (event.key != df::Keyboard::UNDEFINED_KEY || event.ch != 0) emitKey(out, event);
+    return enterState(State::kGround);
+  }
+  if (!ss3 && final == '_') {
+    takeKeyRecord(numbers, out);
     return enterState(State::kGround);
   }
   KeyEvent event{keyOfFinal(static_cast<char>(final), ss3)};
   // Some terminals write SS3 5 P instead of CSI 1 ; 5 P.
   if (ss3 && numbers.field[1][0] < 0) numbers.field[1][0] = numbers.field[0][0];
-  applyModifiers(numbers, event);
+  numbers.applyModifiers(event);
   if (final >= 'a' && final <= 'd') event.modifiers |= ss3 ? kControl : kShift;
   if (final == 'Z') event.modifiers |= kShift;
   if (m_meta) event.modifiers |= kAlt;
@@ -263,18 +293,43 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
 }
 
 void InputDecoder::finishTilde(Events& out) {
-  const Numbers numbers = parseNumbers(m_parameters);
+  const Numbers numbers(m_parameters);
   if (!numbers.well_formed) return;
   const int number = numbers.field[0][0];
   if (number == 200) m_pasting = true;
   if (number == 201) endPaste(out);
   KeyEvent event{keyOfTilde(number)};
-  applyModifiers(numbers, event);
+  numbers.applyModifiers(event);
   if (m_meta) event.modifiers |= kAlt;
   if (number == 27 && numbers.field[2][0] > 0) {  // xterm's modifyOtherKeys: CSI 27 ; modifiers ; code ~
     event.key = keyOfKitty(numbers.field[2][0]);
   }
   if (event.key != df::Keyboard::UNDEFINED_KEY) emitKey(out, event);
+}
+
+// Pastes, mouse reports and replies are spelled by records without a key; the text of a paste by those of the
+// keys that type it.
+void InputDecoder::takeKeyRecord(const Numbers& numbers, Events& out) {
+  if (m_is_spelled) return;
+  if (!m_spelled) {
+    m_spelled = std::make_unique<InputDecoder>();
+    m_spelled->m_is_spelled = true;
+  }
+  const bool is_down = numbers.field[3][0] > 0;
+  int ch = std::max(numbers.field[2][0], 0);
+  if (ch >= 0xDC00 && ch <= 0xDFFF && m_surrogate != 0)
+    ch = 0x10000 + (m_surrogate - 0xD800) * 0x400 + (ch - 0xDC00);
+  m_surrogate = ch >= 0xD800 && ch <= 0xDBFF ? ch : 0;
+  if (m_surrogate != 0 || m_pasting) return;
+  if (numbers.field[0][0] > 0 && !m_spelled->deadline()) {
+    const KeyEvent event = numbers.windowsKey(ch);
+    if (event.key != df::Keyboard::UNDEFINED_KEY || event.ch != 0) out.emplace_back(event);
+  } else if (is_down && ch > 0 && ch <= 0x10FFFF) {
+    std::string bytes;
+    df::appendUtf8(bytes, static_cast<char32_t>(ch));
+    for (const char c : bytes) m_spelled->takeByte(static_cast<unsigned char>(c), out);
+    m_spelled->m_last = m_last;
+  }
 }
 
 void InputDecoder::takeX10(unsigned char byte, Events& out) {

@@ -6,6 +6,7 @@
 //   - plain characters, control bytes, UTF-8, Alt as an ESC before the character
 //   - cursor, editing and function keys of xterm, rxvt, the Linux console (CSI and SS3), with modifiers
 //   - the kitty keyboard protocol (press, repeat, release, alternate keys, text) and the reply to its query
+//   - the key records of Windows Terminal (win32-input-mode), also those that spell a paste or a mouse report
 //   - the mouse as SGR (1006) and as X10 bytes
 //   - pasted text (bracketed paste), which never becomes keys
 // Unknown sequences, terminal replies and focus reports are dropped whole: a byte of a sequence never becomes
@@ -14,6 +15,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,8 +83,12 @@ class InputDecoder {
   std::vector<TerminalEvent> flush(Time now);
   /// When flush() will next have something to do; nothing while no sequence is open.
   std::optional<Time> deadline() const;
-  /// Bytes of a sequence held back at the moment; never more than 64.
-  std::size_t pendingBytes() const { return m_parameters.size() + m_utf8.size(); }
+  /// Bytes of a sequence held back at the moment; never more than 128.
+  std::size_t pendingBytes() const {
+    return m_parameters.size() + m_utf8.size() + (m_spelled ? m_spelled->pendingBytes() : 0);
+  }
+  /// True once a key record of Windows Terminal was received: keys are reported with their releases.
+  bool hasKeyRecords() const { return m_spelled != nullptr; }
 
  private:
   enum class State {
@@ -98,6 +104,7 @@ class InputDecoder {
   };
   using Events = std::vector<TerminalEvent>;
 
+  std::optional<Time> ownDeadline() const;
   void takeByte(unsigned char byte, Events& out);
   void takeGround(unsigned char byte, Events& out);
   void takeEscape(unsigned char byte, Events& out);
@@ -106,6 +113,8 @@ class InputDecoder {
   void takeX10(unsigned char byte, Events& out);
   void finishSequence(unsigned char final, Events& out);
   void finishTilde(Events& out);
+  struct Numbers;
+  void takeKeyRecord(const Numbers& numbers, Events& out);
   void emitKey(Events& out, KeyEvent event);
   void addPasted(char32_t ch);
   void endPaste(Events& out);
@@ -121,6 +130,9 @@ class InputDecoder {
   std::string m_parameters;
   std::string m_utf8;
   Time m_last{};
+  std::unique_ptr<InputDecoder> m_spelled;  ///< decodes what key records spell; null before the first record
+  bool m_is_spelled = false;                ///< this is one: records that are spelled by records are none
+  int m_surrogate = 0;                      ///< the first half of a character beyond the BMP, from a record
 };
 
 }  // namespace naiad

@@ -7,63 +7,52 @@ namespace naiad {
 
 using namespace df::Keyboard;
 
+namespace {
+
+constexpr std::array kControls = {BACKSPACE, TAB, RETURN, RETURN, ESCAPE, BACKSPACE};
+
+constexpr Key kNone = UNDEFINED_KEY;
+
+/// Returns the key at a place of a table; undefined if there is no such place.
+template <std::size_t N>
+Key keyAt(const std::array<Key, N>& keys, int place) {
+  return place >= 0 && place < static_cast<int>(N) ? keys[static_cast<std::size_t>(place)] : kNone;
+}
+/// Returns the key at the place where `code` is among `codes`; undefined if it is not.
+template <std::size_t N>
+Key keyIn(std::string_view codes, const std::array<Key, N>& keys, int code) {
+  return keyAt(keys, code > 0xFF ? -1 : static_cast<int>(codes.find(static_cast<char>(code))));
+}
+/// Returns the key of a digit from 0 to 9.
+Key keyOfDigit(int digit) {
+  return digit == 0 ? NUM0 : static_cast<Key>(NUM1 + (digit - 1));
+}
+
+}  // namespace
+
 KeyEvent keyOfCharacter(char32_t ch) {
+  // What the keys type, plain and with shift. 0x7F: nothing.
+  static constexpr std::string_view kPlain = " 0123456789-=`.,/';[]\\\x7F";
+  static constexpr std::string_view kShifted = " )!@#$%^&*(_\x7F~><?\":{}|+";
+  static constexpr std::array kKeys = {
+      SPACE, NUM0,  NUM1,   NUM2,  NUM3,  NUM4,  NUM5,      NUM6,        NUM7,         NUM8,      NUM9, MINUS,
+      EQUAL, TILDE, PERIOD, COMMA, SLASH, QUOTE, SEMICOLON, LEFTBRACKET, RIGHTBRACKET, BACKSLASH, PLUS};
+  static_assert(kPlain.size() == kKeys.size() && kShifted.size() == kKeys.size());
   KeyEvent event;
   event.ch = ch;
-  const auto found = [&event](int key, bool shifted) {
-    event.key = static_cast<Key>(key);
-    if (shifted) event.modifiers = kShift;
-  };
-  if (ch >= U'a' && ch <= U'z') {
-    found(A + static_cast<int>(ch - U'a'), false);
-  } else if (ch >= U'A' && ch <= U'Z') {
-    found(A + static_cast<int>(ch - U'A'), true);
-  } else if (ch >= U'1' && ch <= U'9') {
-    found(NUM1 + static_cast<int>(ch - U'1'), false);
-  } else {
-    struct Sign {
-      char plain;
-      char shifted;
-      Key key;
-    };
-    static constexpr std::array<Sign, 22> kSigns = {{
-        {' ', ' ', SPACE},       {'0', ')', NUM0},         {'!', '!', NUM1},   {'@', '@', NUM2},
-        {'#', '#', NUM3},        {'$', '$', NUM4},         {'%', '%', NUM5},   {'^', '^', NUM6},
-        {'&', '&', NUM7},        {'*', '*', NUM8},         {'(', '(', NUM9},   {'-', '_', MINUS},
-        {'=', '=', EQUAL},       {'+', '+', PLUS},         {'`', '~', TILDE},  {'.', '>', PERIOD},
-        {',', '<', COMMA},       {'/', '?', SLASH},        {'\'', '"', QUOTE}, {';', ':', SEMICOLON},
-        {'[', '{', LEFTBRACKET}, {']', '}', RIGHTBRACKET},
-    }};
-    for (const Sign& sign : kSigns) {
-      const bool always_shifted = sign.key >= NUM1 && sign.key <= NUM9;
-      if (ch == static_cast<char32_t>(sign.plain)) found(sign.key, always_shifted || ch == U'+');
-      if (ch == static_cast<char32_t>(sign.shifted) && sign.plain != sign.shifted) found(sign.key, true);
-    }
-    if (ch == U'\\' || ch == U'|') found(BACKSLASH, ch == U'|');
-  }
+  if (ch >= 0x7F) return event;
+  const int code = static_cast<int>(ch);
+  event.key = code >= 'a' && code <= 'z' ? static_cast<Key>(A + (code - 'a')) : keyIn(kPlain, kKeys, code);
+  if (event.key != kNone) return event;
+  event.key = code >= 'A' && code <= 'Z' ? static_cast<Key>(A + (code - 'A')) : keyIn(kShifted, kKeys, code);
+  if (event.key != kNone) event.modifiers = kShift;
   return event;
 }
 
 KeyEvent keyOfControl(unsigned char byte) {
   KeyEvent event;
-  switch (byte) {
-    case 0x09:
-      event.key = TAB;
-      return event;
-    case 0x0A:
-    case 0x0D:
-      event.key = RETURN;
-      return event;
-    case 0x1B:
-      event.key = ESCAPE;
-      return event;
-    case 0x08:
-    case 0x7F:
-      event.key = BACKSPACE;
-      return event;
-    default:
-      break;
-  }
+  event.key = keyIn("\x08\x09\x0A\x0D\x1B\x7F", kControls, byte);
+  if (event.key != kNone) return event;
   // Control clears the bits 0x60 of the character.
   event = keyOfCharacter(byte == 0      ? U' '
                          : byte <= 0x1A ? static_cast<char32_t>(byte + 0x60)
@@ -74,126 +63,61 @@ KeyEvent keyOfControl(unsigned char byte) {
 }
 
 Key keyOfFinal(char final, bool ss3) {
-  switch (final) {
-    case 'A':
-      return UPARROW;
-    case 'B':
-      return DOWNARROW;
-    case 'C':
-      return RIGHTARROW;
-    case 'D':
-      return LEFTARROW;
-    case 'E':
-      return UNDEFINED_KEY;  // the keypad's centre
-    case 'F':
-      return END;
-    case 'H':
-      return HOME;
-    case 'P':
-      return F1;
-    case 'Q':
-      return F2;
-    case 'R':
-      return F3;
-    case 'S':
-      return F4;
-    case 'a':
-      return UPARROW;  // rxvt: lower case with shift (CSI) or control (SS3)
-    case 'b':
-      return DOWNARROW;
-    case 'c':
-      return RIGHTARROW;
-    case 'd':
-      return LEFTARROW;
-    case 'Z':
-      return ss3 ? UNDEFINED_KEY : TAB;  // CSI Z: shift and Tab
-    default:
-      break;
-  }
-  if (!ss3) return UNDEFINED_KEY;
-  switch (final) {  // application keypad
-    case 'M':
-      return RETURN;
-    case 'I':
-      return TAB;
-    case 'X':
-      return EQUAL;
-    case 'j':
-      return NUM8;  // the asterisk
-    case 'k':
-      return PLUS;
-    case 'l':
-      return COMMA;
-    case 'm':
-      return MINUS;
-    case 'n':
-      return PERIOD;
-    case 'o':
-      return SLASH;
-    case 'p':
-      return NUM0;
-    default:
-      break;
-  }
+  static constexpr std::array kKeys = {UPARROW, DOWNARROW, RIGHTARROW, LEFTARROW, END, HOME, F1, F2, F3, F4};
+  // rxvt writes cursor keys in lower case with shift (CSI) or control (SS3).
+  const char upper = final >= 'a' && final <= 'd' ? static_cast<char>(final - 'a' + 'A') : final;
+  const Key key = keyIn("ABCDFHPQRS", kKeys, upper);
+  if (key != kNone) return key;
+  if (!ss3) return final == 'Z' ? TAB : kNone;  // with shift
   if (final >= 'q' && final <= 'y') return static_cast<Key>(NUM1 + (final - 'q'));
-  return UNDEFINED_KEY;
+  static constexpr std::array kKeypad = {RETURN, TAB, EQUAL, NUM8, PLUS, COMMA, MINUS, PERIOD, SLASH, NUM0};
+  return keyIn("MIXjklmnop", kKeypad, final);
 }
 
 Key keyOfTilde(int number) {
-  switch (number) {
-    case 1:
-    case 7:
-      return HOME;
-    case 2:
-      return INSERT;
-    case 3:
-      return DELETE;
-    case 4:
-    case 8:
-      return END;
-    case 5:
-      return PAGEUP;
-    case 6:
-      return PAGEDOWN;
-    default:
-      break;
-  }
-  if (number >= 11 && number <= 15) return static_cast<Key>(F1 + (number - 11));
-  if (number >= 17 && number <= 21) return static_cast<Key>(F6 + (number - 17));
-  if (number == 23 || number == 24) return static_cast<Key>(F11 + (number - 23));
-  return UNDEFINED_KEY;
+  static constexpr std::array kKeys = {kNone, HOME,  INSERT, DELETE, END,   PAGEUP, PAGEDOWN, HOME,  END,
+                                       kNone, kNone, F1,     F2,     F3,    F4,     F5,       kNone, F6,
+                                       F7,    F8,    F9,     F10,    kNone, F11,    F12};
+  return keyAt(kKeys, number);
 }
 
 Key keyOfKitty(int code) {
   if (code > 0 && (code < 0x20 || code == 0x7F)) {
     const KeyEvent event = keyOfControl(static_cast<unsigned char>(code));
-    return event.modifiers == 0 ? event.key : UNDEFINED_KEY;
+    return event.modifiers == 0 ? event.key : kNone;
   }
   if (code < 0x7F) return keyOfCharacter(static_cast<char32_t>(code)).key;
-  if (code >= 57399 && code <= 57408) return code == 57399 ? NUM0 : static_cast<Key>(NUM1 + (code - 57400));
+  if (code == 57362) return PAUSE;
+  if (code >= 57399 && code <= 57408) return keyOfDigit(code - 57399);
   // From 57409 on: the rest of the keypad.
   static constexpr std::array kKeypad = {PERIOD, SLASH,    NUM8,      MINUS,      PLUS,    RETURN,
                                          EQUAL,  PERIOD,   LEFTARROW, RIGHTARROW, UPARROW, DOWNARROW,
                                          PAGEUP, PAGEDOWN, HOME,      END,        INSERT,  DELETE};
-  if (code >= 57409 && code <= 57426) return kKeypad[static_cast<std::size_t>(code - 57409)];
-  switch (code) {
-    case 57362:
-      return PAUSE;
-    case 57441:
-      return LEFTSHIFT;
-    case 57442:
-      return LEFTCONTROL;
-    case 57443:
-      return LEFTALT;
-    case 57447:
-      return RIGHTSHIFT;
-    case 57448:
-      return RIGHTCONTROL;
-    case 57449:
-      return RIGHTALT;
-    default:
-      return UNDEFINED_KEY;
-  }
+  // From 57441 on: modifiers, with Super, Hyper and Meta in the gap.
+  static constexpr std::array kModifiers = {LEFTSHIFT, LEFTCONTROL, LEFTALT,      kNone,   kNone,
+                                            kNone,     RIGHTSHIFT,  RIGHTCONTROL, RIGHTALT};
+  return code < 57441 ? keyAt(kKeypad, code - 57409) : keyAt(kModifiers, code - 57441);
+}
+
+Key keyOfWindows(int virtual_key, int scan_code, bool enhanced) {
+  constexpr int kRightShift = 0x36;
+  if (virtual_key >= 'A' && virtual_key <= 'Z') return static_cast<Key>(A + (virtual_key - 'A'));
+  if (virtual_key >= 0x70 && virtual_key <= 0x7B) return static_cast<Key>(F1 + (virtual_key - 0x70));
+  if (virtual_key >= '0' && virtual_key <= '9') return keyOfDigit(virtual_key - '0');
+  if (virtual_key >= 0x60 && virtual_key <= 0x69) return keyOfDigit(virtual_key - 0x60);
+  if (virtual_key == 0x10 && scan_code == kRightShift) return RIGHTSHIFT;
+  if (virtual_key == 0x11 && enhanced) return RIGHTCONTROL;
+  if (virtual_key == 0x12 && enhanced) return RIGHTALT;
+  static constexpr std::string_view kCodes =
+      "\x08\x09\x0D\x10\x11\x12\x13\x1B\x20\x21\x22\x23\x24\x25\x26\x27\x28\x2D\x2E"
+      "\x6A\x6B\x6D\x6E\x6F\xBA\xBB\xBC\xBD\xBE\xBF\xC0\xDB\xDC\xDD\xDE";
+  static constexpr std::array kKeys = {
+      BACKSPACE, TAB,      RETURN, LEFTSHIFT, LEFTCONTROL, LEFTALT,   PAUSE,        ESCAPE,    SPACE,
+      PAGEUP,    PAGEDOWN, END,    HOME,      LEFTARROW,   UPARROW,   RIGHTARROW,   DOWNARROW, INSERT,
+      DELETE,    NUM8,     PLUS,   MINUS,     PERIOD,      SLASH,     SEMICOLON,    EQUAL,     COMMA,
+      MINUS,     PERIOD,   SLASH,  TILDE,     LEFTBRACKET, BACKSLASH, RIGHTBRACKET, QUOTE};
+  static_assert(kCodes.size() == kKeys.size());
+  return keyIn(kCodes, kKeys, virtual_key);
 }
 
 char32_t characterOfKeypad(int code) {

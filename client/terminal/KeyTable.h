@@ -1,4 +1,5 @@
-// Which key a character, a control byte, an escape sequence's number or a kitty code stands for.
+// Which key a character, a control byte, an escape sequence's number, a kitty code or a virtual key of
+// Windows stands for.
 #pragma once
 
 #include "client/terminal/InputDecoder.h"
@@ -20,6 +21,9 @@ df::Keyboard::Key keyOfTilde(int number);
 
 /// The key of a kitty code: a Unicode character, or a functional key in the private use area.
 df::Keyboard::Key keyOfKitty(int code);
+
+/// The key of a virtual key of Windows (VK_…), by its place on a US keyboard.
+df::Keyboard::Key keyOfWindows(int virtual_key, int scan_code, bool enhanced);
 
 /// The character that a keypad code of kitty types; 0 for all other codes.
 char32_t characterOfKeypad(int code);

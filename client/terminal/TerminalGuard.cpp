@@ -26,7 +26,9 @@ constexpr std::string_view kPasteOn = "\033[?2004h";
 constexpr std::string_view kKittyQuery = "\033[?u";
 constexpr std::string_view kKittyPush = "\033[>31u";
 constexpr std::string_view kKittyPop = "\033[<u";
-constexpr std::string_view kModesOff = "\033[?1006l\033[?1003l\033[?2004l";
+// Windows Terminal's key records; other terminals ignore it.
+constexpr std::string_view kRecordsOn = "\033[?9001h";
+constexpr std::string_view kModesOff = "\033[?9001l\033[?1006l\033[?1003l\033[?2004l";
 // For exits that cannot call ncurses: plain colours, cursor on, normal screen.
 constexpr std::string_view kScreenOff = "\033[m\033[?25h\033[?1049l";
 
@@ -199,6 +201,7 @@ void TerminalGuard::enterModes() {
   g_modes_on = 1;
   if (m_options.mouse) put(kMouseOn);
   put(kPasteOn);
+  put(kRecordsOn);
   put(kKittyQuery);
 }
 

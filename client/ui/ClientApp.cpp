@@ -188,13 +188,17 @@ void ClientApp::takeSignals() {
 }
 
 void ClientApp::takeEvents(const std::vector<TerminalEvent>& events, Time now) {
+  if (m_decoder.hasKeyRecords()) noteKeyReleases(now);
   for (const TerminalEvent& event : events) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) takeKey(*key, now);
     if (const auto* mouse = std::get_if<MouseEvent>(&event)) m_player.moveMouse(*mouse, m_placement, now);
     if (const auto* paste = std::get_if<PasteEvent>(&event)) {
       m_dirty = m_controls.insertPasted(paste->text) || m_dirty;
     }
-    if (std::holds_alternative<KittyReply>(event)) takeKittyReply(now);
+    if (std::holds_alternative<KittyReply>(event) && noteKeyReleases(now)) {
+      m_guard->pushKitty();
+      m_dirty = true;
+    }
   }
 }
 
@@ -229,12 +233,11 @@ void ClientApp::takeKey(const KeyEvent& event, Time now) {
   }
 }
 
-void ClientApp::takeKittyReply(Time now) {
-  if (m_controls.chatOpen()) return;
-  m_guard->pushKitty();
+bool ClientApp::noteKeyReleases(Time now) {
+  if (m_controls.chatOpen()) return false;
   m_player.setRealReleases(true, now);
   m_composer.noteKeyReleases(true);
-  m_dirty = true;
+  return true;
 }
 
 void ClientApp::noticeSounds(Time now) {

@@ -71,7 +71,9 @@ class ClientApp {
   void takeSignals();
   void takeEvents(const std::vector<TerminalEvent>& events, Time now);
   void takeKey(const KeyEvent& event, Time now);
-  void takeKittyReply(Time now);
+  /// The terminal reports when a key goes up. Returns false while a text line is open, which needs none of
+  /// it.
+  bool noteKeyReleases(Time now);
   void noticeSounds(Time now);
   void suspend();
   bool isIdle(Time now) const;

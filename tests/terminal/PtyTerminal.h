@@ -62,11 +62,12 @@ class PtyTerminal {
   const termios& originalModes() const { return m_original; }
   termios currentModes() const;
   pid_t pid() const { return m_pid; }
+  /// Returns true once the program has ended.
+  bool hasExited();
 
  private:
   bool hasWritten(const std::string& text) const { return m_output.find(text, m_mark) != std::string::npos; }
   bool readOnce(std::chrono::milliseconds timeout);
-  bool hasExited();
 
   int m_master = -1;
   int m_slave = -1;     ///< kept open, so that modes and late output survive the program

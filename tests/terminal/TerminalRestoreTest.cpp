@@ -23,8 +23,8 @@ class TerminalRestoreTest : public FakeServerFixture {
 
   static void expectRestored(PtyTerminal& terminal) {
     const std::string after = terminal.newOutput();
-    // The alternate screen, mouse reports, bracketed paste.
-    for (const char* mode : {"1049", "1003", "1006", "2004"})
+    // The alternate screen, mouse reports, bracketed paste, key records.
+    for (const char* mode : {"1049", "1003", "1006", "2004", "9001"})
       EXPECT_TRUE(has(after, "\033[?" + std::string(mode) + "l")) << mode;
     EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes())) << "termios is as before";
   }
@@ -112,7 +112,30 @@ TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
       [](const wire::ClientMessage& m) { return m.has_chat() && m.chat().text() == "hi"; }));
   EXPECT_TRUE(terminal.waitFor("\033[>31u"));
   terminal.type("\033[99;5u");
-  EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 0);
+  EXPECT_TRUE(exits(terminal, 0));
+}
+
+// Keys as Windows Terminal reports them: text and its own sequences, too.
+TEST_F(TerminalRestoreTest, KeyRecordsHaveRealReleases) {
+  PtyTerminal terminal(options());
+  ASSERT_TRUE(terminal.waitFor("\033[?9001h"));
+  terminal.type("\033[65;30;97;1;0;1_");
+  EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_PRESSED));
+  EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_DOWN));
+  terminal.type("\033[65;30;97;0;0;1_");
+  EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_RELEASED));
+  terminal.type("\033[221;27;29;1;8;1_\033[221;27;29;0;8;1_\033[72;35;104;1;0;1_");  // Ctrl-] h
+  EXPECT_TRUE(terminal.waitFor("this terminal reports when a key goes up"));
+  terminal.type("\033[27;1;27;1;0;1_");
+
+  terminal.type(
+      "\033[221;27;29;1;8;1_\033[221;27;29;0;8;1_\033[84;20;116;1;0;1_\033[84;20;116;0;0;1_");  // Ctrl-] t
+  terminal.type("\033[72;35;104;1;0;1_\033[73;23;105;1;0;1_\033[13;28;13;1;0;1_");
+  EXPECT_TRUE(server.hasReceived(
+      [](const wire::ClientMessage& m) { return m.has_chat() && m.chat().text() == "hi"; }));
+  terminal.type("\033[67;46;3;1;8;1_");  // Ctrl-C
+  EXPECT_TRUE(exits(terminal, 0));
+  expectRestored(terminal);
 }
 
 TEST_F(TerminalRestoreTest, PlainKeysMouseAndResize) {
@@ -143,7 +166,7 @@ TEST_F(TerminalRestoreTest, FindsALostServerAgain) {
   EXPECT_TRUE(server.hasReceived(
       [hellos = 0](const wire::ClientMessage& m) mutable { return m.has_hello() && ++hellos == 2; }));
   terminal.type("\x03");
-  EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 0);
+  EXPECT_TRUE(exits(terminal, 0));
   expectRestored(terminal);
 }
 

@@ -24,7 +24,7 @@ using std::chrono::microseconds;
 /// What the client has switched on and not off again, as escape sequences; empty: nothing.
 std::string modesLeftOn(const std::string& output) {
   std::string left;
-  for (const std::string mode : {"?1049", "?1003", "?1006", "?2004"}) {
+  for (const std::string mode : {"?1049", "?1003", "?1006", "?2004", "?9001"}) {
     const std::size_t on = output.rfind("\033[" + mode + "h");
     const std::size_t off = output.rfind("\033[" + mode + "l");
     if (on != std::string::npos && (off == std::string::npos || off < on)) left += mode + " ";

@@ -1,7 +1,6 @@
 #include "HardPile.h"
 
 #include <signal.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <asio/executor_work_guard.hpp>
@@ -175,12 +174,6 @@ class PileServer {
 
 constexpr auto kSendTime = 60s;  // for the server to send everything
 
-bool hasEnded(pid_t process) {
-  siginfo_t info{};
-  return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-         info.si_pid == process;
-}
-
 /// Show the pile for a while, then `interrupt`: milliseconds until dfclient has ended.
 double endAfter(const std::string& folder, std::chrono::milliseconds shown, PileResult& result,
                 const std::function<void(PtyTerminal&)>& interrupt) {
@@ -192,17 +185,17 @@ double endAfter(const std::string& folder, std::chrono::milliseconds shown, Pile
                         .columns = 80,
                         .rows = 24});
   for (const auto end = Clock::now() + kSendTime;
-       server.sent() < PileServer::kObjects && !hasEnded(terminal.pid());) {
+       server.sent() < PileServer::kObjects && !terminal.hasExited();) {
     if (Clock::now() > end) throw std::runtime_error("dfclient does not take in the pile");
     terminal.read(20ms);
   }
   result.objects = server.sent();
-  for (const auto end = Clock::now() + shown; Clock::now() < end && !hasEnded(terminal.pid());)
+  for (const auto end = Clock::now() + shown; Clock::now() < end && !terminal.hasExited();)
     terminal.read(20ms);
-  result.ended = result.ended || hasEnded(terminal.pid());
+  result.ended = result.ended || terminal.hasExited();
   const Clock::time_point asked = Clock::now();
   interrupt(terminal);
-  while (!hasEnded(terminal.pid()) && Clock::now() - asked < kPilePatience) terminal.read(5ms);
+  while (!terminal.hasExited() && Clock::now() - asked < kPilePatience) terminal.read(5ms);
   return std::chrono::duration<double, std::milli>(Clock::now() - asked).count();
 }
 
