@@ -64,7 +64,7 @@ void tryInput(Script script) {
     append(events, whole.feed(bytes, now));
     append(same, bytewise.flush(now));
     for (const char c : bytes) append(same, bytewise.feed({&c, 1}, now));
-    REQUIRE(whole.pendingBytes() <= 64);
+    REQUIRE(whole.pendingBytes() <= 128);
     REQUIRE(whole.deadline() == bytewise.deadline());
   }
   REQUIRE(events == same);
