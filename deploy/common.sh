@@ -25,11 +25,11 @@ Run deploy/$(basename "$0") --help for more information." 2
 package_packages="dpkg-dev file"
 package_check_packages="lintian mmdebstrap systemd man-db groff zsh fish"
 
-# What it takes to build and run, and what the tests need on top of it (Debian 12 names).
+# What it takes to build and run, and what the tests need on top of it: names in Debian 12 and 13.
 build_packages="g++ cmake ninja-build ccache libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev libboost-dev zlib1g-dev libsqlite3-dev libnats-dev nlohmann-json3-dev"
 # What the page for browsers is made with, and what it is tested in.
 page_packages="emscripten python3-fonttools python3-brotli python3-protobuf fonts-dejavu-core"
-check_packages="$build_packages $page_packages nats-server doxygen pkg-config chromium chromium-driver libgtest-dev tmux python3 python3-websockets clang clang-format clang-tidy libclang-rt-14-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban python3-yaml dpkg-dev systemd man-db groff zsh fish"
+check_packages="$build_packages $page_packages nats-server doxygen pkg-config chromium chromium-driver libgtest-dev tmux python3 python3-websockets clang clang-format clang-tidy libclang-rt-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban python3-yaml dpkg-dev systemd man-db groff zsh fish"
 
 # What makes the pages of the headers.
 docs_packages="doxygen"
@@ -44,7 +44,7 @@ bench_packages="$build_packages openssl libbox2d-dev libchipmunk-dev valgrind py
 lab_packages="$build_packages libbox2d-dev libchipmunk-dev libsundials-dev libgtest-dev valgrind python3"
 
 # What reports how much of a decoder was reached by fuzzing.
-fuzz_packages="llvm-14"
+fuzz_packages="llvm"
 
 # missing_packages "a b c": prints those that are not installed, with a blank before each.
 missing_packages() {
