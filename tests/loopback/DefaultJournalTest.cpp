@@ -85,7 +85,7 @@ TEST_F(DefaultJournal, TwoServersOfOneUserAreKilledAndGoOn) {
   EXPECT_EQ(shown(*servers[1].player).keys, 3) << servers[1].program->log();
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(servers[i].player->player(), ids[i]);
-    EXPECT_TRUE(has(servers[i].program->log(), "is back, in the round that goes on"));
+    EXPECT_TRUE(serve([&] { return has(servers[i].program->log(), "is back, in the round that goes on"); }));
   }
   clients.clear();
 }

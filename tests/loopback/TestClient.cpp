@@ -4,6 +4,8 @@
 #include <charconv>
 #include <utility>
 
+#include "tests/support/RunDelay.h"
+
 namespace naiad::test {
 
 ClientSetup insecurely(const std::string& name) {
@@ -85,6 +87,7 @@ std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
   constexpr std::chrono::nanoseconds kMaxTurn = std::chrono::milliseconds(10);
   auto now = std::chrono::steady_clock::now();
   const auto end = now + kPatience;
+  const std::chrono::nanoseconds delay = runDelay();
   std::chrono::nanoseconds took{0};
   while (!done()) {
     if (now > end) return std::nullopt;
@@ -94,7 +97,7 @@ std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
     const auto before = std::exchange(now, std::chrono::steady_clock::now());
     took += std::min<std::chrono::nanoseconds>(now - before, kMaxTurn);
   }
-  return took;
+  return took - std::min(took, runDelay() - delay);
 }
 
 }  // namespace naiad::test

@@ -81,8 +81,8 @@ std::optional<int> numberAfter(const std::string& row, const std::string& label)
 /// Serve the clients' sockets until `done`, or give up after kPatience and return false.
 bool serveUntil(asio::io_context& context, const std::vector<TestClient*>& clients,
                 const std::function<bool()>& done);
-/// The same; how long it took, nothing if it gave up. A turn of the loop counts for 10 ms at most: time in
-/// which a busy machine lets this thread wait is not measured.
+/// The same; returns how long it took, nothing if it gave up. Time in which the threads of this process wait
+/// for a processor does not count, and a turn of the loop counts for 10 ms at most.
 std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
                                                   const std::vector<TestClient*>& clients,
                                                   const std::function<bool()>& done);
