@@ -14,7 +14,7 @@ const Suite s_suite("fleet",
                     [](const Options& options) {
                       progress("fleet");
                       const Ending ending = printLinesOf("naiad_fleet", options.quick ? kQuick : kWhole);
-                      if (ending.silent) Line("fleet").addZero("failed", 1);
+                      if (ending.code != 0) Line("fleet").addZero("failed", 1);
                     });
 
 }  // namespace

@@ -45,8 +45,8 @@ TEST_F(ServerRoundTest, OfTwoBotsIsTheSameAgain) {
   const std::string out = log();
   EXPECT_TRUE(test::has(out, "verified ticks="));
   EXPECT_FALSE(test::has(out, "not repeatable"));
-  for (const char* p_secret : {"127.0.0.1", "/tmp/"})
-    EXPECT_FALSE(test::has(contentOf(round()), p_secret)) << p_secret;
+  for (const std::string& secret : {std::string("127.0.0.1"), folder.string()})
+    EXPECT_FALSE(test::has(contentOf(round()), secret)) << secret;
 }
 
 TEST_F(ServerRoundTest, OfAServerThatWasKilledHasTheTurnsThatWaitedForTheDisk) {

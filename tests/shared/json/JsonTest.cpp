@@ -45,8 +45,9 @@ TEST(Json, RewritesWhatItParses) {
 
 TEST(Json, RefusesTextThatIsNotOneValue) {
   for (const std::string& text :
-       {""s,    " "s,   "{"s,    "[1"s,  "\"a"s,   "[1,]"s, "{\"a\":1,}"s, "{\"a\"}"s, "{a:1}"s, "{1:2}"s,
-        "'a'"s, "tru"s, "True"s, "1 2"s, "{} {}"s, "[]]"s,  "{}x"s,        "/*a*/1"s,  "1//a"s,  "\"\n\""s})
+       {""s,      " "s,      "{"s,    "[1"s,     "\"a"s,  "[1,]"s,     "{\"a\":1,}"s, "{\"a\"}"s,
+        "{a:1}"s, "{1:2}"s,  "'a'"s,  "tru"s,    "True"s, "1 2"s,      "{} {}"s,      "[]]"s,
+        "{}x"s,   "/*a*/1"s, "1//a"s, "\"\n\""s, "["s,    "{\"a\":}"s, "\"\\"s})
     EXPECT_EQ(rewritten(text), "refused") << text;
 }
 
@@ -133,7 +134,7 @@ TEST(Json, WritesNumbersThatHaveNoSpellingAsNull) {
 TEST(Json, RefusesInvalidUtf8AndHalfPairs) {
   for (const std::string& bytes :
        {"\xff"s, "\x80"s, "\xc3"s, "\xc0\xaf"s, "\xe2\x82"s, "\xed\xa0\x80"s, "\xf4\x90\x80\x80"s, "\\ud800"s,
-        "\\udc00"s, "\\ud800\\ud800"s, "\\ud83dx"s, "\\u12"s, "\\u12g4"s, "\\x41"s}) {
+        "\\udc00"s, "\\ud800\\ud800"s, "\\ud83dx"s, "\\u12"s, "\\u12g4"s, "\\x41"s, "\\ud83d\\u"s, "\\x"s}) {
     EXPECT_EQ(rewritten("\"" + bytes + "\""), "refused") << bytes;
     EXPECT_EQ(rewritten("{\"" + bytes + "\":1}"), "refused") << bytes;
   }

@@ -78,6 +78,27 @@ TEST(Replica, IgnoresOlderRecordsOfAGroup) {
   EXPECT_EQ(replica.find(7)->state.look.sequence[0][0].ch, U'@') << "a motion is no look";
 }
 
+TEST(Replica, ALateBirthDoesNotBringTheDeadBack) {
+  Replica replica;
+  apply(replica, 2, 0, death(7));
+  apply(replica, 1, 0, birth(7, 1, character(1, 0, U'@')));
+  EXPECT_EQ(replica.find(7), nullptr);
+  EXPECT_EQ(replica.aliveCount(), 0u);
+}
+
+TEST(Replica, ALateDeathDoesNotKillTheNextUnderTheId) {
+  Replica replica;
+  apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));
+  apply(replica, 2, 0, death(7));
+  apply(replica, 4, 0, birth(7, 2, character(2, 0, U'b')));
+  apply(replica, 3, 0, death(7));
+  apply(replica, 2, 0, motion(7, 30));
+  ASSERT_NE(replica.find(7), nullptr);
+  EXPECT_EQ(replica.find(7)->generation, 2u);
+  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(2, 0));
+  EXPECT_EQ(replica.aliveCount(), 1u);
+}
+
 TEST(Replica, ARepeatedBirthIsTheSameObject) {
   Replica replica;
   apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));

@@ -256,6 +256,7 @@ TEST_F(MoveObject, HandlerThatThrowsCostsItsObjectOnly) {
   Probe* b = make("b", 15, 10);
   b->on_event = [](Probe&, const Event&) { throw std::runtime_error("oops"); };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
+  EXPECT_FALSE(world.events().isRunning());
   EXPECT_FALSE(b->isActive());
   EXPECT_EQ(logged("oops"), 1);
   WM.update();

@@ -44,5 +44,11 @@ TEST_F(TickAlone, StepsAreInOrderAndAPausedOneOnlyDraws) {
   EXPECT_EQ(received, Received{"draw"});
 }
 
+TEST_F(TickAlone, NestedTickDoesNothing) {
+  probe.on_event = [this](Probe&, const Event&) { world.tick(); };
+  world.tick();
+  EXPECT_EQ(world.getStepCount(), 2);
+}
+
 }  // namespace
 }  // namespace df::test

@@ -183,6 +183,8 @@ TEST_F(Update, DeletionsGoInOrderOfTheMarks) {
   Object* b = new Dying("b", &received);
   WM.markForDelete(b);
   WM.markForDelete(a);
+  WM.markForDelete(b);
+  WM.update();
   WM.update();
   EXPECT_EQ(received, (Received{"b", "a"}));
 }

@@ -457,6 +457,7 @@ TEST_F(PublisherTest, ALookThatChangesByItselfIsPublishedOnce) {
        {Selector::clock(1, 3), Selector::clock(1, 5, false), Selector::turning(1, 123456789, 98765432),
         Selector::turning(1, 0, -1'000'003), Selector::fixed(2)}) {
     publisher = Publisher();
+    view().tick = 0;
     const Look look{wheel(), 2, selector};
     changed(0, cellsAt(10, 10));
     showed(0, cellsAt(10, 10), look);

@@ -106,6 +106,7 @@ std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT
 TEST(BodyHash, IsTheSameEverywhere) {
   EXPECT_EQ(run(false, 50), kHash);
   EXPECT_EQ(run(true, 50, ACCURACY_FAST), kFastHash);
+  EXPECT_EQ(run(true, 50), run(true, 50));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(BodyScenes, FourThatMeetInAPointAreAFewImpacts) {
       put(crate(Vector(x, y)))->setVelocity(Vector(x > 0 ? -0.1 : 0.1, y > 0 ? -0.1 : 0.1));
     }
   }
-  expectClosed(60, 1e-9);
+  expectClosed(60, 1e-12);
   EXPECT_LE(layer().impactCounters().impacts, 20);
 }
 

@@ -56,6 +56,16 @@ int addCrateOnSlope(RigidWorld& world, double angle, Vec2 up) {
   return world.add(body, crate);
 }
 
+TEST(RigidWorld, FrictionHoldsUpToItsAngle) {
+  for (const double off : {-0.01, 0.01}) {
+    RigidWorld world(sleepless());
+    const double angle = std::atan(0.5) + off * kDegree;
+    const int id = addCrateOnSlope(world, angle, addSlope(world, angle));
+    for (int tick = 0; tick < 120; ++tick) world.step();
+    EXPECT_EQ(30 * length(world.body(id).velocity) > 1e-3, off > 0) << off;
+  }
+}
+
 TEST(RigidWorld, SlidesAndRollsAsItShould) {
   RigidWorld slides(sleepless()), rolls(sleepless());
   const double steep = 40 * kDegree, angle = 30 * kDegree;

@@ -55,6 +55,10 @@ TEST(Framing, TruncatedFrameIsNotYielded) {
     EXPECT_TRUE(frames.empty());
     EXPECT_TRUE(reader.midFrame());
     EXPECT_EQ(reader.error(), FrameError::kNone);
+    FrameReader behind(kMaxHelloFrame);
+    feed(behind, framed("one") + framed("two") + whole.substr(0, length), frames);
+    EXPECT_EQ(frames, (std::vector{"one"s, "two"s}));
+    EXPECT_TRUE(behind.midFrame());
   }
 }
 
@@ -76,7 +80,7 @@ TEST(Framing, FrameOverTheLimitIsAnErrorBeforeItsPayload) {
     feed(reader, framed("four"), frames);
     feed(reader, framed("fives").substr(0, first), frames);
     EXPECT_EQ(reader.buffered(), first == 1 ? 1u : 0u);
-    feed(reader, framed("fives").substr(first, first == 1 ? 1 : 0), frames);
+    feed(reader, framed("fives").substr(first, first == 1 ? 6 : 0), frames);
     EXPECT_EQ(frames, std::vector{"four"s});
     EXPECT_EQ(reader.error(), FrameError::kTooLarge);
     EXPECT_EQ(reader.buffered(), 0u);
