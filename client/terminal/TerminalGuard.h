@@ -1,8 +1,9 @@
 // Takes the terminal for the client and restores it on every exit but SIGKILL.
 //
 // Taking: raw mode (termios), mouse reports, bracketed paste and Windows Terminal's key records (escape
-// sequences written by hand), the kitty keyboard protocol once the terminal has said that it supports it. Screen, made after the guard and
-// destroyed before, owns the alternate screen; for crashes the guard can leave that too.
+// sequences written by hand), the kitty keyboard protocol once the terminal has said that it supports it.
+// Screen, made after the guard and destroyed before, owns the alternate screen; for crashes the guard can
+// leave that too.
 //
 // Restoring: restore() in order, also called by the destructor and at exit(). SIGSEGV, SIGBUS, SIGABRT,
 // SIGFPE and SIGILL write a prebuilt byte string and call tcsetattr, both async-signal-safe, then die of

@@ -40,8 +40,8 @@ struct Ending {
   int code = 0;         ///< exit code
   bool silent = false;  ///< it has printed nothing
 };
-/// Runs a program of the build that prints `suite key=value …`, and prints that as Lines. A `failed` other than
-/// 0 makes naiad_bench fail, too.
+/// Runs a program of the build that prints `suite key=value …`, and prints that as Lines. A `failed` other
+/// than 0 makes naiad_bench fail, too.
 Ending printLinesOf(const std::string& program, const std::vector<std::string>& arguments);
 
 }  // namespace bench
