@@ -57,12 +57,14 @@ bool isOnDatagrams(TestClient& client) {
 }
 
 bool lists(TestClient& client, const std::string& name) {
-  return client.joined() && std::ranges::any_of(client.session().players(),
-                                                [&](const PlayerLine& line) { return line.name == name; });
+  const ClientSession* session = client.connection().session();
+  return session != nullptr &&
+         std::ranges::any_of(session->players(), [&](const PlayerLine& line) { return line.name == name; });
 }
 
 bool hasRead(TestClient& client, const std::string& text) {
-  return client.joined() && std::ranges::any_of(client.session().chat(), [&](const ChatEntry& entry) {
+  const ClientSession* session = client.connection().session();
+  return session != nullptr && std::ranges::any_of(session->chat(), [&](const ChatEntry& entry) {
            return entry.text.find(text) != std::string::npos;
          });
 }
