@@ -67,8 +67,8 @@ TEST(Utf8, EveryCodePointSurvivesTheRoundTrip) {
 }
 
 TEST(Utf8, MalformedBytesBecomeReplacementCharacters) {
-  const char32_t bad = 0xFFFD;
-  const auto all_bad = [bad](const std::string& text) {
+  constexpr char32_t bad = 0xFFFD;
+  const auto all_bad = [](const std::string& text) {
     return decodeUtf8(text) == std::u32string(text.size(), bad);
   };
   EXPECT_TRUE(all_bad("\x80"));
