@@ -22,6 +22,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <initializer_list>
 
 namespace {
 
