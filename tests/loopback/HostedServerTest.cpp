@@ -476,9 +476,9 @@ class Repeated {
 // With the thread sanitizer the server ends with another code if it finds a race.
 TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) {
   start({{"NAIAD_METRICS", "127.0.0.1:0"}}, "max-players = 3\n");
-  const std::string log = server->log();
   const std::string where = "metrics are at http://127.0.0.1:";
-  ASSERT_TRUE(has(log, where));
+  ASSERT_TRUE(logs(where)) << server->log();
+  const std::string log = server->log();
   const auto metrics = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(where) + where.size())));
   TestClient& ann = join("ann");
   std::atomic<int> bad = 0;
