@@ -17,8 +17,8 @@ namespace naiad {
 std::optional<std::string> keyFolderName(std::string_view auth_info);
 
 /// Where a door keeps what belongs to one visitor: a folder for each key that they proved to have, so that
-/// they are known again. In it are their name, and what dfclient keeps to come back to a session. It is
-/// locked by one process at a time.
+/// they are known again. It holds their name and the files with which dfclient resumes a session. One
+/// process at a time can lock it.
 ///
 /// Keys cost nothing, so there is a limit on folders; those that were not used for a month make room.
 class VisitorFolder {

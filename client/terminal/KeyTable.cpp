@@ -89,11 +89,11 @@ Key keyOfKitty(int code) {
   if (code < 0x7F) return keyOfCharacter(static_cast<char32_t>(code)).key;
   if (code == 57362) return PAUSE;
   if (code >= 57399 && code <= 57408) return keyOfDigit(code - 57399);
-  // From 57409 on: the rest of the keypad.
+  // The other keys of the keypad have the codes from 57409.
   static constexpr std::array kKeypad = {PERIOD, SLASH,    NUM8,      MINUS,      PLUS,    RETURN,
                                          EQUAL,  PERIOD,   LEFTARROW, RIGHTARROW, UPARROW, DOWNARROW,
                                          PAGEUP, PAGEDOWN, HOME,      END,        INSERT,  DELETE};
-  // From 57441 on: modifiers, with Super, Hyper and Meta in the gap.
+  // Modifiers have the codes from 57441. Super, Hyper and Meta are not keys of the game.
   static constexpr std::array kModifiers = {LEFTSHIFT, LEFTCONTROL, LEFTALT,      kNone,   kNone,
                                             kNone,     RIGHTSHIFT,  RIGHTCONTROL, RIGHTALT};
   return code < 57441 ? keyAt(kKeypad, code - 57409) : keyAt(kModifiers, code - 57441);

@@ -278,7 +278,7 @@ TEST_F(CopiesTest, OfAWorldThatStandsStillThereAreNoneUntilItsNextTick) {
   ASSERT_EQ(copies.size(), 2u);
   world->dropCopies();
   waitUntilGone(copies);
-  play(2);  // a world forks after it has answered, so the copy is there by the next answer
+  play(2);  // the world forks after its answer, so the copy exists when it answers again
   EXPECT_EQ(find(kCopy).size(), 1u);
   survive(df::Keyboard::Q);
   EXPECT_EQ(count(kByCopy), 1u) << log;

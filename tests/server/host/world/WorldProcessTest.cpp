@@ -163,7 +163,7 @@ TEST_F(WorldProcessTest, OneThatHangsUpAndStaysIsKilled) {
   EXPECT_EQ(play("exec 3>&-; exec sleep 100").why, WorldEnd::kCrashed);
 }
 
-// Without the process id the host can neither watch the process nor copy it.
+// The host needs the process id to watch the process and to copy it.
 TEST_F(WorldProcessTest, IsReadyOnceItsKeeperHasNamedItsProcess) {
   int world_ends[2];
   int keeper_ends[2];
