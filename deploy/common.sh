@@ -27,9 +27,11 @@ package_check_packages="lintian mmdebstrap systemd man-db groff zsh fish"
 
 # What it takes to build and run, and what the tests need on top of it: names in Debian 12 and 13.
 build_packages="g++ cmake ninja-build ccache libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev libboost-dev zlib1g-dev libsqlite3-dev libnats-dev nlohmann-json3-dev"
+# What dfclient is linked with beside that where it is one file: Debian 13's libcrypto.a calls it.
+static_packages="libzstd-dev"
 # What the page for browsers is made with, and what it is tested in.
 page_packages="emscripten python3-fonttools python3-brotli python3-protobuf fonts-dejavu-core"
-check_packages="$build_packages $page_packages nats-server doxygen pkg-config chromium chromium-driver libgtest-dev tmux python3 python3-websockets clang clang-format clang-tidy libclang-rt-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban python3-yaml dpkg-dev systemd man-db groff zsh fish"
+check_packages="$build_packages $page_packages $static_packages nats-server doxygen pkg-config chromium chromium-driver libgtest-dev tmux python3 python3-websockets clang clang-format clang-tidy libclang-rt-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban python3-yaml dpkg-dev systemd man-db groff zsh fish"
 
 # What makes the pages of the headers.
 docs_packages="doxygen"
