@@ -25,7 +25,8 @@ std::optional<SshDoor> SshDoor::parse(std::string_view text) {
 
 std::string SshDoor::command() const {
   const std::string port = where.port == kSshPort ? "" : "-p " + std::to_string(where.port) + " ";
-  return "ssh " + port + user + "@" + where.host;
+  return "ssh -o IgnoreUnknown=ObscureKeystrokeTiming -o ObscureKeystrokeTiming=no " + port + user + "@" +
+         where.host;
 }
 
 }  // namespace naiad

@@ -15,7 +15,8 @@ struct SshDoor {
   LinkHost where;
 
   static std::optional<SshDoor> parse(std::string_view text);
-  /// "ssh play@games.example", "ssh -p 2222 play@::1".
+  /// "ssh OPTIONS -p 2222 play@::1": OpenSSH since 9.5 sends a decoy packet every 20 ms while keys are typed;
+  /// the options stop that, and older versions ignore them.
   std::string command() const;
 };
 
