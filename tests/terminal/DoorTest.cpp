@@ -168,7 +168,9 @@ TEST_F(DoorTest, TwoVisitorsPlayOneGameFromWhereTheyAre) {
   NAIAD_SKIP_WITHOUT(ann);
   EXPECT_TRUE(serverSays("\"ann\" joined")) << m_server->output();
   EXPECT_TRUE(has(m_server->output(), "127.0.0.2:"));
-  PtyTerminal* bob = play("bob", {"-b", "127.0.0.3"});
+  // As the door prints it.
+  PtyTerminal* bob = play("bob", {"-b", "127.0.0.3", "-o", "IgnoreUnknown=ObscureKeystrokeTiming", "-o",
+                                  "ObscureKeystrokeTiming=no"});
   ASSERT_NE(bob, nullptr);
   EXPECT_TRUE(serverSays("\"bob\" joined")) << m_server->output();
   EXPECT_TRUE(has(m_server->output(), "127.0.0.3:"));
