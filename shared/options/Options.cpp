@@ -57,15 +57,27 @@ CLI::Option* addTo(CLI::App& app, const Option& row) {
       row.target);
 }
 
+/// CLI::Range, whose sentence differs between versions of CLI11.
+template <class Number>
+CLI::Validator within(Number least, Number most) {
+  const CLI::Range range(least, most);
+  const auto check = [range, least, most](const std::string& value) {
+    std::ostringstream wrong;
+    if (!range(value).empty()) wrong << "Value " << value << " not in range " << least << " to " << most;
+    return wrong.str();
+  };
+  return CLI::Validator(check, range.get_description());
+}
+
 void describe(CLI::App& app, const Option& row, CLI::Option& option) {
   if (row.name.front() != '-') option.required(!row.is_optional);
   const bool counts =
       std::holds_alternative<int*>(row.target) || std::holds_alternative<std::int64_t*>(row.target);
   if (row.range && counts) {
     option.check(
-        CLI::Range(static_cast<std::int64_t>(row.range->least), static_cast<std::int64_t>(row.range->most)));
+        within(static_cast<std::int64_t>(row.range->least), static_cast<std::int64_t>(row.range->most)));
   } else if (row.range) {
-    option.check(CLI::Range(row.range->least, row.range->most));
+    option.check(within(row.range->least, row.range->most));
   }
   if (!row.one_of.empty()) option.check(CLI::IsMember(row.one_of));
   if (!row.type.empty()) option.type_name(row.type);
@@ -230,6 +242,17 @@ bool clearText(const Option& option) {
   return false;
 }
 
+/// CLI11 since 2.2 leaves out a variable whose value is wrong. Throws CLI::ParseError.
+void refuseWrongVariables(const std::vector<Option>& options, const std::vector<CLI::Option*>& added) {
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const std::string& variable = options[i].environment;
+    const char* p_value = variable.empty() ? nullptr : std::getenv(variable.c_str());
+    if (p_value == nullptr || *p_value == '\0' || added[i]->count() > 0) continue;
+    added[i]->add_result(p_value);
+    added[i]->run_callback();
+  }
+}
+
 /// Reads all; false: --help or --version was asked for, and printed. Throws OptionError.
 bool readAll(const Program& program, const std::vector<Option>& options, int argc, const char* const* argv) {
   CLI::App app(program.purpose, program.name);
@@ -245,6 +268,7 @@ bool readAll(const Program& program, const std::vector<Option>& options, int arg
   }
   try {
     app.parse(argc, argv);
+    refuseWrongVariables(options, added);
     if (!config.empty()) readConfig(config, options, added);
   } catch (const CLI::ExtrasError&) {
     throw OptionError(unknownArgument(program, options, app));
