@@ -17,7 +17,7 @@ constexpr int kMaxCount = 1000000;
 constexpr std::size_t kMaxSteps = 10000;
 constexpr std::size_t kMaxDepth = 16;
 
-/// In the order of df::Keyboard::Key, with blanks between.
+/// Names of the keys in the order of df::Keyboard::Key, separated by blanks.
 constexpr std::string_view kKeyNames =
     "SPACE RETURN ESCAPE TAB LEFTARROW RIGHTARROW UPARROW DOWNARROW PAUSE MINUS PLUS TILDE PERIOD "
     "COMMA SLASH LEFTCONTROL RIGHTCONTROL LEFTSHIFT RIGHTSHIFT F1 F2 F3 F4 F5 F6 F7 F8 F9 F10 F11 F12 "
@@ -88,7 +88,7 @@ std::vector<BotAction> ScriptPlayer::tick() {
   return out;
 }
 
-/// To the next step that takes time. Ends, because every loop and every script contains one.
+/// Advances to the next step that takes time. Ends, because every loop and every script contains one.
 void ScriptPlayer::skipLoops() {
   const auto& steps = m_script.steps();
   while (m_at < steps.size()) {
@@ -154,7 +154,7 @@ std::optional<df::Keyboard::Key> keyNamed(const std::string& name) {
   return std::nullopt;
 }
 
-/// Recursive descent without the recursion: open loops are kept on a stack.
+/// Parses a script by recursive descent, with a stack of open loops instead of recursion.
 class BotScriptParser {
  public:
   explicit BotScriptParser(const std::string& text) : m_text(text) {}
@@ -185,12 +185,12 @@ class BotScriptParser {
     m_word_column = m_column;
   }
 
-  /// An error at the last marked word.
+  /// Records an error at the last marked word, unless there is one already.
   void fail(const std::string& message) {
     if (!m_error) m_error = ScriptError{m_word_line, m_word_column, message};
   }
 
-  /// Past blanks, separators and comments; false at the end of the script.
+  /// Skips blanks, separators and comments. Returns false at the end of the script.
   bool skipToStatement() {
     while (!atEnd()) {
       if (here() == '#') {
@@ -206,7 +206,7 @@ class BotScriptParser {
     return false;
   }
 
-  /// The next word of the statement; empty at its end.
+  /// Returns the next word of the statement; empty at its end.
   std::string word() {
     while (!atEnd() && isSpace(here())) advance();
     markWord();
@@ -279,7 +279,7 @@ class BotScriptParser {
     while (!atEnd() && isSpace(here())) advance();
     markWord();
     std::string text;
-    // Inside a repeat a brace ends it, as it ends every other statement.
+    // Inside a repeat, '}' ends the text as it ends every other statement.
     while (!atEnd() && here() != ';' && here() != '\n' && (here() != '}' || m_loops.empty())) {
       text.push_back(here());
       advance();

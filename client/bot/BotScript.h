@@ -1,4 +1,4 @@
-// What a bot does: a tiny language for key presses, clicks and chat.
+// Scripts for dfbot: a small language for key presses, clicks and chat.
 //
 //   press KEY              press, and release a tick later
 //   hold KEY TICKS         press, keep down for TICKS ticks, release
@@ -7,10 +7,10 @@
 //   move X Y               move the mouse there
 //   chat TEXT              up to the end of the statement
 //   repeat N { … }         N times (1 to 1000000)
-//   repeat                 from the beginning of the script, for ever; the last statement
+//   repeat                 restart the script, without end; only as the last statement
 //
 // Statements are separated by ';' or line ends; '#' begins a comment. KEY is a name of df::Keyboard::Key
-// (LEFTARROW, SPACE, F1, A, NUM1 …), in any case, or a digit. Every statement but repeat takes at least a
+// (LEFTARROW, SPACE, F1, A, NUM1), in any case, or a digit. Every statement but repeat takes at least a
 // tick, so a script cannot flood a server.
 #pragma once
 
@@ -34,12 +34,12 @@ struct BotStep {
   df::Mouse::Button button = df::Mouse::LEFT;
   int x = 0;
   int y = 0;
-  int count = 1;           ///< ticks, or rounds of a loop
-  std::size_t target = 0;  ///< kEndLoop: the step of its kLoop
+  int count = 1;           ///< number of ticks or of loop rounds
+  std::size_t target = 0;  ///< kEndLoop: index of its kLoop step
   std::string text;
 };
 
-/// Where a script is wrong, and how. Line and column count from 1.
+/// Position of an error in a script, and its description. Line and column count from 1.
 struct ScriptError {
   int line = 1;
   int column = 1;
@@ -57,7 +57,7 @@ class BotScript {
   std::vector<BotStep> m_steps;
 };
 
-/// The key of a name as scripts write it.
+/// Returns the key with this name in scripts; nullopt for unknown names.
 std::optional<df::Keyboard::Key> keyNamed(const std::string& name);
 
 struct BotClick {
@@ -78,7 +78,7 @@ class ScriptPlayer {
 
   /// Advances the script by one tick. Returns the actions to send in it.
   std::vector<BotAction> tick();
-  /// Nothing more will come.
+  /// True if all steps have run and no key is down.
   bool isDone() const { return m_at >= m_script.steps().size() && m_down == df::Keyboard::UNDEFINED_KEY; }
 
  private:
@@ -86,12 +86,12 @@ class ScriptPlayer {
 
   BotScript m_script;
   std::size_t m_at = 0;
-  std::vector<int> m_rounds;  ///< rounds left of the open loops
-  int m_left = 0;             ///< ticks left of the current step
+  std::vector<int> m_rounds;  ///< remaining rounds of the open loops, innermost last
+  int m_left = 0;             ///< remaining ticks of the current step
   df::Keyboard::Key m_down = df::Keyboard::UNDEFINED_KEY;
 };
 
-/// Presses, holds and clicks at random, the same for the same seed everywhere.
+/// Presses and holds keys and clicks at random. Equal seeds give equal actions on every platform.
 class RandomPlayer {
  public:
   RandomPlayer(std::uint64_t seed, int view_width, int view_height);

@@ -1,10 +1,10 @@
-// What a bot saw, tick by tick, to be compared with the server's truth file afterwards.
+// Records a bot's picture of every tick, to be compared with the server's truth file afterwards.
 //
-// Several snapshots may share a tick, so a tick's picture is final only when the next tick's first snapshot
-// comes, or at the end; and it is recorded only if the last of them was complete: else the server itself says
-// that the picture is not whole yet. A tick without a snapshot has the picture that the replica extrapolates,
-// for that is what the server relies on; but on the stream it may have been skipped, because what went before
-// had not left yet. Pictures are kept until a cap of ticks and cells is reached; then recording stops.
+// Several snapshots may share a tick, so a tick's picture is final only when a later tick's first snapshot
+// comes, or at the end. It is recorded only if the last of them was complete; otherwise the server has more
+// to send. A tick without a snapshot has the picture that the replica extrapolates, because the server relies
+// on that; on the stream, where the server skips ticks while earlier data waits, such ticks are not recorded.
+// Recording stops when a limit of ticks or cells is reached.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace naiad {
 
-/// Does a client show all that the server has sent it? Only then is its picture to be compared with the
-/// world's.
+/// Finds out whether a client shows everything that the server has sent it. Only then may its picture be
+/// compared with the world's.
 ///
-/// A snapshot that is complete says that the server has nothing more to send. One before it may be lost, or
-/// come later: by datagram what is sent after it on the stream overtakes it.
+/// A complete snapshot says that the server has nothing more to send. An earlier one may still be lost or
+/// late: a snapshot sent as a datagram can overtake one that was sent before it on the stream.
 class WholePicture {
  public:
-  /// Call after a snapshot was applied. `acks`: the snapshots received so far, this one included. `before`:
+  /// Call after a snapshot was applied. `acks`: the snapshots received, including this one. `before`:
   /// the number of the last snapshot before this session.
   void addSnapshot(const SnapshotHeader& header, const AckWindow& acks, std::uint32_t before = 0) {
     if (header.number == acks.newest) {
@@ -50,30 +50,30 @@ class WholePicture {
   }
 
   std::uint32_t m_tick = 0;
-  bool m_complete = false;  ///< the newest snapshot
+  bool m_complete = false;  ///< the newest snapshot was complete
   bool m_whole = false;
 };
 
 class TruthRecorder {
  public:
   static constexpr std::size_t kMaxTicks = 2000;
-  /// Cells of all pictures together: 128 MB.
+  /// Limit on the cells of all pictures together: 128 MB.
   static constexpr std::size_t kMaxCells = 16u << 20;
 
   explicit TruthRecorder(std::size_t max_cells = kMaxCells) : m_max_cells(max_cells) {}
 
-  /// Before a snapshot of `tick` is applied to `replica`.
+  /// Call before a snapshot of `tick` is applied to `replica`: records the ticks before it.
   void beforeSnapshot(const Replica& replica, std::uint32_t tick);
-  /// After a snapshot of `tick` was. `complete`: all that the server has sent is there (WholePicture);
-  /// `skips`: may ticks be skipped from here on?
+  /// Call after a snapshot of `tick` was applied. `complete`: WholePicture::isWhole(). `skips`: the server
+  /// may skip ticks after this one.
   void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
-  /// No further snapshot comes.
+  /// Records the tick of the newest snapshot. Call when no further snapshot comes.
   void finish(const Replica& replica);
 
   std::size_t tickCount() const { return m_pictures.size(); }
-  /// What was seen, by tick.
+  /// Returns the recorded pictures by tick.
   const std::map<std::uint32_t, df::Canvas>& pictures() const { return m_pictures; }
-  /// Objects that were in different cells of the world at different times.
+  /// Returns the number of Objects that were in different cells of the world at different times.
   std::size_t movingCount() const;
 
   struct Comparison {
@@ -84,7 +84,7 @@ class TruthRecorder {
     std::uint32_t first_wrong_tick = 0;  ///< 0: none
     Comparison& operator+=(const Comparison& other);
   };
-  /// Compare what was recorded with the records of `player` in the truth file.
+  /// Compares the recorded pictures with those of `player` in the truth file.
   Comparison compare(const std::string& path, std::uint32_t player) const;
 
  private:
@@ -99,12 +99,12 @@ class TruthRecorder {
   std::size_t m_cells = 0;
   bool m_full = false;
   bool m_started = false;
-  std::uint32_t m_tick = 0;  ///< of the newest snapshot applied
-  bool m_complete = false;   ///< was it?
+  std::uint32_t m_tick = 0;  ///< tick of the newest applied snapshot
+  bool m_complete = false;   ///< the picture was whole after it
   bool m_skips = false;
   std::map<std::uint32_t, df::Canvas> m_pictures;
-  std::unordered_map<std::uint32_t, Track> m_tracks;  ///< by slot
-  std::size_t m_gone_moved = 0;                       ///< moved objects whose slot was used again
+  std::unordered_map<std::uint32_t, Track> m_tracks;  ///< indexed by slot
+  std::size_t m_gone_moved = 0;                       ///< moved Objects whose slot was reused
 };
 
 }  // namespace naiad

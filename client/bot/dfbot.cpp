@@ -25,11 +25,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One turn: so long frames are served as they come, then each bot is looked after once. Doing that after
-/// each frame would cost the square of the number of bots.
+/// Length of a turn: frames are handled as they arrive, then each bot is updated once. Updating all bots
+/// after each frame would cost the square of their number.
 constexpr std::chrono::milliseconds kTurn{5};
-/// A server sends a snapshot every kKeepAliveTicks at least, later if the line is bad. Longer silence at the
-/// end, or of a connection that broke, means that the server crashed or hangs.
+/// A server sends a snapshot at least every kKeepAliveTicks, later if the connection is bad. If at the end of
+/// play no snapshot comes for kPatience longer than that, the server has crashed or hangs.
 constexpr std::chrono::seconds kPatience{5};
 constexpr int kKeepAliveTicks = 5;
 
@@ -56,7 +56,7 @@ struct BotOptions {
   bool rejoin = false;
 };
 
-/// One client: its connection, what it plays, what it saw.
+/// One client: its connection, its player (script or random) and the recorder of its pictures.
 class Bot {
  public:
   Bot(asio::io_context& context, const BotOptions& options, int index)
@@ -89,12 +89,12 @@ class Bot {
     if (m_script == nullptr && m_random == nullptr) startPlaying(*session, now);
     while (now >= m_next_tick) {
       m_next_tick += session->welcome().tick;
-      if (now - m_next_tick > std::chrono::milliseconds(250)) m_next_tick = now;  // after a pause: no rush
+      if (now - m_next_tick > std::chrono::milliseconds(250)) m_next_tick = now;  // no catching up
       play(*session, now);
     }
   }
 
-  /// Ticks of the server since the first picture.
+  /// Returns the server's ticks since the first picture.
   std::uint32_t ticks() {
     naiad::ClientSession* session = m_connection.session();
     return session != nullptr && m_first_tick ? session->clock().newestTick() - *m_first_tick : 0;
@@ -105,19 +105,19 @@ class Bot {
   }
   naiad::Connection& connection() { return m_connection; }
   const naiad::TruthRecorder& recorder() const { return m_recorder; }
-  /// How often it has joined again, in place of a session that was lost or as another player.
+  /// Returns how many times the bot joined again: it resumed a lost session or became another player.
   int rejoined() const { return m_sessions > 0 ? m_sessions - 1 : 0; }
   Clock::time_point joinedAt() const { return m_joined_at; }
 
-  /// Has a snapshot come since then?
+  /// True if a snapshot has come after `then`.
   bool isHeardSince(Clock::time_point then) const { return m_heard_at > then; }
-  /// No snapshot for longer than any server that works leaves a client without.
+  /// True if no snapshot came for longer than a working server pauses.
   bool isSilent(Clock::time_point now) {
     const naiad::ClientSession* session = m_connection.session();
     if (session == nullptr) return false;
     return now - m_heard_at > kPatience + 2 * kKeepAliveTicks * session->welcome().tick;
   }
-  /// The stream broke, and nothing comes by datagram either.
+  /// True if the stream broke and no datagrams arrive either.
   bool isCutOff(Clock::time_point now) {
     const naiad::ClientSession* session = m_connection.session();
     return session != nullptr && session->isDetached() && !session->isHeard(now);
@@ -168,7 +168,7 @@ class Bot {
   std::unique_ptr<naiad::RandomPlayer> m_random;
 };
 
-/// Text of a script: the file of that name if there is one, else the argument itself.
+/// Returns the script: the contents of the file `argument` if it can be opened, else `argument` itself.
 std::string scriptText(const std::string& argument) {
   std::ifstream file(argument, std::ios::binary);
   if (!file) return argument;
@@ -180,7 +180,8 @@ int complain(naiad::ExitCode code, const std::string& sentence) {
   return code;
 }
 
-/// What all bots saw against the truth file, and why that proves nothing or the contrary; empty: all is well.
+/// Result of comparing all bots' pictures with the truth file. `fault` says why the comparison failed or
+/// proves nothing; it is empty if all cells were right.
 struct Proof {
   naiad::TruthRecorder::Comparison compared{.readable = true};
   std::string fault;
@@ -205,7 +206,7 @@ Proof compareWithTruth(const BotOptions& options, const std::vector<std::unique_
   return proof;
 }
 
-/// The last screen of the first bot and the summary line.
+/// Prints the last screen of the first bot and the summary line. Returns the exit code.
 int report(const BotOptions& options, std::vector<std::unique_ptr<Bot>>& bots, Clock::time_point now) {
   naiad::ClientSession& first = *bots[0]->connection().session();
   if (!options.quiet) std::fputs(first.replica().render(first.displayTick(now)).text().c_str(), stdout);
@@ -243,7 +244,7 @@ int run(const BotOptions& options) {
   bots.reserve(static_cast<std::size_t>(options.clients));
   for (int i = 0; i < options.clients; ++i) bots.push_back(std::make_unique<Bot>(context, options, i));
 
-  // The sockets of a gateway belong to another thread: without it a turn with nothing to do would not wait.
+  // Sockets to a gateway belong to another thread. Without this, run_for() would not wait in an idle turn.
   auto work = asio::make_work_guard(context);
   std::optional<Clock::time_point> all_joined;
   std::optional<Clock::time_point> played_at;
@@ -276,7 +277,7 @@ int run(const BotOptions& options) {
         options.ticks ? bots[0]->ticks() >= *options.ticks : played.count() >= options.seconds.value_or(5);
     if (enough && !played_at) played_at = now;
     if (!played_at) continue;
-    // A server that crashed or hangs by now sends no further snapshot.
+    // Wait for a snapshot after the end of play: a server that has crashed or hangs sends none.
     const auto isAlive = [&](const auto& bot) { return bot->isHeardSince(*played_at); };
     if (std::all_of(bots.begin(), bots.end(), isAlive)) break;
     const auto isSilent = [now](const auto& bot) { return bot->isSilent(now); };
@@ -288,11 +289,11 @@ int run(const BotOptions& options) {
   for (const auto& bot : bots) bot->leave();
   work.reset();
   context.restart();
-  context.run_for(std::chrono::milliseconds(1000));  // ends early, when the channels have closed
+  context.run_for(std::chrono::milliseconds(1000));  // ends as soon as the channels have closed
   return report(options, bots, end);
 }
 
-/// The options, in the order of --help.
+/// Returns the options in the order of --help.
 std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& server, std::string& script,
                                      bool& web) {
   std::vector<naiad::Option> options = {

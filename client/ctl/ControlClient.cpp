@@ -15,10 +15,10 @@ namespace naiad {
 
 namespace {
 
-/// Where the packaged service has them.
+/// Folder with the control sockets of the packaged service.
 constexpr const char* kSystemFolder = "/run/naiad/admin";
 
-/// Connected; negative: errno says why not.
+/// Returns a connected socket; on failure a negative number, with the reason in errno.
 int connectTo(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -57,7 +57,7 @@ AdminAnswer ControlClient::ask(const AdminRequest& request) {
   const std::string line = requestLine(request);
   for (std::size_t sent = 0; sent < line.size();) {
     const ssize_t size = ::send(m_socket, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
-    if (size < 0 && errno != EINTR) break;  // what it says about that may be read
+    if (size < 0 && errno != EINTR) break;  // the server's reason may still be readable
     if (size > 0) sent += static_cast<std::size_t>(size);
   }
   AnswerReader reader;

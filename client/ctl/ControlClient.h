@@ -1,4 +1,4 @@
-// dfctl's end of a server's control socket.
+// Client side of a server's control socket, for dfctl.
 #pragma once
 
 #include <chrono>
@@ -13,19 +13,19 @@
 
 namespace naiad {
 
-/// There is no server, or it does not answer. what() is one sentence.
+/// Thrown if there is no server or it does not answer. what() is one sentence.
 class NoServer : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Blocking.
+/// A connection to a server's control socket. All calls block.
 class ControlClient {
  public:
-  /// For an answer: a server whose game hangs gives none.
+  /// Time limit for an answer: a server whose game hangs gives none.
   static constexpr std::chrono::seconds kPatience{10};
-  /// The same while rounds are executed again (restart --keep): the server ends what takes longer than an
-  /// hour. One that ends itself hangs up.
+  /// Time limit while rounds are replayed (restart keep): the server aborts a replay after an hour. A server
+  /// that ends closes the connection.
   static constexpr std::chrono::seconds kLongPatience{4000};
 
   /// Throws NoServer.
@@ -36,18 +36,19 @@ class ControlClient {
 
   /// Throws NoServer.
   AdminAnswer ask(const AdminRequest& request);
-  /// After "watch" was answered: call `show` for each line of the log until the server ends.
+  /// Call after "watch" was answered. Calls `show` for each line of the log until the server ends.
   void follow(const std::function<void(const std::string& line)>& show);
 
  private:
-  /// False: the server has hung up. Throws NoServer after `patience`; negative: waits for ever.
+  /// Returns false if the connection has ended. Throws NoServer after `patience`; negative: no time limit.
   bool readLine(std::string& line, std::chrono::milliseconds patience);
 
   int m_socket;
   std::string m_in;
 };
 
-/// The sockets, of those that controlPath() names and of /run/naiad, on which a server listens.
+/// Returns the control sockets of this user and of /run/naiad/admin on which a server listens, and those that
+/// this user may not open.
 std::vector<std::filesystem::path> liveControls();
 
 }  // namespace naiad

@@ -22,8 +22,8 @@ std::string names() {
   return all;
 }
 
-/// The values that a command's first argument can have, if it is a choice, and the names of its named
-/// arguments.
+/// Returns the values of a command's first argument, if it is a choice, and its named arguments as --NAME,
+/// separated by blanks.
 std::string choices(const AdminCommand& command) {
   std::string all;
   if (command.arguments.empty()) return all;
@@ -40,7 +40,7 @@ std::string quoted(std::string text) {
   return "'" + text + "'";
 }
 
-/// A description in zsh's pairs ends at no colon of its own.
+/// Replaces colons by semicolons: zsh separates a command from its description with a colon.
 std::string withoutColons(std::string text) {
   std::replace(text.begin(), text.end(), ':', ';');
   return text;

@@ -8,25 +8,25 @@
 namespace naiad {
 
 /// Returns the completion script of dfctl for "bash", "zsh" or "fish", made from the table of commands;
-/// nothing for other shells.
+/// nullopt for other shells.
 std::optional<std::string> ctlCompletion(const std::string& shell);
 /// Returns the sections of the man page dfctl(1): options, commands, environment, exit status.
 std::string ctlManSections();
-/// Returns what `dfctl --option-page KIND` prints: ctlManSections() if `kind` is "man", ctlCompletion() if it
-/// is the name of a shell; nullopt for any other kind.
+/// Returns the output of `dfctl --option-page KIND`: ctlManSections() if `kind` is "man", ctlCompletion() if
+/// it is the name of a shell; nullopt for any other kind.
 std::optional<std::string> ctlPage(const std::string& kind);
 
 struct CtlCommandLine {
-  std::string control;  ///< path of the socket; empty: the one there is
+  std::string control;  ///< path of the socket; empty: the only server's
   bool json = false;
-  std::vector<std::string> words;  ///< the command, and what follows
+  std::vector<std::string> words;  ///< the command and its arguments
 };
 
-/// Words that begin with -- in front of the command are dfctl's own options; --json may be the last word,
-/// too. Throws AdminUsageError (AdminRequest.h). The socket may come from NAIAD_CONTROL.
+/// Parses dfctl's arguments. Its own options come before the command; --json may also be the last word.
+/// Without --control, the socket is NAIAD_CONTROL. Throws AdminUsageError (AdminRequest.h).
 CtlCommandLine readCtlCommandLine(const std::vector<std::string>& words);
 
-/// What --help prints.
+/// Returns the text of --help.
 std::string ctlHelp();
 
 }  // namespace naiad

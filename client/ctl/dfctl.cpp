@@ -1,4 +1,4 @@
-// dfctl: gives one command to a server of this machine, and prints the answer.
+// dfctl: sends one command to a server on this machine and prints the answer.
 #include <termios.h>
 #include <unistd.h>
 
@@ -24,7 +24,7 @@ int failUsage(const std::string& sentence) {
   return kUsage;
 }
 
-/// A line of the input; what is typed is not shown.
+/// Reads a line from standard input; a terminal does not show it.
 std::string readSecret() {
   termios before{};
   const bool typed = tcgetattr(STDIN_FILENO, &before) == 0;

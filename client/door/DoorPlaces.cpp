@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxAuthInfo = 16'384;  // bytes; an RSA key of 16,384 bits has some 3,000
+constexpr std::size_t kMaxAuthInfo = 16'384;  // bytes; an RSA key of 16,384 bits takes about 3,000
 constexpr std::chrono::hours kUnused{24 * 30};
 constexpr const char* kLockFile = "lock";
 constexpr const char* kNameFile = "name";
@@ -51,7 +51,7 @@ void makeFolder(const fs::path& path) {
 
 constexpr std::size_t kMaxAddress = 64;  // bytes of "[IPv6]:PORT"
 
-/// An open file; closed at the end, and unlocked with that.
+/// An open file. The destructor closes it, which also unlocks it.
 class Open {
  public:
   explicit Open(const fs::path& path)
@@ -67,7 +67,7 @@ class Open {
   bool lock() const { return ::flock(m_file, LOCK_EX | LOCK_NB) == 0; }
   int release() { return std::exchange(m_file, -1); }
 
-  /// What holders of the place wrote; their address.
+  /// Returns the address that the last visitor in this place wrote.
   std::string read() const {
     std::array<char, kMaxAddress> text{};
     const ssize_t size = ::pread(m_file, text.data(), text.size(), 0);

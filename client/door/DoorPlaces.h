@@ -1,5 +1,5 @@
-// The folder that a door keeps for each visitor, and the limits on visitors at the same time, in all and per
-// address. A visitor holds a locked file; the kernel unlocks it when the process ends.
+// Visitors' folders of an ssh door, and the limits on concurrent visitors, in total and per address. Each
+// visitor holds a locked file; the kernel unlocks it when the process ends.
 #pragma once
 
 #include <sys/types.h>
@@ -12,15 +12,15 @@
 
 namespace naiad {
 
-/// The name of the folder for the key that sshd says was used (ExposeAuthInfo: lines "publickey TYPE
-/// BASE64"), 64 hexadecimal digits. Nothing if the text names no key.
+/// Returns the folder name of the first key in `auth_info` (sshd's ExposeAuthInfo: lines "publickey TYPE
+/// BASE64"): its SHA-256 as 64 hexadecimal digits. Nullopt if there is no key, or more than 16,384 bytes.
 std::optional<std::string> keyFolderName(std::string_view auth_info);
 
-/// Where a door keeps what belongs to one visitor: a folder for each key that they proved to have, so that
-/// they are known again. It holds their name and the files with which dfclient resumes a session. One
+/// Folder with a visitor's data: the name they played under, and the files with which dfclient resumes a
+/// session. There is one for each SSH key, so visitors with a key are recognised on their next visit. One
 /// process at a time can lock it.
 ///
-/// Keys cost nothing, so there is a limit on folders; those that were not used for a month make room.
+/// Anyone can make keys, so the number of folders is limited. At the limit, those unused for 30 days go.
 class VisitorFolder {
  public:
   static constexpr std::size_t kMaxFolders = 10'000;
@@ -29,7 +29,7 @@ class VisitorFolder {
   /// exist. Returns null if there are already `max_folders`. Throws std::system_error.
   static std::unique_ptr<VisitorFolder> open(const std::filesystem::path& folder, const std::string& name,
                                              std::size_t max_folders = kMaxFolders);
-  /// One that goes with this object, for visitors without a key.
+  /// Makes a folder for a visitor without a key. The destructor removes it.
   static std::unique_ptr<VisitorFolder> makeTemporary(const std::filesystem::path& folder);
   ~VisitorFolder();
   VisitorFolder(const VisitorFolder&) = delete;
@@ -37,11 +37,11 @@ class VisitorFolder {
 
   /// Returns the path of this visitor's folder.
   const std::filesystem::path& path() const { return m_path; }
-  /// Have the use of it, while this lives. False: another process has it.
+  /// Locks the folder for the lifetime of this object. Returns false if another process has locked it.
   bool take();
-  /// That process, as it said in take(); 0 if that is not known.
+  /// Returns the process that last locked the folder, as take() recorded it; 0 if unknown.
   pid_t holder() const;
-  /// The name that they played under; empty if there is none.
+  /// Returns the name that the visitor played under; empty for a new visitor.
   std::string name() const;
   /// Stores the name that name() returns. Throws std::system_error.
   void keepName(const std::string& name) const;
@@ -55,12 +55,12 @@ class VisitorFolder {
   int m_lock = -1;
 };
 
-/// A place, held while it lives. Children do not hold it.
+/// A visitor's place, held for the lifetime of this object. Programs started by this one do not hold it.
 class DoorPlace {
  public:
   struct Limits {
     int in_all = 64;
-    int per_prefix = 8;  ///< of these, from one IPv4 address or IPv6 /64
+    int per_prefix = 8;  ///< maximum from one IPv4 address or IPv6 /64
   };
   enum class Refusal { kNone, kFull, kFullForPrefix };
   struct Taken {
@@ -68,8 +68,8 @@ class DoorPlace {
     Refusal refusal = Refusal::kNone;
   };
 
-  /// Take one for a visitor at this address, "192.0.2.7:50312" or "[2001:db8::7]:50312". The folder is made
-  /// if it is missing, 0700. Waits for other processes that take one in it at the same time, which is short.
+  /// Takes a place for the visitor at this address, "192.0.2.7:50312" or "[2001:db8::7]:50312". Creates
+  /// `folder` with mode 0700 if it is missing. Waits briefly while other processes take places.
   /// Throws std::system_error.
   static Taken take(const std::filesystem::path& folder, const std::string& visitor, const Limits& limits);
 

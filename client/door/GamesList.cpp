@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMaxName = 32;
 
-/// What is wrong with a line of these words; else it is in `game`.
+/// Parses the words of a line into `game`. Returns what is wrong with them; empty if nothing is.
 std::string readWords(const std::vector<std::string>& words, std::optional<OfferedGame>& game) {
   if (words.size() < 3 || words.size() > 4)
     return "a name, a link and the path of a visitors' socket are wanted";

@@ -1,12 +1,12 @@
-// The games that a door offers, from its file games.list: what its host wrote, and nothing that a visitor can
-// change.
+// The games that an ssh door offers, from the file games.list. Only the host of the door writes it; visitors
+// cannot change it.
 //
 //   # name        link                                   visitors' socket            options
 //   saucershoot   naiad://127.0.0.1#abcdefghijkl…        /run/naiad/saucer.visitors
 //   tron          naiad://127.0.0.1:9877#mnopqrst…       /run/naiad/tron.visitors    password
 //
-// Words are separated by blanks; empty lines and those that begin with '#' are comments. `password`: the
-// server wants one, so the visitor is asked for it.
+// Words are separated by blanks; empty lines and lines that begin with '#' are ignored. `password`: the
+// server requires one, so the visitor is asked for it.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ struct OfferedGame {
 
 struct GamesList {
   std::vector<OfferedGame> games;
-  /// "line 3: why", of the first line that is wrong; empty: none is. There are no games then.
+  /// "line 3: REASON" for the first invalid line, and then `games` is empty; empty if all lines are valid.
   std::string problem;
 
   static constexpr std::size_t kMaxGames = 64;

@@ -1,6 +1,6 @@
-// dfdoor: what an ssh door runs for each visitor (ForceCommand of its sshd, deploy/door): finds out who they
-// are and which game they want, and runs dfclient for them. Nothing that they type becomes a word of a
-// command but their name, which is cleaned.
+// dfdoor: runs dfclient for each visitor of an ssh door. sshd starts it by ForceCommand (deploy/door). It
+// identifies the visitor and asks which game they want. Of the text that they type, only their name gets
+// into a command line, after cleaning.
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -32,14 +32,14 @@
 namespace naiad {
 namespace {
 
-// What a door asks its visitor before the game, in lines on their terminal.
+// Questions to the visitor before the game, answered in lines on their terminal.
 
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxLine = 200;  // bytes
 constexpr int kMaxTries = 3;
 
-/// A byte of the terminal; nothing if none comes until `end`.
+/// Reads a byte from the terminal. Nullopt if none comes before `end`, or the terminal is gone.
 std::optional<char> readByte(Clock::time_point end) {
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
@@ -63,8 +63,8 @@ std::optional<std::size_t> choiceOf(const std::string& answer, const std::vector
   return std::nullopt;
 }
 
-/// Write `question` and read a line, at most 200 bytes of it. Nothing if none comes within `patience`, or the
-/// terminal is gone, or the line is longer.
+/// Prints `question` and reads a line. Nullopt if none comes within `patience`, the terminal is gone, or the
+/// line is longer than 200 bytes.
 std::optional<std::string> askLine(const std::string& question, std::chrono::seconds patience) {
   std::fputs(question.c_str(), stdout);
   std::fflush(stdout);
@@ -79,7 +79,7 @@ std::optional<std::string> askLine(const std::string& question, std::chrono::sec
   return std::nullopt;
 }
 
-/// Which of these to play, by its number or name. Nothing after three answers that are none, or as askLine().
+/// Asks for a game; returns its index. Nullopt like askLine(), or after three invalid answers.
 std::optional<std::size_t> askChoice(const std::vector<std::string>& names, std::chrono::seconds patience) {
   for (std::size_t i = 0; i < names.size(); ++i) std::printf("%3zu  %s\n", i + 1, names[i].c_str());
   for (int i = 0; i < kMaxTries; ++i) {
@@ -91,7 +91,7 @@ std::optional<std::size_t> askChoice(const std::vector<std::string>& names, std:
   return std::nullopt;
 }
 
-/// Their name in the game; `known` if the line is empty. Nothing as askLine().
+/// Asks for the player's name; an empty line means `known`. Nullopt like askLine().
 std::optional<std::string> askName(const std::string& known, std::chrono::seconds patience) {
   const auto answer = askLine(known.empty() ? "Your name? " : "Your name? [" + known + "] ", patience);
   if (!answer) return std::nullopt;
@@ -100,7 +100,7 @@ std::optional<std::string> askName(const std::string& known, std::chrono::second
   return is_blank && !known.empty() ? known : safeName(*answer);
 }
 
-/// Yes unless the line begins with n or N. Nothing as askLine().
+/// Asks a question; the answer is yes unless it begins with n or N. Nullopt like askLine().
 std::optional<bool> askYes(const std::string& question, std::chrono::seconds patience) {
   const auto answer = askLine(question + " [y] ", patience);
   if (!answer) return std::nullopt;
@@ -126,9 +126,9 @@ constexpr const char* kHelp =
     "terminal;\n"
     "else those of dfclient.\n";
 
-constexpr std::chrono::seconds kPatience{60};   // for an answer
-constexpr std::chrono::seconds kTakeOver{10};   // for the end of a client that is taken over from
-constexpr std::chrono::milliseconds kStep{50};  // between two looks
+constexpr std::chrono::seconds kPatience{60};   // limit for an answer of the visitor
+constexpr std::chrono::seconds kTakeOver{10};   // limit for the end of the visitor's other client
+constexpr std::chrono::milliseconds kStep{50};  // interval between attempts to lock the folder
 constexpr std::size_t kMaxList = 65'536;        // bytes of games.list
 constexpr std::size_t kMaxTerm = 64;
 constexpr std::size_t kMaxAuthInfo = 65'536;
@@ -141,7 +141,7 @@ struct DoorOptions {
   int idle_limit = 600;
 };
 
-/// Why a visitor cannot come in: a sentence for them.
+/// Thrown to refuse a visitor: the exit code, and a sentence for them.
 struct Refusal {
   ExitCode code;
   std::string sentence;
@@ -150,19 +150,19 @@ struct Refusal {
 // ---- signals ----------------------------------------------------------------------------------------------
 
 volatile sig_atomic_t g_client = 0;
-volatile sig_atomic_t g_end = 0;  // the signal that ends this
+volatile sig_atomic_t g_end = 0;  // the signal that ends this program
 
 extern "C" void passOn(int signal) {
   g_end = signal;
   if (g_client > 0) ::kill(static_cast<pid_t>(g_client), signal);
 }
 
-/// A visitor has no shell to come back to.
+/// Ignores the stop signals: a visitor has no shell from which to resume the program.
 void ignoreStops() {
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
 }
 
-/// The client's terminal goes, or the door is closed: it ends first.
+/// Passes on to the client that the terminal is gone or the door closes: the client must end first.
 void passOnEnds() {
   for (const int signal : {SIGINT, SIGQUIT}) ::signal(signal, SIG_IGN);
   struct sigaction action {};
@@ -170,14 +170,14 @@ void passOnEnds() {
   for (const int signal : {SIGHUP, SIGTERM}) ::sigaction(signal, &action, nullptr);
 }
 
-// ---- who comes --------------------------------------------------------------------------------------------
+// ---- the visitor ------------------------------------------------------------------------------------------
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr ? value : "";
 }
 
-/// "192.0.2.7 50312 198.51.100.1 22": the visitor's address and ours.
+/// Parses SSH_CONNECTION, "192.0.2.7 50312 198.51.100.1 22": the visitor's address and ours.
 asio::ip::tcp::endpoint visitorOf(const std::string& connection) {
   const std::size_t blank = connection.find(' ');
   const std::string address = connection.substr(0, blank);
@@ -189,7 +189,7 @@ asio::ip::tcp::endpoint visitorOf(const std::string& connection) {
   return *visitor;
 }
 
-/// What a terminal is called becomes the name of a file that ncurses looks for.
+/// Returns `asked` if it is a safe file name, else a default: ncurses opens a file of that name.
 std::string terminalType(const std::string& asked) {
   const bool is_plain =
       !asked.empty() && asked.size() <= kMaxTerm && asked.front() != '.' &&
@@ -216,7 +216,7 @@ std::unique_ptr<naiad::DoorPlace> takePlace(const DoorOptions& options,
                               : "There are too many players from your address already."};
 }
 
-/// The visitor plays already, on a line that may be dead: let that client end, as when its line breaks.
+/// Asks a visitor already playing, perhaps on a dead connection, whether to continue here; ends that client.
 bool takeOver(naiad::VisitorFolder& folder) {
   const auto yes =
       naiad::askYes("You are playing here already. Go on with that game in this terminal?", kPatience);
@@ -232,7 +232,7 @@ bool takeOver(naiad::VisitorFolder& folder) {
   return false;
 }
 
-/// The folder of the visitor's key, if they have one and want to be who they were; else one for this visit.
+/// Returns the locked folder of the visitor's key. Null without a key, or if the folder cannot be had.
 std::unique_ptr<naiad::VisitorFolder> folderOf(const DoorOptions& options) {
   const std::string auth_file = variable("SSH_USER_AUTH");
   const auto name = auth_file.empty()
@@ -254,7 +254,7 @@ struct ClientStart {
 ClientStart clientStart(const DoorOptions& options, const naiad::OfferedGame& game, const std::string& name,
                         const asio::ip::tcp::endpoint& visitor, const fs::path& folder) {
   ClientStart start;
-  // A pin for each key: a server's new key comes by games.list, and that is the host's own word.
+  // One file of known servers for each key: the host puts a server's new key into games.list.
   start.words = {options.client,
                  game.link.text(),
                  "--name=" + name,
@@ -277,7 +277,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
-/// Run the client to its end; the exit code. Only what is called between fork() and exec is safe there.
+/// Runs the client to its end and returns its exit code. Calls only async-signal-safe functions after fork().
 int runClient(ClientStart start) {
   const std::vector<char*> words = pointersTo(start.words);
   const std::vector<char*> environment = pointersTo(start.environment);

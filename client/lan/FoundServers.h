@@ -1,5 +1,5 @@
-// The servers that were found: a bounded list without doubles, in the order in which people read it,
-// and the same as text and JSON.
+// List of servers found in the local network or on the web: bounded, without duplicates, and printable as
+// text and JSON.
 #pragma once
 
 #include <asio/ip/address.hpp>
@@ -17,14 +17,14 @@
 
 namespace naiad {
 
-/// What a server says of itself, or who lists it says of it: all of it may be wrong. Texts are safe to draw.
+/// A server as described by itself or by a list: all of it may be wrong. Texts are safe to draw.
 struct FoundServer : ServerFacts {
   ServerAddress where;
-  ShortKey key = ShortKey::ofBytes({});  ///< that the server must prove when it is joined
+  ShortKey key = ShortKey::ofBytes({});  ///< key that the server must prove to joining clients
 
-  /// Does it speak this program's protocol?
+  /// True if the server speaks this program's version of the protocol.
   bool isPlayable() const;
-  /// The link that leads to it; empty where no link can: an IPv6 address with a zone.
+  /// Returns the link to the server; empty for IPv6 addresses with a zone, which links cannot express.
   std::string link() const;
 
   friend bool operator==(const FoundServer&, const FoundServer&) = default;
@@ -32,54 +32,53 @@ struct FoundServer : ServerFacts {
 
 class FoundServers {
  public:
-  /// Servers in the list, and of those from one address. Who comes when it is full is left out.
+  /// Limits on servers, in total and per address; further servers are ignored.
   static constexpr std::size_t kMax = 64;
   static constexpr std::size_t kMaxOfAnAddress = 16;
 
-  /// Add what the server at `source` says, or put it in place of what the one with this key said before. Of
-  /// the addresses of one server the best stays: IPv4, then IPv6, then IPv6 with a zone, and loopback last.
-  /// True if the list is another one now.
+  /// Adds the server that answered from `source`, or replaces the entry with its key. The best address of a
+  /// server is kept: IPv4, then IPv6, then IPv6 with a zone, then loopback. Returns true if the list changed.
   bool addAnswer(const asio::ip::udp::endpoint& source, const LanAnswer& answer);
-  /// The same for one that a list on the web names.
+  /// Like addAnswer(), for a server from a list on the web.
   bool addServer(const FoundServer& server);
-  /// Forget all.
   void clear() { m_entries.clear(); }
 
-  /// By name, then game, then key.
+  /// Returns the servers sorted by name, then game, then key.
   std::vector<FoundServer> sorted() const;
   std::size_t size() const { return m_entries.size(); }
 
  private:
   struct Entry {
     FoundServer server;
-    int rank = 0;  ///< of its address; less is better
+    int rank = 0;  ///< preference of its address; lower is better
   };
   bool addEntry(const FoundServer& server, int rank);
 
   std::vector<Entry> m_entries;
 };
 
-/// Reads a list of servers from the web: what dfserver --status-file writes, or an array of that.
+/// Parses a list of servers from the web: an object as dfserver --status-file writes it, or an array of them.
 ///
-/// A list comes from strangers: it is read in bounded memory and depth, its texts are made safe, and a server
-/// counts only if it has a whole link. Nothing unless `json` is a JSON object or an array of objects (RFC
-/// 8259), of UTF-8, at most 8 levels deep. Of an object name, game, players, max_players, password, protocol
-/// and link are read; numbers out of range count as the nearest in it, members of another type as missing.
-/// Objects without a link that leads somewhere are passed over. The list is cut as FoundServers cuts it.
+/// Lists come from strangers, so memory and depth are bounded and texts are made safe. Nullopt unless `json`
+/// is a JSON object or an array of objects (RFC 8259), in UTF-8, at most 8 levels deep. Reads the members
+/// name, game, players, max_players, password, protocol and link. Numbers are clamped to 16 bits; members of
+/// another type count as empty, 0 or false. Objects without a link to a server are skipped, and so are
+/// servers beyond the limits of FoundServers.
 std::optional<FoundServers> readServerList(std::string_view json);
 
-/// What to do where no server was found: sentences for people.
+/// Message for people if no server was found: what to do.
 inline constexpr const char* kNoServersFound[] = {
     "No server answered in this network.",
     "Start one here: dfserver --game NAME. Join one elsewhere: dfclient HOST[:PORT], or its link."};
 
-/// "3/16", and what else is to be known before joining: "password", "full", "version 5".
+/// placesOf() returns players and places, "3/16". noteOf() returns "version 5" if the server speaks another
+/// protocol version, else "full", "password" or "".
 std::string placesOf(const FoundServer& server);
 std::string noteOf(const FoundServer& server);
 
-/// A line for each, in columns, and a head; a sentence if there is none.
+/// Returns a table with a header and one line per server, or kNoServersFound without servers.
 std::string serversAsText(const std::vector<FoundServer>& servers);
-/// A JSON array of objects (docs/doors.md lists their members), one to a line. ASCII only.
+/// Returns a JSON array of objects (docs/doors.md lists their members), one per line. ASCII only.
 std::string serversAsJson(const std::vector<FoundServer>& servers);
 
 }  // namespace naiad

@@ -23,7 +23,7 @@ LanNonce newNonce() {
   return nonce;
 }
 
-/// One address for each network: machines have many temporary ones in one of IPv6.
+/// True for the first address in each network: machines have many temporary addresses in an IPv6 network.
 bool isFirstOf(const LanNetwork& network, const std::vector<LanNetwork>& networks) {
   const auto first = std::find_if(networks.begin(), networks.end(), [&network](const LanNetwork& other) {
     return other.interface == network.interface && other.prefix == network.prefix &&
@@ -65,7 +65,7 @@ void LanBrowser::update(Time now) {
 
 void LanBrowser::restart() {
   m_servers.clear();
-  m_nonce = newNonce();  // late answers to the earlier one are none of the new list
+  m_nonce = newNonce();  // answers with the old nonce are ignored
   m_sent = 0;
   m_next_query = {};
 }

@@ -1,7 +1,7 @@
-// Looks for the servers of the local network: sends queries, collects answers (LanMessage.h).
+// Finds the servers of the local network: sends queries and collects answers (LanMessage.h).
 //
-// An answer counts if it repeats the nonce of this browser, has come through no router, and its sender is in
-// a network of the interface that it came in by.
+// An answer counts if it repeats this browser's nonce, has passed no router, and comes from a network of the
+// interface on which it arrived.
 #pragma once
 
 #include <chrono>
@@ -13,35 +13,35 @@
 
 namespace naiad {
 
-/// Is this packet from a machine of the same link? `networks`: this machine's. What this machine sends itself
-/// may come by loopback.
+/// True if the packet comes from a machine on this network link. `networks`: those of this machine. Packets
+/// of this machine may come by loopback.
 bool isFromLink(const LanPacket& packet, const std::vector<LanNetwork>& networks);
 
-/// Never blocks. Thread: one at a time.
+/// Never blocks. Use from one thread at a time.
 class LanBrowser {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// A query is sent again so soon after the first one, should that be lost, and then as often as this.
+  /// The first query is repeated after kRepeat, in case it was lost. The interval from then on is kInterval.
   static constexpr std::chrono::milliseconds kRepeat{400};
   static constexpr std::chrono::milliseconds kInterval{3000};
-  /// All servers of a quiet network have answered by then.
+  /// All servers of a quiet network have answered after this time.
   static constexpr std::chrono::milliseconds kPatience{800};
-  /// Answers read in one call; the rest waits for the next.
+  /// Maximum number of answers read from a socket in one call; the rest waits for the next call.
   static constexpr int kTurn = 64;
 
-  /// Opens the sockets. Where there are none, nothing is found.
+  /// Opens the sockets. If none can be opened, no server is found.
   LanBrowser();
 
-  /// Readable when answers wait.
+  /// Returns the sockets' descriptors, which are readable when answers wait.
   std::vector<int> descriptors() const;
-  /// Send a query into each network, if one is due.
+  /// Sends a query into each network, if one is due.
   void update(Time now);
-  /// When update() next has something to do.
+  /// Returns when update() sends the next query.
   Time nextQuery() const { return m_next_query; }
-  /// Forget what was found, and ask again at once.
+  /// Clears the list; the next update() sends a query.
   void restart();
-  /// Read answers. True if the list is another one now.
+  /// Reads answers. Returns true if the list changed.
   bool receiveAnswers();
 
   const FoundServers& servers() const { return m_servers; }
@@ -54,8 +54,8 @@ class LanBrowser {
   std::vector<LanNetwork> m_networks;
   LanNonce m_nonce{};
   FoundServers m_servers;
-  int m_sent = 0;       ///< rounds of queries since the beginning
-  Time m_next_query{};  ///< now, at first
+  int m_sent = 0;       ///< rounds of queries since the start
+  Time m_next_query{};  ///< initially in the past: at once
 };
 
 }  // namespace naiad

@@ -24,7 +24,7 @@ bool isPlain(std::string_view text) {
 using Clock = std::chrono::steady_clock;
 using End = HttpExchange::End;
 
-/// Says why there is no answer, as the end of a sentence.
+/// Returns why there is no answer, as the end of a sentence.
 std::string inWords(const HttpExchange::Result& result) {
   const std::string reason = result.detail.empty() ? "" : " (" + result.detail + ")";
   switch (result.end) {
@@ -53,7 +53,7 @@ bool isRedirect(unsigned status) {
   return status == 301 || status == 302 || status == 303 || status == 307 || status == 308;
 }
 
-/// One request, and the context that runs it.
+/// One request and the io_context that runs it.
 struct Download {
   explicit Download(std::shared_ptr<const TlsContext> context) : tls(std::move(context)) {}
 
@@ -74,7 +74,7 @@ struct Download {
       std::make_shared<HttpExchange>(io, HttpLimits{.body = kMaxListBytes});
 };
 
-/// Destroys it on a thread that may wait: a context waits for the system's resolver, which may take long.
+/// Destroys `download` on another thread: its io_context waits for the system's resolver, perhaps for long.
 void dropLater(std::unique_ptr<Download> download) {
   std::thread([kept = std::move(download)] {}).detach();
 }

@@ -15,31 +15,31 @@ namespace naiad {
 struct ListUrl {
   std::string host;  ///< a name or an address, IPv6 without brackets
   std::uint16_t port = 443;
-  std::string target = "/";  ///< path and query, as the request has them
+  std::string target = "/";  ///< path and query, as in the request
 
-  /// Nothing if it is no such address: another scheme, a user's name, characters beyond printable ASCII, more
-  /// than 2000 of them. What begins with # is left out.
+  /// Parses the address, without the part from '#' on. Nullopt for another scheme, a user name, a character
+  /// that is not printable ASCII, or more than 2000 characters.
   static std::optional<ListUrl> parse(std::string_view text);
-  /// Where a redirect of this list leads: an https address, or a path of the same host. Nothing for all else,
-  /// so that none leads out of encryption.
+  /// Returns the target of a redirect: an https address, or a path on this host. Nullopt for anything
+  /// else, so a redirect cannot turn encryption off.
   std::optional<ListUrl> redirected(std::string_view location) const;
-  /// What stands in the header Host.
+  /// Returns the value of the header Host.
   std::string hostText() const;
 
   friend bool operator==(const ListUrl&, const ListUrl&) = default;
 };
 
-/// Why there is no list: a sentence for people, without anything from the other end in it.
+/// Reason of a failed download: a sentence for people. It contains no text from the other end.
 struct DownloadProblem {
   std::string sentence;
 };
 
 inline constexpr std::size_t kMaxListBytes = std::size_t{1} << 20;
-inline constexpr std::chrono::seconds kListPatience{5};  ///< for all of it, redirects too
+inline constexpr std::chrono::seconds kListPatience{5};  ///< limit on the whole download, with redirects
 inline constexpr int kMaxListRedirects = 3;
 
-/// Waits for the list. The certificate must be good in the eyes of the system's trust store. A redirect is
-/// followed as far as ListUrl::redirected() goes.
+/// Downloads the list; blocks for up to kListPatience. The system's trust store must accept the certificate.
+/// Follows redirects that ListUrl::redirected() allows.
 std::variant<std::string, DownloadProblem> downloadList(const ListUrl& url);
 
 }  // namespace naiad

@@ -82,7 +82,7 @@ void ClientSession::handle(SoundsMessage&& message, Time) {
 }
 
 void ClientSession::handle(const PongMessage& message, Time now) {
-  // Otherwise a server could put off the time-out of the greeting for ever.
+  // Otherwise a server could postpone the greeting's timeout without end.
   if (m_state != State::kPlaying) return reject("a pong before the welcome");
   m_link.acknowledgeReliable(message.received);
   if (const auto sample = m_liveness.endPing(message.token, now)) m_world.noteRoundTrip(*sample);
@@ -138,7 +138,7 @@ void ClientSession::startSecond(std::unique_ptr<ReliableChannel> channel) {
                      [this](std::string_view bytes) { receiveOnSecond(bytes, m_link.now()); });
 }
 
-// It does not count as a sign of life: the death of the first stream must still be noticed.
+// Does not count as received for m_liveness: the death of the first stream must still be noticed.
 void ClientSession::receiveOnSecond(std::string_view bytes, Time now) {
   if (m_state != State::kPlaying) return;
   m_counters.bytes_in += bytes.size() + kFrameHeaderSize;
@@ -182,12 +182,12 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   if (welcome.player != m_welcome.player) takeRoom(welcome);
   m_world.resume(welcome.tick_now);
   m_liveness.noteHeard(now);
-  m_liveness.startStream(now);  // its first ping proves to the server that the new token has arrived
+  m_liveness.startStream(now);  // its first ping tells the server that the new token has arrived
   m_timing.noteAttached(now);
   m_inputs.restartStream();
   if (same_id) {
     m_link.renewDatagrams(m_welcome);
-  } else {  // another process had the session in between
+  } else {  // another client process had the session in between
     m_link.closeDatagrams();
     openDatagrams(now);
   }
@@ -198,7 +198,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   update(now);
 }
 
-// The stream broke before the message that the player has entered another room.
+// Needed if the stream broke before the message that the player has entered another room.
 void ClientSession::takeRoom(const WelcomeMessage& welcome) {
   m_welcome.player = welcome.player;
   m_welcome.room = welcome.room;
@@ -245,17 +245,17 @@ void ClientSession::update(Time now) {
   }
 }
 
-// Drop a stream that is dead or has used up its keys, or keep it alive.
+// Drops a stream that is dead or has used up its keys; otherwise keeps it alive.
 void ClientSession::updateStream(Time now) {
   if (m_liveness.isStreamDead(now, hasDatagrams(now))) {
     m_liveness.forgetPings();
     return closed(CloseReason::kError);  // datagrams survive a change of address, streams do not
   }
-  // Keys are derived from a stream, so new keys need another stream. Datagrams go on meanwhile.
+  // Keys are derived from a stream, so new keys need another stream. Datagrams continue until then.
   if (!m_welcome.resume_token.empty() && m_link.takeNewEpochDue()) return closed(CloseReason::kError);
   if (m_liveness.silence(now) >= kIdleTimeout) {
     if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server fell silent.");
-    return closed(CloseReason::kError);  // the line may be down for a while; the session waits for another
+    return closed(CloseReason::kError);  // the session waits for a new stream
   }
   if (m_liveness.isPingDue(now, hasDatagrams(now))) sendPing(now);
 }
@@ -265,7 +265,7 @@ IdleTimer::Duration ClientSession::pictureWait(Time now) const {
   return waits ? m_picture_wait.at(now) : IdleTimer::Duration::zero();
 }
 
-// Leaves, so that the server does not keep a place for a client that will not come back.
+// Leaves, so that the server does not keep a place for a client that will not return.
 void ClientSession::giveUpPicture() {
   sendLeave();
   finish(State::kLost, "The server let you in, but sent no picture of the game in " +

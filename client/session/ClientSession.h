@@ -1,11 +1,11 @@
-// One session with a server, as the client sees it: the protocol's state machine (proto/STATES.md).
+// Client side of a session with a server: the protocol's state machine (proto/STATES.md).
 //
 //   kGreeting --Welcome--> kPlaying --Goodbye--> kEnded
 //       |                     +--channel closed, 15 s of silence--> kLost
 //       +--Refused--> kRefused          (a bad message ends any state in kEnded; leave() in kLeft)
 //
-// The session uses neither sockets nor a clock: its owner passes it each frame and the time (Connection
-// for the programs; tests do it by hand). Everything received passes readServerMessage() first.
+// The session uses neither sockets nor a clock: its owner passes each frame and the time to it (Connection
+// in the programs; the tests themselves). Everything received passes readServerMessage() first.
 // Not thread-safe. Memory is bounded whatever the server sends.
 #pragma once
 
@@ -37,121 +37,121 @@ class ClientSession {
   enum class State { kGreeting, kPlaying, kRefused, kEnded, kLost, kLeft };
 
   static constexpr std::chrono::seconds kGreetingTimeout{5};
-  /// Silence after which the stream is given up, and the session, too, if it cannot be resumed.
+  /// Silence after which the stream is closed, and the session ended if it cannot be resumed.
   static constexpr std::chrono::seconds kIdleTimeout{15};
-  /// Silence after which a session without a stream is given up.
+  /// Silence after which a session without a stream ends.
   static constexpr std::chrono::seconds kDetachedTimeout{60};
-  /// A welcome is followed by a picture within this time, or the session is given up. A world in a process of
-  /// its own may take 30 s to begin.
+  /// The session ends if no picture follows the welcome within this time. A world in a process of its own may
+  /// take 30 s to start.
   static constexpr std::chrono::seconds kPictureTimeout{45};
 
-  /// Takes the connected channel and says hello. The owner starts the channel and passes what it delivers
-  /// to receive() and closed().
+  /// Takes the connected channel and sends the hello. The owner starts the channel and passes its events to
+  /// receive() and closed().
   ClientSession(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options, Time now);
   ClientSession(const ClientSession&) = delete;
   ClientSession& operator=(const ClientSession&) = delete;
 
   // The stream.
-  /// A frame from the server.
+  /// Handles a frame from the server.
   void receive(std::string_view frame, Time now);
-  /// The channel has ended by itself.
+  /// Call when the channel has ended by itself.
   void closed(CloseReason reason);
   bool owns(const ReliableChannel* channel) const { return m_link.ownsStream(channel); }
-  /// Without a stream, and waiting for another one: adopt().
+  /// True if the session has no stream and waits for another one: adopt().
   bool isDetached() const { return m_state == State::kPlaying && !m_link.hasStream(); }
   /// Number of the newest reliable frame received, for the hello that resumes the session.
   std::uint32_t receivedFrames() const { return m_inbox.newestFrame(); }
-  /// The server said that an earlier session goes on here.
+  /// True if the server has resumed an earlier session on this stream.
   bool isResumed() const { return m_state == State::kPlaying && m_welcome.resumed; }
-  /// Continue with the stream on which `other` was welcomed back (welcome().resumed).
+  /// Continues with the stream of `other`, on which the server resumed this session (welcome().resumed).
   void adopt(ClientSession& other, Time now);
-  /// Datagrams do not pass, and it is time to open a second stream: startSecond(). True once for each
-  /// attempt.
+  /// True, once for each attempt, if datagrams do not pass and it is time to open a second stream for
+  /// startSecond().
   bool wantsSecond(Time now);
   void startSecond(std::unique_ptr<ReliableChannel> channel);
   bool hasSecondStream() const { return m_link.hasSecondStream(); }
-  /// Do datagrams come from the server?
+  /// True if datagrams arrive from the server.
   bool hasDatagrams(Time now) const { return m_link.hasDatagrams() && m_timing.hasDatagrams(now); }
-  /// Did the server send anything lately, on any path?
+  /// True if the server has sent anything in the last UpdateTiming::kPassing, on any path.
   bool isHeard(Time now) const {
     return m_state == State::kPlaying && m_liveness.silence(now) < UpdateTiming::kPassing;
   }
 
-  /// Pings and time-outs. Call about ten times a second: time between rarer calls does not count as silence
-  /// of the server (IdleTimer).
+  /// Handles pings and timeouts. Call about ten times a second: longer pauses between calls do not count as
+  /// silence of the server (IdleTimer).
   void update(Time now);
-  /// When update() has something to do before its usual time; nothing if it has not.
+  /// Returns when update() should be called earlier than usual; nullopt if it need not.
   std::optional<Time> nextWake() const { return isOver() ? std::nullopt : m_timing.nextWake(); }
 
-  // What the player does.
-  /// Send a key or mouse action of the player immediately. False if it was not sent: not playing, or too
-  /// many.
+  // Actions of the player.
+  /// Sends a key or mouse action of the player immediately. Returns false if it was not sent: the session is
+  /// not playing, or there are too many inputs.
   bool sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now);
   /// `x`, `y`: cell of the view.
   bool sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now);
-  /// Send a line of chat to all players; nothing if no drawable character is left of it. Without a stream it
-  /// waits for the next one.
+  /// Sends a line of chat to all players, unless it has no drawable character. Without a stream it waits for
+  /// the next one.
   void sendChat(const std::string& text);
   void sendResize(int columns, int rows);
-  /// Ask for the list of rooms, every kRoomsEvery. Call while it is shown.
+  /// Requests the list of rooms every kRoomsEvery. Call while the list is shown.
   void refreshRooms(Time now);
   static constexpr std::chrono::seconds kRoomsEvery{2};
-  /// Ask to go on in that room; nothing if it is no name of one.
+  /// Asks the server to move the player to that room. Ignores invalid names.
   void enterRoom(const std::string& room);
-  /// Leave on purpose: send a leave message, and close the channel after what is queued.
+  /// Leaves on purpose: sends a leave message, and closes the channel after everything queued is sent.
   void leave();
 
-  // How the session stands.
+  // Status of the session.
   State state() const { return m_state; }
-  /// Once refused: why, and where else to go. Its link is as a stranger wrote it.
+  /// After a refusal: the reason, and perhaps a link to another server. The link is unchecked.
   const RefusedMessage& refusal() const { return m_refusal; }
-  /// A session that was lost: the server has said that it is back within this time; 0: it has not.
+  /// After a loss: the server has announced to be back within this time; 0: it has announced nothing.
   std::chrono::seconds returnsIn() const { return m_returns_in; }
-  /// Neither waiting for the server nor playing any more.
+  /// True if the session neither waits for the server nor plays any more.
   bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
-  /// Why the session is over, for people. Empty while it is not, or after leave().
+  /// Returns why the session is over, for people. Empty before its end and after leave().
   const std::string& sentence() const { return m_sentence; }
   const WelcomeMessage& welcome() const { return m_welcome; }
   const SessionCounters& counters() const { return m_counters; }
   /// Smoothed round trip; zero before the first measurement.
   std::chrono::milliseconds roundTrip() const { return m_liveness.roundTrip(); }
-  /// Counts up with every change that can be seen on a screen.
+  /// Increases with every change that may be visible on a screen.
   std::uint64_t revision() const { return m_revision; }
 
-  // What the server says.
+  // Data from the server.
   const std::vector<PlayerLine>& players() const { return m_inbox.players(); }
   const std::deque<ChatEntry>& chat() const { return m_inbox.chat(); }
-  /// As of the last refreshRooms(); empty: not known, or the server has none.
+  /// Newest answer to refreshRooms(); empty if there was none, or the server has no rooms.
   const std::vector<RoomLine>& rooms() const { return m_rooms; }
-  /// Sounds since the last call, oldest first; the newest ReliableInbox::kMaxSounds of them.
+  /// Returns the sounds since the last call, oldest first, at most the newest ReliableInbox::kMaxSounds.
   std::vector<SoundLine> takeSounds() { return m_inbox.fetchSounds(); }
-  /// Points of this player, from the newest player list.
+  /// Returns the points of this player in the newest player list.
   std::int32_t score() const { return m_inbox.scoreOf(m_welcome.player); }
 
   // The world.
-  /// There is a picture to show: all of the world has come, or as much as came in half a second.
+  /// True if there is a picture to show: the whole world, or what has arrived of it in half a second.
   bool hasPicture(Time now) const { return m_world.feed().hasPicture(now); }
-  /// How long the welcome has not been followed by a picture; zero once it was.
+  /// Returns how long the session has waited for a picture since the welcome; zero if there is one.
   IdleTimer::Duration pictureWait(Time now) const;
   const Replica& replica() const { return m_world.replica(); }
   const DisplayClock& clock() const { return m_world.clock(); }
-  /// The tick to draw now.
+  /// Returns the tick to draw now.
   std::uint32_t displayTick(Time now) { return m_world.clock().displayTick(now); }
   bool isSilent(Time now) const { return m_state == State::kPlaying && m_world.clock().isSilent(now); }
-  /// Where the player's own object is by now, if the game declared how keys move it. Call before drawing.
+  /// Predicts the player's own object, if the game declared how keys move it. Call before drawing.
   const Prediction& predict(Time now) { return m_world.predict(now); }
-  /// The tick that predict() runs to: the server applies a key pressed now in it, so that the key shows in
-  /// the next frame.
+  /// Returns the tick that predict() runs to. The server will apply a key pressed now in that tick, so the
+  /// key shows in the next frame.
   std::uint32_t predictedTick(Time now) const { return m_world.predictedTick(now); }
   bool isPredicting() const { return m_world.isPredicting(); }
   const InputTickEstimator& inputTickEstimator() const { return m_world.inputTicks(); }
 
-  /// Called before a snapshot of `tick` is applied: the replica is still as it was. For recorders.
+  /// Sets a function to be called before a snapshot of `tick` changes the replica. For recorders.
   void onBeforeSnapshot(std::function<void(std::uint32_t tick)> observer) {
     m_before_observer = std::move(observer);
   }
-  /// Called after a snapshot was applied, with its header and what has arrived by now. For checks that
-  /// compare the picture with the server's.
+  /// Sets a function to be called after a snapshot was applied, with its header and the snapshots received so
+  /// far. For checks that compare the picture with the server's.
   void onAfterSnapshot(std::function<void(const SnapshotHeader& header, const AckWindow& acks)> observer) {
     m_after_observer = std::move(observer);
   }
@@ -186,7 +186,7 @@ class ClientSession {
   SessionCounters m_counters;
   ServerLink m_link;
   StreamLiveness m_liveness;
-  IdleTimer m_picture_wait;  ///< since the welcome
+  IdleTimer m_picture_wait;  ///< time since the welcome
   UpdateTiming m_timing;
   ReceivedWorld m_world;
   ReliableInbox m_inbox{m_counters};

@@ -1,4 +1,4 @@
-// What a session sends.
+// The messages that a session sends.
 #include "client/session/ClientSession.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
@@ -71,13 +71,13 @@ void ClientSession::sendProbe(Time now) {
   m_link.sendDatagram(nextUpdate(false, now), ping);
 }
 
-// Datagrams may pass in one direction only: while the server sends on the stream, updates go there, too.
+// Datagrams may pass in one direction only, so updates also use the stream while the server sends on it.
 void ClientSession::sendUpdate(Time now) {
   if (hasDatagrams(now)) {
     sendProbe(now);
     if (!m_timing.isUndecided(now)) return;
   }
-  if (!m_link.hasStream()) return m_timing.noteUpdateSent();  // none can be: the next snapshot asks again
+  if (!m_link.hasStream()) return m_timing.noteUpdateSent();  // no path: wait for the next snapshot
   m_link.sendUpdate(nextUpdate(!m_link.hasSecondStream(), now));
 }
 

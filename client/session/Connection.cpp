@@ -26,7 +26,7 @@ void Connection::attempt() {
   });
 }
 
-// A failure is harmless: the attempt is repeated later. The session's token is sent to its own server only.
+// A failure is harmless: the attempt is repeated later. The token is sent only to the server that gave it.
 void Connection::openSecond() {
   m_opener->openSecond([this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
     if (!channel || !m_session || m_opener->secondKey() != m_token_key) return;
@@ -39,13 +39,13 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
   const ReliableChannel* p_channel = channel.get();
   m_key = m_opener->key();
   SessionOptions options = m_options;
-  // Another server has other rooms.
+  // Another server has other rooms, so the room is kept only for this one.
   if (m_session && m_address == m_joined && !m_session->welcome().room.empty())
     options.room = m_session->welcome().room;
   chooseToken(options);
   m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
   if (m_observer) m_observer(*m_pending);
-  // A stream may pass to another session: each frame is for its present owner.
+  // A stream may be adopted by another session: each frame goes to its present owner.
   const auto owner = [this, p_channel]() -> ClientSession* {
     if (m_pending && m_pending->owns(p_channel)) return m_pending.get();
     return m_session && m_session->owns(p_channel) ? m_session.get() : nullptr;
@@ -55,7 +55,7 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
                    if (session == nullptr) return;
                    session->receive(frame, Clock::now());
                    saveToken(*session);
-                   // The next frames of a stream that resumes are for the session that goes on.
+                   // A resumed session must adopt the stream before the next frame.
                    if (session == m_pending.get() && session->isResumed()) checkPending();
                  },
                  [owner](CloseReason reason) {
@@ -63,8 +63,8 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
                  }});
 }
 
-// A token is sent only to the server that gave it. A session that was given up here may go on there: a server
-// that executes a long round again, for example, gives its players time from when it has done so.
+// A token is sent only to the server that gave it. A session that ended here may still exist there: a server
+// that replays a long round, for example, starts the players' grace time after the replay.
 void Connection::chooseToken(SessionOptions& options) const {
   if (m_session && m_session->isDetached()) {
     if (m_token_key != m_key) return;
@@ -107,13 +107,13 @@ void Connection::attemptFailed(const std::string& sentence) {
   retryLater(now);
 }
 
-/// The server to which the client was sent is not there. The one that sent it may know another.
+/// True if a lost redirect target did not answer for m_ask_again_after: the original server may know another.
 bool Connection::isTimeToAskFirst(Time now) const {
   return m_redirected && now - m_lost_at >= m_ask_again_after && now >= m_ask_first_at;
 }
 
-/// The last attempt was ended in its handshake, and not too many before it. The same for one to a server to
-/// which the client was sent: it was there a moment ago.
+/// True if a failed join should be retried: the server dropped the handshake, or it is a redirect target,
+/// which was there a moment ago. Only for a limited time after the first such failure.
 bool Connection::isHungUpOn(Time now) {
   const bool was_there = m_redirected && !m_has_asked;
   if (!m_opener->wasHungUpOn() && !was_there) return false;
@@ -207,13 +207,12 @@ void Connection::checkRefusal(const ClientSession& refused) {
   if (m_asks_first && m_state == State::kSearching) return attemptFailed(refused.sentence());
   if (why.for_now) return waitForServer(refused.sentence());
   if (why.full && askFirstAgain()) return;
-  // The player is asked for a password of the server that they have named, and of no other.
+  // The player is asked for the password only of the server that they named.
   m_password_refused = why.password && !m_redirected;
   finish(State::kRefused, refused.sentence());
 }
 
-// Who sends the client there may lie. So the other server gets its name, and nothing that was meant for this
-// one.
+// A redirect may be malicious: the target gets the player's name, but no password or token.
 bool Connection::followRedirect(const std::string& link, const std::string& room) {
   if (m_state != State::kJoining && !m_asks_first) return false;
   StreamOpener::Next next = m_opener->follow(link);
@@ -228,7 +227,7 @@ bool Connection::followRedirect(const std::string& link, const std::string& room
   m_options.password.clear();
   m_options.resume_token.clear();
   m_options.fresh = false;
-  m_options.room = room;  // there, rooms have other names
+  m_options.room = room;  // the target has rooms of its own
   m_p_tokens = nullptr;
   m_key.reset();
   m_put_off = m_busy = false;
@@ -239,8 +238,8 @@ bool Connection::followRedirect(const std::string& link, const std::string& room
   return true;
 }
 
-// The server to which the client was sent has no place, or is not there: the one that sent it may know
-// another. That is another join, so that it may be sent on again: once, for that one may lie.
+// Tries the original server again when the redirect target is full or unreachable: it may know another one.
+// Only once until the client has joined: the original server may be malicious.
 bool Connection::askFirstAgain() {
   if (!m_redirected || std::exchange(m_has_asked, true)) return false;
   swapServers();
@@ -263,11 +262,11 @@ void Connection::swapServers() {
   m_key.reset();
 }
 
-// The server is busy, or this client has come back too often: the next attempt may do.
+// Retries later: the server is busy, or this client has reconnected too often.
 void Connection::waitForServer(const std::string& sentence) {
   const Time now = Clock::now();
   if (m_state == State::kJoining && !std::exchange(m_busy, true)) m_lost_at = now;
-  if (m_state == State::kSearching) m_lost_at = now;  // it is there, and needs time
+  if (m_state == State::kSearching) m_lost_at = now;  // it answers, so the time limit restarts
   m_put_off = true;
   m_sentence = sentence;
   ++m_revision;
@@ -293,7 +292,7 @@ bool Connection::isOver() const {
 }
 
 void Connection::finish(State state, const std::string& sentence) {
-  // A session that was lost, or whose server was refused, may still exist on the server.
+  // Keep the token otherwise: a lost session, or one of a server that refused, may still exist there.
   const bool ended = state == State::kEnded || state == State::kLeft;
   if (m_p_tokens != nullptr && ended) m_p_tokens->remove();
   m_opener->cancel();

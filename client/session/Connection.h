@@ -1,26 +1,25 @@
-// Joins a server and stays joined: connects, makes a ClientSession, and joins again when it was lost.
+// Joins a server and stays joined: connects, makes a ClientSession, and rejoins when that is lost.
 //
 //   kJoining --picture--> kJoined --lost--> kSearching --picture--> kJoined
-//   kJoining --no answer; hung up on for 4 s--> kUnreachable
-//   kJoining --Refused (BUSY)--> kJoining --60 s of that--> kRefused
-//   kJoining --Refused, and sent to another server--> kJoining, there (StreamOpener::follow(): once)
-//   kJoining, there --Refused (FULL), no answer for 4 s--> kJoining, at the first one again: once
-//   kSearching, there --no answer for 10 s--> kSearching, at both in turn; the first one may send it on
+//   kJoining --no answer; handshakes dropped for 4 s--> kUnreachable
+//   kJoining --Refused (BUSY)--> kJoining --60 s of such refusals--> kRefused
+//   kJoining --Refused with a redirect--> kJoining the redirect target (StreamOpener::follow()), once
+//   kJoining the target --Refused (FULL), no answer for 4 s--> kJoining the original server, once
+//   kSearching the target --no answer for 10 s--> kSearching, both in turn; the original may redirect again
 //   any --Refused--> kRefused
 //   any --Goodbye--> kEnded
 //   kJoined --Goodbye of a server that restarts--> kSearching
-//   kSearching --60 s without success, or as long as a server that restarts has asked for--> kLost; a server
-//     that says that it is busy is there, so the time begins again
+//   kSearching --60 s without success, or longer if a restarting server announced it--> kLost; a BUSY server
+//     restarts this time limit
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
-// banner. A session that outlives its stream (ClientSession::isDetached) goes on meanwhile: another
-// stream is opened, and if the server still knows the session, the player notices nothing. The waiting time
-// between attempts doubles from 0.25 s to 2 s. A server that refuses only for now is asked again in the same
-// way. After any other refusal it does not try again.
+// banner. A session that outlives its stream (ClientSession::isDetached) continues: another stream is opened,
+// and if the server still knows the session, the player notices nothing. The pause between attempts doubles
+// from 0.25 s to 2 s, also after BUSY refusals. Any other refusal is final.
 //
-// It opens no streams itself: a StreamOpener does, by TCP in the terminal, by WebSocket in a browser.
+// A StreamOpener opens the streams: by TCP in the terminal, by WebSocket in a browser.
 //
-// Thread: the one that calls the opener's callbacks.
+// Use from the thread that calls the opener's callbacks.
 #pragma once
 
 #include <asio/ts/netfwd.hpp>
@@ -45,59 +44,59 @@ class Connection {
   static constexpr std::chrono::milliseconds kFirstBackoff{250};
   static constexpr std::chrono::milliseconds kLastBackoff{2000};
   static constexpr std::chrono::seconds kGiveUp{60};
-  /// A server hangs up on handshakes when too many come from one address: a newcomer tries for so long.
+  /// Retry time of a joining client whose handshakes the server drops (too many from its address).
   static constexpr std::chrono::seconds kHungUpPatience{4};
-  /// A server to which the client was sent, and which it has lost, is looked for so long before the one that
-  /// sent it there is asked for another, too: longer than a server takes that begins again with its round.
+  /// Retry time of a lost redirect target before the original server is also asked for another one:
+  /// longer than a server needs to restart with its round.
   static constexpr std::chrono::milliseconds kAskAgainAfter{10'000};
 
-  /// `rejoin`: look for a lost server again. `address`: for people. Nothing happens before start().
+  /// `rejoin`: search for a server that was lost. `address`: for messages. Nothing happens before start().
   Connection(std::unique_ptr<StreamOpener> opener, ServerAddress address, SessionOptions options,
              bool rejoin);
-  /// By TCP (TcpStreamOpener.h), with datagrams where these pass, or through a gateway (GatewayStreams.h).
-  /// The context must outlive the Connection.
+  /// Connects by TCP (TcpStreamOpener.h), with datagrams where these pass, or through a gateway
+  /// (GatewayStreams.h). The context must outlive the Connection.
   Connection(asio::io_context& context, const ServerAddress& address, const SessionOptions& options,
              bool rejoin, const ServerTrust& trust = {});
 
-  /// Keep the session's token there, which must outlive the Connection, and go on with the session that is in
-  /// it. Before start().
+  /// Saves the session's token in `tokens`, which must outlive the Connection, and resumes the session saved
+  /// there. Call before start().
   void keepIn(TokenStore& tokens) { m_p_tokens = &tokens; }
-  /// Instead of kAskAgainAfter, and of kHungUpPatience there. Before start().
+  /// Replaces kAskAgainAfter, and for redirect targets kHungUpPatience if `time` is shorter. Before start().
   void askAgainAfter(std::chrono::milliseconds time) { m_ask_again_after = time; }
   void start();
-  /// Time-outs, pings, the next attempt. Call about ten times a second, and after every event.
+  /// Handles timeouts, pings and the next attempt. Call about ten times a second, and after every event.
   void update(Time now);
-  /// Leave on purpose. Run the event loop for a moment so that the message is sent.
+  /// Leaves on purpose. Run the event loop for a moment so that the message is sent.
   void leave();
-  /// Send the terminal's size, now and when joining again.
+  /// Sends the terminal's size, now and when rejoining.
   void resize(int columns, int rows);
-  /// Called for each session as it is made, before it receives anything. For recorders.
+  /// Sets a function to be called for each new session, before it receives anything. For recorders.
   void onSession(std::function<void(ClientSession&)> observer) { m_observer = std::move(observer); }
 
   State state() const { return m_state; }
-  /// Nothing will happen any more.
+  /// True in the final states.
   bool isOver() const;
-  /// Why, for people: set in all states that are over but kLeft; while searching, why the server was lost;
-  /// while isPutOff(), what the server says.
+  /// Reason for the state, for people: set in all final states but kLeft; while searching, why the server was
+  /// lost; while isPutOff(), the server's message.
   const std::string& sentence() const { return m_sentence; }
-  /// The server has refused the last attempt for now. The next one comes by itself.
+  /// True after a BUSY refusal; a retry is scheduled.
   bool isPutOff() const { return m_put_off; }
-  /// Refused, for the server's password was missing or wrong.
+  /// True if the server refused because its password was missing or wrong.
   bool isPasswordRefused() const { return m_password_refused; }
-  /// The server's key, as of the newest stream; nothing without TLS.
+  /// The key of the server on the newest stream; nullopt without TLS.
   const std::optional<Fingerprint>& key() const { return m_key; }
   /// The session to show; null before the first picture.
   ClientSession* session() { return m_session.get(); }
-  /// How long a server that let the client in has not sent a first picture; zero while there is no such one.
+  /// Returns how long the client has waited for a first picture since the welcome; zero if it does not wait.
   Clock::duration pictureWait(Time now) const {
     return m_pending ? m_pending->pictureWait(now) : Clock::duration::zero();
   }
-  /// The state can change, or a new session can replace session(), only in update() and in the opener's
-  /// callbacks; this counts both.
+  /// Counts changes of the state and of session(). They change only in update() and in the opener's
+  /// callbacks.
   std::uint64_t revision() const { return m_revision; }
-  /// Of the server: where the first one has sent the client, from then on.
+  /// Address of the server; after a redirect, of its target.
   const ServerAddress& address() const { return m_address; }
-  /// It was sent there by the server that was asked for.
+  /// True if address() is the target of a redirect.
   bool isRedirected() const { return m_redirected; }
 
  private:
@@ -110,7 +109,7 @@ class Connection {
   bool isHungUpOn(Time now);
   void retryLater(Time now);
   void tryLater(Time now);
-  /// The session was lost: look for its server.
+  /// Starts to search for the server of a lost session.
   void search(const std::string& why, std::chrono::seconds give_up, Time now, Time first_attempt);
   void noteJoined();
   void checkPending();
@@ -127,10 +126,10 @@ class Connection {
   SessionOptions m_options;
   bool m_rejoin;
   TokenStore* m_p_tokens = nullptr;
-  std::optional<Fingerprint> m_key;        ///< of the server on the newest stream
-  std::optional<Fingerprint> m_token_key;  ///< of the server that gave m_token
-  std::string m_token;                     ///< newest of the session
-  bool m_resized = false;                  ///< since the pending session said how large the terminal is
+  std::optional<Fingerprint> m_key;        ///< the server's key on the newest stream
+  std::optional<Fingerprint> m_token_key;  ///< key of the server that gave m_token
+  std::string m_token;                     ///< newest token of the session
+  bool m_resized = false;                  ///< after the pending session sent the terminal's size
   State m_state = State::kJoining;
   std::string m_sentence;
   std::unique_ptr<ClientSession> m_session;  ///< shown
@@ -138,27 +137,26 @@ class Connection {
   std::function<void(ClientSession&)> m_observer;
   std::chrono::milliseconds m_backoff{kFirstBackoff};
   Time m_next_attempt = Time::max();
-  Time m_hung_up_at = Time::max();  ///< while joining, when the server first hung up on a handshake
-  Time m_lost_at{};                 ///< while searching; while joining, when the server first refused for now
-  bool m_busy = false;              ///< while joining: it has refused for now
+  Time m_hung_up_at = Time::max();  ///< while joining: first dropped handshake
+  Time m_lost_at{};                 ///< start of the time limit: loss, or first BUSY refusal
+  bool m_busy = false;              ///< while joining: the server has refused with BUSY
   std::chrono::seconds m_give_up{kGiveUp};
   bool m_put_off = false;
   bool m_password_refused = false;
   bool m_redirected = false;
-  /// Of the server that sent the client on: what it is joined with; while that one is asked again, the same
-  /// of the server to which the client was sent. Null: it was sent nowhere.
+  /// Data for joining the other server: the original one, or, while that is asked, the redirect target.
   struct Place {
     std::unique_ptr<StreamOpener> opener;
     ServerAddress address;
     std::string password;
     std::string room;
   };
-  std::unique_ptr<Place> m_other;
-  ServerAddress m_joined;     ///< where session() plays
-  bool m_asks_first = false;  ///< the first server is asked again
-  bool m_has_asked = false;   ///< … since the last picture
+  std::unique_ptr<Place> m_other;  ///< null without a redirect
+  ServerAddress m_joined;          ///< server of session()
+  bool m_asks_first = false;       ///< the original server is being asked
+  bool m_has_asked = false;        ///< it was asked again since the last join
   std::chrono::milliseconds m_ask_again_after{kAskAgainAfter};
-  Time m_ask_first_at{};  ///< while searching: not before
+  Time m_ask_first_at{};  ///< while searching: earliest time for that
   std::uint64_t m_revision = 0;
 };
 

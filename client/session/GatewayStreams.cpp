@@ -15,13 +15,13 @@ namespace {
 
 using End = HttpExchange::End;
 
-/// One for all connections of a thread: with it the system's trust store is read.
+/// Returns the context of all connections of a thread: making one reads the system's trust store.
 const std::shared_ptr<const TlsContext>& webContext() {
   thread_local const std::shared_ptr<const TlsContext> made = TlsContext::forWebClient();
   return made;
 }
 
-/// Says why no WebSocket was opened, for people.
+/// Returns why no WebSocket was opened, for people.
 std::string sentence(const HttpExchange::Result& result) {
   const std::string reason = result.detail.empty() ? "." : " (" + result.detail + ").";
   switch (result.end) {

@@ -16,11 +16,11 @@ namespace naiad {
 
 class HttpExchange;
 
-/// The certificate of a gateway with https must be good in the eyes of the system's trust store; without
-/// https only addresses of this machine are connected to. A channel ends with CloseReason::kPeer if the
-/// gateway closed it with the code 1000, as it does when the server ended the stream in order.
+/// With https, the system's trust store must accept the gateway's certificate. Without it, the gateway must
+/// be on this machine. A channel ends with CloseReason::kPeer if the gateway closed it with code 1000, as it
+/// does when the server ended the stream in order.
 ///
-/// Thread: the one that runs `context`, which must outlive it, and the channels that it made.
+/// Use from the thread that runs `context`, which must outlive this and the channels that it made.
 class GatewayStreams : public StreamOpener {
  public:
   /// Time limit for name look-up, connection, TLS and the WebSocket's handshake together.
@@ -32,7 +32,7 @@ class GatewayStreams : public StreamOpener {
   void open(Done done) override { begin(m_first, std::move(done)); }
   void openSecond(Done done) override { begin(m_second, std::move(done)); }
   void cancel() override;
-  /// The gateway stands for its server, as in a page; the system's trust store judges it.
+  /// A constant: the gateway, verified by the system's trust store, is trusted in the server's place.
   std::optional<Fingerprint> key() const override { return keyBehindGateway(); }
   std::optional<Fingerprint> secondKey() const override { return key(); }
   std::string whyUntrusted() const override { return {}; }

@@ -1,8 +1,8 @@
-// Inputs of the player that the game has not applied yet: numbered, and sent until a snapshot acknowledges
-// them.
+// Numbered inputs of the player that the game has not applied yet. They are sent until a snapshot
+// acknowledges them.
 //
-// A server applies 16 inputs a tick, queues 64 and ends the session of a client that sends more. A mouse at
-// 1000 reports a second or a text pasted into the game must not end it, so the outbox stays below these.
+// A server applies 16 inputs a tick, queues 64 and ends the session of a client that sends more. A mouse with
+// 1000 reports a second, or text pasted into the game, must not cause that; the outbox limits the inputs.
 #pragma once
 
 #include <chrono>
@@ -19,31 +19,31 @@ namespace naiad {
 
 class InputOutbox {
  public:
-  /// Waiting inputs, at most; beyond it only key releases are admitted. Below the 64 that a server lets wait,
-  /// so that a player who holds a key through a stall does not count as a flood, and below kMaxUpdateInputs.
+  /// Limit on waiting inputs; beyond it only key releases are admitted. It is less than the 64 that a server
+  /// queues, so that a key held during a stall does not count as a flood, and less than kMaxUpdateInputs.
   static constexpr std::size_t kMax = 40;
-  /// Inputs that may be sent in a burst, and per tick in the long run.
+  /// Rate limit: inputs in a burst, and inputs per tick in the long run.
   static constexpr double kBurst = 32;
   static constexpr double kPerTick = 12;
 
-  /// The server has received inputs up to `id`, and its ticks have this length.
+  /// Call after the welcome. `id`: newest input that the server has received. `tick`: length of a tick.
   void start(std::uint32_t id, std::chrono::microseconds tick);
-  /// `urgent`: a key release.
+  /// True if no further input may wait. `urgent`: for a key release.
   bool isFull(bool urgent) const { return m_inputs.size() >= (urgent ? kMaxUpdateInputs : kMax); }
-  /// May one more input be sent? Takes a token of the rate limit if so. An urgent one needs only room: a key
-  /// whose release is lost would stay down.
+  /// Returns true if one more input may be sent, and counts it against the rate limit. Urgent inputs are
+  /// limited only by isFull(): a key whose release is lost would stay down.
   bool admitInput(bool urgent, TokenBucket::Time now);
-  /// Give it the next id, and keep it.
+  /// Stores the input with the next id.
   const Input& add(Input input);
-  /// The game has applied all up to `id`. The input with just that id, if it was still here.
+  /// Removes the inputs that the game has applied, those up to `id`. Returns the one with `id`, if stored.
   std::optional<Input> removeUpTo(std::uint32_t id);
 
   bool isEmpty() const { return m_inputs.empty(); }
-  /// For a datagram, which may be lost: all.
+  /// Returns all inputs that the game has not confirmed: for a datagram, which may be lost.
   std::vector<Input> all() const { return {m_inputs.begin(), m_inputs.end()}; }
-  /// For the stream, which loses nothing: those that have not been sent there yet.
+  /// Returns the inputs that the stream, which loses nothing, has not carried yet.
   std::vector<Input> takeForStream();
-  /// Another stream: nothing has been sent there.
+  /// Call for a new stream, which has carried no inputs.
   void restartStream() { m_on_stream = 0; }
 
  private:
@@ -51,7 +51,7 @@ class InputOutbox {
   TokenBucket m_bucket;
   std::deque<Input> m_inputs;
   std::uint32_t m_next = 1;
-  std::size_t m_on_stream = 0;  ///< of m_inputs, the first so many went on the stream
+  std::size_t m_on_stream = 0;  ///< number of m_inputs that the stream has carried
 };
 
 }  // namespace naiad

@@ -1,5 +1,4 @@
-// Connections of programs, which open streams themselves: by TCP, or through a gateway. A page has none of
-// this.
+// The constructor of a Connection that opens its streams by TCP or through a gateway. Not built for browsers.
 #include <asio/io_context.hpp>
 
 #include "client/session/Connection.h"
@@ -21,7 +20,7 @@ SessionOptions withDatagrams(asio::io_context& context, const SessionOptions& gi
     try {
       return std::make_unique<UdpSocket>(context, udp);
     } catch (const ListenError&) {
-      return nullptr;  // the stream is enough
+      return nullptr;  // play without datagrams
     }
   };
   return options;

@@ -14,7 +14,7 @@ ReceivedWorld::Result ReceivedWorld::applySnapshot(std::string_view bytes, Time 
   if (result != Result::kApplied && result != Result::kShown) return result;
   if (result == Result::kShown) m_table_known = m_control_known = 0;
   m_acks.addReceived(m_header.number);
-  const bool of_this_world = !m_moving;  // or their ticks may be those of another
+  const bool of_this_world = !m_moving;  // otherwise the ticks may be those of another world
   noteClock(result, now);
   if (m_header.has_input) {
     const auto input = inputs.removeUpTo(m_header.input);
@@ -29,7 +29,7 @@ void ReceivedWorld::enter(std::uint8_t epoch, std::uint32_t tick_now, Time now) 
   m_moving = m_feed.isChanging();
 }
 
-// Until the other world is shown, its ticks say nothing of the picture.
+// Ticks of another world do not concern the picture until that world is shown.
 void ReceivedWorld::noteClock(Result result, Time now) {
   if (m_moving && m_feed.isChanging()) return;
   if (m_moving && result == Result::kShown) {

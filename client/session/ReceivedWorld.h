@@ -1,4 +1,4 @@
-// The world as the snapshots describe it, what they acknowledge, and the player's own object ahead of them.
+// The world that the snapshots describe, the acknowledgements, and the prediction of the player's own object.
 #pragma once
 
 #include <chrono>
@@ -24,25 +24,25 @@ class ReceivedWorld {
 
   static constexpr std::chrono::seconds kChecksumEvery{1};
 
-  /// The welcome came; snapshots count on from `from`.
+  /// Call after the welcome. Snapshot numbers continue from `from`.
   void start(const WelcomeMessage& welcome, const Continuation& from);
-  /// The session was resumed in tick `tick_now`: this process may have stood still since the last snapshot.
+  /// Call when the session was resumed in tick `tick_now`: the last snapshot may be much older.
   void resume(std::uint32_t tick_now) { m_feed.noteTick(tick_now); }
 
-  /// The player goes to another world, whose snapshots have this epoch; its tick is about `tick_now`.
+  /// Call when the player moves to another world. Its snapshots have this epoch; its tick is near `tick_now`.
   void enter(std::uint8_t epoch, std::uint32_t tick_now, Time now);
-  /// Read and apply a snapshot; `before` is called just before. Its inputs leave `inputs`.
+  /// Reads and applies a snapshot; `before` is called just before. Removes acknowledged inputs from `inputs`.
   Result applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
                        const std::function<void(std::uint32_t tick)>& before);
-  /// Of the snapshot that was applied last.
+  /// Header of the snapshot that was applied last.
   const SnapshotHeader& header() const { return m_header; }
-  /// Is the snapshot before the newest one missing?
+  /// True if the snapshot before the newest one is missing.
   bool hasGap() const { return (m_acks.mask & 1) == 0; }
 
   const WorldFeed& feed() const { return m_feed; }
   const Replica& replica() const { return m_feed.shown(); }
   const AckWindow& acks() const { return m_acks; }
-  /// The checksum to report now, if one is due.
+  /// Returns the replica's checksum for the server, if one is due.
   std::optional<std::uint64_t> takeChecksum(Time now);
 
   DisplayClock& clock() { return m_clock; }
@@ -50,9 +50,9 @@ class ReceivedWorld {
   void noteRoundTrip(InputTickEstimator::Millis sample);
   const InputTickEstimator& inputTicks() const { return m_input_ticks; }
 
-  /// A key that was just sent is part of the prediction from now on.
+  /// Adds a key that was just sent to the prediction.
   void predictInput(const Input& input) { m_prediction.addInput(input); }
-  /// Predict up to the tick in which the server will apply a key pressed now.
+  /// Predicts the player's own object up to predictedTick(): the server will apply a key pressed now in it.
   const Prediction& predict(Time now);
   std::uint32_t predictedTick(Time now) const;
   bool isPredicting() const { return m_prediction.isActive(); }
@@ -68,11 +68,11 @@ class ReceivedWorld {
   Time m_next_checksum{};
   std::chrono::microseconds m_tick{33333};
   DisplayClock m_clock{m_tick};
-  bool m_moving = false;  ///< another room's world is expected, whose ticks may be before those of this one
+  bool m_moving = false;  ///< another room's world is awaited; its ticks may be lower
   InputTickEstimator m_input_ticks;
   Prediction m_prediction;
   std::uint32_t m_table_known = 0;    ///< snapshot that carried the newest control table applied
-  std::uint32_t m_control_known = 0;  ///< … and control state
+  std::uint32_t m_control_known = 0;  ///< snapshot that carried the newest control state applied
 };
 
 }  // namespace naiad

@@ -1,5 +1,5 @@
-// What the server sends reliably: the list of players, chat and sounds. Each frame counts once, although it
-// may come again on the session's next stream.
+// Reliable messages from the server: the list of players, chat and sounds. Each frame counts once, although
+// it may be sent again on the session's next stream.
 #pragma once
 
 #include <chrono>
@@ -17,21 +17,21 @@
 
 namespace naiad {
 
-/// A line of chat and when it arrived.
+/// A line of chat.
 struct ChatEntry {
-  std::string name;  ///< of the speaker; empty: the server
+  std::string name;  ///< name of the speaker; empty: the server or this client
   df::Color color = df::COLOR_DEFAULT;
   std::string text;
-  std::chrono::steady_clock::time_point at;
+  std::chrono::steady_clock::time_point at;  ///< time of arrival
 };
 
 class ReliableInbox {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::size_t kMaxChat = 500;   ///< lines kept
-  static constexpr std::size_t kMaxSounds = 32;  ///< sounds kept until fetchSounds()
-  /// So many bytes of reliable frames are acknowledged immediately, not with the next ping.
+  static constexpr std::size_t kMaxChat = 500;   ///< number of stored lines
+  static constexpr std::size_t kMaxSounds = 32;  ///< number of sounds stored for fetchSounds()
+  /// Unacknowledged bytes of reliable frames above which they are acknowledged before the next regular ping.
   static constexpr std::size_t kMuchKept = std::size_t{8} * 1024;
 
   /// `counters` must outlive the inbox.
@@ -40,22 +40,22 @@ class ReliableInbox {
   void takePlayers(PlayersMessage&& message);
   void takeChat(ChatMessage&& message, const WelcomeMessage& self, Time now);
   void takeSounds(SoundsMessage&& message);
-  /// Add a line of the client itself to the chat.
+  /// Adds a line from the client itself to the chat.
   void addNotice(std::string text, Time now) { addLine({"", df::COLOR_DEFAULT, std::move(text), now}); }
 
   /// Number of the newest reliable frame received; 0: none.
   std::uint32_t newestFrame() const { return m_received.newest(); }
-  /// A new reliable frame had this size. True if it is time to acknowledge.
+  /// Counts a new reliable frame of this size. Returns true if the frames should be acknowledged now.
   bool noteFrameSize(std::size_t bytes);
-  /// All received frames are acknowledged now.
+  /// Call when all received frames have been acknowledged.
   void noteAcknowledged() { m_unacknowledged_bytes = 0; }
 
   const std::vector<PlayerLine>& players() const { return m_players; }
-  /// Points of this player in the newest list.
+  /// Returns the points of this player in the newest list.
   std::int32_t scoreOf(std::uint32_t player) const;
   /// The newest lines, oldest first.
   const std::deque<ChatEntry>& chat() const { return m_chat; }
-  /// Sounds since the last call, oldest first; the newest kMaxSounds of them.
+  /// Returns the sounds since the last call, oldest first, at most the newest kMaxSounds.
   std::vector<SoundLine> fetchSounds() { return std::exchange(m_sounds, {}); }
 
  private:

@@ -111,7 +111,7 @@ void SealedDatagrams::reopen() {
   try {
     m_socket->reopen();
   } catch (const ListenError&) {
-    // No port now; the stream goes on, and this is tried again when the next stream is made.
+    // No port is free. The stream continues, and the next new stream tries this again.
   }
 }
 

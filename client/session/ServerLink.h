@@ -1,6 +1,6 @@
-// The paths of a session to its server: a stream, perhaps a second one beside it, and sealed datagrams.
+// The paths of a session to its server: a stream, perhaps a second stream, and encrypted datagrams.
 //
-// It knows how to send on each of them, not when (UpdateTiming) nor whether they are alive (StreamLiveness).
+// UpdateTiming decides when each of them is used; StreamLiveness, whether they are alive.
 #pragma once
 
 #include <array>
@@ -23,21 +23,21 @@
 
 namespace naiad {
 
-/// A second stream beside that of the session, where datagrams do not pass.
+/// A second stream, used in addition to the session's stream where datagrams do not pass.
 ///
-/// TCP delivers in order, so a lost packet holds up all that comes after it for a round trip and more. The
-/// same snapshots and updates go on both streams; they seldom wait at the same time. What needs order
-/// (chat, players, music) stays on the first.
+/// TCP delivers in order, so a lost packet delays everything behind it for a round trip or more. Snapshots
+/// and updates use both streams, which are seldom delayed at once. Messages that need order (chat,
+/// players, music) use the first stream only.
 ///
-/// Pure: the owner connects, and passes time in.
+/// The owner connects and passes the time in.
 class SecondStream {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Between two attempts, at first; doubled with each up to kLastPause, unless the one before lasted longer.
+  /// First pause before a retry; doubles up to kLastPause while streams fail early.
   static constexpr std::chrono::seconds kFirstPause{2};
   static constexpr std::chrono::seconds kLastPause{64};
-  /// It is closed after this much silence, be it in answer to the hello or later.
+  /// Silence after which the stream is closed: without an answer to the hello, or later.
   static constexpr std::chrono::seconds kMaxSilence{5};
 
   SecondStream() = default;
@@ -45,21 +45,21 @@ class SecondStream {
   SecondStream(const SecondStream&) = delete;
   SecondStream& operator=(const SecondStream&) = delete;
 
-  /// May one be opened now? True once for each attempt.
+  /// Returns true, once for each attempt, if a stream may be opened now.
   bool takeAttempt(Time now);
-  /// Say hello on `channel`; `on_snapshot` gets its snapshots once the server has accepted it. A server
-  /// that sends anything else there loses this stream, nothing more.
+  /// Sends the hello on `channel`. Once the server has accepted it, `on_snapshot` gets its snapshots. If the
+  /// server sends anything else there, only this stream is closed.
   void start(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
              std::function<void(std::string_view bytes)> on_snapshot);
-  /// Close it if it is silent. Call now and then.
+  /// Closes the stream if it is silent. Call about once a second or more often.
   void update(Time now);
-  /// The server has accepted it.
+  /// True if the server has accepted the stream.
   bool isOpen() const { return m_open; }
-  /// A snapshot came, on either stream. True if it is among the last ones that did: it came on the other.
+  /// Call for each snapshot on either stream. True if it is among the last ones: it also came on the other.
   bool isRepeat(std::string_view snapshot);
-  /// Send a frame if it is open, and nothing waits on it.
+  /// Sends a frame if the stream is open and has nothing unsent.
   void send(std::string_view frame);
-  /// Done with it; another one may be opened later.
+  /// Closes the stream; another one may be opened later.
   void close();
 
  private:
@@ -68,7 +68,7 @@ class SecondStream {
   std::unique_ptr<ReliableChannel> m_channel;
   std::function<void(std::string_view)> m_on_snapshot;
   bool m_open = false;
-  /// Of the last snapshots; fewer than it takes until the 16 bits of a number repeat.
+  /// Hashes of the last snapshots. Fewer than 65,536, because snapshots that far apart may have equal bytes.
   std::array<std::size_t, 64> m_hashes{};
   std::size_t m_heard = 0;
   std::chrono::seconds m_pause = kFirstPause;
@@ -77,18 +77,17 @@ class SecondStream {
   Time m_last_heard{};
 };
 
-/// The datagrams of a session, at the client's end: a socket, and the seal on everything that goes through
-/// it.
+/// Client end of a session's datagrams: a socket, and the encryption of everything sent and received.
 class SealedDatagrams : public DatagramChannel {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Now = std::function<Time()>;
 
-  /// `server`: where the server receives datagrams. `id`: from its welcome.
+  /// `server`: the server's UDP endpoint. `id`: from its welcome.
   SealedDatagrams(std::unique_ptr<DatagramSocket> socket, const Endpoint& server, ConnectionId id, Now now,
                   SealLimits limits = {});
 
-  /// Keys from the session's newest stream (DatagramKeys.h). False if it gives none, or the epoch is not
+  /// Derives keys from the session's newest stream (DatagramKeys.h). False if that fails, or the epoch is not
   /// newer.
   bool startEpoch(const KeyExporter& exporter, AeadId aead, Epoch epoch);
 
@@ -96,12 +95,12 @@ class SealedDatagrams : public DatagramChannel {
   void send(std::string_view packet) override;
   std::optional<std::size_t> room() const override { return m_link.room(); }
   std::string peerAddress() const override { return toString(m_server); }
-  /// Measure the round trip with the next packet; takeRoundTrip() has the result.
+  /// Measures the round trip with the next packet; takeRoundTrip() returns the result.
   void ping() { m_link.ping(); }
   std::optional<LinkPing::Millis> takeRoundTrip() { return m_link.takeRoundTrip(); }
-  /// True once for each epoch, when a key of it nears its limit: it is time for another stream.
+  /// Returns true, once for each epoch, when one of its keys nears its limit: another stream is needed.
   bool takeNewEpochDue();
-  /// The network may have changed: go on from another port.
+  /// Continues from another port, because the network may have changed.
   void reopen();
 
  private:
@@ -121,10 +120,10 @@ class ServerLink {
   using Time = std::chrono::steady_clock::time_point;
   using OnSnapshot = std::function<void(std::string_view bytes)>;
 
-  /// With this much unsent the stream is stuck; more inputs would only make the server busy later.
+  /// Unsent bytes above which the stream counts as stuck; more inputs would only burden the server later.
   static constexpr std::size_t kMaxUnsent = std::size_t{64} * 1024;
 
-  /// Says hello on the connected channel. `counters` must outlive the link.
+  /// Sends the hello on the connected channel. `counters` must outlive the link.
   ServerLink(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
              SessionCounters& counters);
   ServerLink(const ServerLink&) = delete;
@@ -135,20 +134,20 @@ class ServerLink {
 
   bool hasStream() const { return m_channel != nullptr; }
   bool ownsStream(const ReliableChannel* channel) const { return m_channel.get() == channel; }
-  /// Use the stream of `other`; a second stream ends.
+  /// Takes over the stream of `other`; closes the second stream.
   void takeStream(ServerLink& other);
-  /// The stream has ended by itself.
+  /// Call when the stream has ended by itself.
   void dropStream();
-  /// Close the streams; what is queued is still sent.
+  /// Closes the streams; queued data is still sent.
   void closeStreams();
   bool isStuck() const { return hasStream() && m_channel->unsentBytes() > kMaxUnsent; }
-  /// Send on the stream, if there is one.
+  /// Sends on the stream, if there is one.
   void send(const wire::ClientMessage& message);
-  /// Send on the stream, and again on later ones until acknowledged. False if too much is unacknowledged.
+  /// Sends on the stream, and again on later ones until acknowledged. False if too much is unacknowledged.
   bool sendReliable(wire::ClientMessage& message);
   void acknowledgeReliable(std::uint32_t number) { m_unacknowledged.acknowledge(number); }
   void resendReliable();
-  /// Send an update on the stream, and on the second one.
+  /// Sends an update on the stream, and on the second one if it is open.
   void sendUpdate(std::string bytes);
 
   SecondStream& second() { return m_second; }
@@ -157,15 +156,15 @@ class ServerLink {
                    OnSnapshot on_snapshot);
 
   bool hasDatagrams() const { return m_datagrams != nullptr; }
-  /// Open a socket to the address that the stream goes to. False if that cannot be, or is not wanted.
+  /// Opens a datagram socket to the stream's peer address. False if datagrams are off or impossible.
   bool openDatagrams(const WelcomeMessage& welcome, OnSnapshot on_snapshot);
   void closeDatagrams() { m_datagrams.reset(); }
-  /// Take keys for existing datagrams from a new stream, and send from another port.
+  /// Derives new keys for existing datagrams from a new stream, and sends from another port.
   void renewDatagrams(const WelcomeMessage& welcome);
-  /// With datagrams only. `ping`: measure the round trip with this one.
+  /// Requires hasDatagrams(). `ping`: measure the round trip with this datagram.
   void sendDatagram(const std::string& bytes, bool ping);
   std::optional<LinkPing::Millis> takeRoundTrip() { return m_datagrams->takeRoundTrip(); }
-  /// True once for each epoch, when a key of it nears its limit: another stream is needed for new keys.
+  /// Like SealedDatagrams::takeNewEpochDue(); false without datagrams.
   bool takeNewEpochDue() { return m_datagrams != nullptr && m_datagrams->takeNewEpochDue(); }
 
  private:

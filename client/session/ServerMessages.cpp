@@ -124,7 +124,7 @@ std::optional<ServerMessageValue> check(const wire::Sounds& wire, std::uint32_t 
 }  // namespace
 
 std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
-  silenceParseErrors();  // a server could scribble on the player's screen
+  silenceParseErrors();  // error messages would let a server write on the player's screen
   if (frame.size() > kMaxServerFrame) return std::nullopt;
   wire::ServerMessage wire;
   if (!wire.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return std::nullopt;

@@ -1,8 +1,8 @@
-// What a server may say, after everything in it was checked.
+// Messages from a server, with checked contents.
 //
 // A server may be hostile or broken. readServerMessage() is the only place where bytes from the network
-// become values: numbers out of range, too many entries or malformed records make the whole message bad;
-// texts are made safe for a terminal (SafeText.h), never refused: a strange name is no reason to leave.
+// become values: numbers out of range, too many entries or malformed records make the whole message bad.
+// Texts are made safe for a terminal (SafeText.h), never rejected.
 #pragma once
 
 #include <chrono>
@@ -17,17 +17,17 @@
 
 namespace naiad {
 
-/// Where a process continues a session that another process began.
+/// State of a session that a new client process resumes.
 struct Continuation {
-  std::uint32_t snapshot = 0;    ///< number of the newest
+  std::uint32_t snapshot = 0;    ///< number of the newest snapshot
   std::uint8_t world_epoch = 0;  ///< 0 … 3
-  std::uint32_t input = 0;       ///< id of the newest
+  std::uint32_t input = 0;       ///< id of the newest input
 };
 
-/// The join was granted.
+/// The server has accepted the client.
 struct WelcomeMessage {
   std::uint32_t player = 0;  ///< this player's id, never 0
-  std::string name;          ///< as granted
+  std::string name;          ///< this player's name in the game
   std::string game;
   std::string server;                     ///< program and version
   std::chrono::microseconds tick{33333};  ///< 1 ms to 1 s
@@ -35,29 +35,29 @@ struct WelcomeMessage {
   int view_height = 24;
   df::Color color = df::COLOR_DEFAULT;
   std::vector<std::string> help;             ///< the game's own lines
-  std::uint32_t tick_now = 0;                ///< the world's tick, about now
-  std::uint64_t connection_id = 0;           ///< of the session's datagrams
-  std::uint32_t aead = 0;                    ///< their cipher; 0: no datagrams
-  std::uint32_t epoch = 0;                   ///< of their keys
+  std::uint32_t tick_now = 0;                ///< the world's approximate current tick
+  std::uint64_t connection_id = 0;           ///< connection id of datagrams
+  std::uint32_t aead = 0;                    ///< cipher of datagrams; 0: no datagrams
+  std::uint32_t epoch = 0;                   ///< key epoch of datagrams
   std::string resume_token;                  ///< empty: the session ends with its stream
-  bool resumed = false;                      ///< an earlier session goes on
-  std::chrono::milliseconds grace{0};        ///< how long the server waits for another stream
-  std::optional<Continuation> continuation;  ///< for a process that was not there before
-  std::uint32_t received = 0;                ///< for one that was: newest reliable frame received
-  bool second_stream = false;                ///< the server takes one; or: this is it
-  std::string room;                          ///< that the player is in; empty: the server has none
+  bool resumed = false;                      ///< an earlier session was resumed
+  std::chrono::milliseconds grace{0};        ///< how long the server keeps a session without a stream
+  std::optional<Continuation> continuation;  ///< set if the hello said `fresh`
+  std::uint32_t received = 0;                ///< otherwise: newest reliable frame that the server received
+  bool second_stream = false;                ///< the server accepts one; or: this is one
+  std::string room;                          ///< the player's room; empty: the server has no rooms
 };
 
-/// The session goes on in another room.
+/// The player has entered another room.
 struct EnteredMessage {
-  std::uint32_t player = 0;  ///< this player's id there, never 0
+  std::uint32_t player = 0;  ///< this player's id in that room, never 0
   std::string room;
   std::string game;
   int view_width = 80;
   int view_height = 24;
   std::vector<std::string> help = {};
-  std::uint32_t tick_now = 0;    ///< the world's tick, about now
-  std::uint8_t world_epoch = 0;  ///< of the snapshots to come, 0 … 3
+  std::uint32_t tick_now = 0;    ///< the world's approximate current tick
+  std::uint8_t world_epoch = 0;  ///< epoch of the snapshots to come, 0 … 3
 };
 
 struct RoomLine {
@@ -74,18 +74,18 @@ struct RoomsMessage {
 };
 
 struct RefusedMessage {
-  bool for_now = false;   ///< another attempt in a moment may succeed
-  bool password = false;  ///< it was missing or wrong
+  bool for_now = false;   ///< a retry in a moment may succeed
+  bool password = false;  ///< the password was missing or wrong
   std::string sentence;
-  /// To another server that has a place: a link (JoinLink.h), as the server wrote it. Empty: none.
+  /// Link to another server with a free place (JoinLink.h), unchecked. Empty: none.
   std::string redirect = {};
-  std::string redirect_room = {};  ///< of that server: a name of a room, or empty
-  bool full = false;               ///< it has no place
+  std::string redirect_room = {};  ///< room of that server; may be empty
+  bool full = false;               ///< the server has no free place
 };
 
 struct GoodbyeMessage {
   std::string sentence;
-  std::chrono::seconds again{0};  ///< the server is back within this time; 0: it is not
+  std::chrono::seconds again{0};  ///< the server will be back within this time; 0: no restart
 };
 
 /// The bytes of a snapshot; only the replica can read them.
@@ -103,13 +103,13 @@ struct PlayerLine {
 
 struct PlayersMessage {
   std::vector<PlayerLine> players;
-  std::uint32_t number = 0;  ///< of a reliable frame (ReliableFrames.h); 0: it is none
+  std::uint32_t number = 0;  ///< number of the reliable frame (ReliableFrames.h); 0: not reliable
 };
 
 struct ChatMessage {
   std::uint32_t player = 0;  ///< 0: the server itself
   std::string text;
-  std::uint32_t number = 0;  ///< of a reliable frame; 0: it is none
+  std::uint32_t number = 0;  ///< number of the reliable frame; 0: not reliable
 };
 
 /// A sound or a piece of music began, paused or stopped.
@@ -117,27 +117,27 @@ struct SoundLine {
   enum class Action : std::uint8_t { kPlay, kPause, kStop };
   std::string label;
   Action action = Action::kPlay;
-  bool music = false;        ///< else a sound
-  bool loop = false;         ///< again and again
-  std::uint32_t player = 0;  ///< that caused it; 0: none
+  bool music = false;        ///< false: a sound
+  bool loop = false;         ///< repeated until stopped
+  std::uint32_t player = 0;  ///< player that caused it; 0: none
   friend bool operator==(const SoundLine&, const SoundLine&) = default;
 };
 
 struct SoundsMessage {
-  std::vector<SoundLine> sounds;  ///< in the order in which it happened
-  std::uint32_t number = 0;       ///< of a reliable frame; 0: it is none
+  std::vector<SoundLine> sounds;  ///< oldest first
+  std::uint32_t number = 0;       ///< number of the reliable frame; 0: not reliable
 };
 
 struct PongMessage {
   std::uint64_t token = 0;
-  std::uint32_t received = 0;  ///< newest of the client's reliable frames that arrived
+  std::uint32_t received = 0;  ///< newest reliable frame of the client that arrived
 };
 
 using ServerMessageValue =
     std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage, PlayersMessage, ChatMessage,
                  SoundsMessage, PongMessage, EnteredMessage, RoomsMessage>;
 
-/// The message in a frame; nothing if it is not one that this version of the protocol allows.
+/// Returns the message in a frame; nullopt if this version of the protocol does not allow it.
 std::optional<ServerMessageValue> readServerMessage(std::string_view frame);
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// What a session has sent and received so far.
+// Counters of sent and received messages of a session.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@ struct SessionCounters {
   std::uint64_t bytes_in = 0;
   std::uint64_t bytes_out = 0;
   std::uint64_t snapshots = 0;
-  std::uint64_t stale_snapshots = 0;  ///< dropped: they named what newer ones had replaced
+  std::uint64_t stale_snapshots = 0;  ///< dropped: they refer to state that newer ones replaced
   std::uint64_t inputs = 0;
   std::uint64_t inputs_dropped = 0;  ///< not sent: too many, or the stream is stuck
   std::uint64_t chat_lines = 0;
   std::uint64_t sounds = 0;
   std::uint64_t chat_dropped = 0;     ///< not sent: too many unacknowledged frames
   std::uint64_t repeated_frames = 0;  ///< reliable frames received before: ignored
-  std::uint64_t datagrams_in = 0;     ///< with a snapshot; their bytes are in bytes_in, headers not counted
-  std::uint64_t resets = 0;           ///< worlds sent again from the start
+  std::uint64_t datagrams_in = 0;     ///< snapshots by datagram; bytes_in includes them, without headers
+  std::uint64_t resets = 0;           ///< worlds that followed the first one
   std::uint64_t bad_messages = 0;
 };
 

@@ -14,7 +14,7 @@ namespace naiad {
 
 namespace {
 
-/// One for all connections of a thread: with it the system's trust store is read, which takes some 20 ms.
+/// Returns the context of all connections of a thread: making one reads the system's trust store (20 ms).
 const std::shared_ptr<const TlsContext>& clientContext() {
   thread_local const std::shared_ptr<const TlsContext> made = TlsContext::forClient();
   return made;

@@ -1,4 +1,4 @@
-// Opens streams by TCP and TLS: straight to the server, or by way of a visitors' socket.
+// Opens streams by TCP and TLS: to the server directly, or through its visitors' socket.
 #pragma once
 
 #include <asio/ip/address.hpp>
@@ -15,12 +15,12 @@
 
 namespace naiad {
 
-/// Thread: the one that runs the context, which must outlive it.
+/// Use from the thread that runs the context, which must outlive this.
 class TcpStreamOpener : public StreamOpener {
  public:
   static constexpr std::chrono::milliseconds kConnectTimeout{5000};
 
-  /// `visit`: by way of that socket, for the player who is there.
+  /// `visit`: connect through this socket for a remote player.
   TcpStreamOpener(asio::io_context& context, ServerAddress address, ServerTrust trust,
                   std::optional<Visit> visit);
 
@@ -30,9 +30,8 @@ class TcpStreamOpener : public StreamOpener {
   std::optional<Fingerprint> key() const override { return keyOf(m_connector); }
   std::optional<Fingerprint> secondKey() const override { return keyOf(m_second_connector); }
   std::string whyUntrusted() const override;
-  /// Not for a visitor, whose door leads to its own servers; not without encryption, nor from a server to
-  /// which another one has sent the client, nor to a port of the system's. Addresses there are never nearer
-  /// than this server's.
+  /// Refuses redirects for a visitor of a door, without TLS, after a redirect, and to ports below 1024. The
+  /// target's addresses must not have a narrower scope than this server's (maySendTo()).
   Next follow(const std::string& link) override;
   bool wasHungUpOn() const override { return m_connector.wasHungUpOn(); }
 
@@ -46,7 +45,7 @@ class TcpStreamOpener : public StreamOpener {
   ServerTrust m_trust;
   asio::io_context& m_context;
   std::optional<Visit> m_visit;
-  std::optional<asio::ip::address> m_peer;  ///< of the newest stream of open()
+  std::optional<asio::ip::address> m_peer;  ///< address of the newest stream of open()
   TcpConnector m_connector;
   TcpConnector m_second_connector;
 };

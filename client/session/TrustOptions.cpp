@@ -10,7 +10,7 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMaxShown = 100;  // characters of what was typed, in a sentence
+constexpr std::size_t kMaxShown = 100;  // characters of the user's text that a message quotes
 
 std::string quoted(const std::string& text) {
   return "\"" + safeText(text, kMaxShown) + "\"";
@@ -31,7 +31,7 @@ std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust
   return {};
 }
 
-/// Where no link leads: to an address with a zone.
+/// Takes the key of a listed server with an IPv6 zone in its address, which links cannot express.
 std::string followList(const ShortKey& key, ServerTrust& trust) {
   if (trust.insecure) return "Servers of a list have keys, so --insecure does not go with one.";
   if (namesAnotherKey(trust, key))

@@ -1,5 +1,4 @@
-// What the command lines of dfclient and dfbot share: the server, which key it must have, the password, and
-// how they end.
+// Command-line options that dfclient and dfbot share: the server, its key, its password. Their exit codes.
 #pragma once
 
 #include <optional>
@@ -12,15 +11,15 @@
 
 namespace naiad {
 
-/// How dfclient and dfbot end. The numbers are documented in --help and used by scripts.
+/// Exit codes of dfclient and dfbot. The numbers are documented in --help and used by scripts.
 enum ExitCode {
-  kExitLeft = 0,         ///< the player left, or the bot did what it should
+  kExitLeft = 0,         ///< the player left, or the bot finished its task
   kExitUnreachable = 1,  ///< no connection to the server
-  kExitUsage = 2,        ///< wrong command line or script, as of dfserver
+  kExitUsage = 2,        ///< wrong command line or script; dfserver uses this code, too
   kExitRefused = 3,      ///< the server refused; its sentence is on stderr
-  kExitEnded = 4,        ///< the server ended the game, or was lost for good
-  kExitNoTerminal = 5,   ///< standard input or output is no terminal that can be drawn on
-  kExitUnproven = 6,     ///< what the bot saw is not what the truth file says, or could not be compared
+  kExitEnded = 4,        ///< the server ended the game, or the search for a lost one failed
+  kExitNoTerminal = 5,   ///< standard input or output is not a usable terminal
+  kExitUnproven = 6,     ///< the bot's pictures differ from the truth file, or could not be compared
 };
 
 /// The part of --help that both programs share.
@@ -31,24 +30,25 @@ inline constexpr const char* kExitCodeHelp =
     "  2  wrong usage               5  no terminal (dfclient)\n"
     "  6  wrong cells, or nothing to compare (dfbot --truth)\n";
 
-/// What the command line and the environment say about the server.
+/// The server as given by the command line and the environment.
 struct ServerChoice {
-  std::string text = {};                  ///< HOST[:PORT], or a link (JoinLink.h)
-  std::string visitors = {};              ///< path of a visitors' socket; empty: straight to the server
-  std::string visitor = {};               ///< with it, the address of the remote player: ADDRESS:PORT
-  bool is_password_ambient = false;       ///< the password is from the environment, not given for this server
-  std::optional<ShortKey> list_key = {};  ///< `text` was chosen from a list, which says that it has this key
+  std::string text = {};                  ///< HOST[:PORT][/ROOM], link (JoinLink.h) or page address
+  std::string visitors = {};              ///< path of a visitors' socket; empty: connect directly
+  std::string visitor = {};               ///< ADDRESS:PORT of the remote player, given with `visitors`
+  bool is_password_ambient = false;       ///< the password is from the environment, not for this server
+  std::optional<ShortKey> list_key = {};  ///< `text` was chosen from a list that names this key
 
-  /// Links, pages and lists do not get the password from the environment: strangers make them.
+  /// True if the password is from the environment and must not be sent, because strangers make links, pages
+  /// and lists.
   bool dropsPassword() const;
 };
 
-/// The required argument.
+/// Returns the option for the SERVER argument.
 Option serverOption(ServerChoice& server);
 std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, SessionOptions& session);
 
-/// Call after parseOptions(): find the address in `server`, and with a link the key that the server must
-/// have. Returns a sentence about what is wrong, else nothing; then nothing must be connected to.
+/// Finds the address in `server`, and for links the key that the server must have. Call after parseOptions().
+/// Returns what is wrong, and then nothing must be connected to; empty if nothing is.
 std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
                           SessionOptions& session);
 

@@ -7,7 +7,7 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMaxPings = 20;  ///< unanswered
+constexpr std::size_t kMaxPings = 20;  ///< unanswered ones
 
 }  // namespace
 

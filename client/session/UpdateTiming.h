@@ -1,5 +1,5 @@
-// What a client times: when it sends acknowledgements and inputs, whether datagrams pass, whether the server
-// is still there. Pure: time is passed in.
+// Timing of a client: when it sends acknowledgements and inputs, whether datagrams pass, whether the server
+// is still there. Time is passed in.
 #pragma once
 
 #include <chrono>
@@ -11,43 +11,42 @@
 
 namespace naiad {
 
-/// Whether the server is still there: how long it has been silent, and how long pings take on the stream.
+/// Tracks whether the server is still there: its silence, and the round trip of pings on the stream.
 class StreamLiveness {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Millis = LinkStats::Millis;
 
   static constexpr std::chrono::seconds kPingInterval{1};
-  /// Interval of pings while datagrams pass, which measure the round trip, too.
+  /// Interval of pings while datagrams pass, because datagrams also measure the round trip.
   static constexpr std::chrono::seconds kSeldomPing{5};
-  /// A stream on which a ping stays unanswered for so long is taken to be dead.
+  /// Age of an unanswered ping at which the stream counts as dead while datagrams pass.
   static constexpr std::chrono::seconds kStreamSilence{10};
 
   explicit StreamLiveness(Time now) : m_last_ping(now), m_idle(now) {}
 
-  /// Something arrived from the server, on any path.
+  /// Call when something arrived from the server, on any path.
   void noteHeard(Time now) { m_idle.heard(now); }
-  /// Deadlines are about to be checked (IdleTimer).
+  /// Call before deadlines are checked (IdleTimer).
   void listen(Time now) { m_idle.listen(now); }
   /// Returns how long nothing has been received (IdleTimer).
   IdleTimer::Duration silence(Time now) const { return m_idle.at(now); }
 
-  /// There is a new stream: pings of the old one are lost, and the next one is due now.
+  /// Call for a new stream: forgets the pings of the old one and makes a ping due now.
   void startStream(Time now);
-  /// No ping of this stream counts any more.
+  /// Forgets all unanswered pings.
   void forgetPings() { m_pings.clear(); }
-  /// Does the oldest ping wait too long? `has_datagrams`: the server is alive, so the stream is
-  /// dead.
+  /// True if the oldest ping has waited for kStreamSilence although datagrams show that the server is alive.
   bool isStreamDead(Time now, bool has_datagrams) const;
   /// True if it is time for startPing().
   bool isPingDue(Time now, bool has_datagrams) const;
-  /// A ping goes out: its token.
+  /// Call when sending a ping. Returns its token.
   std::uint64_t startPing(Time now);
-  /// Its pong arrived. The time it took; nothing if the token is unknown or its pong has arrived before.
+  /// Call when a pong arrives. Returns the round trip; nullopt if the token is unknown or already answered.
   std::optional<Millis> endPing(std::uint64_t token, Time now);
-  /// A round trip measured with datagrams.
+  /// Adds a round trip measured with datagrams.
   void noteRoundTrip(Millis sample, Time now) { m_stats.addSample(sample, now); }
-  /// Smoothed, in whole milliseconds, rounded up: less than one is a measurement, too. Zero before the first.
+  /// Returns the smoothed round trip in whole milliseconds, rounded up. Zero before the first measurement.
   std::chrono::milliseconds roundTrip() const;
 
  private:
@@ -58,58 +57,59 @@ class StreamLiveness {
   IdleTimer m_idle;
 };
 
-/// When acknowledgements and inputs are sent, and whether datagrams pass.
+/// Decides when acknowledgements and inputs are sent, and whether datagrams pass.
 class UpdateTiming {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::chrono::milliseconds kPassing = PathProbe::kOpenFor;  ///< after a datagram
-  /// After so long without datagrams a second stream is worth opening.
+  /// Time after a datagram for which datagrams count as passing.
+  static constexpr std::chrono::milliseconds kPassing = PathProbe::kOpenFor;
+  /// Time without datagrams after which a second stream is worth opening.
   static constexpr std::chrono::milliseconds kOnStreamOnly{3000};
-  /// So long without a datagram is unusual: the server may have lost the client's address.
+  /// Unusual pause between datagrams: the server may have lost the client's address.
   static constexpr std::chrono::milliseconds kQuiet{400};
-  /// For so long after a snapshot on the stream it is undecided whether the server receives datagrams.
+  /// Time after a snapshot on the stream during which the server may not be receiving datagrams.
   static constexpr std::chrono::milliseconds kUndecided{500};
-  static constexpr std::chrono::milliseconds kRepeatInput{10};  ///< a new input is sent again after this
-  static constexpr int kAckEvery = 3;                           ///< snapshots
-  static constexpr std::chrono::milliseconds kAckDelay{50};     ///< of the last one, at most
-  static constexpr std::chrono::milliseconds kPingEvery{1000};  ///< by datagram
+  static constexpr std::chrono::milliseconds kRepeatInput{10};  ///< delay before an input is sent again
+  static constexpr int kAckEvery = 3;                           ///< snapshots per acknowledgement
+  static constexpr std::chrono::milliseconds kAckDelay{50};     ///< maximum delay of an acknowledgement
+  static constexpr std::chrono::milliseconds kPingEvery{1000};  ///< interval of pings by datagram
 
-  /// The session has a stream, the first or another one.
+  /// Call when the session has a stream, the first or another one.
   void noteAttached(Time now) { m_probe.renew(now); }
   void noteDatagram(Time now) { m_probe.addEvidence(now); }
   void noteStreamSnapshot(Time now) { m_last_streamed = now; }
-  /// A datagram is sent, with an update. True if it is to carry a ping.
+  /// Call when a datagram is sent. Returns true if it should carry a ping.
   bool noteDatagramSent(Time now);
-  /// An update is sent, on any path.
+  /// Call when an update is sent, on any path.
   void noteUpdateSent();
-  /// There is a new input.
+  /// Call for a new input.
   void noteInput(Time now) { m_repeat_at = now + kRepeatInput; }
-  /// A snapshot was applied. `gap`: the one before it is missing. True if it is to be
+  /// Call when a snapshot was applied. `gap`: the one before it is missing. Returns true if it should be
   /// acknowledged immediately: every third one, or one after a gap.
   bool noteSnapshotApplied(bool gap, Time now);
 
-  /// Do datagrams arrive?
+  /// True if datagrams arrive.
   bool hasDatagrams(Time now) const { return m_probe.isOpen(now); }
-  /// The server sent on the stream just now: it may not receive datagrams.
+  /// True if the server has just sent a snapshot on the stream: it may not receive datagrams.
   bool isUndecided(Time now) const { return now - m_last_streamed < kUndecided; }
-  /// Everything has come on the stream for a while, since datagrams do not pass.
+  /// True if datagrams have not passed for kOnStreamOnly, so that snapshots come on the stream.
   bool isOnStreamOnly(Time now) const {
     return isUndecided(now) && now - m_probe.lastChange() >= kOnStreamOnly;
   }
-  /// It is time to test whether they pass. `only`: there is no stream.
+  /// True if it is time to test whether datagrams pass. `only`: there is no stream.
   bool isProbeDue(Time now, bool only = false) const { return m_probe.isDue(now, only); }
   bool isAckDue(Time now) const { return m_acknowledge_at && now >= *m_acknowledge_at; }
-  /// True once when new inputs should be sent again.
+  /// Returns true, once, when new inputs should be sent again.
   bool takeRepeat(Time now);
-  /// When one of these will be due before the usual time; nothing if none will.
+  /// Returns when an input repeat or acknowledgement is due; nullopt if none is.
   std::optional<Time> nextWake() const;
 
  private:
   PathProbe m_probe{kQuiet};
   Time m_last_streamed{};
-  Time m_last_ping{};        ///< by datagram
-  int m_unacknowledged = 0;  ///< snapshots
+  Time m_last_ping{};        ///< last ping by datagram
+  int m_unacknowledged = 0;  ///< number of snapshots
   std::optional<Time> m_acknowledge_at;
   std::optional<Time> m_repeat_at;
 };

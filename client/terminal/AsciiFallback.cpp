@@ -50,7 +50,7 @@ char asciiFor(char32_t ch) {
     if (likeness.glyphs.find(ch) != std::u32string_view::npos) return likeness.ascii;
   }
   if (ch == 0xA0) return ' ';
-  if (ch >= 0x2500 && ch <= 0x257F) return '+';  // the other box drawing: corners and crossings
+  if (ch >= 0x2500 && ch <= 0x257F) return '+';  // other box-drawing characters: corners and crossings
   if (ch >= 0x2580 && ch <= 0x25A9) return '#';  // blocks, shades, squares
   if (ch >= 0x2800 && ch <= 0x28FF) return ch == 0x2800 ? ' ' : ':';
   return '?';

@@ -1,9 +1,9 @@
-// The glyph set for terminals that show ASCII alone.
+// The glyph set for terminals that show only ASCII.
 #pragma once
 
 namespace naiad {
 
-/// The ASCII character that looks most like `ch`; '?' if none does.
+/// Returns the ASCII character that looks most like `ch`; '?' if none does.
 char asciiFor(char32_t ch);
 
 }  // namespace naiad

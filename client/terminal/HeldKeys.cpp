@@ -9,7 +9,7 @@ namespace {
 
 using df::Keyboard::Key;
 
-/// The direction opposite to this key's, on the same half of the keyboard; undefined if it gives none.
+/// Returns the key of the opposite direction in its group (arrows, WASD); undefined for other keys.
 Key oppositeOf(Key key) {
   using namespace df::Keyboard;
   static constexpr std::array<std::pair<Key, Key>, 4> kPairs = {
@@ -40,7 +40,7 @@ std::vector<KeyAction> HeldKeys::takeKey(const KeyEvent& event, Time now) {
   std::vector<KeyAction> out = expire(now);
   const auto held = m_held.find(event.key);
   if (event.action == KeyEvent::Action::kRelease) {
-    // The key was pressed while a text line was open.
+    // Not held if the key was pressed while a text line was open.
     if (held == m_held.end()) return out;
     m_held.erase(held);
     out.push_back({event.key, df::KEY_RELEASED});
@@ -62,7 +62,7 @@ std::vector<KeyAction> HeldKeys::takeTyped(Key key, Time now) {
     return out;
   }
   const Duration gap = now - held->second.last;
-  // Sooner than the keyboard repeats, or after another key: the player has pressed it again.
+  // Typed again sooner than the keyboard repeats, or after another key: the player has pressed it again.
   const bool again = held->second.silenced || (held->second.bridging && gap < bridge(key) * 3 / 4);
   if (again && gap >= releaseDelay()) {
     out.push_back({key, df::KEY_RELEASED});
@@ -85,7 +85,7 @@ void HeldKeys::takeRepeat(Held& held, Time now) {
   held = Held{now, now + releaseDelay(), true};
 }
 
-// Keyboards repeat only the key pressed last, so the others fall silent, up or not.
+// Keyboards repeat only the key pressed last, so the other held keys fall silent, released or not.
 void HeldKeys::pressBeside(Key key, Time now, std::vector<KeyAction>& out) {
   if (m_held.contains(key)) return;
   for (auto it = m_held.begin(); it != m_held.end();) {
@@ -97,7 +97,7 @@ void HeldKeys::pressBeside(Key key, Time now, std::vector<KeyAction>& out) {
       it = m_held.erase(it);
       continue;
     }
-    // Once: a key that is tapped again and again must not keep one down that was let go.
+    // Only once: repeated taps of this key must not keep a released key down.
     if (stays && other.repeating && !std::exchange(other.silenced, true))
       other.until = std::max(other.until, now + m_rule.companion);
     ++it;
@@ -159,12 +159,12 @@ HeldKeys::Duration HeldKeys::releaseDelay() const {
 }
 
 void HeldKeys::learnInterval(Duration gap) {
-  // Repeats that the network bunched up arrive together and say nothing about the keyboard.
+  // Repeats that the network delivers together do not show the keyboard's interval.
   if (gap < std::chrono::milliseconds(5)) return;
   m_interval += (gap - m_interval) / 8;
 }
 
-// A byte soon after the last one is a repeat; then the gap before the last one was the pause.
+// A byte soon after the last one is a repeat, so the gap before the last one was the pause.
 void HeldKeys::learnPause(Key key, Time now) {
   Past& past = m_past[key];
   const Duration gap = now - past.last;

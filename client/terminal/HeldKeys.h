@@ -1,11 +1,11 @@
-// From a terminal's key presses to the book's three actions: pressed, held down, released.
+// Converts a terminal's key presses to the book's three actions: pressed, held down, released.
 //
-// Most terminals report only that a key typed a character; a held key types it again and again, after a
-// pause of 0.25 to 0.7 s. So a release is guessed from silence, by a HoldRule. With the kitty protocol real
-// releases arrive, and nothing is guessed. docs/terminals.md has the rules that were compared.
+// Most terminals report only that a key typed a character; a held key repeats it after a pause of 0.25 to
+// 0.7 s. So a release is guessed from silence, by a HoldRule. With the kitty protocol real releases arrive,
+// and nothing is guessed. docs/terminals.md has the rules that were compared.
 //
-// The interval and the pause are the keyboard's, so they are learned from all keys together. Time is a
-// parameter.
+// The repeat interval and the pause belong to the keyboard, so they are learned from all keys together. Time
+// is a parameter.
 #pragma once
 
 #include <chrono>
@@ -25,24 +25,24 @@ struct KeyAction {
   friend bool operator==(const KeyAction&, const KeyAction&) = default;
 };
 
-/// What is guessed about keys whose releases the terminal does not report. The default is what plays best in
-/// the games; the others are there to be compared with it.
+/// Rule by which releases are guessed that the terminal does not report. The default plays best in the games;
+/// the other values exist for comparison.
 struct HoldRule {
-  /// Long enough to run on over a gap, too short to run far when both keys were released.
+  /// Long enough to keep running over a gap, too short to run far when both keys were released.
   static constexpr std::chrono::milliseconds kCompanion{300};
 
-  /// What the first press of a key that gives a direction (arrows, WASD) counts for. Other keys are taps.
+  /// Meaning of the first press of a direction key (arrows, WASD). Other keys are taps.
   enum class First : std::uint8_t {
     kTap,      ///< released after the release delay; the first repeat is a new press
     kUsual,    ///< held for kUsualPause, unless another key comes
-    kLearned,  ///< held for the pause seen in this terminal, unless another key comes; a tap until one was
-               ///< seen
+    kLearned,  ///< held for the pause seen in this terminal, unless another key comes; until a pause was
+    ///< seen, a tap
   };
   First first = First::kTap;
-  /// A key that repeated stays down so long after another key was pressed, which silences it: keyboards
-  /// repeat only the key pressed last. Zero: it is released like any silent key.
+  /// Time a repeating key stays down after another key was pressed, which silences it: keyboards repeat
+  /// only the key pressed last. Zero: it is released like any silent key.
   std::chrono::milliseconds companion{kCompanion};
-  /// A direction ends when the opposite one is pressed.
+  /// If true, a direction key is released when the opposite one is pressed.
   bool opposites = true;
 };
 
@@ -51,47 +51,47 @@ class HeldKeys {
   using Time = std::chrono::steady_clock::time_point;
   using Duration = std::chrono::steady_clock::duration;
 
-  /// No release is guessed sooner than this after the last byte, …
+  /// Minimum silence after a key's last byte before a release is guessed.
   static constexpr std::chrono::milliseconds kMinRelease{80};
-  /// … nor later than this, however slow the repeats.
+  /// Maximum silence before a release is guessed, even if the repeats are slow.
   static constexpr std::chrono::milliseconds kMaxRelease{250};
-  /// The pause of most keyboards before the first repeat.
+  /// Pause of most keyboards before the first repeat.
   static constexpr std::chrono::milliseconds kUsualPause{500};
-  /// Pauses are between these.
+  /// Limits of pauses that are learned.
   static constexpr std::chrono::milliseconds kMinPause{150};
   static constexpr std::chrono::milliseconds kMaxPause{1000};
-  /// Keys that report KEY_DOWN in one tick; further ones are still pressed and released.
+  /// Limit on keys that report KEY_DOWN in one tick; further keys still report presses and releases.
   static constexpr std::size_t kMaxHeld = 6;
 
   HeldKeys() = default;
   explicit HeldKeys(const HoldRule& rule) : m_rule(rule) {}
 
-  /// The terminal reports releases (kitty): stop guessing. Releases all keys when it changes.
+  /// `real`: the terminal reports releases (kitty), so nothing is guessed. Releases all keys if this changes.
   std::vector<KeyAction> setRealReleases(bool real);
 
-  /// A key event as decoded at `now`. Events without a key give nothing.
+  /// Converts a key event decoded at `now`. Events without a key yield only releases that are due.
   std::vector<KeyAction> takeKey(const KeyEvent& event, Time now);
-  /// Releases that are due by now. Call at deadline().
+  /// Returns the guessed releases that are due. Call at deadline().
   std::vector<KeyAction> expire(Time now);
-  /// When expire() will have something to do; the far future if never.
+  /// Returns when expire() will have something to do; Time::max() if never.
   Time deadline() const;
-  /// The KEY_DOWNs of one tick. Call once per tick.
+  /// Returns the KEY_DOWN actions of one tick. Call once per tick.
   std::vector<KeyAction> tick() const;
-  /// Release everything: a text line opens, the program is suspended.
+  /// Releases all keys, e.g. when a text line opens or the program is suspended.
   std::vector<KeyAction> releaseAll();
 
-  /// Silence after which a key that repeats is taken as released.
+  /// Returns the silence after which a repeating key counts as released.
   Duration releaseDelay() const;
-  /// The keyboard's pause before the first repeat; zero until one was seen.
+  /// Returns the keyboard's pause before the first repeat; zero until one was seen.
   Duration pause() const { return m_pause; }
 
  private:
   struct Held {
     Time last;
-    Time until;              ///< released then, if nothing comes
+    Time until;              ///< time of its release, if it types nothing more
     bool repeating = false;  ///< reports KEY_DOWN
-    bool bridging = false;   ///< held over the pause
-    bool silenced = false;   ///< another key was pressed since it repeated
+    bool bridging = false;   ///< held during the pause before the first repeat
+    bool silenced = false;   ///< another key was pressed after its last repeat
   };
   std::vector<KeyAction> takeTyped(df::Keyboard::Key key, Time now);
   void pressFirst(df::Keyboard::Key key, Held& held, Time now);
@@ -106,9 +106,9 @@ class HeldKeys {
   Duration m_interval = std::chrono::milliseconds(35);
   Duration m_pause{};
   std::map<df::Keyboard::Key, Held> m_held;
-  /// What a key typed before.
+  /// Times at which a key typed last.
   struct Past {
-    Time first;  ///< when it typed the last time but one
+    Time first;  ///< last time but one
     Time last;
   };
   std::map<df::Keyboard::Key, Past> m_past;

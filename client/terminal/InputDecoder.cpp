@@ -20,7 +20,7 @@ bool isText(int code) {
 
 }  // namespace
 
-/// The numbers of `a:b:c;d:e;…`: up to six fields of up to three parts; -1 where nothing stands.
+/// The numbers of `a:b:c;d:e;…`: up to six fields of up to three parts; -1 for missing parts.
 struct InputDecoder::Numbers {
   std::array<std::array<int, 3>, 6> field{};
   bool well_formed = true;
@@ -45,19 +45,19 @@ struct InputDecoder::Numbers {
     }
   }
 
-  /// Modifiers and action of the field `modifiers:event` that xterm and kitty share.
+  /// Applies the modifiers and action in the field `modifiers:event`, which xterm and kitty share.
   void applyModifiers(KeyEvent& event) const {
     if (field[1][0] > 0) event.modifiers |= static_cast<std::uint8_t>((field[1][0] - 1) & 0x0F);
     if (field[1][1] == 2) event.action = KeyEvent::Action::kRepeat;
     if (field[1][1] == 3) event.action = KeyEvent::Action::kRelease;
   }
 
-  /// `CSI code:shifted:base ; modifiers:event ; text u`.
+  /// Decodes `CSI code:shifted:base ; modifiers:event ; text u`.
   KeyEvent kittyKey() const {
     KeyEvent event;
     const auto& code = field[0];
     event.key = keyOfKitty(code[0]);
-    // On a keyboard of another script the third part is the key in the US layout.
+    // On a keyboard with another script, the third part is the key in the US layout.
     if (event.key == df::Keyboard::UNDEFINED_KEY && code[2] > 0) event.key = keyOfKitty(code[2]);
     applyModifiers(event);
     if (event.action == KeyEvent::Action::kRelease) return event;
@@ -70,7 +70,7 @@ struct InputDecoder::Numbers {
     return event;
   }
 
-  /// `CSI virtual key ; scan code ; UTF-16 unit ; down ; control keys ; repeats _`; `ch` is the whole
+  /// Decodes `CSI virtual key ; scan code ; UTF-16 unit ; down ; control keys ; repeats _`. `ch`: the whole
   /// character.
   KeyEvent windowsKey(int ch) const {
     constexpr int kRightAlt = 1;
@@ -81,7 +81,7 @@ struct InputDecoder::Numbers {
     if (event.key == df::Keyboard::UNDEFINED_KEY && ch > 0 && ch < 0x20)
       event = keyOfControl(static_cast<unsigned char>(ch));
     if ((held & 0x10) != 0) event.modifiers |= kShift;
-    // Windows reports AltGr, which types characters, as both.
+    // Windows reports AltGr, which types characters, as right Alt and left Control.
     const bool alt_gr = (held & kRightAlt) != 0 && (held & kLeftControl) != 0 && isText(ch);
     if (!alt_gr && (held & 0x0C) != 0) event.modifiers |= kControl;
     if (!alt_gr && (held & 0x03) != 0) event.modifiers |= kAlt;
@@ -159,7 +159,7 @@ void InputDecoder::takeByte(unsigned char byte, Events& out) {
       if (byte == 0x07 || byte == 0x18 || byte == 0x1A) enterState(State::kGround);
       return;
     case State::kStringEscape:
-      // ST is ESC \; any other ESC has ended the string and begins something new.
+      // ST is ESC \; any other ESC ends the string and begins another sequence.
       if (byte == '\\') return enterState(State::kGround);
       enterState(State::kEscape);
       return takeEscape(byte, out);
@@ -178,7 +178,7 @@ void InputDecoder::takeGround(unsigned char byte, Events& out) {
 }
 
 void InputDecoder::takeUtf8(unsigned char byte, Events& out) {
-  if ((byte & 0xC0) != 0x80) {  // a broken character; this byte may begin a good one
+  if ((byte & 0xC0) != 0x80) {  // an invalid character; this byte may begin a valid one
     enterState(State::kGround);
     return takeGround(byte, out);
   }
@@ -229,7 +229,7 @@ void InputDecoder::takeSequence(unsigned char byte, Events& out) {
   }
   if (byte == 0x18 || byte == 0x1A) return enterState(State::kGround);
   if (byte < 0x20 || byte >= 0x7F) return;
-  // rxvt ends shifted editing keys with '$', which is no final byte anywhere else.
+  // rxvt ends shifted editing keys with '$', which is not a final byte anywhere else.
   const bool rxvt_shift =
       byte == '$' && m_state == State::kCsi && !m_parameters.empty() &&
       std::all_of(m_parameters.begin(), m_parameters.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -286,7 +286,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   if (final >= 'a' && final <= 'd') event.modifiers |= ss3 ? kControl : kShift;
   if (final == 'Z') event.modifiers |= kShift;
   if (m_meta) event.modifiers |= kAlt;
-  // In a cursor position report the first number is a row; a key has 1 or nothing there.
+  // A cursor position report has a row as its first number; a key has 1 or none.
   const bool is_key = ss3 || numbers.field[0][0] <= 1;
   if (event.key != df::Keyboard::UNDEFINED_KEY && is_key) emitKey(out, event);
   enterState(State::kGround);
@@ -307,8 +307,8 @@ void InputDecoder::finishTilde(Events& out) {
   if (event.key != df::Keyboard::UNDEFINED_KEY) emitKey(out, event);
 }
 
-// Pastes, mouse reports and replies are spelled by records without a key; the text of a paste by those of the
-// keys that type it.
+// Windows Terminal sends pastes, mouse reports and replies as one key record without a key for each byte, and
+// the text of a paste as records of the keys that type it. m_spelled decodes these bytes.
 void InputDecoder::takeKeyRecord(const Numbers& numbers, Events& out) {
   if (m_is_spelled) return;
   if (!m_spelled) {
@@ -347,7 +347,7 @@ void InputDecoder::takeX10(unsigned char byte, Events& out) {
 }
 
 void InputDecoder::emitMouse(Events& out, int code, int x, int y, bool released) {
-  if (m_pasting || code >= 64) return;  // the wheel and further buttons are not the game's
+  if (m_pasting || code >= 64) return;  // games do not use the wheel and further buttons
   static constexpr std::array<df::Mouse::Button, 4> kButtons = {
       df::Mouse::LEFT, df::Mouse::MIDDLE, df::Mouse::RIGHT, df::Mouse::UNDEFINED_MOUSE_BUTTON};
   MouseEvent event;

@@ -1,12 +1,12 @@
-// Terminal bytes to events: what the player's terminal sends, in any of the dialects in use.
+// Decodes the bytes of the player's terminal into events, in all dialects in use.
 //
 // ncurses would decode keys too, but not key releases, not mouse motion under every TERM, and it waits a
-// second after an ESC. So the client reads fd 0 itself, and this decoder, which uses neither a terminal nor a
-// clock, decodes the bytes:
+// second after an ESC. So the client reads fd 0 itself. This decoder uses neither a terminal nor a clock. It
+// decodes:
 //   - plain characters, control bytes, UTF-8, Alt as an ESC before the character
 //   - cursor, editing and function keys of xterm, rxvt, the Linux console (CSI and SS3), with modifiers
 //   - the kitty keyboard protocol (press, repeat, release, alternate keys, text) and the reply to its query
-//   - the key records of Windows Terminal (win32-input-mode), also those that spell a paste or a mouse report
+//   - the key records of Windows Terminal (win32-input-mode), also those that contain a paste or mouse report
 //   - the mouse as SGR (1006) and as X10 bytes
 //   - pasted text (bracketed paste), which never becomes keys
 // Unknown sequences, terminal replies and focus reports are dropped whole: a byte of a sequence never becomes
@@ -29,11 +29,11 @@ namespace naiad {
 /// Modifier keys held with a key, as a sum of bits.
 enum Modifier : std::uint8_t { kShift = 1, kAlt = 2, kControl = 4, kSuper = 8 };
 
-/// A key, as the terminal reports it. Terminals without the kitty protocol report only presses, and repeats
+/// A key, as reported by the terminal. Without the kitty protocol, terminals report only presses, and repeats
 /// as presses: HeldKeys guesses the rest.
 struct KeyEvent {
   enum class Action : std::uint8_t { kPress, kRepeat, kRelease };
-  df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;  ///< undefined for characters that have no key
+  df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;  ///< undefined for characters without a key
   char32_t ch = 0;  ///< the character for a text line; 0 if the key types none
   Action action = Action::kPress;
   std::uint8_t modifiers = 0;
@@ -50,15 +50,15 @@ struct MouseEvent {
   friend bool operator==(const MouseEvent&, const MouseEvent&) = default;
 };
 
-/// The reply to `CSI ? u`: the terminal supports the kitty keyboard protocol; `flags` are those in force.
+/// The reply to `CSI ? u`: the terminal supports the kitty keyboard protocol. `flags`: the active ones.
 struct KittyReply {
   int flags = 0;
   friend bool operator==(const KittyReply&, const KittyReply&) = default;
 };
 
-/// Text that was pasted, as one event: line ends and tabs are blanks, other control characters are gone.
+/// Pasted text, as one event. Line ends and tabs have become blanks; other control characters are removed.
 struct PasteEvent {
-  std::u32string text;  ///< not more than InputDecoder::kMaxPaste characters
+  std::u32string text;  ///< limited to InputDecoder::kMaxPaste characters
   friend bool operator==(const PasteEvent&, const PasteEvent&) = default;
 };
 
@@ -68,22 +68,22 @@ class InputDecoder {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// An ESC that nothing follows for this long is the Escape key.
+  /// An ESC that no byte follows for this long is the Escape key.
   static constexpr std::chrono::milliseconds kEscapeDelay{25};
-  /// A sequence that stops in the middle for this long is dropped.
+  /// An incomplete sequence is dropped after a pause of this length.
   static constexpr std::chrono::milliseconds kSequenceDelay{500};
-  /// So long may a pasted text pause: what comes later are keys, a Return among them.
+  /// A paste ends after a pause of this length; later bytes are keys, including Return.
   static constexpr std::chrono::milliseconds kPasteDelay{2000};
-  /// Characters of a pasted text; the rest is dropped.
+  /// Limit on the characters of a paste; the rest is dropped.
   static constexpr std::size_t kMaxPaste = 1000;
 
-  /// Decode `bytes`, read at `now`. Sequences may be split anywhere between calls.
+  /// Decodes `bytes`, read at `now`. Sequences may be split anywhere between calls.
   std::vector<TerminalEvent> feed(std::string_view bytes, Time now);
-  /// What became certain by time alone: the lone ESC. Call at deadline().
+  /// Returns the events that a timeout has decided, such as a lone ESC. Call at deadline().
   std::vector<TerminalEvent> flush(Time now);
-  /// When flush() will next have something to do; nothing while no sequence is open.
+  /// Returns when flush() will next have something to do; nullopt while no sequence is open.
   std::optional<Time> deadline() const;
-  /// Bytes of a sequence held back at the moment; never more than 128.
+  /// Returns the number of bytes of an incomplete sequence; at most 128.
   std::size_t pendingBytes() const {
     return m_parameters.size() + m_utf8.size() + (m_spelled ? m_spelled->pendingBytes() : 0);
   }
@@ -97,8 +97,8 @@ class InputDecoder {
     kCsi,            ///< after ESC [
     kSs3,            ///< after ESC O
     kLinuxFunction,  ///< after ESC [ [
-    kX10Mouse,       ///< after ESC [ M: three bytes follow
-    kString,         ///< OSC, DCS, APC, PM, SOS: until ST or BEL
+    kX10Mouse,       ///< after ESC [ M, before three bytes
+    kString,         ///< OSC, DCS, APC, PM, SOS, until ST or BEL
     kStringEscape,   ///< an ESC inside such a string
     kUtf8,
   };
@@ -122,17 +122,17 @@ class InputDecoder {
   void enterState(State state);
 
   State m_state = State::kGround;
-  bool m_overlong = false;       ///< the sequence is too long to be one of ours: swallow to its end
+  bool m_overlong = false;       ///< the sequence is too long to be valid: drop it up to its end
   bool m_meta = false;           ///< an ESC came before the sequence (rxvt's Alt)
   bool m_pasting = false;        ///< between CSI 200 ~ and CSI 201 ~
-  std::u32string m_pasted;       ///< since then
-  bool m_pasted_return = false;  ///< the last of it was a CR: an LF belongs to it
+  std::u32string m_pasted;       ///< text since CSI 200 ~
+  bool m_pasted_return = false;  ///< its last character was CR, to which an LF belongs
   std::string m_parameters;
   std::string m_utf8;
   Time m_last{};
-  std::unique_ptr<InputDecoder> m_spelled;  ///< decodes what key records spell; null before the first record
-  bool m_is_spelled = false;                ///< this is one: records that are spelled by records are none
-  int m_surrogate = 0;                      ///< the first half of a character beyond the BMP, from a record
+  std::unique_ptr<InputDecoder> m_spelled;  ///< decodes bytes in key records; null before the first record
+  bool m_is_spelled = false;                ///< this is m_spelled of another decoder: ignore key records
+  int m_surrogate = 0;                      ///< first half of a surrogate pair, from a record
 };
 
 }  // namespace naiad

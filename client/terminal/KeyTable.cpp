@@ -13,12 +13,12 @@ constexpr std::array kControls = {BACKSPACE, TAB, RETURN, RETURN, ESCAPE, BACKSP
 
 constexpr Key kNone = UNDEFINED_KEY;
 
-/// Returns the key at a place of a table; undefined if there is no such place.
+/// Returns the key at an index of a table; undefined for other numbers.
 template <std::size_t N>
 Key keyAt(const std::array<Key, N>& keys, int place) {
   return place >= 0 && place < static_cast<int>(N) ? keys[static_cast<std::size_t>(place)] : kNone;
 }
-/// Returns the key at the place where `code` is among `codes`; undefined if it is not.
+/// Returns the key at the index of `code` in `codes`; undefined if it is not there.
 template <std::size_t N>
 Key keyIn(std::string_view codes, const std::array<Key, N>& keys, int code) {
   return keyAt(keys, code > 0xFF ? -1 : static_cast<int>(codes.find(static_cast<char>(code))));
@@ -31,7 +31,7 @@ Key keyOfDigit(int digit) {
 }  // namespace
 
 KeyEvent keyOfCharacter(char32_t ch) {
-  // What the keys type, plain and with shift. 0x7F: nothing.
+  // Characters that the keys type, plain and with shift. 0x7F: none.
   static constexpr std::string_view kPlain = " 0123456789-=`.,/';[]\\\x7F";
   static constexpr std::string_view kShifted = " )!@#$%^&*(_\x7F~><?\":{}|+";
   static constexpr std::array kKeys = {
@@ -68,7 +68,7 @@ Key keyOfFinal(char final, bool ss3) {
   const char upper = final >= 'a' && final <= 'd' ? static_cast<char>(final - 'a' + 'A') : final;
   const Key key = keyIn("ABCDFHPQRS", kKeys, upper);
   if (key != kNone) return key;
-  if (!ss3) return final == 'Z' ? TAB : kNone;  // with shift
+  if (!ss3) return final == 'Z' ? TAB : kNone;  // shift and Tab
   if (final >= 'q' && final <= 'y') return static_cast<Key>(NUM1 + (final - 'q'));
   static constexpr std::array kKeypad = {RETURN, TAB, EQUAL, NUM8, PLUS, COMMA, MINUS, PERIOD, SLASH, NUM0};
   return keyIn("MIXjklmnop", kKeypad, final);

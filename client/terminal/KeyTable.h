@@ -1,31 +1,31 @@
-// Which key a character, a control byte, an escape sequence's number, a kitty code or a virtual key of
-// Windows stands for.
+// Tables that find the key of a character, a control byte, an escape sequence's number, a kitty code or a
+// virtual key of Windows.
 #pragma once
 
 #include "client/terminal/InputDecoder.h"
 
 namespace naiad {
 
-/// The key that types `ch` on a US keyboard, with kShift if it takes shift ('a' and 'A' are the same key).
-/// Undefined beyond ASCII.
+/// Returns the key that types `ch` on a US keyboard, with kShift if that needs shift ('A' is key A with
+/// shift). Undefined beyond ASCII.
 KeyEvent keyOfCharacter(char32_t ch);
 
-/// The key of a byte below 0x20 or of 0x7F: Return, Tab, Backspace, or Control with a letter or sign.
+/// Returns the key of a byte below 0x20 or of 0x7F: Return, Tab, Backspace, or Control with a letter or sign.
 KeyEvent keyOfControl(unsigned char byte);
 
-/// The key of `CSI … letter` and `SS3 letter`: cursor keys, Home, End, F1 to F4, the keypad.
+/// Returns the key of `CSI … letter` and `SS3 letter`: cursor keys, Home, End, F1 to F4, the keypad.
 df::Keyboard::Key keyOfFinal(char final, bool ss3);
 
-/// The key of `CSI number ~`: editing keys and function keys, xterm's and rxvt's numbers.
+/// Returns the key of `CSI number ~`: editing and function keys, with the numbers of xterm and rxvt.
 df::Keyboard::Key keyOfTilde(int number);
 
-/// The key of a kitty code: a Unicode character, or a functional key in the private use area.
+/// Returns the key of a kitty code: a Unicode character, or a functional key in the private use area.
 df::Keyboard::Key keyOfKitty(int code);
 
-/// The key of a virtual key of Windows (VK_…), by its place on a US keyboard.
+/// Returns the key of a virtual key of Windows (VK_…), by its place on a US keyboard.
 df::Keyboard::Key keyOfWindows(int virtual_key, int scan_code, bool enhanced);
 
-/// The character that a keypad code of kitty types; 0 for all other codes.
+/// Returns the character that a keypad code of kitty types; 0 for all other codes.
 char32_t characterOfKeypad(int code);
 
 }  // namespace naiad

@@ -1,6 +1,6 @@
-// What the terminal is to show, cell by cell, before ncurses makes escape sequences of the difference.
+// Buffer of the terminal's cells. Screen shows it with ncurses, which sends the differences.
 //
-// Composing a picture needs no terminal, so the layout can be tested; Screen shows it.
+// Composing a picture needs no terminal, so the layout can be tested.
 #pragma once
 
 #include <optional>
@@ -12,42 +12,42 @@
 
 namespace naiad {
 
-/// How a cell is drawn beside its colour. Terminals without colours still have these.
+/// Style of a cell in addition to its colour. Terminals without colours show it as well.
 enum class Style : unsigned char { kPlain, kBold, kReverse };
 
 struct PictureCell {
   char32_t ch = U' ';
   df::Color color = df::COLOR_DEFAULT;
   Style style = Style::kPlain;
-  df::Color background = df::BLACK;  ///< black: the terminal's own
+  df::Color background = df::BLACK;  ///< black: the terminal's own background
   friend bool operator==(const PictureCell&, const PictureCell&) = default;
 };
 
 class Picture {
  public:
   Picture() = default;
-  /// Blank, `width` by `height` cells.
+  /// Makes a blank picture of `width` by `height` cells.
   Picture(int width, int height);
 
   int width() const { return m_width; }
   int height() const { return m_height; }
-  /// Outside the picture it is dropped. All cells with a background must have the same.
+  /// Sets a cell; ignored outside the picture. All cells with a background must have an equal one.
   void put(int x, int y, PictureCell cell);
-  /// Blank outside the picture.
+  /// Returns a cell; a blank one outside the picture.
   PictureCell at(int x, int y) const;
-  /// Write a safe text from (x, y) to the right, at most `columns` characters. Returns the column after it.
+  /// Writes a safe text from (x, y) to the right, at most `columns` characters. Returns the column after it.
   int write(int x, int y, const std::string& text, int columns, df::Color color = df::COLOR_DEFAULT,
             Style style = Style::kPlain);
-  /// Fill a rectangle with blanks.
+  /// Fills a rectangle with blanks.
   void fill(int x, int y, int width, int height, Style style = Style::kPlain);
-  /// Draw a thin frame whose corners are (x, y) and (x + width - 1, y + height - 1).
+  /// Draws a thin frame with the corners (x, y) and (x + width - 1, y + height - 1).
   void frame(int x, int y, int width, int height);
-  /// The one background of its cells that is not the terminal's own; black: there is none.
+  /// Returns the background of the cells that have one; black if none has.
   df::Color background() const { return m_background; }
-  /// Row `y` as UTF-8, for tests.
+  /// Returns row `y` as UTF-8, for tests.
   std::string rowText(int y) const;
 
-  /// Where the terminal's cursor is shown; nowhere by default.
+  /// Position of the terminal's cursor; nullopt: hidden.
   std::optional<CellPosition> cursor;
 
  private:

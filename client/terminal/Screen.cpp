@@ -10,7 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
-// The wide-character half of curses.h is there only on request.
+// Needed for the wide-character functions of curses.h.
 #ifndef NCURSES_WIDECHAR
 #define NCURSES_WIDECHAR 1
 #endif
@@ -22,13 +22,13 @@
 namespace naiad {
 namespace {
 
-/// Of ncurses: 1 to 8 on the terminal's own background, 9 to 16 on the game's. (On a terminal of eight
-/// colours there are not enough for all backgrounds at once, but a picture has one.)
+/// Returns the ncurses colour pair: 1 to 8 on the terminal's own background, 9 to 16 on the game's. (With
+/// eight colours there are not enough pairs for all backgrounds at once, but a picture has only one.)
 short pairOf(df::Color color, bool own_background) {
   return static_cast<short>(color + (own_background ? 1 : 1 + df::kColorCount));
 }
 
-/// The terminal has bright variants of the eight colours, at 8 to 15.
+/// True if the terminal has bright variants of the eight colours, at 8 to 15.
 bool hasBright() {
   return COLORS >= 16;
 }
@@ -62,7 +62,7 @@ Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(option
   std::setlocale(LC_CTYPE, "");
   if (std::strcmp(nl_langinfo(CODESET), "UTF-8") != 0) m_ascii = true;
 
-  // newterm() allocates the size in these variables. Without them it takes the terminal's, unlimited.
+  // newterm() allocates the size in these variables. Without them it uses the terminal's size, unlimited.
   const Size size = terminalSize();
   setenv("COLUMNS", std::to_string(size.columns).c_str(), 1);
   setenv("LINES", std::to_string(size.rows).c_str(), 1);
@@ -75,12 +75,11 @@ Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(option
   m_colors = m_colors && has_colors();
   if (m_colors) {
     start_color();
-    // The terminal's own background, where that is supported; black must differ from it.
+    // Use the terminal's own background where that is supported; black must differ from it.
     const bool has_default = use_default_colors() == OK;
     for (int c = df::BLACK; c < df::kColorCount; ++c) {
       const auto color = static_cast<df::Color>(c);
-      // The colours of a Dragonfly are bright. The terminal's own black differs from its background only
-      // then.
+      // The colours of Dragonfly are bright. Only bright black differs from the terminal's background.
       short foreground = hasBright() ? brightColor(color) : cursesColor(color);
       if (color == df::COLOR_DEFAULT && has_default) foreground = -1;
       if (color == df::BLACK && COLORS > 8) foreground = 8;
@@ -95,13 +94,13 @@ Screen::~Screen() {
   end();
 }
 
-// Pairs without the terminal's default colours: white on cyan must look so on every terminal.
+// Pairs on the game's background do not use the terminal's default colours, which differ between terminals.
 void Screen::setBackground(df::Color background) {
   if (!m_colors || background == df::BLACK || background == m_background) return;
   m_background = background;
   for (int c = df::BLACK; c < df::kColorCount; ++c) {
     const auto color = static_cast<df::Color>(c);
-    // Black stays black there.
+    // Black stays black on a game's background.
     const bool bright = hasBright() && color != df::BLACK;
     init_pair(pairOf(color, false), bright ? brightColor(color) : cursesColor(color),
               cursesColor(background));
@@ -147,7 +146,7 @@ void Screen::ring() {
 
 void Screen::put(int x, int y, const PictureCell& cell) {
   attr_t attributes = A_NORMAL;
-  // With eight colours, bold ones are bright.
+  // Bold makes a colour bright if there are only eight.
   const bool is_dark = m_colors && COLORS < 16 && cell.color == df::BLUE && cell.background == df::BLACK;
   if (cell.style == Style::kBold || is_dark) attributes |= A_BOLD;
   if (cell.style == Style::kReverse) attributes |= A_REVERSE;

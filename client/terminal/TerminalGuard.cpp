@@ -29,22 +29,22 @@ constexpr std::string_view kKittyPop = "\033[<u";
 // Windows Terminal's key records; other terminals ignore it.
 constexpr std::string_view kRecordsOn = "\033[?9001h";
 constexpr std::string_view kModesOff = "\033[?9001l\033[?1006l\033[?1003l\033[?2004l";
-// For exits that cannot call ncurses: plain colours, cursor on, normal screen.
+// Written at exits that cannot call ncurses: plain colours, cursor on, normal screen.
 constexpr std::string_view kScreenOff = "\033[m\033[?25h\033[?1049l";
 
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
 constexpr int kTerminating[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kReported[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
-constexpr int kWriteTimeoutMillis = 1000;  // for a terminal that takes no bytes
-constexpr int kForegroundMillis = 100;     // between two looks whether this is the foreground again
+constexpr int kWriteTimeoutMillis = 1000;  // for a terminal that accepts no bytes
+constexpr int kForegroundMillis = 100;     // interval of checks for the foreground
 
-// What the signal handlers read: lock-free and initialised before they are installed.
+// Data that the signal handlers read: lock-free, and initialised before the handlers are installed.
 termios g_original;
-volatile sig_atomic_t g_taken = 0;  ///< from before raw mode is set to after the original mode is set
+volatile sig_atomic_t g_taken = 0;  ///< 1 from before raw mode is set to after the original mode is set
 volatile sig_atomic_t g_modes_on = 0;
 volatile sig_atomic_t g_kitty = 0;
 volatile sig_atomic_t g_end_asked = 0;
-pthread_t g_thread;  ///< the one that draws
+pthread_t g_thread;  ///< the thread that draws
 int g_pipe[2] = {-1, -1};
 alignas(16) char g_signal_stack[64 * 1024];
 
@@ -52,8 +52,8 @@ void put(std::string_view bytes) {
   TerminalGuard::write(bytes.data(), bytes.size());
 }
 
-/// Async-signal-safe: write(), poll() and tcsetattr() only. The terminal counts as taken until all
-/// is done: a handler that interrupts this, at exit(), restores everything itself before it ends the process.
+/// Async-signal-safe: calls only write(), poll() and tcsetattr(). g_taken is reset last: a handler that
+/// interrupts this, at exit(), restores everything itself before it ends the process.
 void restoreNow() {
   if (!g_taken) return;
   pollfd waiting{STDOUT_FILENO, POLLOUT, 0};
@@ -81,7 +81,7 @@ pid_t shellOfGroup() {
 
 /// Waits until the process group is in the foreground: it may have been continued in the background. Returns
 /// false if the process must end, because a signal asks it to, or its shell or terminal is gone. It does not
-/// stop again: the shell thinks that it runs, and would send no SIGCONT after a signal that ends it.
+/// stop again: the shell thinks that it runs, and would not send SIGCONT after a terminating signal.
 bool waitForForeground(pid_t shell) {
   while (!g_end_asked) {
     const pid_t foreground = tcgetpgrp(STDIN_FILENO);
@@ -106,7 +106,8 @@ bool isTerminating(int signal) {
   return std::find(std::begin(kTerminating), std::end(kTerminating), signal) != std::end(kTerminating);
 }
 
-/// Another thread would draw on while this one restores the terminal, so the thread that draws does both.
+/// Passes a signal to the thread that draws, which must not draw while another thread restores the terminal.
+/// Returns false in that thread itself.
 bool forward(int signal) {
   if (pthread_equal(pthread_self(), g_thread) != 0) return false;
   pthread_kill(g_thread, signal);
@@ -159,7 +160,7 @@ TerminalGuard::~TerminalGuard() {
   restore();
   for (const int signal : kCrashes) install(signal, SIG_DFL, 0);
   for (const int signal : kReported) install(signal, SIG_DFL, 0);
-  // A signal that came too late for the event loop must still end the process.
+  // A terminating signal that the event loop has not read must still end the process.
   int unread = 0;
   for (unsigned char signal = 0; ::read(g_pipe[0], &signal, 1) == 1;)
     if (isTerminating(signal)) unread = signal;
@@ -170,7 +171,7 @@ TerminalGuard::~TerminalGuard() {
 }
 
 void TerminalGuard::installHandlers() {
-  // An overflowing stack must still find room to restore the terminal on.
+  // After a stack overflow the handler needs another stack to restore the terminal.
   stack_t stack{};
   stack.ss_sp = g_signal_stack;
   stack.ss_size = sizeof g_signal_stack;
@@ -191,7 +192,7 @@ void TerminalGuard::setRaw() {
   tcsetattr(STDIN_FILENO, TCSANOW, &raw);
 }
 
-// TCSAFLUSH: mouse reports that are still arriving must not end up in the shell's command line.
+// TCSAFLUSH, so that mouse reports still arriving do not end up in the shell's command line.
 void TerminalGuard::setOriginal() {
   tcsetattr(STDIN_FILENO, TCSAFLUSH, &g_original);
   g_taken = 0;
@@ -236,8 +237,8 @@ bool TerminalGuard::stopProcess() {
   const pid_t shell = shellOfGroup();
   const bool has_shell = tcgetpgrp(STDIN_FILENO) > 0;
   install(SIGTSTP, SIG_DFL, 0);
-  // The whole group, as the terminal does it: a parent that waits for this process (a script, sudo) must stop
-  // as well.
+  // Stop the whole group, as the terminal does: a parent that waits for this process (a script, sudo) must
+  // stop as well.
   kill(0, SIGTSTP);
   const bool goes_on = has_shell ? waitForForeground(shell) : g_end_asked == 0;
   installHandlers();

@@ -20,7 +20,7 @@ Kind kindOf(const std::string& name) {
   int error = 0;
   TERMINAL* const p_before = cur_term;
   if (setupterm(const_cast<char*>(name.c_str()), STDOUT_FILENO, &error) != OK) {
-    return error == 1 ? Kind::kCannotDraw : Kind::kUnknown;  // 1: it prints on paper
+    return error == 1 ? Kind::kCannotDraw : Kind::kUnknown;  // 1: a hardcopy terminal
   }
   const char* p_move = tigetstr(const_cast<char*>("cup"));
   const bool moves = p_move != nullptr && p_move != reinterpret_cast<char*>(-1);
@@ -29,8 +29,8 @@ Kind kindOf(const std::string& name) {
   return moves ? Kind::kDraws : Kind::kCannotDraw;
 }
 
-/// The same, with the description that is compiled in where the system has none. TERMINFO then stays set, for
-/// the screen that is made later.
+/// Like kindOf(), with the compiled-in description if the system has none. TERMINFO then stays set for the
+/// screen, which is made later.
 Kind kindWithBuiltIn(const std::string& name) {
   const Kind kind = kindOf(name);
   const char* const p_description = builtInTerminal(name);
@@ -44,7 +44,7 @@ Kind kindWithBuiltIn(const std::string& name) {
   return built_in;
 }
 
-/// A part of a sentence for the terminal itself: harmless, and not too long.
+/// Returns "TERM=NAME" for a message on the terminal itself: drawable characters only, at most kMaxShown.
 std::string shown(const std::string& name) {
   std::string text = "TERM=";
   std::size_t count = 0;
@@ -60,7 +60,7 @@ std::string shown(const std::string& name) {
 TerminalType chooseTerminalType(const char* p_term) {
   const std::string term = p_term != nullptr ? p_term : "";
   if (term.empty()) throw std::runtime_error("TERM is not set: what kind of terminal is this?");
-  // What calls itself so has no description, or a poor one, on purpose.
+  // Terminals of these types have no description, or a poor one, on purpose.
   const bool refuses = term == "dumb" || term == "unknown";
   const Kind kind = refuses ? Kind::kCannotDraw : kindWithBuiltIn(term);
   if (kind == Kind::kDraws) return {term, ""};

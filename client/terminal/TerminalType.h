@@ -1,7 +1,7 @@
-// Which description of the terminal ncurses draws with, found out before anything is joined.
+// Chooses the terminal description that ncurses draws with, before the client joins a server.
 //
-// Terminals name themselves in TERM, and some (kitty, foot, ghostty, wezterm) by names that a system's
-// descriptions do not have yet. They all understand what xterm does.
+// Terminals put their type in TERM. Some (kitty, foot, ghostty, wezterm) have types that a system's database
+// does not have yet; all of them understand xterm's sequences.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 namespace naiad {
 
 struct TerminalType {
-  std::string name;    ///< of a description that there is
-  std::string notice;  ///< for the player, if it is not the one that TERM names; else empty
+  std::string name;    ///< a type with a description
+  std::string notice;  ///< message for the player if `name` is not TERM; otherwise empty
 };
 
-/// For the value of TERM; null if it is not set. Throws std::runtime_error, with a sentence for people, if it
-/// names none, or one on which nothing can be drawn, or if there are no descriptions at all.
+/// Returns the type for the value of TERM; null: not set. Throws std::runtime_error, with a sentence for
+/// people, if TERM is not set, its terminal cannot be drawn on, or no description is found.
 TerminalType chooseTerminalType(const char* p_term);
 
-/// One of the descriptions of common terminals that are compiled in, for systems that have none: bare
-/// containers, other Unixes. As ncurses takes it in the variable TERMINFO ("b64:…"); null if there is none of
-/// this name. Lives as long as the program.
+/// Returns the compiled-in description of a common terminal, for systems without a database (bare containers,
+/// other Unixes). It is in the form of ncurses' variable TERMINFO ("b64:…"); null if the name is unknown.
+/// Lives as long as the program.
 const char* builtInTerminal(std::string_view name);
 
 }  // namespace naiad

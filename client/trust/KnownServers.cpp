@@ -12,24 +12,24 @@
 namespace naiad {
 namespace {
 
-// The lines of a file of known servers, in memory. KnownServers.h says what is in them.
+// The lines of a file of known servers, in memory. KnownServers.h describes the format.
 
 class PinLines {
  public:
   explicit PinLines(std::string_view content);
   std::string content() const;
 
-  /// The pin of `server` ("host:port", lower case): the last one, if there are several.
+  /// Returns the pinned key of `server` ("host:port", lower case): the last one, if there are several.
   std::optional<Fingerprint> find(std::string_view server) const;
-  /// Make it the only one. Other lines stay as they are.
+  /// Makes `key` the only pin of `server`. Other lines do not change.
   void set(std::string_view server, const Fingerprint& key);
-  /// Numbers, from 1, of the lines that are neither a pin nor a comment.
+  /// Returns the numbers, from 1, of the lines that are neither a pin nor a comment.
   std::vector<std::size_t> malformed() const;
 
  private:
   struct Line {
     std::string text;
-    std::string server;  // empty: no pin
+    std::string server;  // empty: not a pin
     std::optional<Fingerprint> key;
   };
   static Line parse(std::string_view text);
@@ -63,7 +63,7 @@ PinLines::Line PinLines::parse(std::string_view text) {
   const std::size_t second = rest.find_first_not_of(kBlanks, blank);
   const auto address = ServerAddress::parse(std::string(rest.substr(0, blank)));
   const auto key = Fingerprint::parse(rest.substr(second));
-  // Compared as written: the same address in another spelling is not found.
+  // Only the canonical spelling of an address counts as a pin, because pins are compared as text.
   if (!address || !key || address->text() != rest.substr(0, blank)) return line;
   line.server = lowerCase(address->text());
   line.key = key;
@@ -99,7 +99,7 @@ std::vector<std::size_t> PinLines::malformed() const {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxFile = std::size_t{4} * 1024 * 1024;  // bytes; some 40,000 servers
+constexpr std::size_t kMaxFile = std::size_t{4} * 1024 * 1024;  // bytes; about 40,000 servers
 
 std::string nameOf(const std::string& host, std::uint16_t port) {
   return ServerAddress{host, port}.canonicalText();
@@ -175,7 +175,7 @@ Verdict KnownServers::admit(const std::string& host, std::uint16_t port, const P
     const std::string server = nameOf(host, port);
     const PinLines seen = readLines(path_);
     Verdict first = judgeBy(seen, server, facts, given, link, path_);
-    // Nothing to write: no lock either, so that a home directory that is read-only does not matter.
+    // Nothing to write, so no lock is taken, and a read-only home directory does not matter.
     if (!first.accepted() || seen.find(server) == facts.key) return first;
     if (path_.has_parent_path()) fs::create_directories(path_.parent_path());
     const FileLock lock(path_.string() + ".lock");

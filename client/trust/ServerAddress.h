@@ -1,4 +1,4 @@
-// Addresses as people type them: HOST[:PORT], and the URL of a gateway's page.
+// Addresses typed by people: HOST[:PORT], and the URL of a gateway's page.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace naiad {
 
-/// The address of a gateway's page: http[s]://HOST[:PORT]/[#…], as the gateway prints it.
+/// Address of a gateway's page: http[s]://HOST[:PORT]/[#…], as the gateway prints it.
 struct GatewayAddress {
   bool encrypted = false;
   std::string host;  ///< a name or an address, IPv6 without brackets
   std::uint16_t port = 80;
 
-  /// Does the text mean to be such an address? It begins with "http://" or "https://".
+  /// True if the text begins with "http://" or "https://".
   static bool isMeant(std::string_view text);
-  /// Nothing if it is no such address, or leads to another page of the host.
+  /// Parses an address. Nullopt if it is invalid, or of another page of the host.
   static std::optional<GatewayAddress> parse(const std::string& text);
-  /// "example.org:8080", "[::1]:8080": what stands in the header Host. Without the scheme's own port.
+  /// Returns the value of the header Host: "example.org:8080", "[::1]"; without the scheme's default port.
   std::string hostText() const;
-  /// "https://example.org": what stands in the header Origin.
+  /// Returns the value of the header Origin: "https://example.org".
   std::string origin() const { return (encrypted ? "https://" : "http://") + hostText(); }
 
  private:
@@ -33,12 +33,12 @@ struct ServerAddress {
   std::string host;  ///< a name or an address, IPv6 without brackets
   std::uint16_t port = kDefaultPort;
 
-  /// "localhost", "localhost:9876", "127.0.0.1", "::1", "[::1]:9876". Nothing if it is none of these or the
-  /// port is not in 1 … 65535.
+  /// Parses an address such as "localhost", "localhost:9876", "127.0.0.1", "::1", "[::1]:9876". Nullopt if
+  /// the host is malformed or the port is not in 1 … 65535.
   static std::optional<ServerAddress> parse(const std::string& text);
-  /// "localhost:9876", "[::1]:9876".
+  /// Returns the address as "localhost:9876", "[::1]:9876".
   std::string text() const;
-  /// The same in one spelling for each server: lower case, no dot at the end of the host.
+  /// Like text(), in one spelling for each server: lower case, no dot at the end of the host.
   std::string canonicalText() const;
 
   friend bool operator==(const ServerAddress&, const ServerAddress&) = default;

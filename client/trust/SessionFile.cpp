@@ -52,7 +52,7 @@ SessionFile::~SessionFile() {
   closeFile();
 }
 
-// Under a lock: a file that is being made is not locked for a moment.
+// Takes the directory's lock, because a new file is not locked for a moment after its creation.
 void SessionFile::findSession(const std::optional<std::string>& name, Time now) {
   const FileLock lock(m_directory / "lock");
   int looked = 0;
@@ -152,7 +152,8 @@ void SessionFile::refresh(Time now) {
   write(now);
 }
 
-// In place, for the lock is on this file; in one piece, for the process may be killed at any moment.
+// Writes in place, because the lock is on this file, and all at once, because the process may be killed at
+// any moment.
 void SessionFile::write(Time now) {
   m_saved->alive = now;
   const auto text = writeSavedSession(*m_saved);

@@ -1,8 +1,8 @@
-// Where a running client keeps what a later one needs to resume its session if it is killed: one file for
-// each client, locked while it runs, so that a second terminal cannot take the session of the first.
+// Stores a running client's session, so that a later client can resume it if this one is killed. Each client
+// has a file, locked while it runs, so that a second terminal cannot take the session of the first.
 //
-// Files are 0600 in a directory of the user's own. A damaged file, or one that others can read, is not
-// used but reported: the player then joins as a new one. Nothing here throws.
+// Files have mode 0600 in a directory that only the user can access. A damaged file, or one that others can
+// read, is reported and not used: the player then joins as a new one. Nothing here throws.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 
 namespace naiad {
 
-/// Not thread-safe; any number of processes on one directory.
+/// Not thread-safe. Any number of processes may use one directory.
 class SessionFile : public TokenStore {
  public:
-  /// The time in the file is brought up to date this often.
+  /// Interval at which the time in the file is updated.
   static constexpr std::chrono::seconds kRefresh{2};
 
-  /// $XDG_STATE_HOME/naiad/sessions, or the same in ~/.local/state; nothing if the environment names neither.
+  /// Returns naiad/sessions in $XDG_STATE_HOME, or in ~/.local/state; nullopt if neither variable is set.
   static std::optional<std::filesystem::path> defaultDirectory();
 
-  /// Take over the newest file in the directory whose client does not run any more and played at `server`
-  /// (ServerAddress::canonicalText()), under `name` if one is given. Files past their grace are removed.
-  /// The directory is made with the first save().
+  /// Takes over the newest file of a client that no longer runs and played at `server`
+  /// (ServerAddress::canonicalText()), under `name` if given. Removes files past their grace time. The first
+  /// save() creates the directory.
   SessionFile(std::filesystem::path directory, std::string server, const std::optional<std::string>& name,
               Time now);
-  /// The file stays; a client that leaves in order removes it.
+  /// Leaves the file; a client that leaves on purpose calls remove().
   ~SessionFile() override;
   SessionFile(const SessionFile&) = delete;
   SessionFile& operator=(const SessionFile&) = delete;
@@ -39,7 +39,7 @@ class SessionFile : public TokenStore {
   void refresh(Time now) override;
   void remove() override;
 
-  /// Problems with files, a sentence each.
+  /// Returns the problems with files, a sentence each.
   const std::vector<std::string>& problems() const { return m_problems; }
 
  private:
@@ -55,8 +55,8 @@ class SessionFile : public TokenStore {
   std::filesystem::path m_directory;
   std::string m_server;
   std::filesystem::path m_path;
-  int m_file = -1;     ///< locked; −1: none yet
-  bool m_off = false;  ///< files do not work here
+  int m_file = -1;     ///< locked file; −1: none yet
+  bool m_off = false;  ///< the directory or file cannot be used
   std::optional<SavedSession> m_saved;
   std::vector<std::string> m_problems;
 };

@@ -1,5 +1,5 @@
-// Where a client keeps what another one needs to go on with its session: a file (SessionFile.h), or the
-// memory of a browser's tab.
+// Interface of the store for a session's token, with which a later client process can resume the session: a
+// file (SessionFile.h), or the storage of a browser tab.
 #pragma once
 
 #include <chrono>
@@ -12,27 +12,27 @@
 
 namespace naiad {
 
-/// What of a session outlives the client's process, as text in a file: its server, name and resume token.
+/// Data of a session that outlives the client's process, stored as text: its server, name and resume token.
 struct SavedSession {
   using Time = std::chrono::system_clock::time_point;
 
-  std::string server;  ///< "host:port", ServerAddress::canonicalText() of what the player named
-  Fingerprint key;     ///< of the server that gave the token, which no other is sent
-  std::string name;    ///< the wanted one
+  std::string server;  ///< "host:port": ServerAddress::canonicalText() of the address that the player typed
+  Fingerprint key;     ///< key of the server that gave the token; no other server gets it
+  std::string name;    ///< the requested name
   std::string token;   ///< 1 to 64 bytes
-  std::chrono::milliseconds grace{0};  ///< how long the server waits for a stream
-  Time alive{};                        ///< when the session was last alive, to a millisecond
+  std::chrono::milliseconds grace{0};  ///< how long the server keeps a session without a stream
+  Time alive{};                        ///< time when the session was last alive; milliseconds
 
-  /// May the session still be there?
+  /// True if the session may still exist.
   bool isWithinGrace(Time now) const { return now - alive <= grace; }
 };
 
-/// Bytes of each such text. Always the same, so that one write replaces another.
+/// Bytes of a stored session. The size is constant, so that one write replaces another.
 inline constexpr std::size_t kSavedSessionSize = 1024;
 
-/// The text; nothing if something in it is too long or does not fit a line.
+/// Returns the session as text; nullopt if a value is too long or contains a line end.
 std::optional<std::string> writeSavedSession(const SavedSession& session);
-/// Nothing if it is not such a text, to the last byte.
+/// Parses the text of writeSavedSession(). Nullopt if any byte is not as expected.
 std::optional<SavedSession> readSavedSession(std::string_view text);
 
 class TokenStore {
@@ -41,13 +41,13 @@ class TokenStore {
 
   virtual ~TokenStore() = default;
 
-  /// The token of the session that was left, for the server with this key; empty if there is none.
+  /// Returns the token of an earlier session with the server that has this key; empty without a session.
   virtual std::string tokenFor(const Fingerprint& key) const = 0;
-  /// The session's token is another one now. `session.server` and `alive` are filled in.
+  /// Stores a new token. The store sets `session.server` and `alive` itself.
   virtual void save(SavedSession session, Time now) = 0;
-  /// The session is alive. Call about once a second.
+  /// Records that the session is alive. Call about once a second.
   virtual void refresh(Time now) = 0;
-  /// The session is over.
+  /// Removes the stored session, because it is over.
   virtual void remove() = 0;
 };
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::chrono::milliseconds kFrame{16};  // at most 60 frames a second
 constexpr std::chrono::milliseconds kHousekeeping{100};
 constexpr std::chrono::milliseconds kFarewell{500};
-constexpr std::chrono::seconds kPictureNotice{2};  // of waiting for the first picture
+constexpr std::chrono::seconds kPictureNotice{2};  // wait for the first picture before a notice
 
 SessionOptions withTerminalSize(SessionOptions options) {
   const Screen::Size size = Screen::terminalSize();
@@ -47,9 +47,8 @@ ClientApp::Outcome ClientApp::run() {
   if (m_connection.isOver()) return outcome();
   takeTerminal();
   while (!m_leaving && !m_connection.isOver()) {
-    // One handler: bytes of the player (readInput), a signal, or a frame of the server (ClientSession).
-    // One that waits is run even where a deadline is past already: nothing else may keep the player from
-    // leaving.
+    // Run one handler: bytes of the player (readInput), a signal, or a frame of the server (ClientSession).
+    // A ready handler runs even if the deadline has already passed, so that the player can always leave.
     if (m_context.run_one_until(nextDeadline(Clock::now())) == 0) m_context.poll_one();
     const Time now = Clock::now();
     m_connection.update(now);
@@ -66,7 +65,7 @@ ClientApp::Outcome ClientApp::run() {
   return leaveTerminal();
 }
 
-/// Connect before the terminal is touched, so that an error is an ordinary line in an ordinary shell.
+/// Connects before the terminal is taken, so that an error is an ordinary line in the shell.
 void ClientApp::join() {
   const EndSignals ends(m_context, [this](int signal) {
     m_leaving = true;
@@ -119,7 +118,7 @@ void ClientApp::sayFarewell() {
   m_work.reset();
   m_connection.leave();
   m_context.restart();
-  m_context.run_for(kFarewell);  // ends early, when the channel has closed
+  m_context.run_for(kFarewell);  // ends as soon as the channel has closed
 }
 
 ClientApp::Outcome ClientApp::outcome() const {
@@ -155,7 +154,7 @@ void ClientApp::waitForSignal() {
   });
 }
 
-// The descriptor stays blocking: O_NONBLOCK would hit the shell's side of the terminal, too.
+// The descriptor stays blocking: O_NONBLOCK would also affect the shell, which shares the terminal.
 void ClientApp::readInput() {
   std::array<char, 4096> bytes{};
   const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
@@ -208,7 +207,7 @@ void ClientApp::takeKey(const KeyEvent& event, Time now) {
   m_dirty = true;
   switch (result) {
     case ClientControls::Result::kOpened:
-      // Text needs what the keyboard layout makes of the keys, and the game must see no key stay down.
+      // Text needs the characters of the keyboard layout, and no key may stay down in the game.
       m_player.releaseKeys(now);
       m_player.setRealReleases(false, now);
       if (m_guard->kittyPushed()) m_guard->popKitty();
@@ -248,8 +247,8 @@ void ClientApp::noticeSounds(Time now) {
   if (m_sounds.takeBell()) m_screen->ring();
 }
 
-/// A window that was closed is a player who left. A visitor's line may have broken, and they come back by
-/// another one.
+/// Leaves after the terminal has gone: the player closed the window. A visitor's session is kept, because
+/// their connection may have broken and they may return.
 void ClientApp::noteHangUp() {
   m_leaving = true;
   m_hung_up = m_options.session.visit.has_value();
@@ -259,7 +258,7 @@ bool ClientApp::isIdle(Time now) const {
   return m_options.idle_limit.count() > 0 && now - m_heard > m_options.idle_limit;
 }
 
-// A visitor has no shell to come back from.
+// A visitor of a door has no shell to resume from.
 void ClientApp::suspend() {
   if (m_options.session.visit) return;
   m_player.releaseKeys(Clock::now());
@@ -277,7 +276,7 @@ void ClientApp::suspend() {
 void ClientApp::resume() {
   const Time now = Clock::now();
   m_guard->setRaw();
-  // Perhaps another terminal has been attached: it is asked again below.
+  // Another terminal may have been attached, so enterModes() asks for its protocol again.
   m_player.setRealReleases(false, now);
   m_composer.noteKeyReleases(false);
   if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
@@ -292,7 +291,7 @@ void ClientApp::drawFrame(Time now) {
   m_placement = layout.placement;
   m_controls.noteShown(layout.shown);
   m_screen->show(layout.picture);
-  // After a frame that took long, as much time is for everything else.
+  // Leave at least as much time for everything else as drawing took.
   const Time end = Clock::now();
   m_next_frame = std::max(now + kFrame, end + (end - now));
 }
@@ -301,11 +300,11 @@ ClientApp::Time ClientApp::nextDeadline(Time now) {
   Time next = std::min(now + kHousekeeping, m_player.deadline());
   if (const auto due = m_decoder.deadline()) next = std::min(next, *due);
   const ClientSession* session = m_connection.session();
-  // A predicted object moves between snapshots, too.
+  // A predicted object also moves between snapshots.
   if (m_dirty || (session != nullptr && session->isPredicting())) next = std::min(next, m_next_frame);
   if (session == nullptr) return next;
   next = std::min(next, session->nextWake().value_or(next));
-  // A tick that passes without news can still change the picture.
+  // The picture can change with each tick, even without a snapshot.
   return std::min(next, session->clock().nextTick(now));
 }
 

@@ -1,7 +1,7 @@
-// dfclient: a player's terminal joined to a server.
+// Main loop of dfclient: connects a player's terminal with a server.
 //
-// run() is the client's frame loop: wait for bytes from the player, frames from the server, or the next
-// deadline; take them in; draw at most 60 times a second, and only when something changed.
+// run() waits for bytes from the player, frames from the server, or the next deadline, and handles them. It
+// draws at most 60 times a second, and only when something changed.
 #pragma once
 
 #include <asio/executor_work_guard.hpp>
@@ -31,29 +31,29 @@ class ClientApp {
  public:
   struct Options {
     ServerAddress address;
-    SessionOptions session;  ///< the terminal's size is filled in here
+    SessionOptions session;  ///< the constructor sets the terminal's size
     ServerTrust trust;
-    TokenStore* p_tokens = nullptr;  ///< for a later client to resume from; null: none
+    TokenStore* p_tokens = nullptr;  ///< store of the session's token; null: no resuming
     TerminalType terminal;
     bool ascii = false;
     bool mouse = true;
     bool colors = true;
     SoundMode sound = SoundMode::kNote;
-    std::chrono::seconds idle_limit{0};  ///< leave after so long without a key or the mouse; 0: never
+    std::chrono::seconds idle_limit{0};  ///< leave after this time without input; 0: never
   };
-  /// How it ended.
+  /// Result of run().
   struct Outcome {
     ExitCode code = kExitLeft;
-    std::string sentence;  ///< for stderr, once the terminal is restored; may be empty
-    int signal = 0;        ///< the signal that ended it, to be raised again; 0: none
-    /// The server with this key refused the password, or that there was none.
+    std::string sentence;  ///< message for stderr after the terminal is restored; may be empty
+    int signal = 0;        ///< the signal that ended the client, to be raised again; 0: none
+    /// Set if the server with this key refused because the password was missing or wrong.
     std::optional<Fingerprint> wants_password;
   };
 
   explicit ClientApp(Options options);
   ~ClientApp();
 
-  /// Join, play, restore the terminal. Throws std::runtime_error if there is no terminal to draw on.
+  /// Joins, plays and restores the terminal. Throws std::runtime_error if there is no terminal to draw on.
   Outcome run();
 
  private:
@@ -71,8 +71,7 @@ class ClientApp {
   void takeSignals();
   void takeEvents(const std::vector<TerminalEvent>& events, Time now);
   void takeKey(const KeyEvent& event, Time now);
-  /// The terminal reports when a key goes up. Returns false while a text line is open, which needs none of
-  /// it.
+  /// Call when the terminal reports key releases. Returns false and ignores them while a text line is open.
   bool noteKeyReleases(Time now);
   void noticeSounds(Time now);
   void suspend();
@@ -97,11 +96,11 @@ class ClientApp {
   PlayerInput m_player;
   FrameComposer m_composer;
 
-  Time m_next_frame{};  ///< not before
+  Time m_next_frame{};  ///< earliest time of the next frame
   bool m_dirty = true;
-  Time m_heard{};  ///< when the player did something last
+  Time m_heard{};  ///< time of the player's last input
   bool m_leaving = false;
-  bool m_hung_up = false;  ///< a visitor's line is gone: the session waits for their return
+  bool m_hung_up = false;  ///< a visitor's terminal is gone; their session is kept
   bool m_was_idle = false;
   int m_signal = 0;
 };

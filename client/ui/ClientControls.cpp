@@ -15,13 +15,13 @@ bool isControl(const KeyEvent& event, Key key) {
   return event.key == key && (event.modifiers & kControl) != 0 && (event.modifiers & (kAlt | kSuper)) == 0;
 }
 
-/// Keys that only modify others; terminals with the kitty protocol report them too.
+/// True for keys that only modify others; terminals with the kitty protocol report them, too.
 bool isModifierKey(Key key) {
   return key == LEFTSHIFT || key == RIGHTSHIFT || key == LEFTCONTROL || key == RIGHTCONTROL ||
          key == LEFTALT || key == RIGHTALT;
 }
 
-/// How far a key scrolls, where a page has so many lines; 0: it does not.
+/// Returns the lines that a key scrolls down; 0 if it does not scroll. `page`: lines of a page.
 int linesDown(Key key, int page) {
   if (key == UPARROW || key == DOWNARROW) return key == UPARROW ? -1 : 1;
   if (key == PAGEUP || key == PAGEDOWN) return key == PAGEUP ? -page : page;
@@ -31,7 +31,7 @@ int linesDown(Key key, int page) {
 }  // namespace
 
 ClientControls::Result ClientControls::takeKey(const KeyEvent& event) {
-  // The game ignores releases of keys that it never saw go down, so they may all go there.
+  // The game ignores releases of keys that were not pressed in it, so it may get all releases.
   if (event.action == KeyEvent::Action::kRelease) return Result::kGame;
   if (isControl(event, C)) return Result::kLeave;
   if (isControl(event, Z)) return Result::kSuspend;
@@ -50,7 +50,7 @@ ClientControls::Result ClientControls::takeKey(const KeyEvent& event) {
   return Result::kGame;
 }
 
-// The game keeps these keys while there is nothing to scroll.
+// While there is nothing to scroll, these keys belong to the game.
 bool ClientControls::takeScrollKey(Key key) {
   const int step = linesDown(key, std::max(m_shown.page - 1, 1));
   if (m_shown.max_scroll <= 0 || (step == 0 && key != HOME && key != END)) return false;
@@ -59,7 +59,7 @@ bool ClientControls::takeScrollKey(Key key) {
   return true;
 }
 
-// The game keeps all other keys.
+// Keys that do not move the choice or enter a room belong to the game.
 ClientControls::Result ClientControls::takeRoomKey(Key key) {
   const int last = std::max(m_shown.rooms - 1, 0);
   m_room_choice = std::clamp(m_room_choice, 0, last);
@@ -88,7 +88,7 @@ void ClientControls::setChatText(std::string_view text) {
 }
 
 ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
-  // A held Ctrl-] repeats; that is not its own command.
+  // A held Ctrl-] repeats; the repeats are not a command.
   if (event.action == KeyEvent::Action::kRepeat) return Result::kHandled;
   m_prefixed = false;
   if (event.ch == U'?') return toggle(Panel::kHelp);

@@ -1,7 +1,7 @@
-// The client's own keys: which belong to the client, and which to the game.
+// Separates the client's own keys from the game's, and holds the state that they change.
 //
-// One prefix (Ctrl-]) opens the client's commands, so that every other key is the game's; besides it only
-// Ctrl-C and Ctrl-Z have a fixed meaning. While a chat line is open, keys write text.
+// A prefix (Ctrl-]) starts the client's commands, so that the game gets every other key but Ctrl-C and
+// Ctrl-Z. While a chat line is open, keys write text.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace naiad {
 
-/// What the player has opened over the game.
+/// Panels that the player can open over the game.
 enum class Panel : unsigned char { kNone, kPlayers, kHelp, kRooms };
 
-/// The status line: shown where it covers nothing of the game and else for a moment; always; never.
+/// Mode of the status line. kAuto shows it if it covers nothing of the game, otherwise only for a moment.
 enum class StatusMode : unsigned char { kAuto, kAlways, kNever };
 
-/// The lines of the help panel about the client itself.
+/// Lines of the help panel about the client itself.
 inline constexpr const char* kClientKeyHelp[] = {
     "Ctrl-] t   say something to all players (c does the same)",
     "Up, PgUp   in the open chat line: what was said before",
@@ -30,7 +30,7 @@ inline constexpr const char* kClientKeyHelp[] = {
     "Esc        close the help or the list",
 };
 
-/// The same in a browser, whose page has buttons for these.
+/// Like kClientKeyHelp, in a browser, whose page also has buttons for the commands.
 inline constexpr const char* kBrowserKeyHelp[] = {
     "Ctrl-] t   say something to all players",
     "Ctrl-] p   list of players",
@@ -41,58 +41,58 @@ inline constexpr const char* kBrowserKeyHelp[] = {
     "Esc        close the help or the list",
 };
 
-/// The last line in a terminal: how exact held keys are in this terminal (docs/terminals.md).
+/// Last line in a terminal, depending on how exact held keys are in it (docs/terminals.md).
 inline constexpr const char* kKeyReleasesHelp = "Held keys  exact: this terminal reports when a key goes up";
 inline constexpr const char* kGuessedReleasesHelp =
     "Held keys  guessed: this terminal reports no key that goes up";
 
-/// What of the controls the last picture showed.
+/// State of the controls in the last picture.
 struct ShownControls {
-  bool status = true;       ///< a status line
-  int max_scroll = 0;       ///< lines of the open panel that are beyond its end
-  int page = 1;             ///< lines of it that are seen at a time
-  int max_chat_scroll = 0;  ///< rows of the chat's history above those shown
-  int chat_page = 1;        ///< rows of it that are seen at a time
-  int rooms = 0;            ///< of the open list of rooms
+  bool status = true;       ///< a status line was shown
+  int max_scroll = 0;       ///< number of lines of the open panel that did not fit
+  int page = 1;             ///< number of its lines shown at a time
+  int max_chat_scroll = 0;  ///< maximum of chatScroll()
+  int chat_page = 1;        ///< number of chat rows shown at a time
+  int rooms = 0;            ///< length of the open list of rooms
 };
 
 class ClientControls {
  public:
-  /// What the program must do about a key; panels and chat line change here.
+  /// Action that the program must take for a key. Panels and the chat line have already changed.
   enum class Result {
-    kGame,       ///< the key is the game's
-    kHandled,    ///< the client's own: what is drawn may have changed
-    kOpened,     ///< a chat line was opened: release the game's keys, switch the terminal to text
+    kGame,       ///< pass the key to the game
+    kHandled,    ///< nothing, but the picture may have changed
+    kOpened,     ///< a chat line was opened: release the game's keys, switch to text
     kClosed,     ///< the chat line was closed without text
     kSay,        ///< the chat line was closed with Return: send takeChat()
-    kEnterRoom,  ///< the list of rooms was closed with Return: enter that of line roomChoice()
+    kEnterRoom,  ///< the list of rooms was closed with Return: enter room roomChoice()
     kLeave,
     kSuspend,
   };
 
-  /// Decide about one key event.
+  /// Handles a key event.
   Result takeKey(const KeyEvent& event);
-  /// Pasted text goes into the chat line, up to its limit, if one is open; it never sends. True if it did.
+  /// Inserts pasted text into an open chat line, up to its limit, without sending it. False if none is open.
   bool insertPasted(const std::u32string& text);
-  /// The chat line, if it is open, is what a text field of the page around it holds.
+  /// Sets an open chat line to the contents of the page's text field.
   void setChatText(std::string_view text);
-  /// A picture was drawn.
+  /// Call when a picture was drawn.
   void noteShown(const ShownControls& shown) { m_shown = shown; }
 
   Panel panel() const { return m_panel; }
-  /// Lines of the panel that are scrolled out at its top.
+  /// Number of lines scrolled out at the top of the panel.
   int scroll() const { return m_scroll; }
-  /// The line of the list of rooms that is chosen, from 0.
+  /// Index of the chosen line in the list of rooms, from 0.
   int roomChoice() const { return m_room_choice; }
-  /// Rows of the chat that are scrolled out at its bottom.
+  /// Number of rows scrolled out at the bottom of the chat.
   int chatScroll() const { return m_chat_scroll; }
   StatusMode status() const { return m_status; }
   bool chatOpen() const { return m_chat_open; }
-  /// Ctrl-] was typed, its command not yet.
+  /// True if Ctrl-] was typed, but not yet a command.
   bool prefixed() const { return m_prefixed; }
-  /// The text typed so far, UTF-8.
+  /// Returns the text typed so far, in UTF-8.
   std::string chatText() const;
-  /// The finished line; empties it.
+  /// Returns the finished chat line and empties it.
   std::string takeChat();
 
  private:

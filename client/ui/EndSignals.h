@@ -1,4 +1,4 @@
-// SIGINT, SIGTERM and SIGHUP while the terminal is not taken over yet.
+// Handles SIGINT, SIGTERM and SIGHUP before the terminal is taken.
 #pragma once
 
 #include <signal.h>
@@ -12,14 +12,14 @@
 
 namespace naiad {
 
-/// Reports the first one; the next one ends the process at once. When this is destroyed, signals are as they
-/// were. One that had come before is reported all the same: `on_signal` must live as long as `context` runs.
-/// Thread: the one that runs `context`.
+/// Reports the first signal; the next one ends the process at once. The destructor restores the handling of
+/// signals, but one that arrived earlier is still reported: `on_signal` must be valid while `context` runs.
+/// Use from the thread that runs `context`.
 class EndSignals {
  public:
   EndSignals(asio::io_context& context, std::function<void(int signal)> on_signal)
       : m_signals(std::make_shared<asio::signal_set>(context, SIGINT, SIGTERM, SIGHUP)) {
-    // Its completion may be queued already when this is destroyed: so it owns what it uses.
+    // The handler owns the signal set, because it may still be queued when this is destroyed.
     m_signals->async_wait(
         [signals = m_signals, report = std::move(on_signal)](const std::error_code& error, int signal) {
           if (error) return;

@@ -9,10 +9,10 @@
 namespace naiad {
 namespace {
 
-/// Rows of the chat's history that the highest terminal shows, and as many to scroll on.
+/// Number of chat lines that a frame may need: what the highest terminal shows, and a page to scroll to.
 constexpr std::size_t kHistoryRows = 300;
 
-/// How long the player's own object is pointed at, when there is one for the first time.
+/// Time for which a pointer marks the player's own object when it first appears.
 constexpr std::chrono::seconds kPointed{2};
 
 std::int64_t tenthsOfSilence(const ClientSession& session, FrameComposer::Time now) {
@@ -48,7 +48,7 @@ FrameComposer::FrameState FrameComposer::currentState(Time now) {
   return state;
 }
 
-// It may come long after the player, behind a title.
+// The object may appear long after the player has joined, after a title screen.
 void FrameComposer::noteOwnObject(const ClientSession& session, Time now) {
   if (m_joined_as != session.welcome().player) m_pointed = false;
   m_joined_as = session.welcome().player;
@@ -72,7 +72,7 @@ std::string FrameComposer::banner(Time now) const {
   if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  r rooms  h help  s status  q leave";
   ClientSession* session = m_connection.session();
   const bool searching = m_connection.state() == Connection::State::kSearching;
-  // A session that goes on by datagrams while it looks for another stream needs no banner.
+  // A session that continues by datagrams while it opens another stream needs no banner.
   if (session == nullptr || !(session->isSilent(now) || (searching && !session->hasDatagrams(now))))
     return "";
   const std::int64_t tenths = tenthsOfSilence(*session, now);

@@ -1,4 +1,4 @@
-// What the next frame shows, and whether it differs from the last one.
+// Collects the contents of the next frame, and checks whether it differs from the last one.
 #pragma once
 
 #include <chrono>
@@ -15,20 +15,20 @@
 
 namespace naiad {
 
-/// When the status is shown over the game, on a terminal that has no room beside it: for a moment after
-/// joining, and when the line has become bad.
+/// Decides when the status is shown over the game, on a terminal without space outside it: for a moment after
+/// joining, and when the connection has become bad.
 class StatusTimer {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::milliseconds kShown{4000};
-  /// A round trip that players feel; it is good again only well below.
+  /// A round trip from kBad on, which players feel, counts as bad until it is below kGood.
   static constexpr std::chrono::milliseconds kBad{250};
   static constexpr std::chrono::milliseconds kGood{150};
 
-  /// For a moment from now on.
+  /// Shows the status for kShown.
   void show(Time now) { m_until = now + kShown; }
-  /// The line of a player of this id is so long.
+  /// Shows the status for a new player, or when the round trip becomes bad.
   void update(std::uint32_t player, std::chrono::milliseconds round_trip, Time now) {
     if (m_player != player) show(now);
     m_player = player;
@@ -43,41 +43,41 @@ class StatusTimer {
   Time m_until{};
 };
 
-/// Ask to go on in the room of that line of the list that the session has (ClientControls::roomChoice()).
+/// Asks the server to move the player to line `choice` of the session's room list. Null session: nothing.
 void enterChosenRoom(ClientSession* p_session, int choice);
 
 class FrameComposer {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// All must outlive it.
+  /// The arguments must outlive this.
   FrameComposer(Connection& connection, const ClientControls& controls, const SoundNotes& sounds)
       : m_connection(connection), m_controls(controls), m_sounds(sounds) {}
 
-  /// Would a frame composed now differ from the last one? Changes of the controls are not considered.
+  /// True if a frame composed now would differ from the last one. Ignores changes of the controls.
   bool isStale(Time now) { return !(currentState(now) == m_composed); }
   ScreenModel composeFrame(Time now);
-  /// Show a line of the client itself among those of the chat, as long as these.
+  /// Shows a line of the client itself among the chat lines, for as long as those.
   void addNotice(std::string text, Time now) { m_notice = {"", df::COLOR_DEFAULT, std::move(text), now}; }
-  /// Does the terminal report when a key goes up? The help says so.
+  /// Sets the line about key releases in the help. `reported`: the terminal reports them.
   void noteKeyReleases(bool reported) { m_key_releases = reported; }
-  /// A page of a browser shows it: it has buttons for the client's commands.
+  /// Call if a browser page shows the frames: it has buttons for the client's commands.
   void noteBrowser() { m_browser = true; }
-  /// The terminal has another size: show the status for a moment.
+  /// Call when the terminal's size has changed: shows the status for a moment.
   void noteResize(Time now) { m_status.show(now); }
 
  private:
-  /// What a frame depends on.
+  /// State on which a frame depends.
   struct FrameState {
     std::uint64_t connection = 0;
     std::uint64_t session = 0;
     std::uint32_t tick = 0;
     std::uint32_t predicted = 0;
-    std::int64_t silence = 0;  ///< in tenths of a second, once it is shown
+    std::int64_t silence = 0;  ///< tenths of a second while a banner shows it, else 0
     std::size_t chat_lines = 0;
     std::string note;
-    bool status = false;   ///< over the game
-    bool pointer = false;  ///< at the player's own object
+    bool status = false;   ///< the status is shown over the game
+    bool pointer = false;  ///< a pointer marks the player's own object
     friend bool operator==(const FrameState&, const FrameState&) = default;
   };
 
@@ -94,7 +94,7 @@ class FrameComposer {
   StatusTimer m_status;
   std::optional<std::uint32_t> m_joined_as;
   bool m_pointed = false;
-  Time m_point_until{};  ///< at the player's own object
+  Time m_point_until{};  ///< end of the pointer at the player's own object
   bool m_browser = false;
   bool m_key_releases = false;
 };

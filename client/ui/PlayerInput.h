@@ -1,4 +1,4 @@
-// What the player does with keyboard and mouse, sent to the session that is shown.
+// Sends the player's keyboard and mouse input to the session that is shown.
 #pragma once
 
 #include <chrono>
@@ -16,21 +16,21 @@ class PlayerInput {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Between two reported moves of the mouse: more would only fill the server's queue.
+  /// Minimum interval of reported mouse moves: more would only fill the server's queue.
   static constexpr std::chrono::milliseconds kMoveInterval{16};
 
-  /// `connection` must outlive it.
+  /// `connection` must outlive this.
   explicit PlayerInput(Connection& connection) : m_connection(connection) {}
 
   void pressKey(const KeyEvent& event, Time now) { sendKeys(m_held.takeKey(event, now), now); }
   void moveMouse(const MouseEvent& event, const ViewPlacement& placement, Time now);
-  /// Release all keys: the game gets no more of them for now.
+  /// Releases all keys, e.g. before a chat line gets the keys.
   void releaseKeys(Time now) { sendKeys(m_held.releaseAll(), now); }
-  /// The terminal reports releases from now on, or does not.
+  /// Call when the terminal starts or stops reporting key releases.
   void setRealReleases(bool real, Time now) { sendKeys(m_held.setRealReleases(real), now); }
-  /// Send what is due: guessed releases, held keys and buttons once a tick, the newest position of the mouse.
+  /// Sends due inputs: guessed releases, held keys and buttons once a tick, the newest position of the mouse.
   void update(Time now);
-  /// When update() has something to do.
+  /// Returns when update() will next have something to do.
   Time deadline() const;
 
  private:
@@ -40,9 +40,9 @@ class PlayerInput {
 
   Connection& m_connection;
   HeldKeys m_held;
-  df::Mouse::Button m_button = df::Mouse::UNDEFINED_MOUSE_BUTTON;  ///< held down
+  df::Mouse::Button m_button = df::Mouse::UNDEFINED_MOUSE_BUTTON;  ///< the button held down
   CellPosition m_pointer;                                          ///< the mouse, in view cells
-  std::optional<CellPosition> m_move;                              ///< not sent yet
+  std::optional<CellPosition> m_move;                              ///< newest position, if not sent yet
   Time m_last_move{};
   Time m_next_key_tick{};
 };

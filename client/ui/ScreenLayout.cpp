@@ -11,9 +11,9 @@
 namespace naiad {
 namespace {
 
-// Players, chat and help beside the game, on terminals that have the room.
+// The side panel: players, chat and help next to the game, on terminals with enough space.
 
-// With these the texts are worth reading; beyond the second they only spread out.
+// Limits of its width: fewer columns are too narrow for the texts, more do not help.
 constexpr int kMinPanelColumns = 26;
 constexpr int kMaxPanelColumns = 44;
 constexpr int kMinPanelRows = 20;
@@ -28,22 +28,22 @@ std::string asUtf8(const std::u32string& text) {
   return utf8;
 }
 
-/// Where the explanation of a line like "Ctrl-] h   this help" begins, for lines that continue it.
+/// Returns the column at which the explanation in a line like "Ctrl-] h   this help" begins.
 std::size_t indentOf(const std::u32string& line, std::size_t width) {
   const std::size_t gap = line.find(U"  ");
   const std::size_t text = gap != std::u32string::npos ? line.find_first_not_of(U' ', gap) : gap;
   return text != std::u32string::npos && text <= width / 2 ? text : 2;
 }
 
-/// Best first.
+/// Returns the players sorted by score, best first.
 std::vector<PlayerLine> byScore(std::vector<PlayerLine> players) {
   std::stable_sort(players.begin(), players.end(),
                    [](const PlayerLine& a, const PlayerLine& b) { return a.score > b.score; });
   return players;
 }
 
-/// Break a line at blanks so that each part has `width` columns at most; parts after the first are indented
-/// as the explanation in a line like "Ctrl-] h   this help".
+/// Breaks a line at blanks into parts of at most `width` columns. Parts after the first are indented like the
+/// explanation in "Ctrl-] h   this help".
 void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_t width) {
   std::u32string rest = df::decodeUtf8(text);
   const std::size_t indent = std::min(indentOf(rest, width), width - 1);
@@ -58,7 +58,7 @@ void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_
   out.push_back(asUtf8(rest));
 }
 
-/// A heading, and a rule to the right edge.
+/// Draws a heading and a line to the right edge.
 void drawHeading(Picture& picture, const std::string& title, int x, int y, int width) {
   int at = picture.write(x, y, title + " ", width, df::COLOR_DEFAULT, Style::kBold);
   for (; at < x + width; ++at) picture.put(at, y, {U'─'});
@@ -80,7 +80,7 @@ int drawPlayerRows(Picture& picture, const ScreenModel& model, int x, int y, int
   return y + 1;
 }
 
-/// Bottom up; returns the first row above.
+/// Draws the help with its last line in row `bottom`. Returns the last free row above it.
 int drawHelpRows(Picture& picture, const ScreenModel& model, int x, int bottom, int width, int most) {
   std::vector<std::string> lines;
   for (const std::string& line : model.help) wrapInto(lines, line, static_cast<std::size_t>(width));
@@ -98,10 +98,10 @@ int drawHelpRows(Picture& picture, const ScreenModel& model, int x, int bottom, 
 struct ChatRow {
   const ChatEntry* p_entry = nullptr;
   std::string text;
-  bool first = false;  ///< of its entry: the speaker stands before it
+  bool first = false;  ///< first row of its entry, which begins with the speaker
 };
 
-/// The last `count` rows and perhaps some before them, in `width` columns; all if there are fewer.
+/// Returns at least the last `count` rows of the chat, in `width` columns; all rows if there are fewer.
 std::vector<ChatRow> chatRows(const std::vector<ChatEntry>& chat, int width, int count) {
   std::vector<ChatRow> rows;  // newest first
   std::vector<std::string> parts;
@@ -122,17 +122,17 @@ void drawChatRow(Picture& picture, const ChatRow& row, int x, int y, int width) 
   picture.write(x, y, name.empty() ? "*" : name + ":", width, row.p_entry->color, Style::kBold);
 }
 
-/// Columns of the panel beside the view; 0: there is no room for one. A page of a browser has none.
+/// Returns the columns of the side panel; 0 if there is not enough space, or in a browser.
 int sidePanelColumns(int columns, int rows, const ScreenModel& model) {
-  const int room = columns - model.view.width() - 2;  // of its frame
+  const int room = columns - model.view.width() - 2;  // columns of the view's frame
   if (model.browser || !model.status_shown || rows < kMinPanelRows || rows < model.view.height() ||
       room < kMinPanelColumns)
     return 0;
   return std::min(room, kMaxPanelColumns);
 }
 
-/// Draw the panel into columns `x` to the right edge, rows 0 to `rows` - 1. `max_scroll`: lines of the chat's
-/// history above those shown, at most.
+/// Draws the side panel from column `x` to the right edge, rows 0 to `rows` - 1. Sets `max_scroll` to the
+/// number of chat rows that can be scrolled.
 void drawSidePanel(Picture& picture, const ScreenModel& model, int x, int rows, int& max_scroll) {
   const int left = x + 1;
   const int width = picture.width() - left - 1;
@@ -140,7 +140,7 @@ void drawSidePanel(Picture& picture, const ScreenModel& model, int x, int rows, 
   const int bottom = drawHelpRows(picture, model, left, rows - 1, width, rows / 3);
   drawHeading(picture, "Chat", left, top, width);
   const int room = bottom - top;
-  // A page more than is shown: so far it can be scrolled on.
+  // One page more than is shown, so that it can be scrolled further.
   const std::vector<ChatRow> lines = chatRows(model.history, width, 2 * room + model.chat_scroll);
   const int count = static_cast<int>(lines.size());
   max_scroll = std::max(count - room, 0);
@@ -208,7 +208,7 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
   if (room_for_help) picture.write(help_at, y, help, columnsIn(help), df::COLOR_DEFAULT, Style::kReverse);
 }
 
-/// Beside the view, from the top down.
+/// Draws the status in the columns at the right of the view, from the top down.
 void drawStatusSide(Picture& picture, const ScreenModel& model) {
   const int x = picture.width() - kSideColumns + 1;
   const int width = kSideColumns - 1;
@@ -229,7 +229,7 @@ void drawStatusSide(Picture& picture, const ScreenModel& model) {
   }
 }
 
-/// Is there nothing from (x, y) on, `width` cells to the right?
+/// True if the `width` cells from (x, y) to the right are blank.
 bool isBlank(const Picture& picture, int x, int y, int width) {
   for (int i = x; i < x + width; ++i) {
     if (picture.at(i, y).ch != U' ') return false;
@@ -237,7 +237,8 @@ bool isBlank(const Picture& picture, int x, int y, int width) {
   return true;
 }
 
-/// A text in a corner in which the game shows nothing. In none of them: at the lower right if it `must` be.
+/// Draws a text in a corner where the game shows nothing. If all corners are used, draws it in the lower
+/// right one if `must`. Returns true if it was drawn.
 bool drawInCorner(Picture& picture, const std::string& text, bool must) {
   const int width = columnsIn(text);
   const int right = std::max(0, picture.width() - width);
@@ -252,7 +253,7 @@ bool drawInCorner(Picture& picture, const std::string& text, bool must) {
   return true;
 }
 
-/// Where the game takes all of the terminal. True: the status is there.
+/// Draws the status or the note if the game takes up the whole terminal. Returns true if the status is shown.
 bool drawStatusOverGame(Picture& picture, const ScreenModel& model) {
   const std::string note = safeText(model.note, kMaxOverlayNote);
   if (!model.status_over_game) {
@@ -273,7 +274,7 @@ void drawBanner(Picture& picture, const std::string& banner, int row) {
   picture.write((picture.width() - width) / 2, row, text, width, df::COLOR_DEFAULT, Style::kReverse);
 }
 
-/// The line being typed. Its end is shown where it is long.
+/// Draws the chat line that is being typed; of a long one, the end.
 void drawChatLine(Picture& picture, const ScreenModel& model, int y) {
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
   int x = picture.write(0, y, "say: ", picture.width(), df::COLOR_DEFAULT, Style::kReverse);
@@ -284,7 +285,7 @@ void drawChatLine(Picture& picture, const ScreenModel& model, int y) {
   picture.cursor = CellPosition{x, y};
 }
 
-/// Chat lines over the game, the last one in row `bottom`. Sets how far they can be scrolled.
+/// Draws chat lines over the game, the last one in row `bottom`. Sets the scroll limits in `shown`.
 void drawChatOver(Picture& picture, const ScreenModel& model, int bottom, ShownControls& shown) {
   const std::vector<ChatRow> rows =
       chatRows(model.chat, picture.width() - 1, 3 * kChatRows + model.chat_scroll);
@@ -301,7 +302,7 @@ void drawChatOver(Picture& picture, const ScreenModel& model, int bottom, ShownC
   }
 }
 
-/// A pointer at the player's own object, with their name where there is room.
+/// Draws a pointer to the player's own object, with their name if there is space.
 void drawSelf(Picture& picture, const ScreenModel& model, const ViewPlacement& place) {
   if (!model.self_cell) return;
   const int x = model.self_cell->x - place.view_x;
@@ -318,17 +319,17 @@ void drawSelf(Picture& picture, const ScreenModel& model, const ViewPlacement& p
   picture.write(place.left + left, label, text, width, model.self_color, Style::kReverse);
 }
 
-/// What a panel shows: lines, some of which stay when the others are scrolled.
+/// Contents of a panel: lines, of which some at the top do not scroll.
 struct PanelLines {
   std::string title;
-  int width = 0;  ///< of the widest, which need not fit
-  int fixed = 0;  ///< lines at the top that stay
-  int count = 0;  ///< of all
+  int width = 0;  ///< width of the widest line; it may not fit
+  int fixed = 0;  ///< number of lines at the top that do not scroll
+  int count = 0;  ///< number of all lines
   std::function<void(int line, int x, int y, int width)> draw;
-  std::string keys = {};  ///< how to go on; empty: as every panel
+  std::string keys = {};  ///< keys on the lower edge; empty: panelKeys()
 };
 
-/// How to go on, as much of it as fits on the lower edge.
+/// Returns the text about keys for the lower edge of a panel, as long as fits into `room` columns.
 std::string panelKeys(bool scrolls, int room) {
   std::vector<std::string> texts = {"Esc closes", "Esc"};
   if (scrolls)
@@ -339,7 +340,7 @@ std::string panelKeys(bool scrolls, int room) {
   return "";
 }
 
-/// A framed box in the middle of the terminal. Sets what can be scrolled.
+/// Draws a framed box in the middle of the terminal. Sets the scroll limits in `shown`.
 void drawPanel(Picture& picture, const PanelLines& lines, int scroll, ShownControls& shown) {
   const int width = std::min(std::max(lines.width, 12) + 4, picture.width());
   const int height = std::min(lines.count + 2, picture.height());
@@ -404,7 +405,7 @@ void drawRooms(Picture& picture, const ScreenModel& model, ShownControls& shown)
   };
   PanelLines panel{"Rooms", 52, count > 0 ? 1 : 0, count + 1, draw};
   panel.keys = count > 0 ? " Up, Down  Return enters  Esc " : "";
-  // The chosen line stays in sight.
+  // Keep the chosen line visible.
   drawPanel(picture, panel, choice + 4 - picture.height(), shown);
 }
 

@@ -13,54 +13,54 @@
 
 namespace naiad {
 
-/// Chat lines are shown this long; all recent ones while the chat line is open.
+/// Time for which a chat line is shown. While the player types a line, all are shown.
 inline constexpr std::chrono::seconds kChatShown{8};
 
-/// Everything that can be seen, as values. Texts must be safe (SafeText.h).
+/// Contents of the screen, as values. Texts must be safe (SafeText.h).
 struct ScreenModel {
   df::Canvas view;
-  df::Color background = df::BLACK;  ///< behind all characters of the view
-  CellPosition focus;                ///< what must stay visible, in view cells
+  df::Color background = df::BLACK;  ///< background of the whole view
+  CellPosition focus;                ///< view cell that must stay visible
   bool has_view = false;             ///< false before the first snapshot: only the banner is drawn
   std::string banner;                ///< a line over everything; empty: none
 
-  bool status_shown = true;      ///< where it covers nothing of the game
-  bool status_over_game = true;  ///< and where it does
+  bool status_shown = true;      ///< show the status where it covers nothing of the game
+  bool status_over_game = true;  ///< show it even over the game
   std::chrono::milliseconds round_trip{0};
   std::uint32_t tick = 0;
   std::int32_t score = 0;
   std::string server;  ///< program and address of the server
   std::string game;
-  std::string note;  ///< for a moment: what has just sounded; empty: none
+  std::string note;  ///< short note about a sound; empty: none
 
   Panel panel = Panel::kNone;
-  int scroll = 0;          ///< lines of the panel above its first one, if it has more than fit
+  int scroll = 0;          ///< number of lines scrolled out at the top of the panel
   std::uint32_t self = 0;  ///< this player's id
   std::string self_name;
   df::Color self_color = df::COLOR_DEFAULT;
-  std::optional<CellPosition> self_cell;  ///< where to point at the player's own object, in view cells
+  std::optional<CellPosition> self_cell;  ///< view cell of the player's own object, to point at
   std::vector<PlayerLine> players;
-  std::string room;               ///< that the player is in; empty: the server has none
-  std::vector<RoomLine> rooms;    ///< for their list
-  int room_choice = 0;            ///< line of it that is chosen
+  std::string room;               ///< the player's room; empty: the server has no rooms
+  std::vector<RoomLine> rooms;    ///< list of rooms for the panel
+  int room_choice = 0;            ///< index of the chosen line in it
   std::vector<std::string> help;  ///< the game's own lines
-  bool browser = false;           ///< a page shows it, not a terminal
-  bool key_releases = false;      ///< the terminal reports when a key goes up
+  bool browser = false;           ///< shown by a browser page, not a terminal
+  bool key_releases = false;      ///< the terminal reports key releases
 
   bool chat_open = false;
   std::string chat_text;
   std::vector<ChatEntry> chat;     ///< lines to show over the game, oldest first
-  std::vector<ChatEntry> history;  ///< all lines, for a panel beside it
-  int chat_scroll = 0;             ///< rows of the chat below the last one shown
+  std::vector<ChatEntry> history;  ///< newest chat lines for the side panel, oldest first
+  int chat_scroll = 0;             ///< number of chat rows below the last one shown
 };
 
 struct ScreenLayout {
   Picture picture;
-  ViewPlacement placement;  ///< for the mouse; empty when no view is shown
+  ViewPlacement placement;  ///< used for the mouse; default if no view is shown
   ShownControls shown;
 };
 
-/// Lay out `model` on a terminal of `columns` by `rows` cells.
+/// Lays out `model` on a terminal of `columns` by `rows` cells.
 ScreenLayout layOut(const ScreenModel& model, int columns, int rows);
 
 }  // namespace naiad

@@ -55,7 +55,7 @@ void ServerChooser::takeTerminal() {
   m_guard->enterModes();
 }
 
-/// One turn: what comes first of keys, a signal, answers, and the next deadline.
+/// Waits for keys, signals, answers or the next deadline, and handles them.
 void ServerChooser::wait() {
   std::vector<pollfd> waited{{STDIN_FILENO, POLLIN, 0}, {m_guard->signalFd(), POLLIN, 0}};
   std::optional<Time> next = m_decoder.deadline();

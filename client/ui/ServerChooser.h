@@ -1,5 +1,5 @@
-// The full-screen list of servers, on a real terminal, until one is chosen: of the local network, where it
-// goes on looking, or of a list that is fetched.
+// Shows a full-screen list of servers on a real terminal until the player chooses one: servers of the local
+// network, which is searched continuously, or of a list that is fetched.
 #pragma once
 
 #include <chrono>
@@ -27,18 +27,18 @@ class ServerChooser {
     TerminalType terminal;
     bool ascii = false;
     bool colors = true;
-    /// Fetches a list; keys wait meanwhile. Empty: the servers of the local network.
+    /// Fetches a list, while keys wait. Empty: show the servers of the local network.
     std::function<std::variant<FoundServers, DownloadProblem>()> fetch{};
   };
   struct Outcome {
-    std::optional<FoundServer> server;  ///< nothing: the player left
-    int signal = 0;                     ///< the signal that ended it, to be raised again; 0: none
+    std::optional<FoundServer> server;  ///< nullopt: the player left
+    int signal = 0;                     ///< the signal that ended this, to be raised again; 0: none
   };
 
   explicit ServerChooser(Options options);
   ~ServerChooser();
 
-  /// Show the list, restore the terminal. Throws std::runtime_error if there is no terminal to draw on.
+  /// Shows the list, then restores the terminal. Throws std::runtime_error if it cannot draw on the terminal.
   Outcome run();
 
  private:
@@ -56,13 +56,13 @@ class ServerChooser {
   void draw();
 
   Options m_options;
-  std::optional<LanBrowser> m_browser;  ///< nothing with Options::fetch
+  std::optional<LanBrowser> m_browser;  ///< nullopt with Options::fetch
   ServerMenu m_menu;
   InputDecoder m_decoder;
   std::unique_ptr<TerminalGuard> m_guard;
   std::unique_ptr<Screen> m_screen;
   Outcome m_outcome;
-  Time m_begun{};  ///< of looking
+  Time m_begun{};  ///< start of the search
   bool m_looking = true;
   bool m_dirty = true;
   bool m_done = false;

@@ -16,7 +16,7 @@ constexpr int kFootRows = 3;  // blank, address, keys
 
 constexpr const char* kMenuKeys = "Enter join   Up/Down choose   r refresh   q leave";
 
-/// Columns that a name, a game and the places get; the note has the rest.
+/// Widths of the columns for name, game and places; the note gets the rest.
 struct Widths {
   int name = 0;
   int game = 0;
@@ -39,7 +39,7 @@ void writeColumns(Picture& picture, int y, const std::array<std::string, 4>& tex
   }
 }
 
-/// Lines of at most `columns`, broken at blanks.
+/// Breaks a text at blanks into lines of at most `columns`.
 std::vector<std::string> wrapped(const std::string& text, int columns) {
   std::vector<std::string> lines{""};
   std::istringstream words(text);

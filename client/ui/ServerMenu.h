@@ -1,6 +1,6 @@
-// The list of servers on the screen: which one is chosen, what a key does, and how it looks.
+// Menu of servers: the chosen server, the handling of keys, and the picture.
 //
-// Neither a terminal nor a clock: ServerChooser has both.
+// It uses neither a terminal nor a clock; ServerChooser does.
 #pragma once
 
 #include <optional>
@@ -16,24 +16,24 @@ namespace naiad {
 
 class ServerMenu {
  public:
-  /// What the program must do about a key.
+  /// Action that the program must take for a key.
   enum class Result { kNone, kRedraw, kJoin, kRefresh, kLeave, kSuspend };
 
-  /// `title`: where the servers were found.
+  /// `title`: heading that says where the servers were found.
   explicit ServerMenu(std::string title) : m_title(std::move(title)) {}
 
-  /// Show these sentences where there is no server.
+  /// Sets the sentences to show if there is no server.
   void setEmpty(std::vector<std::string> empty) { m_empty = std::move(empty); }
-  /// Show these. The chosen one stays chosen, wherever it is now; the first one is at first.
+  /// Replaces the servers. The chosen one stays chosen if it is among them; otherwise the first is chosen.
   void setServers(std::vector<FoundServer> servers);
-  /// Answers may still come: an empty list is none to speak of yet.
+  /// `looking`: the search is not over, so an empty list shows "Looking ..." instead of the sentences.
   void setLooking(bool looking) { m_looking = looking; }
   /// Arrows (or j and k), Page Up and Down, Home and End choose; Enter joins, r refreshes, q, Esc and Ctrl-C
   /// leave.
   Result takeKey(const KeyEvent& event);
-  /// Null while there is none.
+  /// Returns the chosen server; null if the list is empty.
   const FoundServer* chosen() const;
-  /// On a terminal of `columns` by `rows` cells.
+  /// Draws the menu for a terminal of `columns` by `rows` cells.
   Picture compose(int columns, int rows);
 
  private:
@@ -46,10 +46,10 @@ class ServerMenu {
   std::vector<std::string> m_empty;
   std::vector<FoundServer> m_servers;
   int m_chosen = 0;
-  int m_first = 0;  ///< server in the uppermost row
-  int m_page = 1;   ///< rows of servers in the last picture
+  int m_first = 0;  ///< index of the server in the top row
+  int m_page = 1;   ///< number of rows for servers in the last picture
   bool m_looking = true;
-  std::string m_message;  ///< why the chosen one cannot be joined; else empty
+  std::string m_message;  ///< why the chosen server cannot be joined; otherwise empty
 };
 
 }  // namespace naiad

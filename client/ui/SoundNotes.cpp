@@ -20,7 +20,7 @@ std::optional<SoundMode> soundModeFrom(std::string_view name) {
 void SoundNotes::addSound(const SoundLine& sound, std::uint32_t self, Time now) {
   if (m_mode == SoundMode::kOff) return;
   if (sound.action != SoundLine::Action::kPlay) {
-    if (m_note == textOf(sound)) m_noted_at.reset();  // it is over
+    if (m_note == textOf(sound)) m_noted_at.reset();  // the sound has ended
     return;
   }
   const bool others = sound.player != 0 && sound.player != self;
@@ -31,7 +31,7 @@ void SoundNotes::addSound(const SoundLine& sound, std::uint32_t self, Time now) 
   m_rings = true;
 }
 
-// Sounds of this player, and those meant for all, replace those of other players without a delay.
+// A sound of this player, or one for all, replaces another player's note at once; others wait for kMin.
 void SoundNotes::show(const SoundLine& sound, bool others, Time now) {
   const bool fresh = m_noted_at && now - *m_noted_at < kMin;
   if (fresh && (others || !m_of_others)) return;

@@ -1,5 +1,5 @@
-// How a player notices the game's sounds: a short note, the terminal's bell, or nothing. Both are limited in
-// rate, so that no game can ring without end or make the note flicker.
+// Shows the game's sounds as a short note, the terminal's bell, or not at all. Notes and bell are limited in
+// rate, so that a game can neither ring without end nor make the note flicker.
 #pragma once
 
 #include <chrono>
@@ -14,31 +14,31 @@
 namespace naiad {
 
 enum class SoundMode : std::uint8_t {
-  kNote,  ///< its name in the status line, for a moment
-  kBell,  ///< the note, and the bell for sounds (not music) of this player or of no player
+  kNote,  ///< show the sound's name in the status line for a moment
+  kBell,  ///< also ring the bell for sounds (not music) of this player or of no player
   kOff,
 };
 
-/// The mode called "note", "bell" or "off"; nothing for anything else.
+/// Returns the mode called "note", "bell" or "off"; nullopt for other names.
 std::optional<SoundMode> soundModeFrom(std::string_view name);
 
 class SoundNotes {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// A note is shown for this long, and for at least kMin before another replaces it.
+  /// A note is shown for kShown, and for at least kMin before most others can replace it.
   static constexpr std::chrono::milliseconds kShown{1500};
   static constexpr std::chrono::milliseconds kMin{300};
-  /// The bell rings at most once in this time.
+  /// Minimum interval between two rings of the bell.
   static constexpr std::chrono::milliseconds kBellEvery{1000};
 
   explicit SoundNotes(SoundMode mode) : m_mode(mode) {}
 
-  /// The game played a sound; `self`: this player's id.
+  /// Call when the game has played or stopped a sound. `self`: this player's id.
   void addSound(const SoundLine& sound, std::uint32_t self, Time now);
-  /// The note to show: "sound: fire", "music: theme"; empty: none.
+  /// Returns the note to show, such as "sound: fire" or "music: theme"; may be empty.
   std::string shownNote(Time now) const;
-  /// Is the bell to ring now? True once.
+  /// Returns true, once, if the bell should ring.
   bool takeBell() { return std::exchange(m_rings, false); }
 
  private:
@@ -46,7 +46,7 @@ class SoundNotes {
 
   SoundMode m_mode;
   std::string m_note;
-  bool m_of_others = false;  ///< of another player's action
+  bool m_of_others = false;  ///< m_note is of another player's sound
   std::optional<Time> m_noted_at;
   std::optional<Time> m_rang_at;
   bool m_rings = false;

@@ -1,8 +1,8 @@
-// What the static dfclient has instead of files that its system may lack or have in another version.
+// Replacements for system files that the static dfclient may lack, or find in another version.
 //
-// A static program finds no locale in a bare root, and glibc would load name service modules of the system,
-// which are made for another glibc. The linker (--wrap) has ncurses and dfclient call these functions
-// instead: UTF-8 without a locale, and names by /etc/hosts and DNS alone, both of which glibc itself
+// A bare root file system has no locale, and glibc would load name service modules of the system, which
+// belong to another glibc. The linker (--wrap) makes ncurses and dfclient call the functions below, which
+// provide UTF-8 without a locale. Host names come only from /etc/hosts and DNS, both of which glibc itself
 // contains.
 #include <langinfo.h>
 #include <nss.h>
@@ -16,7 +16,7 @@
 
 #include "shared/values/Canvas.h"
 
-// The linker's names.
+// The linker requires these names.
 // NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 extern "C" {
 char* __real_setlocale(int category, const char* p_name);
@@ -32,7 +32,7 @@ int __wrap_wcwidth(wchar_t ch);
 
 namespace {
 
-/// UTF-8, unless the environment asks for something else: a locale that names another coding, or C.
+/// True unless the environment selects the locale C or one with another encoding.
 bool isUtf8() {
   static const bool s_utf8 = [] {
     const char* p_name = "";
@@ -54,13 +54,13 @@ bool isUtf8() {
 char g_locale[] = "C.UTF-8";
 char g_coding[] = "UTF-8";
 
-/// Before anything asks for a name.
+/// Initialised before anything looks up a host name.
 [[maybe_unused]] const int g_names = __nss_configure_lookup("hosts", "files dns");
 
 }  // namespace
 
 char* __wrap_setlocale(int category, const char* p_name) {
-  // ncurses takes the locale C for a terminal of single bytes.
+  // In the locale C, ncurses would expect a terminal with single-byte characters.
   return isUtf8() ? g_locale : __real_setlocale(category, p_name);
 }
 
@@ -88,7 +88,7 @@ size_t __wrap_wcrtomb(char* p_to, wchar_t ch, mbstate_t* p_state) {
 int __wrap_wcwidth(wchar_t ch) {
   if (!isUtf8()) return __real_wcwidth(ch);
   if (ch == 0) return 0;
-  // What else reaches the screen was asked to be drawable before, and takes one column.
+  // Other characters on the screen have been checked to be drawable, and take one column.
   return ch < L' ' || (ch >= 0x7F && ch < 0xA0) ? -1 : 1;
 }
 // NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)

@@ -7,7 +7,7 @@
 namespace naiad {
 namespace {
 
-/// One axis: room in the terminal, extent of the view, what must stay visible.
+/// Places the view on one axis. `room`: cells of the terminal; `extent`: of the view; `focus`: stays visible.
 void placeAxis(int room, int extent, int focus, int& start, int& view_start, int& shown) {
   shown = std::min(room, extent);
   start = (room - shown) / 2;

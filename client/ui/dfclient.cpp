@@ -1,4 +1,4 @@
-// dfclient: play a game that a dfserver hosts, in this terminal.
+// dfclient: plays a game of a dfserver in this terminal.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -35,19 +35,20 @@
 namespace naiad {
 namespace {
 
-// Asks for a password on the terminal, unseen.
+// Password input from the terminal, without echo.
 
 constexpr std::size_t kMaxPassword = 255;  // bytes
 constexpr char kControlC = 3;
 
-/// No signals from the keyboard: they would end the process and leave the terminal without echo.
+/// Switches the terminal's echo off while it lives, and the keyboard's signals, which would end the process
+/// and leave the terminal without echo.
 class Unseen {
  public:
   explicit Unseen(int terminal) : m_terminal(terminal) {
     m_changed = tcgetattr(terminal, &m_before) == 0;
     termios modes = m_before;
     modes.c_lflag &= ~static_cast<tcflag_t>(ECHO | ISIG);
-    modes.c_cc[VEOL] = kControlC;  // ends the line at once
+    modes.c_cc[VEOL] = kControlC;  // Ctrl-C ends the line at once
     m_changed = m_changed && tcsetattr(terminal, TCSAFLUSH, &modes) == 0;
   }
   ~Unseen() {
@@ -64,7 +65,7 @@ class Unseen {
 };
 
 void write(int terminal, const std::string& text) {
-  // A terminal that takes nothing has gone; reading finds out.
+  // Errors are ignored: if the terminal is gone, reading fails as well.
   if (::write(terminal, text.data(), text.size()) < 0) return;
 }
 
@@ -80,9 +81,9 @@ std::optional<std::string> readLine(int terminal) {
   return std::nullopt;
 }
 
-/// Write `prompt` to the terminal of this process and read a line without echo: what stands before its end,
-/// at most 255 bytes. The modes of the terminal are restored. Nothing if there is no terminal, or on Ctrl-C
-/// or Ctrl-D. Before a TerminalGuard takes the terminal.
+/// Writes `prompt` to the terminal of this process and reads a line without echo, at most 255 bytes. Restores
+/// the modes of the terminal. Nullopt if there is no terminal, the line is longer, or on Ctrl-C or Ctrl-D.
+/// Call before a TerminalGuard takes the terminal.
 std::optional<std::string> askPassword(const std::string& prompt) {
   const int terminal = ::open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal < 0) return std::nullopt;
@@ -137,7 +138,7 @@ int complain(naiad::ExitCode code, const std::string& sentence) {
   return code;
 }
 
-/// Print the problems with the file from the `from`-th on. Returns how many there are.
+/// Prints the problems with the file from index `from` on. Returns the number of all problems.
 std::size_t printProblems(const naiad::SessionFile* p_file, std::size_t from) {
   if (p_file == nullptr) return 0;
   for (std::size_t i = from; i < p_file->problems().size(); ++i) {
@@ -150,7 +151,8 @@ std::string passwordQuestion(const naiad::ServerAddress& server) {
   return "Password of " + server.text() + ": ";
 }
 
-/// Die of the signal that ended us, so that the parent process sees it. The terminal must be restored.
+/// Ends this process by the signal that ended the client, so that the parent process sees it. Call after the
+/// terminal is restored. Does nothing for 0.
 void endBySignal(int signal) {
   if (signal == 0) return;
   std::signal(signal, SIG_DFL);
@@ -162,7 +164,7 @@ bool usesColors() {
   return no_color == nullptr || *no_color == '\0';
 }
 
-/// Those of this network that answer in time.
+/// Returns the servers of this network that answer within LanBrowser::kPatience.
 naiad::FoundServers findServers() {
   using Clock = std::chrono::steady_clock;
   naiad::LanBrowser browser;
@@ -186,7 +188,7 @@ std::variant<naiad::FoundServers, naiad::DownloadProblem> fetchServers(const nai
   return *std::move(servers);
 }
 
-/// --list: of this network, or of --list-url.
+/// Implements --list: prints the servers of this network, or of --list-url.
 int printServers(const CommandLine& line) {
   naiad::FoundServers found;
   if (line.list_url) {
@@ -206,13 +208,13 @@ int printServers(const CommandLine& line) {
   return naiad::kExitLeft;
 }
 
-/// Have the player choose one from the list on the screen. Returns the exit code if there is none to join.
+/// Lets the player choose a server on the screen. Returns the exit code if the player joins none.
 std::optional<int> chooseServer(CommandLine& line) {
-  // Doors lead to one server each.
+  // A door always names the server.
   const bool is_visit = !line.server.visitors.empty() || !line.server.visitor.empty();
   if (is_visit || !naiad::TerminalGuard::isTerminal())
     return complain(naiad::kExitUsage, "server is required\nRun dfclient --help for more information.");
-  // It would go to whichever server is chosen.
+  // Any chosen server would get the password.
   if (!line.play.session.password.empty() && !line.server.is_password_ambient)
     return complain(naiad::kExitUsage, "--password is for one server: name it, too. (--ask-password asks.)");
   if (line.play.trust.insecure)
@@ -236,7 +238,7 @@ std::optional<int> chooseServer(CommandLine& line) {
   return std::nullopt;
 }
 
-/// What does not go together about lists; else empty.
+/// Returns what is wrong with the options about lists; empty if nothing is.
 std::string listComplaint(const CommandLine& line) {
   const char* p_ambient = std::getenv("NAIAD_SERVER");
   const bool is_named = !line.server.text.empty() && (p_ambient == nullptr || line.server.text != p_ambient);
@@ -245,8 +247,8 @@ std::string listComplaint(const CommandLine& line) {
   return {};
 }
 
-/// As ssh does: where the server wants a password, ask for it, three times at most. The question is the
-/// client's own, about the address that the player gave; what is typed goes only to the key that has asked.
+/// Joins, and like ssh asks for the server's password if needed, at most three times. The question contains
+/// only the address that the player gave. The password is sent only to the server whose key asked for it.
 naiad::ClientApp::Outcome joinWithPassword(naiad::ClientApp::Options& options) {
   constexpr int kTries = 3;
   naiad::ClientApp::Outcome outcome;
@@ -269,7 +271,7 @@ int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool att
     return complain(naiad::kExitNoTerminal,
                     "standard input and output must be a terminal (dfbot needs none).");
   }
-  // Before the server hears anything: a client that cannot draw must not leave a player behind.
+  // Check this before joining: a client that cannot draw must not leave a player on the server.
   options.terminal = naiad::chooseTerminalType(std::getenv("TERM"));
   options.p_tokens = p_file;
   const std::size_t printed = printProblems(p_file, 0);
@@ -277,13 +279,13 @@ int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool att
       attached ? naiad::ClientApp(options).run() : joinWithPassword(options);
   printProblems(p_file, printed);
   endBySignal(outcome.signal);
-  // The game runs in the same terminal: its end is seen there.
+  // The game runs in this terminal, so the player sees its end there.
   if (attached && outcome.code == naiad::kExitEnded) return outcome.code;
   if (!outcome.sentence.empty()) std::fprintf(stderr, "dfclient: %s\n", outcome.sentence.c_str());
   return outcome.code;
 }
 
-/// The options, in the order of --help.
+/// Returns the options in the order of --help.
 std::vector<naiad::Option> optionsOf(CommandLine& line) {
   naiad::ClientApp::Options& play = line.play;
   const naiad::StoreText store_sound = [&play](const std::string& name) -> std::string {
@@ -338,7 +340,7 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
   return options;
 }
 
-/// Join the server that is named.
+/// Joins the server that the command line or the list names. Returns the exit code.
 int join(CommandLine& line) {
   naiad::ClientApp::Options& options = line.play;
   const std::string wrong =
@@ -378,7 +380,7 @@ int start(int argc, char** argv) {
   if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, optionsOf(line), argc, argv)))
     return *code;
 
-  // The terminal must not be left to the picture of a game that has crashed.
+  // If the game crashes, end as well, so that its last picture does not stay on the terminal.
   if (line.attached) prctl(PR_SET_PDEATHSIG, SIGTERM);
 
   if (const std::string wrong = listComplaint(line); !wrong.empty())

@@ -37,7 +37,7 @@ constexpr std::array kNames = {
     Named{"Pause", PAUSE},
 };
 
-/// Keys of which there are two: only `code` says which it is.
+/// Keys that exist on the left and on the right: only `code` tells them apart.
 constexpr std::array kSides = {
     Named{"ShiftLeft", LEFTSHIFT},       Named{"ShiftRight", RIGHTSHIFT}, Named{"ControlLeft", LEFTCONTROL},
     Named{"ControlRight", RIGHTCONTROL}, Named{"AltLeft", LEFTALT},       Named{"AltRight", RIGHTALT},
@@ -61,7 +61,7 @@ KeyEvent keyOf(std::string_view key, std::string_view code) {
   if (event.key == UNDEFINED_KEY) event.key = find(kNames, key);
   if (event.key == UNDEFINED_KEY && key.starts_with('F')) event.key = functionKey(key.substr(1));
   if (event.key != UNDEFINED_KEY) return event;
-  // All that is left are keys that type one character; names have several letters.
+  // The remaining keys type one character; names have several letters.
   const std::u32string characters = df::decodeUtf8(std::string(key));
   return characters.size() == 1 ? keyOfCharacter(characters.front()) : event;
 }

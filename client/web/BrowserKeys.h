@@ -1,8 +1,8 @@
-// The keys of a browser (UI Events, KeyboardEvent) as those of a terminal.
+// Translates a browser's keys (UI Events, KeyboardEvent) into those of a terminal.
 //
-// `key` says what a key means in the player's layout ("a", "A", "ArrowLeft"), `code` where it is ("KeyA",
-// "ShiftRight"). Games ask for what a key types, so `key` decides; but a key goes up as what it went down as,
-// though Shift may have come up in between: `code` identifies it.
+// `key` is the meaning of a key in the player's layout ("a", "A", "ArrowLeft"), `code` its position ("KeyA",
+// "ShiftRight"). Games need the character, so `key` decides. A key is released as the key that was pressed,
+// even if Shift was released in between: `code` identifies it.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +17,19 @@ namespace naiad {
 
 class BrowserKeys {
  public:
-  /// Keys that are down at a time; further ones go down but never up.
+  /// Limit on remembered keys that are down; further ones may be released as another key.
   static constexpr std::size_t kMaxDown = 32;
-  /// Bytes of `key` and `code`; longer ones are unknown keys.
+  /// Limit on the bytes of `key` and `code`; longer ones are unknown keys.
   static constexpr std::size_t kMaxName = 32;
 
-  /// The event for the client; its key is undefined and it types nothing if the client has no such key.
+  /// Returns the event for the client. For unknown keys, its key is undefined and it has no character.
   KeyEvent translate(std::string_view key, std::string_view code, KeyEvent::Action action,
                      std::uint8_t modifiers);
-  /// No key is down any more: the page has lost the keyboard.
+  /// Call when the page has lost the keyboard: forgets all keys held down.
   void forget() { m_down.clear(); }
 
  private:
-  std::map<std::string, df::Keyboard::Key, std::less<>> m_down;  ///< by code
+  std::map<std::string, df::Keyboard::Key, std::less<>> m_down;  ///< indexed by `code`
 };
 
 }  // namespace naiad

@@ -20,7 +20,7 @@ SessionOptions sessionOptions(const WebClient::Options& options) {
   session.rows = options.rows;
   session.two_streams = true;
   if (isRoomName(options.room)) session.room = options.room;
-  session.stays_in_room = true;  // a page that is loaded again has the address of before
+  session.stays_in_room = true;  // a reloaded page still has its first room in the address
   return session;
 }
 

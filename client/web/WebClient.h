@@ -1,8 +1,8 @@
-// The client in a browser: what ClientApp is in a terminal. The page gives it keys, pointer and messages, and
-// draws its picture.
+// The client in a browser, corresponding to ClientApp in a terminal. The page passes it keys, pointer and
+// messages, and draws its picture.
 //
-// Everything but the page is the same as in dfclient: session, replica, prediction, controls, layout. Time is
-// a parameter; nothing here waits.
+// Session, replica, prediction, controls and layout are those of dfclient. Time is a parameter; nothing here
+// waits.
 #pragma once
 
 #include <chrono>
@@ -22,11 +22,11 @@
 
 namespace naiad {
 
-/// The token of the session that a browser's tab plays, kept by its page.
-/// There is one server, the one behind the gateway, so its key is not looked at. Not thread-safe.
+/// Stores the token of a browser tab's session in the page.
+/// The only server is the one behind the gateway, so keys are ignored. Not thread-safe.
 class TabTokens : public TokenStore {
  public:
-  /// `kept`: what the page kept for this tab, hexadecimal; anything else counts as nothing.
+  /// `kept`: the token that the page stored for this tab, hexadecimal; an invalid one counts as empty.
   TabTokens(WebPort& port, std::string_view kept);
 
   std::string tokenFor(const Fingerprint&) const override { return m_token; }
@@ -46,49 +46,49 @@ class WebClient {
   struct Options {
     std::string name;
     std::string password;
-    std::string token;    ///< what the page kept for this tab
-    std::string program;  ///< for the server's log
-    std::string server;   ///< what the page calls the server
-    std::string room;     ///< of the page's address, to begin in; what is no name of one counts as none
-    int columns = 0;      ///< of the picture, in cells
+    std::string token;    ///< stored by the page for this tab
+    std::string program;  ///< name and version for the server's log
+    std::string server;   ///< the server's name in the page
+    std::string room;     ///< first room, from the page's address; an invalid name counts as empty
+    int columns = 0;      ///< size of the picture in cells
     int rows = 0;
   };
   enum class State : int { kJoining, kPlaying, kRefused, kOver, kLeft };
 
-  /// Joins immediately. `port` must outlive it.
+  /// Joins immediately. `port` must outlive this.
   WebClient(WebPort& port, const Options& options, Time now);
 
-  /// The page reports there what becomes of streams.
+  /// The page reports events of streams to this.
   WebStreams& streams() { return *m_p_streams; }
 
   void pressKey(std::string_view key, std::string_view code, KeyEvent::Action action, std::uint8_t modifiers,
                 Time now);
   /// `x`, `y`: cell of the picture.
   void moveMouse(const MouseEvent& event, Time now) { m_player.moveMouse(event, m_layout.placement, now); }
-  /// A command of the client, by its letter (ClientControls): t, p, h, s, q.
+  /// Runs a command of the client by its letter (ClientControls): t, p, h, s, q.
   void command(char32_t letter, Time now);
-  /// What the text field of the page holds while a line of chat is written.
+  /// Sets an open chat line to the contents of the page's text field.
   void setChatText(std::string_view text) { m_controls.setChatText(text); }
   bool isChatOpen() const { return m_controls.chatOpen(); }
-  /// The page has lost the keyboard: no key is down.
+  /// Call when the page has lost the keyboard: releases all keys.
   void releaseKeys(Time now);
-  /// The picture has another size, in cells; clamped to 1 … 400 by 1 … 150.
+  /// Sets the size of the picture in cells, clamped to 1 … 400 by 1 … 150.
   void resize(int columns, int rows);
 
-  /// Time-outs, held keys, sounds. Call at least ten times a second, and after every message.
+  /// Handles timeouts, held keys and sounds. Call at least ten times a second, and after every message.
   void update(Time now);
-  /// Compose the picture if it would differ from the last one. True if it was.
+  /// Composes the picture if it would differ from the last one. Returns true if it did.
   bool compose(Time now);
-  /// The newest picture.
+  /// Returns the newest picture.
   const Picture& picture() const { return m_layout.picture; }
 
   State state() const;
-  /// Why it is not playing, for people; empty if there is nothing to say.
+  /// Returns why the client is not playing, for people; may be empty.
   std::string sentence() const;
-  /// The game's view, in cells; 80 by 24 before it is known.
+  /// Size of the game's view in cells; 80 by 24 before it is known.
   int viewWidth() const { return m_view_width; }
   int viewHeight() const { return m_view_height; }
-  /// For recorders, before the first message.
+  /// Returns the connection, to which recorders attach before the first message.
   Connection& connection() { return m_connection; }
 
  private:
@@ -98,7 +98,7 @@ class WebClient {
   int m_columns;
   int m_rows;
   TabTokens m_tokens;
-  WebStreams* m_p_streams;  ///< the connection's
+  WebStreams* m_p_streams;  ///< owned by m_connection
   Connection m_connection;
   BrowserKeys m_keys;
   ClientControls m_controls;

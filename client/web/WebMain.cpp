@@ -1,7 +1,7 @@
-// The client as a WebAssembly module: what page/page.js calls, and what it is called with.
+// The client as a WebAssembly module: the functions that page/module.js calls, and those that it provides.
 //
-// Texts and messages come in buffer(), as bytes with their number; what goes out are addresses in the
-// module's memory. One client at a time; the page's only thread.
+// The page passes texts and messages in buffer(), with their size in bytes. Results are addresses in the
+// module's memory. One client at a time, on the page's only thread.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -48,7 +48,7 @@ class PagePort : public naiad::WebPort {
   }
 };
 
-/// All that there is.
+/// All state of the module.
 struct Module {
   PagePort port;
   std::unique_ptr<WebClient> client;
@@ -68,7 +68,7 @@ std::string_view input(std::size_t from, std::size_t size) {
   return from > all.size() ? std::string_view() : all.substr(from, size);
 }
 
-/// A cell as the page draws it: the character's low 21 bits, then colour (3), style (2), background (3).
+/// Packs a cell for the page: character (21 bits, lowest), colour (3), style (2), background (3).
 std::uint32_t packed(const naiad::PictureCell& cell) {
   return static_cast<std::uint32_t>(cell.ch) | static_cast<std::uint32_t>(cell.color & 7) << 21 |
          static_cast<std::uint32_t>(cell.style) << 24 | static_cast<std::uint32_t>(cell.background & 7) << 26;
@@ -82,7 +82,7 @@ void pack(const naiad::Picture& picture, std::vector<std::uint32_t>& cells) {
 }
 
 #ifdef NAIAD_RECORD
-/// What the replica showed, tick by tick, for a test that compares it with the server's truth file.
+/// Pictures of the replica by tick, for a test that compares them with the server's truth file.
 struct Recording {
   naiad::TruthRecorder recorder;
   std::vector<std::uint32_t> cells;
@@ -108,12 +108,12 @@ void record(WebClient& client) {
 
 extern "C" {
 
-/// 64 KiB for what the page passes.
+/// Returns the 64 KiB buffer for data from the page.
 NAIAD_EXPORT(buffer) char* webBuffer() {
   return module().in.data();
 }
 
-/// The next start()'s options, of buffer(): 0 name, 1 password, 2 token, 3 what the server is called, 4 room.
+/// Sets an option of the next start() from buffer(): 0 name, 1 password, 2 token, 3 server's name, 4 room.
 NAIAD_EXPORT(option) void webOption(int which, std::size_t size) {
   WebClient::Options& options = module().options;
   std::string* const texts[] = {&options.name, &options.password, &options.token, &options.server,
@@ -121,7 +121,7 @@ NAIAD_EXPORT(option) void webOption(int which, std::size_t size) {
   if (which >= 0 && which < 5) *texts[which] = input(0, size);
 }
 
-/// Join, with a picture of so many cells; the client before is gone.
+/// Joins with a new client and a picture of columns by rows cells. Destroys an earlier client.
 NAIAD_EXPORT(start) void webStart(int columns, int rows) {
   Module& all = module();
   all.client.reset();
@@ -147,7 +147,7 @@ NAIAD_EXPORT(closed) void webClosed(int stream, int code, std::size_t size) {
   if (module().client) module().client->streams().closed(stream, code, input(0, size));
 }
 
-/// buffer() has KeyboardEvent.key and, behind it, KeyboardEvent.code. `action`: 0 down, 1 again, 2 up.
+/// buffer() has KeyboardEvent.key, followed by KeyboardEvent.code. `action`: 0 down, 1 repeat, 2 up.
 NAIAD_EXPORT(key) void webKey(std::size_t key, std::size_t code, int action, int modifiers) {
   if (!module().client || action < 0 || action > 2) return;
   module().client->pressKey(input(0, key), input(key, code), static_cast<naiad::KeyEvent::Action>(action),
@@ -183,7 +183,7 @@ NAIAD_EXPORT(update) void webUpdate() {
   if (module().client) module().client->update(Clock::now());
 }
 
-/// 1 if there is a new picture.
+/// Composes a picture. Returns 1 if it is new, else 0.
 NAIAD_EXPORT(compose) int webCompose() {
   Module& all = module();
   if (!all.client || !all.client->compose(Clock::now())) return 0;
@@ -203,14 +203,14 @@ NAIAD_EXPORT(rows) int webRows() {
   return module().client ? module().client->picture().height() : 0;
 }
 
-/// Column and row of the text cursor, as row · 65536 + column; −1: none.
+/// Returns the position of the text cursor as row · 65536 + column; −1: none.
 NAIAD_EXPORT(cursor) int webCursor() {
   if (!module().client) return -1;
   const auto& cursor = module().client->picture().cursor;
   return cursor ? cursor->y * 65536 + cursor->x : -1;
 }
 
-/// WebClient::State.
+/// Returns the WebClient::State; kLeft without a client.
 NAIAD_EXPORT(state) int webState() {
   return module().client ? static_cast<int>(module().client->state())
                          : static_cast<int>(WebClient::State::kLeft);
@@ -220,7 +220,7 @@ NAIAD_EXPORT(writing) int webWriting() {
   return module().client && module().client->isChatOpen() ? 1 : 0;
 }
 
-/// Sets what sentence() points to; returns its bytes.
+/// Updates the text that sentence() returns. Returns its size in bytes.
 NAIAD_EXPORT(sentence_size) std::size_t webSentenceSize() {
   module().sentence = module().client ? module().client->sentence() : "";
   return module().sentence.size();
@@ -230,7 +230,7 @@ NAIAD_EXPORT(sentence) const char* webSentence() {
   return module().sentence.data();
 }
 
-/// Size of the game's view, as height · 65536 + width.
+/// Returns the size of the game's view as height · 65536 + width.
 NAIAD_EXPORT(view) int webView() {
   const WebClient* p_client = module().client.get();
   return p_client != nullptr ? p_client->viewHeight() * 65536 + p_client->viewWidth() : 24 * 65536 + 80;
@@ -241,7 +241,7 @@ NAIAD_EXPORT(recorded) int webRecorded() {
   return static_cast<int>(recording().recorder.tickCount());
 }
 
-/// The tick of the `index`-th picture; recorded_cells() then has its cells.
+/// Returns the tick of picture `index`; recorded_cells() then returns its cells.
 NAIAD_EXPORT(recorded_tick) std::uint32_t webRecordedTick(int index) {
   auto found = recording().recorder.pictures().begin();
   std::advance(found, index);
@@ -259,7 +259,7 @@ NAIAD_EXPORT(recorded_cells) const std::uint32_t* webRecordedCells() {
   return recording().cells.data();
 }
 
-/// Height · 65536 + width of recorded_cells().
+/// Returns the size of the pictures as height · 65536 + width; 0 without pictures.
 NAIAD_EXPORT(recorded_size) int webRecordedSize() {
   const auto& pictures = recording().recorder.pictures();
   if (pictures.empty()) return 0;

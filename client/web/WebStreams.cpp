@@ -33,7 +33,7 @@ class WebStreams::Channel : public ReliableChannel {
     const auto on_frame = m_callbacks.on_frame;
     if (on_frame) on_frame(message);
   }
-  /// It is finished, and the callee may destroy it.
+  /// Reports the end of the stream. The callee may destroy this channel.
   void end(CloseReason reason) {
     if (reason == CloseReason::kProtocol) m_streams.m_port.close(m_stream);
     forget();

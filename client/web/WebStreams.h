@@ -1,8 +1,7 @@
-// Streams through WebSockets (RFC 6455) to a gateway (server/gateway): each binary message is a frame.
+// Opens streams through WebSockets (RFC 6455) to a gateway (server/gateway): each binary message is a frame.
 //
-// The gateway is trusted with everything, by its certificate, which the browser checks; it checks the
-// server's key. So there is no key to be seen here: one that stands for "the server behind the gateway" takes
-// its place.
+// The browser checks the gateway's certificate; the gateway checks the server's key. So that key is not known
+// here; a constant stands for "the server behind the gateway".
 #pragma once
 
 #include <chrono>
@@ -17,26 +16,26 @@
 
 namespace naiad {
 
-/// What the client in a browser needs from the page around it. The page is JavaScript (page/page.js); tests
-/// stand in for it.
+/// Interface of the client in a browser to its page, which is JavaScript (page/page.js). Tests implement it,
+/// too.
 ///
-/// Streams are numbered by the client, from 1 on, each number once. The page reports to WebStreams what
-/// becomes of them, never from inside a call of this interface.
+/// The client numbers streams from 1; no number is reused. The page reports the events of streams to
+/// WebStreams, but never during a call of this interface.
 class WebPort {
  public:
   virtual ~WebPort() = default;
 
-  /// Open a WebSocket to the gateway.
+  /// Opens a WebSocket to the gateway.
   virtual void open(int stream) = 0;
-  /// Send one frame as one binary message.
+  /// Sends one frame as one binary message.
   virtual void send(int stream, std::string_view frame) = 0;
-  /// Bytes that send() was given and that have not left yet.
+  /// Returns the number of bytes passed to send() that have not been sent yet.
   virtual std::size_t unsentBytes(int stream) = 0;
-  /// Close it after what was sent; nothing more is reported of it.
+  /// Closes the stream after everything queued is sent. The page must not report further events of it.
   virtual void close(int stream) = 0;
-  /// Keep this for as long as the tab lives, a reload included; empty: forget it.
+  /// Stores the token as long as the tab exists, reloads included; empty: removes it.
   virtual void keepToken(std::string_view token) = 0;
-  /// The game played a sound. `own`: this player caused it, or no player did.
+  /// Called when the game played a sound. `own`: this player caused it, or no player did.
   virtual void sound(const SoundLine& sound, bool own) = 0;
 };
 
@@ -46,7 +45,7 @@ class WebStreams : public StreamOpener {
 
   static constexpr std::chrono::seconds kOpenTimeout{5};
 
-  /// `port` must outlive it.
+  /// `port` must outlive this.
   explicit WebStreams(WebPort& port) : m_port(port) {}
 
   void open(Done done) override { begin(m_first, std::move(done)); }
@@ -57,25 +56,25 @@ class WebStreams : public StreamOpener {
   std::string whyUntrusted() const override { return {}; }
   bool wasHungUpOn() const override { return m_crowded; }
 
-  // What the page says of a stream.
+  // Events of a stream, reported by the page.
   void opened(int stream);
   void received(int stream, std::string_view message);
-  /// `code`: of the close frame; 1006 if there was none. `reason`: a sentence of the gateway, or empty.
+  /// `code`: from the close frame; 1006 if there was none. `reason`: a sentence of the gateway, or empty.
   void closed(int stream, int code, std::string_view reason);
 
-  /// Time-outs. Call about ten times a second.
+  /// Handles timeouts. Call about ten times a second.
   void update(Time now);
-  /// Why the gateway turned the newest stream away, for people; empty once a stream works.
+  /// Returns why the gateway refused the newest stream, for people; empty once a stream works.
   const std::string& refusal() const { return m_refusal; }
-  /// The refusal is final: another attempt would end like this one.
+  /// True if the refusal is final: a retry would fail in this way, too.
   bool isRefusalFinal() const { return m_final; }
 
  private:
   class Channel;
   struct Attempt {
-    int stream = 0;  ///< 0: none is under way
+    int stream = 0;  ///< 0: no attempt
     Done done;
-    std::optional<Time> until;  ///< set with the first update()
+    std::optional<Time> until;  ///< set by the first update()
   };
   void begin(Attempt& attempt, Done done);
   void drop(Attempt& attempt);
@@ -86,7 +85,7 @@ class WebStreams : public StreamOpener {
   int m_newest = 0;
   Attempt m_first;
   Attempt m_second;
-  std::map<int, Channel*> m_channels;  ///< those that are open here
+  std::map<int, Channel*> m_channels;  ///< open channels by stream number
   std::string m_refusal;
   bool m_crowded = false;
   bool m_final = false;

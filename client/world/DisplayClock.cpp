@@ -21,7 +21,7 @@ void DisplayClock::noteSnapshot(std::uint32_t tick, Time now) {
     m_anchor_time = now;
     return;
   }
-  if (distance(m_newest, tick) <= 0) return;  // late, or another part of the same tick
+  if (distance(m_newest, tick) <= 0) return;  // late, or another part of this tick
   m_newest = tick;
   Time expected = m_anchor_time + due(tick);
   const Duration late = now - expected;
@@ -43,7 +43,7 @@ std::uint32_t DisplayClock::displayTick(Time now) {
   const auto ahead = static_cast<std::int32_t>(std::min<std::int64_t>(elapsed / m_length, allowed));
   const std::uint32_t wanted = m_newest + static_cast<std::uint32_t>(ahead);
   const std::int32_t step = distance(m_shown, wanted);
-  // Backwards only if the last tick shown is further ahead than any may be.
+  // Goes backwards only if the last tick shown is further ahead than allowed.
   const bool too_far_ahead = distance(m_newest, m_shown) > allowed;
   if (step > 0 || too_far_ahead) m_shown = wanted;
   return m_shown;

@@ -1,5 +1,5 @@
-// What the client adds to the picture by itself: its own object where it is predicted, with the view that
-// follows it, and the others not inside what is solid.
+// Positions that the client draws instead of the replica's: its own object and the view that follows it as
+// predicted, and other objects not inside solid ones (ExtrapolationClamp).
 #pragma once
 
 #include "client/world/ExtrapolationClamp.h"
@@ -10,11 +10,11 @@ namespace naiad {
 
 class DrawnPlacement : public Placement {
  public:
-  /// All must outlive it, and not change.
+  /// The arguments must outlive this and must not change.
   DrawnPlacement(const Replica& replica, const Prediction& prediction, const ExtrapolationClamp& clamp)
       : m_replica(replica), m_prediction(prediction), m_clamp(clamp) {}
 
-  /// `tick` must be the one that the clamp was made for.
+  /// `tick` must be that of the clamp.
   df::FixedVector positionOf(const ObjectState& object, std::uint32_t /*tick*/) const override {
     return m_prediction.isOwn(object) ? m_prediction.position() : m_clamp.positionOf(object);
   }

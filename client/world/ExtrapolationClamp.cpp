@@ -13,9 +13,9 @@ constexpr std::int64_t kCellWidth = 4;  // in characters
 constexpr std::int64_t kCellHeight = 2;
 constexpr std::int64_t kMaxCells = 64;
 
-// Work, in units of a box that is computed or compared.
-constexpr std::size_t kCellWork = 2;    // to sort an object into a cell
-constexpr std::size_t kLookupWork = 4;  // to find a cell
+// Work, in units of computing or comparing one box.
+constexpr std::size_t kCellWork = 2;    // sorting an object into a cell
+constexpr std::size_t kLookupWork = 4;  // finding a cell
 constexpr std::size_t kMaxIndexWork = ExtrapolationClamp::kMaxWork / 2;
 
 std::uint64_t cellKey(std::int64_t x, std::int64_t y) {
@@ -45,7 +45,7 @@ ExtrapolationClamp::ExtrapolationClamp(const Replica& replica, std::uint32_t kno
   clampAll();
 }
 
-/// False: there is no room for further ones.
+/// Returns false if the work limit of the index is reached.
 bool ExtrapolationClamp::addSolid(const ObjectState& object) {
   const bool moves = isMoving(object.motion);
   const std::uint32_t last = moves ? m_drawn : m_known;
@@ -55,7 +55,7 @@ bool ExtrapolationClamp::addSolid(const ObjectState& object) {
   const auto along = boxAlong(object, m_known, last);
   if (!along) return true;
   m_solids.push_back({&object, *along, cellsOf(*along), m_places.size(), moves});
-  // boxAlong() found it to be somewhere in all these ticks.
+  // boxAlong() has checked that there is a box in all these ticks.
   for (std::uint32_t tick = m_known; tick != last + 1; ++tick) {
     m_places.push_back(df::translate(object.body.box, positionAt(object.motion, tick)));
   }
@@ -80,11 +80,11 @@ void ExtrapolationClamp::clampAll() {
       std::count_if(m_solids.begin(), m_solids.end(), [](const Solid& solid) { return solid.moves; }));
   if (movers == 0) return;
   const std::size_t share = (kMaxWork - std::min(m_work, kMaxWork)) / movers;
-  std::size_t allowed = m_work;  // what those before have not used is for the next ones
+  std::size_t allowed = m_work;  // each mover may also use what earlier ones left
   for (const Solid& mover : m_solids) {
     if (!mover.moves) continue;
     allowed += share;
-    std::uint32_t first = m_ticks + 1;  // the tick in which it would first be blocked
+    std::uint32_t first = m_ticks + 1;  // the first tick in which it would be blocked
     forEachNear(mover, allowed, [&](const Solid& other) {
       if (other.p_state->order == mover.p_state->order || !df::intersects(mover.along, other.along)) return;
       first = firstTouch(mover, other, first);
@@ -94,7 +94,7 @@ void ExtrapolationClamp::clampAll() {
   }
 }
 
-/// Calls `visit` once for each solid that may touch the mover, until the work is what is allowed.
+/// Calls `visit` once for each solid that may touch the mover, until the work exceeds `allowed`.
 template <class Visit>
 void ExtrapolationClamp::forEachNear(const Solid& mover, std::size_t allowed, Visit visit) {
   const auto add = [this, allowed](std::size_t work) {
@@ -122,7 +122,7 @@ void ExtrapolationClamp::forEachNear(const Solid& mover, std::size_t allowed, Vi
       for (; at != m_cells.end() && at->first == key; ++at) {
         if (!add(1)) return;
         const Solid& solid = m_solids[at->second];
-        // Of the cells that the two share, the first one counts.
+        // Visit only in the first cell that both share.
         if (x == std::max(range.left, solid.range.left) && y == std::max(range.top, solid.range.top))
           visit(solid);
       }
@@ -130,12 +130,12 @@ void ExtrapolationClamp::forEachNear(const Solid& mover, std::size_t allowed, Vi
   }
 }
 
-/// The first tick after known, counted from there, in which the mover would touch the other, as that is at
-/// the mover's turn; `before` if there is none before that, or if they touch already.
+/// Returns the first tick, counted from m_known, in which the mover would touch the other at the mover's
+/// turn. Returns `before` if there is no such tick before it, or if they already touch in m_known.
 std::uint32_t ExtrapolationClamp::firstTouch(const Solid& mover, const Solid& other, std::uint32_t before) {
   ++m_work;
   if (df::intersects(placeOf(mover, 0), placeOf(other, 0))) return before;
-  // Those created later have not moved yet.
+  // At the mover's turn, objects created later have not moved yet.
   const std::uint32_t late = other.p_state->order < mover.p_state->order ? 0 : 1;
   for (std::uint32_t i = 1; i < before; ++i) {
     ++m_work;

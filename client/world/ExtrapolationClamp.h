@@ -2,12 +2,12 @@
 //
 // Extrapolated objects fly into walls; on the server they are blocked. So a HARD object is drawn where it was
 // one tick before it would first touch another HARD one that it did not touch in the newest known tick. The
-// models stay as they are.
+// replica does not change.
 //
-// Made for one picture: the objects are sorted into cells once, then each that moves is tested against its
-// neighbours only. In a pile all are neighbours of all, so the work for one picture is limited: each moving
-// object has a share of it, and one whose share is used up is blocked by what was found until then. Objects
-// that the index has no room for are drawn as modelled and block nothing.
+// A clamp is made for one picture: the objects are sorted into cells once, then each moving one is tested
+// against its neighbours only. In a pile all objects are neighbours, so the work for one picture is limited.
+// Each moving object has a share of it; when that is used up, only contacts found so far block the object.
+// Objects beyond the limit of the index are drawn as modelled and block nothing.
 #pragma once
 
 #include <cstddef>
@@ -22,23 +22,23 @@ namespace naiad {
 
 class ExtrapolationClamp {
  public:
-  /// Ticks that are tested, at most; the rest of a longer extrapolation is drawn as modelled.
+  /// Limit on tested ticks; nothing is clamped in a longer extrapolation.
   static constexpr std::uint32_t kMaxTicks = 16;
-  /// Work for one picture, at most: boxes that are computed or compared, and cells that are looked up. About
-  /// two milliseconds; 200 HARD objects that move in one spot stay below it.
+  /// Limit on the work for one picture, in boxes computed or compared and cells looked up: about two
+  /// milliseconds. 200 HARD objects that move in one spot stay below it.
   static constexpr std::size_t kMaxWork = 200'000;
 
-  /// For the picture of `drawn`, when the newest snapshot was of `known`. The replica must outlive this and
-  /// must not change.
+  /// Makes the clamp for the picture of tick `drawn`; the newest snapshot was of `known`. The replica must
+  /// outlive this and must not change.
   ExtrapolationClamp(const Replica& replica, std::uint32_t known, std::uint32_t drawn);
 
-  /// Where `object`, one of the replica's, is drawn.
+  /// Returns where an object of the replica is drawn.
   df::FixedVector positionOf(const ObjectState& object) const;
 
-  /// What it took: kMaxWork at most, and for each moving object one test or cell that was begun. Depends on
-  /// the replica alone.
+  /// Returns the work done: at most kMaxWork, plus one unfinished test or cell per moving object. It depends
+  /// only on the constructor's arguments.
   std::size_t work() const { return m_work; }
-  /// Was anything left out because of the limit?
+  /// True if the work limit was reached, so that some contacts may be missing.
   bool isExhausted() const { return m_exhausted; }
 
  private:
@@ -49,10 +49,10 @@ class ExtrapolationClamp {
   };
   struct Solid {
     const ObjectState* p_state;
-    df::FixedBox along;  ///< around all its places from known to drawn
+    df::FixedBox along;  ///< around all its boxes from known to drawn
     Range range;
-    std::size_t places;  ///< where its boxes begin in m_places, one for each tick from known to drawn
-    bool moves;          ///< else there is one box
+    std::size_t places;  ///< index of its first box in m_places; one per tick from known to drawn
+    bool moves;          ///< false: there is only one box
   };
   using Cell = std::uint64_t;
 
@@ -69,17 +69,17 @@ class ExtrapolationClamp {
 
   std::uint32_t m_known;
   std::uint32_t m_drawn;
-  std::uint32_t m_ticks = 0;  ///< from known to drawn; 0: nothing is clamped
+  std::uint32_t m_ticks = 0;  ///< number from known to drawn; 0: nothing is clamped
   std::size_t m_work = 0;
   bool m_exhausted = false;
   std::vector<df::FixedBox> m_places;
   std::vector<Solid> m_solids;
   std::vector<std::pair<Cell, std::uint32_t>> m_cells;  ///< sorted; the number is an index into m_solids
-  std::vector<std::uint32_t> m_large;                   ///< indices of those in too many cells
-  std::unordered_map<const ObjectState*, df::FixedVector> m_held;  ///< those that are not where modelled
+  std::vector<std::uint32_t> m_large;                   ///< indices of solids in too many cells
+  std::unordered_map<const ObjectState*, df::FixedVector> m_held;  ///< positions of clamped objects
 };
 
-/// Where a clamp made for this call draws one object. For several objects, make the clamp once.
+/// Makes a clamp and returns where it draws `object`. For several objects, make one clamp instead.
 df::FixedVector clampedPosition(const Replica& replica, const ObjectState& object, std::uint32_t known,
                                 std::uint32_t drawn);
 

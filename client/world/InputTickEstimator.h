@@ -1,9 +1,9 @@
 // Estimates the tick in which the server will apply a key that is pressed now.
 //
 // That is the tick of the newest snapshot, plus the time since its arrival, plus a round trip: half for the
-// snapshot's delay, half for the key's. A margin on top makes up for jitter: it grows when an input came too
-// late for the tick it asked for, and shrinks with each that did not, so that one in forty may be late (more
-// are due to loss, which no margin helps).
+// snapshot's delay, half for the key's. A margin on top makes up for jitter. It grows when an input was too
+// late for its requested tick, and shrinks with each that was not, so that about one in forty is late.
+// Packet loss makes more of them late, which no margin prevents.
 #pragma once
 
 #include <array>
@@ -19,16 +19,16 @@ class InputTickEstimator {
   using Time = DisplayClock::Time;
   using Millis = std::chrono::duration<double, std::milli>;
 
-  static constexpr double kMinMargin = 0.25;  ///< ticks
+  static constexpr double kMinMargin = 0.25;  ///< limits of the margin, in ticks
   static constexpr double kMaxMargin = 6;
   static constexpr double kGrow = 0.15;
   static constexpr double kShrink = 0.004;
 
-  /// The shortest of the last few samples counts: longer ones include queueing.
+  /// Adds a sample. The shortest of the last eight counts, because longer ones include queueing.
   void noteRoundTrip(Millis sample);
-  /// The server applied an input in tick `taken`; the input had asked for `asked`.
+  /// Call when the server has applied an input in tick `taken` that requested tick `asked`.
   void noteTaken(std::uint32_t asked, std::uint32_t taken);
-  /// The tick, for a key pressed at `now`.
+  /// Returns the estimated tick for a key pressed at `now`.
   std::uint32_t tickFor(const DisplayClock& clock, DisplayClock::Duration tick_length, Time now) const;
 
   Millis shortestRoundTrip() const;

@@ -52,7 +52,7 @@ void Prediction::run(const Replica& replica, std::uint32_t tick) {
 
 void Prediction::replay(const Replica& replica, const ObjectState& own, std::uint32_t tick) {
   ControlRecord start = *m_known;
-  // The server publishes changes within this time, so silence means that nothing has changed.
+  // The server publishes changes within kMaxAhead, so silence means that nothing has changed.
   if (isNewer(tick, start.tick + kMaxAhead)) start.tick = tick - kMaxAhead;
   m_from = start.tick;
   const std::uint32_t ticks = isNewer(tick, start.tick) ? tick - start.tick : 0;
@@ -75,7 +75,7 @@ void Prediction::replay(const Replica& replica, const ObjectState& own, std::uin
   m_trail = copy.trail();
 }
 
-/// How far the object can get in so many ticks, generously.
+/// Returns an upper bound of the distance that the object can move in `ticks`.
 df::FixedVector Prediction::reach(std::uint32_t ticks) const {
   df::FixedVector fastest{std::abs(m_known->velocity.x), std::abs(m_known->velocity.y)};
   df::FixedVector longest;

@@ -28,7 +28,7 @@ std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position) {
 }
 
 std::optional<df::FixedBox> boxAlong(const ObjectState& object, std::uint32_t first, std::uint32_t last) {
-  // A straight path is farthest at its ends, one that bends may be so anywhere.
+  // The ends of a straight path are its extreme points; those of a bent path may be anywhere.
   const std::uint32_t ticks = last - first;
   const bool bends = object.motion.acceleration != df::FixedVector{};
   std::optional<df::FixedBox> all;

@@ -1,4 +1,4 @@
-// What can block the player's own object, according to the replica.
+// Finds the replica's objects that can block the player's own object.
 #pragma once
 
 #include <cstdint>
@@ -10,35 +10,36 @@
 
 namespace naiad {
 
-/// The box of an object at this position, in world coordinates; nothing beyond 10^9 cells, where nothing
-/// can block.
+/// Returns the box of an object at this position, in world coordinates; nullopt beyond 10^9 cells, where
+/// nothing can block.
 std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position);
 
-/// The smallest box around all boxes of the object in the ticks from `first` to `last`, both included;
-/// nothing if it has none.
+/// Returns the smallest box around all boxes of the object in the ticks from `first` to `last`, both
+/// included; nullopt if one of them is beyond 10^9 cells.
 std::optional<df::FixedBox> boxAlong(const ObjectState& object, std::uint32_t first, std::uint32_t last);
 
 class Surroundings : public Barriers {
  public:
-  /// Work for all of it, at most, in boxes that are computed or compared: about two milliseconds. What the
-  /// limit leaves out blocks nothing.
+  /// Limit on the work, in boxes computed or compared: about two milliseconds. Objects beyond it do not
+  /// block.
   static constexpr std::size_t kMaxWork = 200'000;
 
-  /// Those among the replica's objects that can block `own` in the ticks after `first` up to `last`, if it
-  /// goes no farther than `reach` on each axis from where the box `from` is.
+  /// Collects the replica's objects that can block `own` in the ticks after `first` up to `last`, if it moves
+  /// no farther than `reach` on each axis from the box `from`.
   Surroundings(const Replica& replica, const ObjectState& own, const df::FixedBox& from,
                df::FixedVector reach, std::uint32_t first, std::uint32_t last);
 
-  /// By the rules of the book's moveObject(): boxes that touch, HARD on HARD, or SOFT on a no-soft mover.
-  /// Those created before `own` have moved when its turn comes, the others not yet.
+  /// Returns true if the object is blocked at `to`, by the rules of the book's moveObject(): its box touches
+  /// that of a HARD object (HARD mover) or of a SOFT one (no-soft mover). During an update, objects created
+  /// before `own` have already moved in this tick, the others have not.
   bool block(df::FixedVector to, std::uint32_t tick, bool in_update) const override;
 
-  /// What it took until now.
+  /// Returns the work done so far.
   std::size_t work() const { return m_work; }
 
  private:
   struct Other {
-    df::FixedBox along;  ///< around all its boxes in these ticks
+    df::FixedBox along;  ///< around all its boxes in the ticks
     const ObjectState* p_state;
   };
 

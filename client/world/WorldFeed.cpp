@@ -4,8 +4,8 @@
 
 namespace naiad {
 
-// Numbers continue through all epochs: a snapshot of another epoch that is not newer than all of this world
-// is late and of an earlier world. (One of two streams may lag behind by several worlds.)
+// Snapshot numbers continue through all epochs. So a snapshot of another epoch that is not newer than all of
+// this world is late and of an earlier world. (One of two streams may lag behind by several worlds.)
 Replica* WorldFeed::replicaFor(std::string_view bytes, Time now) {
   const auto epoch = peekEpoch(bytes);
   if (!epoch || *epoch == m_epoch) return &m_replica;
@@ -20,13 +20,13 @@ Replica* WorldFeed::replicaFor(std::string_view bytes, Time now) {
   return &*m_next;
 }
 
-// A complete snapshot may overtake those that it completes: it may come as a datagram and they on the stream.
+// A complete snapshot may overtake earlier ones: it may come as a datagram and they on the stream.
 void WorldFeed::trackFirstWorld(const SnapshotHeader& header, Time now) {
   if (!m_first_at) m_first_at = now;
   m_arrived.addReceived(header.number);
   if (header.complete && isNewer(header.number, m_complete)) m_complete = header.number;
   m_first_complete = m_complete != m_before;
-  // What is older than the window was sent again before the server called any snapshot complete.
+  // The contents of snapshots older than the window were sent again before the server marked one complete.
   for (std::uint32_t n = m_complete; m_first_complete && n != m_before && m_arrived.newest - n <= 64; --n) {
     m_first_complete = m_arrived.has(n);
   }
@@ -61,7 +61,7 @@ WorldFeed::Result WorldFeed::applySnapshot(std::string_view bytes, Time now, Sna
   return Result::kShown;
 }
 
-// Its first snapshots may have overtaken the message that announces it: then they are kept.
+// The first snapshots of the new world may have overtaken this announcement: then their replica is kept.
 void WorldFeed::expectWorld(std::uint8_t epoch, std::uint32_t tick, Time now) {
   if (epoch == m_epoch || (m_next && m_next_epoch == epoch)) return;
   SnapshotContext near = (m_next ? *m_next : m_replica).newest();

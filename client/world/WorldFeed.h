@@ -1,9 +1,9 @@
-// The client's world as the snapshots describe it, resets included: which replica a snapshot is for, and
-// which replica is shown.
+// The client's world, as snapshots describe it. Each epoch has a replica; this chooses the replica for each
+// snapshot and the one to show.
 //
-// The first world is not shown before it is complete: births may take several snapshots, and some time on a
-// slow line. A snapshot of the next epoch begins another world, in a second replica, while the old one is
-// shown. Both are shown incomplete if the player has waited for kPatience.
+// The first world is not shown before it is complete: its objects may take several snapshots, and some time
+// on a slow connection. A snapshot of the next epoch starts another world in a second replica, while the old
+// one is shown. Either is shown incomplete after kPatience.
 #pragma once
 
 #include <chrono>
@@ -21,50 +21,50 @@ class WorldFeed {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// After this time a world that is not complete is shown.
+  /// Time after which an incomplete world is shown.
   static constexpr std::chrono::milliseconds kPatience{500};
-  /// After so many stale snapshots in a row the client asks for the world again.
+  /// Number of consecutive stale snapshots after which the client requests the world again.
   static constexpr int kMaxStale = 30;
 
-  /// `near`: the numbers that the next snapshots continue from. `epoch`: theirs.
+  /// `near`: numbers from which the next snapshots continue. `epoch`: their epoch.
   explicit WorldFeed(const SnapshotContext& near = {}, std::uint8_t epoch = 0)
       : m_replica(Replica::continuing(near)),
         m_epoch(epoch),
         m_before(near.number),
         m_complete(near.number) {}
 
-  /// What became of a snapshot.
+  /// Result of applySnapshot().
   enum class Result {
     kApplied,
     kShown,      ///< applied, and another world is shown from now on
-    kIgnored,    ///< of an epoch that is over
+    kIgnored,    ///< it belongs to a past epoch
     kStale,      ///< it uses an origin or a name that a newer snapshot has replaced
-    kMalformed,  ///< the server is broken
+    kMalformed,  ///< not a valid snapshot: the server is broken
   };
-  /// Read and apply a snapshot; `header` becomes its header. `before` is called just before it is
-  /// applied.
+  /// Reads and applies a snapshot; sets `header` to its header. `before` is called just before it is applied.
   Result applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
                        const std::function<void(std::uint32_t tick)>& before);
 
-  /// Another world follows, in this epoch, which is in about this tick now: perhaps before that of the
-  /// present one.
+  /// Call when another world will follow. Its snapshots have this epoch; its tick is now near `tick`, which
+  /// may be lower than that of the present world.
   void expectWorld(std::uint8_t epoch, std::uint32_t tick, Time now);
-  /// The server's tick is at least this one: snapshots to come have the low bits of ticks near it.
+  /// Call when the server's tick is known to be at least `tick`: snapshots carry only the low bits of a tick,
+  /// which are completed near it.
   void noteTick(std::uint32_t tick);
 
-  /// The one to show.
+  /// Returns the replica to show.
   const Replica& shown() const { return m_replica; }
-  /// Is there enough of the first world to show it? Once true, it stays so.
+  /// True if the first world is complete or has been awaited for kPatience. Once true, it stays true.
   bool hasPicture(Time now) const {
     return m_first_complete || (m_first_at && now - *m_first_at >= kPatience);
   }
-  /// Is another one about to replace it?
+  /// True if another replica is about to replace the shown one.
   bool isChanging() const { return m_next.has_value(); }
-  /// Were so many snapshots in a row stale that the world should be sent again?
+  /// True if kMaxStale or more consecutive snapshots were stale, so that the world should be sent again.
   bool wantsReset() const { return m_stale_in_a_row >= kMaxStale; }
-  /// The last stale one reached that number: ask now.
+  /// True if the number of stale snapshots is just a multiple of kMaxStale: request the world now.
   bool wantsResetNow() const { return wantsReset() && m_stale_in_a_row % kMaxStale == 0; }
-  /// Worlds begun after the first.
+  /// Returns the number of worlds after the first.
   std::uint64_t resets() const { return m_resets; }
 
  private:
@@ -79,11 +79,11 @@ class WorldFeed {
   std::uint64_t m_resets = 0;
   int m_stale_in_a_row = 0;
 
-  // Of the first world only.
-  std::uint32_t m_before;          ///< number of the newest snapshot that was sent before those to come
-  std::uint32_t m_complete;        ///< the newest that was complete; m_before: none yet
-  AckWindow m_arrived;             ///< of this world
-  std::optional<Time> m_first_at;  ///< when the first arrived
+  // State of the first world only.
+  std::uint32_t m_before;          ///< number of the last snapshot sent before this world's
+  std::uint32_t m_complete;        ///< newest complete snapshot; m_before: none yet
+  AckWindow m_arrived;             ///< snapshots of this world
+  std::optional<Time> m_first_at;  ///< arrival of the first
   bool m_first_complete = false;
 };
 

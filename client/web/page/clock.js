@@ -1,3 +1,3 @@
-// A worker that beats: timers of a page in the background are held up, those of a worker are not, and a session needs
-// its pings.
+// A worker that triggers an update every 100 ms: a session needs pings, and browsers slow down the timers of background
+// pages, but not those of workers.
 setInterval(() => postMessage(0), 100);

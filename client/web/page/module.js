@@ -1,9 +1,9 @@
-// Loads client.wasm and speaks with it in strings and bytes. What it exports is in client/web/WebMain.cpp.
+// Loads client.wasm and passes strings and bytes to and from it. client/web/WebMain.cpp has its exports.
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 
-/** What a program for WASI may ask of its host, as far as this one does. Times are nanoseconds. */
+/** Returns the WASI functions that the module uses. Times are in nanoseconds. */
 function wasi(memory) {
   const view = () => new DataView(memory().buffer);
   return {
@@ -11,7 +11,7 @@ function wasi(memory) {
       view().setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true);
       return 0;
     },
-    // Only a program that fails says anything: what it says goes to the console.
+    // The module writes only when it fails; the console shows it.
     fd_write(_fd, vectors, count, out) {
       let written = 0;
       for (let i = 0; i < count; ++i) {
@@ -31,14 +31,14 @@ function wasi(memory) {
   };
 }
 
-/** What the module calls, by the names that it imports. `memory()` is the module's; `page` as for loadClient(). */
+/** Returns the module's imports. `memory()` returns the module's memory; `page`: see loadClient(). */
 export function hostFunctions(page, memory) {
   const bytes = (from, size) => new Uint8Array(memory().buffer, from, size);
   const text = (from, size) => decoder.decode(bytes(from, size));
   return {
     page: {
       open: page.open,
-      // A copy: the socket sends it later, when the module's memory has changed.
+      // A copy, because the socket may send it after the module's memory has changed.
       send: (stream, from, size) => page.send(stream, bytes(from, size).slice()),
       unsent: page.unsent,
       close: page.close,
@@ -46,13 +46,13 @@ export function hostFunctions(page, memory) {
       sound: (from, size, action, flags) => page.sound(text(from, size), action, flags),
     },
     wasi_snapshot_preview1: wasi(memory),
-    // Asio would open a socket to learn the name of a network interface. There are none.
+    // Asio would open a socket to get the name of a network interface, which does not exist here.
     env: {emscripten_notify_memory_growth() {}, __syscall_socket: () => -1},
   };
 }
 
 /**
- * Start the module. `page` has open(stream), send(stream, Uint8Array), unsent(stream), close(stream), keep(text)
+ * Starts the module. `page` has open(stream), send(stream, Uint8Array), unsent(stream), close(stream), keep(text)
  * and sound(label, action, flags). Returns the client.
  */
 export async function loadClient(source, page) {
@@ -92,7 +92,7 @@ export async function loadClient(source, page) {
     resize: (columns, rows) => exports.resize(columns, rows),
     update: () => exports.update(),
     compose: () => exports.compose() === 1,
-    /** The newest picture: valid until the next call. */
+    /** Returns the newest picture, which is valid until the next call. */
     picture() {
       const columns = exports.columns();
       const rows = exports.rows();

@@ -1,4 +1,4 @@
-// The page around the client: WebSockets to the gateway, keyboard, pointer, touch, and what is beside the picture.
+// The page around the client: WebSockets to the gateway, keyboard, pointer, touch, buttons and forms.
 
 import {loadClient} from "./module.js";
 import {Picture} from "./picture.js";
@@ -11,15 +11,15 @@ const door = element("door");
 const line = element("line");
 const address = new URLSearchParams(location.search);
 const touch = matchMedia("(pointer: coarse)").matches || address.has("touch");
-const room = address.get("room") ?? "";  // ?room=NAME: where to begin
+const room = address.get("room") ?? "";  // ?room=NAME: the first room
 
 let client = null;
-let joined = false;  // there has been a picture of the game
+let joined = false;  // a picture of the game has been shown
 let server = {name: "", key: ""};
 
 // ---- streams ------------------------------------------------------------------------------------------------------
 
-const sockets = new Map();  // by the client's number
+const sockets = new Map();  // by stream number
 
 const port = {
   open(stream) {
@@ -57,7 +57,7 @@ const port = {
   sound: (label, action, flags) => sounds.take(label, action, flags),
 };
 
-/** The client is never called from inside a call of its own. */
+/** Calls the client later, because it must not be called during one of its own calls. */
 function later(call) {
   queueMicrotask(() => client !== null && call());
 }
@@ -67,7 +67,7 @@ function later(call) {
 function fit() {
   const stage = element("stage");
   const view = client?.view() ?? {columns: 80, rows: 24};
-  // The view, its frame, and the line of status.
+  // The view, its frame and the status line.
   const size = picture.fit(stage.clientWidth, stage.clientHeight, view.columns + 2, view.rows + 3);
   client?.resize(size.columns, size.rows);
   return size;
@@ -131,12 +131,12 @@ function say(sentence) {
 let wasm = null;
 
 /**
- * Make this tab's storage its own. A tab that was duplicated begins with a copy of that of the one it was made from, which
- * plays on: it must not take its session.
+ * Makes this tab's storage its own. A duplicated tab starts with a copy of the original tab's storage, but must not
+ * take over the session that the original is playing.
  */
 async function claimTab() {
   const mine = sessionStorage.getItem("naiad.tab");
-  // A page that is loaded again may come before the one that goes has let go.
+  // During a reload, the old page may not have released its lock yet.
   for (let attempt = 0; mine !== null && attempt < 10; ++attempt) {
     if (await hold(mine)) return;
     await new Promise((resolve) => setTimeout(resolve, 50));
@@ -147,9 +147,9 @@ async function claimTab() {
   await hold(tab);
 }
 
-/** Hold a lock for as long as the page lives; false if another page has it. */
+/** Takes a lock for the lifetime of the page. Resolves to false if another page has it. */
 function hold(tab) {
-  if (navigator.locks === undefined) return Promise.resolve(true);  // as in a page that came without encryption
+  if (navigator.locks === undefined) return Promise.resolve(true);  // e.g. a page loaded without encryption
   return new Promise((resolve) => {
     navigator.locks.request(`naiad.${tab}`, {ifAvailable: true}, (lock) => {
       resolve(lock !== null);
@@ -197,7 +197,7 @@ function modifiers(event) {
   return (event.shiftKey ? 1 : 0) | (event.altKey ? 2 : 0) | (event.ctrlKey ? 4 : 0) | (event.metaKey ? 8 : 0);
 }
 
-/** The browser's own: shortcuts, and keys that only the browser should have. */
+/** True for the browser's shortcuts and other keys that the game must not get. */
 function isBrowsers(event) {
   if (event.ctrlKey && !event.altKey && !event.metaKey && event.key === "]") return false;
   if (event.ctrlKey && event.altKey) return event.key.length !== 1;  // AltGr types characters
@@ -217,7 +217,7 @@ picture.canvas.addEventListener("blur", () => client?.blur());
 addEventListener("blur", () => client?.blur());
 document.addEventListener("visibilitychange", () => document.hidden && client?.blur());
 
-// The line of chat. Or, on a phone whose keyboard was brought up for the game, keys.
+// The chat line; or keys for the game, if a phone's keyboard was opened for it.
 line.addEventListener("keydown", (event) => {
   if (client === null || event.isComposing) return;
   if (!client.writing() || event.key === "Enter" || event.key === "Escape" || event.ctrlKey && event.key === "]") takeKey(event, down);
@@ -226,7 +226,7 @@ line.addEventListener("keyup", (event) => client !== null && !client.writing() &
 line.addEventListener("input", () => {
   if (client === null) return;
   if (client.writing()) return client.chat(line.value);
-  // Keyboards of phones do not say which key it was, only what was typed.
+  // Phone keyboards report only the typed text, not the key.
   for (const ch of line.value) tap(ch === "\n" ? "Enter" : ch);
   line.value = "";
 });
@@ -238,7 +238,7 @@ function tap(key) {
 
 // ---- pointer ------------------------------------------------------------------------------------------------------
 
-const buttons = [0, 2, 1];  // left, middle, right: of PointerEvent, as df::Mouse::Button
+const buttons = [0, 2, 1];  // PointerEvent's left, middle and right button as df::Mouse::Button
 let held = -1;
 
 function takePointer(event, action, button) {
@@ -294,14 +294,14 @@ element("switch").addEventListener("click", () => {
   element("switch").textContent = isLetters ? "Arrows" : "WASD";
 });
 
-// ---- beside the picture -------------------------------------------------------------------------------------------
+// ---- buttons and the join form ------------------------------------------------------------------------------------
 
 for (const [id, letter] of [["say", "t"], ["players", "p"], ["help", "h"], ["leave", "q"]]) {
   element(id).addEventListener("click", () => {
     sounds.wake();
     client?.command(letter);
     if (letter !== "t") picture.canvas.focus({preventScroll: true});
-    else line.focus();  // now, or a phone shows no keyboard
+    else line.focus();  // immediately, otherwise a phone does not open its keyboard
   });
 }
 element("sound").addEventListener("click", () => {
@@ -318,13 +318,13 @@ door.addEventListener("submit", async (event) => {
   await join();
 });
 
-/** What stands behind the # of the address: a link's key, so that a page of another game is not taken for it. */
+/** True if the address has the key of another server behind its #, i.e. the link was for another game. */
 function isOtherServer() {
   const key = location.hash.slice(1).toLowerCase();
   return key !== "" && server.key !== "" && key !== server.key;
 }
 
-/** As dfclient takes HOST/ROOM (SafeText.h). */
+/** Like isRoomName() in SafeText.h. */
 function isRoomName(name) {
   return /^[A-Za-z0-9][A-Za-z0-9._-]{0,31}$/.test(name);
 }
@@ -349,7 +349,7 @@ async function begin() {
   if (server.link) element("terminal").textContent = `dfclient ${server.link}`;
   if (isOtherServer()) return say("This address was made for another game than the one that is here now.");
   await Promise.all([document.fonts.load('16px "Naiad Mono"'), claimTab()]);
-  // A tab that was loaded again plays on.
+  // A reloaded tab resumes its session.
   if (sessionStorage.getItem("naiad.token") !== null && element("name").value !== "") return join();
   element("play").disabled = false;
   if (element("name").value === "") element("name").focus();
@@ -361,5 +361,5 @@ new Worker("clock.js").onmessage = () => client?.update();
 requestAnimationFrame(frame);
 await begin();
 
-// For scripts that test the page.
+// Used by scripts that test the page.
 window.naiad = {get client() { return client; }, picture};

@@ -1,11 +1,11 @@
-// Draws the client's picture on a canvas: cells of whole device pixels, so that nothing is blurred at any size.
-// Lines, blocks and Braille patterns are drawn rather than written: they meet at the edges of cells.
+// Draws the client's picture on a canvas. Cells have a size in whole device pixels, so that nothing is blurred.
+// Lines, blocks and Braille patterns are drawn as shapes instead of text, so that they meet at the edges of cells.
 
 const colors = ["#4d4d4d", "#ff5555", "#50fa7b", "#f1fa8c", "#7aa2ff", "#ff79c6", "#8be9fd", "#e4e4e4"];
 const paper = "#000000";
 const backgrounds = [paper, "#7a1414", "#14602a", "#6a6a14", "#1a2f7a", "#6a1a5a", "#14606a", "#b0b0b0"];
 const family = '"Naiad Mono"';
-/** Of the font: advance and height of a line, in parts of its size; and where letters stand, in parts of the line. */
+/** Metrics of the font: advance and line height relative to its size, baseline relative to the line height. */
 const advance = 0.602;
 const lineHeight = 1.17;
 const baseline = 0.79;
@@ -32,7 +32,7 @@ export class Picture {
   constructor(canvas) {
     this.canvas = canvas;
     this.screen = canvas.getContext("2d", {alpha: false});
-    this.drawn = new Map();  // cells as images, by their numbers
+    this.drawn = new Map();  // images of cells, by the packed cell
     this.shown = new Uint32Array(0);
     this.columns = 0;
     this.rows = 0;
@@ -40,8 +40,8 @@ export class Picture {
   }
 
   /**
-   * Choose cells so that `columns` by `rows` of them fit into width by height CSS pixels, as large as they may be, but
-   * not too small to read: then fewer fit. Returns how many do.
+   * Chooses the largest cell size with which `columns` by `rows` cells fit into width by height CSS pixels. There is
+   * a minimum for reading; then fewer cells fit. Returns the number of columns and rows that fit.
    */
   fit(width, height, columns, rows) {
     const scale = window.devicePixelRatio || 1;
@@ -64,14 +64,14 @@ export class Picture {
     return size;
   }
 
-  /** Draw everything with the next show(). */
+  /** Makes the next show() draw everything. */
   redraw() {
     this.screen.fillStyle = paper;
     this.screen.fillRect(0, 0, this.canvas.width, this.canvas.height);
     this.shown = new Uint32Array(0);
   }
 
-  /** Draw the cells that differ from those shown. The picture may still have the size of a moment ago. */
+  /** Draws the cells that have changed. The picture may still have an earlier size. */
   show({columns, rows, cells, cursor}) {
     const all = this.shown.length !== cells.length || this.shownColumns !== columns;
     if (all) this.redraw();
@@ -88,7 +88,7 @@ export class Picture {
     this.shownColumns = columns;
   }
 
-  /** A cell as an image: what a character has outside its cell is cut off, and would not be erased with it. */
+  /** Returns the image of a cell. It clips the character, whose overhang would not be erased with the cell. */
   image(cell) {
     let image = this.drawn.get(cell);
     if (image !== undefined) return image;
@@ -121,7 +121,7 @@ export class Picture {
     this.screen.fillRect(column * this.cell, row * this.line + this.line - Math.max(2, this.line >> 3), this.cell, Math.max(2, this.line >> 3));
   }
 
-  /** False if the character has no shape of its own here. */
+  /** Returns false if the character is not drawn as a shape. */
   drawShape(context, code) {
     if (code <= 0x257f) return this.drawLines(context, code);
     if (code <= 0x259f) return this.drawBlock(context, code);
@@ -137,7 +137,7 @@ export class Picture {
     const middleX = cell - light >> 1;
     const middleY = line - light >> 1;
     const [left, up, right, down] = arm;
-    // Of each line across its direction: how far it is from the middle, and how wide.
+    // Offset from the middle, and width, of each stroke of an arm.
     const across = (kind) => kind === 0 ? [] : kind === 3 ? [[-gap, light], [gap, light]] : [[-(kind - 1) * (light >> 1), light * kind]];
     const horizontal = (from, to, kind) => {
       for (const [shift, width] of across(kind)) context.fillRect(from, middleY + shift, to - from, width);
@@ -145,7 +145,7 @@ export class Picture {
     const vertical = (from, to, kind) => {
       for (const [shift, width] of across(kind)) context.fillRect(middleX + shift, from, width, to - from);
     };
-    // Arms reach past the middle by what the others are wide.
+    // Arms extend past the middle by the gap of double lines that they meet.
     const reachX = up === 3 || down === 3 ? gap : 0;
     const reachY = left === 3 || right === 3 ? gap : 0;
     horizontal(0, middleX + light + reachX, left);

@@ -1,9 +1,9 @@
-// The game names its sounds; here each name is a short tune of its own: always the same for the same name.
+// The game sends only names of sounds. Each name is played as a short tune that is computed from it.
 
 const scale = [0, 2, 3, 5, 7, 8, 10, 12, 14, 15];
 const waves = ["square", "triangle", "sawtooth", "sine"];
 
-/** 32 bits of a text (FNV-1a). */
+/** Returns a 32-bit hash of a text (FNV-1a). */
 function hash(text) {
   let value = 0x811c9dc5;
   for (const ch of text) value = Math.imul(value ^ ch.codePointAt(0), 0x01000193) >>> 0;
@@ -13,10 +13,10 @@ function hash(text) {
 export class Sounds {
   constructor() {
     this.on = localStorage.getItem("naiad.sound") !== "off";
-    this.playing = new Map();  // what lasts, by name
+    this.playing = new Map();  // music and repeated sounds, by name
   }
 
-  /** Browsers allow sound only after the player has done something: call from a key or a click. */
+  /** Starts the audio. Call from the handler of a key or click: browsers allow sound only after such an action. */
   wake() {
     if (!this.on) return;
     this.context ??= new AudioContext({latencyHint: "interactive"});
@@ -31,7 +31,7 @@ export class Sounds {
     return this.on;
   }
 
-  /** `action`: 0 play, 1 pause, 2 stop. `flags`: 1 music, 2 again and again, 4 caused by this player or by none. */
+  /** `action`: 0 play, 1 pause, 2 stop. `flags`: 1 music, 2 repeat, 4 caused by this player or by none. */
   take(label, action, flags) {
     const name = (flags & 1 ? "music " : "sound ") + label;
     if (action !== 0) return this.stop(name);

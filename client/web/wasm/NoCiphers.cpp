@@ -1,5 +1,4 @@
-// In place of shared/net/datagram/Seal.cpp and DatagramKeys.cpp: a page has no datagrams, so it needs no
-// ciphers.
+// Replaces shared/net/datagram/Seal.cpp and DatagramKeys.cpp: a page has no datagrams and needs no ciphers.
 #include "shared/net/datagram/DatagramKeys.h"
 #include "shared/net/datagram/Seal.h"
 

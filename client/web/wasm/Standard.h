@@ -1,5 +1,4 @@
-// What the standard library of Debian's emscripten does not have yet, for sources that are the same
-// everywhere.
+// Parts of the standard library that Debian's emscripten does not have yet. All sources include this file.
 #pragma once
 
 #include <version>

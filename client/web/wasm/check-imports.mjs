@@ -1,5 +1,5 @@
 // usage: node check-imports.mjs MODULE.wasm ../page/module.js
-// A browser starts no module that lacks an import, and the linker is not asked to find them: so that is asked here, when it is built.
+// Fails if module.js does not provide all imports of the module: a browser would not start it, and the linker does not check this.
 import {readFileSync} from "node:fs";
 
 const [, , wasm, script] = process.argv;
