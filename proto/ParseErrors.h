@@ -1,11 +1,11 @@
-// What the codec of the wire prints.
+// Silences the wire codec.
 #pragma once
 
 namespace naiad {
 
-/// The codec prints nothing from now on. The protobuf library reports malformed text on stderr, so that a
-/// peer could write on a player's screen or fill a host's log; parsing returns false as well, which is
-/// enough. To be called before the first message is parsed; cheap to call again, from any thread.
+/// Stops the codec from printing. The protobuf library reports malformed text on stderr, so that a peer could
+/// write on a player's screen or fill a host's log; parsing also returns false, which is enough. Call before
+/// the first message is parsed; repeated calls are cheap. Thread-safe.
 void silenceParseErrors();
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// What a message does with its fields apart from reading and writing them.
+// The functions of a message except reading and writing.
 #include "proto/small/Message.h"
 
 #include <type_traits>
@@ -39,7 +39,7 @@ void copy(Children& to, const Children& from, const Field& field) {
   for (const Child& child : from) copy(to.emplace_back(), child, field);
 }
 
-/// Every member of a oneof has a line in the table; the line of the one that is set copies.
+/// Each member of a oneof has a line in the table; only the line of the set one copies.
 void copy(Oneof& to, const Oneof& from, const Field& field) {
   if (from.number() == 0) to.clear();
   if (from.number() != field.number) return;

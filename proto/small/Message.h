@@ -1,11 +1,9 @@
-// Messages of the wire without the protobuf library: what the classes that protoc-gen-small writes have in
-// common.
+// Wire messages without the protobuf library: the base of the classes that protoc-gen-small generates.
 //
-// They have the names and the meaning of protobuf's lite classes, as far as a client needs them, and depend
-// on nothing but the standard library. One reader and one writer serve all of them, led by a table of fields
-// per class, so that machine code does not grow with the schema. Differences from protobuf: unknown fields
-// are dropped, not kept; a moved-from message may only be assigned to, cleared or destroyed; repeated fields
-// are standard containers or views.
+// They have the names and the behaviour of protobuf's lite classes, as far as a client needs them, and depend
+// only on the standard library. A table of fields per class drives one reader and one writer, so machine code
+// does not grow with the schema. Differences from protobuf: unknown fields are dropped, not kept; a
+// moved-from message may only be assigned to, cleared or destroyed; repeated fields are containers or views.
 //
 // Encoding: https://protobuf.dev/programming-guides/encoding/
 #pragma once
@@ -23,24 +21,24 @@ namespace naiad::small {
 
 struct FieldTable;
 
-/// The base of all messages. Not thread-safe, as any value is not.
+/// The base of all messages. Not thread-safe.
 class Message {
  public:
   virtual ~Message() = default;
 
-  /// Replaces the content by what `size` bytes say. False if they are malformed; the content is then
-  /// unspecified. Fields that the schema does not have, or has with another wire type, are skipped.
+  /// Replaces the content by the decoded bytes. Returns false if they are malformed; the content is then
+  /// unspecified. Skips fields that the schema lacks, or has with another wire type.
   bool ParseFromArray(const void* data, int size);
   bool ParseFromString(std::string_view bytes);
-  /// The bytes are those that protobuf writes: fields by ascending number, defaults left out.
+  /// Returns the bytes that protobuf writes: fields by ascending number, defaults omitted.
   std::string SerializeAsString() const;
-  /// Back to all defaults.
+  /// Resets all fields to their defaults.
   void Clear();
 
-  /// The fields of the class. Names with an inner capital cannot meet those of a schema's fields.
+  /// Returns the fields of the class. With an inner capital, the name cannot clash with a schema's fields.
   virtual const FieldTable& fieldTable() const = 0;
 
-  /// Makes this a deep copy of `other`, which must have the same class.
+  /// Makes this a deep copy of `other`, which must be of this class.
   void copyFrom(const Message& other);
 
  protected:
@@ -51,10 +49,10 @@ class Message {
 
 /// A field that is a message; null: not set.
 using Child = std::unique_ptr<Message>;
-/// A repeated field that has messages.
+/// A repeated field of messages.
 using Children = std::vector<Child>;
 
-/// The message of this field, which is made if it is not set.
+/// Returns the message of this field; creates it if it is not set.
 Message& mutableChild(Child& child, const FieldTable& fields);
 
 /// The members of a `oneof`, of which at most one is set: strings, bytes and messages.
@@ -72,16 +70,16 @@ class Oneof {
     return *this;
   }
 
-  /// The number of the field that is set; 0: none.
+  /// The number of the set field; 0: none.
   std::uint32_t number() const { return m_number; }
   void clear();
 
-  /// The text of this field; empty if it is not set.
+  /// Returns the text of this field; empty if it is not set.
   const std::string& text(std::uint32_t number) const;
-  /// The message, whichever field it is of; null if there is none.
+  /// Returns the message of the set field; null if there is none.
   const Message* child() const { return m_child.get(); }
 
-  /// The value of this field. If it is not set, it is set to its default; what another field held is gone.
+  /// Returns the value of this field. If not set, sets it to its default and clears the set field.
   std::string& mutableText(std::uint32_t number);
   Message& mutableChild(std::uint32_t number, const FieldTable& fields);
 
@@ -91,8 +89,7 @@ class Oneof {
   Child m_child;
 };
 
-/// A repeated field's messages with their class: what a getter returns. It refers to the message that it came
-/// from.
+/// A view of a repeated field's messages with their class, returned by getters. It refers to their message.
 template <class Element>
 class View {
  public:
@@ -130,7 +127,7 @@ class View {
   const Children* m_children;
 };
 
-/// The types of the schema language that the generator knows.
+/// The types of the schema language that the generator supports.
 enum class Type : std::uint8_t {
   kUint32,
   kSint32,
@@ -143,12 +140,12 @@ enum class Type : std::uint8_t {
   kMessage,
 };
 
-/// How often a field may be there, which decides where it is stored.
+/// The cardinality of a field, which decides where it is stored.
 enum class Place : std::uint8_t { kSingle, kRepeated, kOneof };
 
 /// One field of a class: a line of its table.
 struct Field {
-  /// Where the value is. Numbers of up to 32 bits, signed or not, share one kind of member.
+  /// The member that holds the value. All numbers of up to 32 bits, signed or not, use one kind of member.
   union Member {
     std::uint32_t Message::*word;
     std::uint64_t Message::*wide;
@@ -205,15 +202,15 @@ struct Field {
   std::uint32_t number;
   Type type;
   Place place = Place::kSingle;
-  const FieldTable* fields = nullptr;  ///< of a message, those of its class
+  const FieldTable* fields = nullptr;  ///< the fields of a message's class
   Member member{};
 };
 
-/// What the reader and the writer need to know of a class.
+/// The description of a class for the reader and the writer.
 struct FieldTable {
   const Field* begin;  ///< by ascending number
   const Field* end;
-  Child (*make)();  ///< a new message of the class
+  Child (*make)();  ///< creates a message of the class
 };
 
 }  // namespace naiad::small

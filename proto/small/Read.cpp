@@ -1,13 +1,13 @@
-// Bytes become a message. What is accepted is what protobuf 3.21 accepts, down to its oddities: a field's key
-// and a length may take up to five bytes and a number ten, whatever they are worth; bits beyond the type's
-// are dropped.
+// Decodes a message. Accepts exactly what protobuf 3.21 does, including its oddities: a field's key and a
+// length may have up to five bytes and a number ten, whatever their value; bits beyond the type's are
+// dropped.
 #include "proto/small/Message.h"
 #include "proto/small/Utf8.h"
 
 namespace naiad::small {
 namespace {
 
-/// How deep messages and unknown groups may lie in each other: protobuf's default.
+/// Largest nesting depth of messages and unknown groups: protobuf's default.
 constexpr int kMaxDepth = 100;
 
 constexpr int kMaxKeyBytes = 5;
@@ -24,7 +24,7 @@ enum Wire : std::uint32_t {
   kFourBytes = 5
 };
 
-/// The wire type that values of this type have.
+/// Returns the wire type of values of this type.
 Wire wireOf(Type type) {
   switch (type) {
     case Type::kFixed32:
@@ -40,7 +40,7 @@ Wire wireOf(Type type) {
   }
 }
 
-/// Bytes that are yet to be read. Functions return false if these are too few or malformed.
+/// The unread bytes. Functions return false if these are too few or malformed.
 class Input {
  public:
   explicit Input(std::string_view bytes) : m_bytes(bytes) {}
@@ -77,7 +77,7 @@ class Input {
     return takeVarint(size, kMaxLengthBytes) && takeBytes(size, bytes);
   }
 
-  /// A number of any of the three wire types.
+  /// Reads a number of any of the three wire types.
   bool takeNumber(Wire wire, std::uint64_t& value) {
     if (wire == kVarint) return takeVarint(value);
     std::string_view bytes;
@@ -87,7 +87,7 @@ class Input {
     return true;
   }
 
-  /// A value that means nothing here, behind its key.
+  /// Skips an unknown value after its key.
   bool skip(std::uint32_t key, int depth) {
     std::uint64_t number = 0;
     std::string_view bytes;
@@ -119,7 +119,7 @@ class Input {
   std::string_view m_bytes;
 };
 
-/// A number as it is stored. Signed ones keep their bits.
+/// Returns a number as it is stored. Signed ones keep their bits.
 std::uint64_t stored(Type type, std::uint64_t value) {
   const auto word = static_cast<std::uint32_t>(value);
   switch (type) {
@@ -147,7 +147,7 @@ std::string& textOf(Message& message, const Field& field) {
   }
 }
 
-/// A message that is there twice is merged from both; a repeated one is another.
+/// Returns the message to read into: the existing one, to merge with it, or a new one in a repeated field.
 Message& childOf(Message& message, const Field& field) {
   if (field.place == Place::kOneof)
     return (message.*field.member.oneof).mutableChild(field.number, *field.fields);
@@ -199,7 +199,7 @@ bool readMessage(Input in, Message& message, int depth) {
     const std::uint32_t wire = key & 7;
     const Field* field = find(message.fieldTable(), key >> 3);
     bool good = false;
-    // A repeated number may be packed: many values of one size.
+    // Repeated numbers may be packed: many values in one field.
     if (field != nullptr && wire == kSized &&
         (wireOf(field->type) == kSized || field->place == Place::kRepeated)) {
       std::string_view bytes;

@@ -1,4 +1,4 @@
-// A message becomes bytes.
+// Encodes a message.
 #include "proto/small/Message.h"
 
 namespace naiad::small {
@@ -71,7 +71,7 @@ void addRepeated(std::string& out, const Field& field, const Message& message) {
   }
 }
 
-/// A field that is there once. It is left out if it has its default, a message if it was never set.
+/// Writes a single field. Omits one that has its default, and a message that was never set.
 void addSingle(std::string& out, const Field& field, const Message& message) {
   if (field.type == Type::kMessage) {
     const Child& child = message.*field.member.child;

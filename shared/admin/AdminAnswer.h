@@ -1,4 +1,4 @@
-// What a command gives back.
+// The answer to an admin command.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ using AdminRow = std::vector<std::pair<std::string, AdminValue>>;
 
 struct AdminAnswer {
   bool ok = true;
-  std::string text;                     ///< one sentence, or empty; what is wrong if not ok
-  std::vector<std::string> candidates;  ///< what an ambiguous name may have meant
-  AdminRow facts;                       ///< of the server
-  bool is_list = false;                 ///< `rows` is the answer, though it may be empty
-  std::vector<AdminRow> rows;           ///< each with the same names
+  std::string text;                     ///< one sentence or empty; if not ok, the reason
+  std::vector<std::string> candidates;  ///< the matches of an ambiguous name
+  AdminRow facts;                       ///< facts about the server
+  bool is_list = false;                 ///< `rows` is the answer, even if it is empty
+  std::vector<AdminRow> rows;           ///< all with equal names
 
   /// Returns the answer to a command that succeeded.
   static AdminAnswer done(std::string text) { return {true, std::move(text), {}, {}, false, {}}; }
-  /// Returns these rows, or the sentence `if_empty` if there are none.
+  /// Returns these rows, or the sentence `if_empty` if the list is empty.
   static AdminAnswer list(std::vector<AdminRow> rows, std::string if_empty) {
     std::string text = rows.empty() ? std::move(if_empty) : std::string();
     return {true, std::move(text), {}, {}, true, std::move(rows)};
@@ -32,11 +32,11 @@ struct AdminAnswer {
   static AdminAnswer refused(std::string text) { return {false, std::move(text), {}, {}, false, {}}; }
 };
 
-/// Lines for people: the sentence; facts as "name: value"; rows under a line of headings, in columns. Control
-/// characters are escaped: names and reasons come from strangers.
+/// Returns the answer as lines for people: the sentence; facts as "name: value"; rows in columns under a line
+/// of headings. Control characters are escaped because names and reasons come from untrusted people.
 std::vector<std::string> answerText(const AdminAnswer& answer);
 
-/// "yes", "3", "0.25" or the text itself.
+/// Returns "yes" or "" for a bool, a number as "3" or "0.25" (3 digits), or the text itself.
 std::string valueText(const AdminValue& value);
 
 }  // namespace naiad

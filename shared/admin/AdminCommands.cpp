@@ -19,7 +19,7 @@ const AdminArgument kOnePlayer{"player", Kind::kPlayer, true, "Name, beginning o
 using Arguments = std::vector<AdminArgument>;
 constexpr bool kOnlyReads = true;
 
-/// A command of every player.
+/// Makes a command that every player may give.
 AdminCommand ofPlayers(std::string name, Place place, std::string help, Arguments arguments = {},
                        bool only_reads = false) {
   return {std::move(name), Level::kPlayer, place, std::move(help), std::move(arguments), only_reads};

@@ -10,12 +10,12 @@ namespace naiad {
 
 namespace {
 
-constexpr std::size_t kMaxDepth = 2;         ///< of what a server reads: an object in an object
-constexpr std::size_t kMaxAnswerDepth = 32;  ///< of what dfctl reads
-/// Of an answer's lines: leaves room for what stands around the rows.
+constexpr std::size_t kMaxDepth = 2;         ///< nesting of a request: an object in an object
+constexpr std::size_t kMaxAnswerDepth = 32;  ///< nesting of an answer that dfctl reads
+/// Bytes of rows in a line of an answer. The rest of the line holds the JSON around the rows.
 constexpr std::size_t kMaxRowBytes = kMaxControlLine - 512;
-constexpr std::size_t kMaxTextBytes = 2048;  ///< of one text in a line
-constexpr std::size_t kMaxCellBytes = 384;   ///< of one as JSON in a row: several fit a line
+constexpr std::size_t kMaxTextBytes = 2048;  ///< limit of one text in a line
+constexpr std::size_t kMaxCellBytes = 384;   ///< limit of one text in a row, as JSON: a row holds several
 
 std::string lineOf(const Json& json) {
   return json.toString() + "\n";
@@ -27,14 +27,14 @@ std::string argumentText(const std::string& name, const Json& value) {
   throw AdminUsageError("The argument \"" + name + "\" is no text.");
 }
 
-// Whole characters only: half of one would become a replacement character.
+// Shortens the text to at most `most` bytes and appends "…". Never splits a character.
 std::string cut(std::string_view text, std::size_t most) {
   if (text.size() <= most) return std::string(text);
   while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0) == 0x80) --most;
   return std::string(text.substr(0, most)) + "…";
 }
 
-/// The same, until it has so many bytes as JSON: an escape can be six times as long as what it stands for.
+/// Like cut(), until the text as JSON has at most `json_bytes`; an escape has up to six bytes.
 std::string cutToFit(std::string_view text, std::size_t json_bytes = kMaxRowBytes) {
   std::string kept = cut(text, kMaxTextBytes);
   for (std::size_t most = kMaxTextBytes; Json(kept).toString().size() > json_bytes;)

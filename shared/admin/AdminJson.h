@@ -1,12 +1,12 @@
-// The control socket's lines: one JSON object (RFC 8259) each, of kMaxControlLine bytes at most, ended by \n.
+// The lines of the control socket: one JSON object (RFC 8259) each, at most kMaxControlLine bytes, then \n.
 //
 //   to the server    {"command":"ban","arguments":{"who":"Ann","for":"2h"}}
 //   from the server  {"rows":[{"id":1,"name":"Ann"}],"more":true}      rows that do not fit one line
 //                    {"ok":true,"text":"…","facts":{…},"rows":[…]}     ends the answer
-//                    {"ok":false,"error":"…","candidates":["…"]}       the same, refused
+//                    {"ok":false,"error":"…","candidates":["…"]}       ends the answer to a refused command
 //                    {"event":"log","text":"…"}  {"dropped":12}        after "watch"
 //
-// Reading is strict: other keys, the same key twice, nesting, and text that is no UTF-8 are errors.
+// Requests are read strictly: other keys, duplicate keys, deeper nesting and invalid UTF-8 are errors.
 #pragma once
 
 #include <cstddef>
@@ -21,28 +21,28 @@
 
 namespace naiad {
 
-/// In bytes, without the end of the line.
+/// The longest line in bytes, without its \n.
 inline constexpr std::size_t kMaxControlLine = 4096;
 
-/// For one line, without its end. Throws AdminUsageError.
+/// Parses one request line without its \n. Throws AdminUsageError.
 AdminRequest readRequestLine(std::string_view line);
 std::string requestLine(const AdminRequest& request);
 
-/// The lines of an answer, each with its end.
+/// Returns the lines of an answer, each with its \n.
 std::string answerLines(const AdminAnswer& answer);
-/// {"event":KIND,"text":TEXT}; the text is cut where it would not fit.
+/// Returns {"event":KIND,"text":TEXT}; a text that does not fit the line is shortened.
 std::string eventLine(std::string_view kind, std::string_view text);
-/// So many events were left out.
+/// Returns {"dropped":COUNT}: this many events were dropped.
 std::string droppedLine(std::uint64_t count);
 
-/// What dfctl reads: adds a line to an answer.
+/// Reads the lines of an answer, for dfctl.
 class AnswerReader {
  public:
   enum class Got { kMore, kAnswer, kEvent, kDropped, kNonsense };
   Got readLine(std::string_view line);
-  /// After kAnswer.
+  /// The whole answer, after kAnswer.
   const AdminAnswer& answer() const { return m_answer; }
-  /// After kEvent.
+  /// The text of the event, after kEvent.
   const std::string& event() const { return m_event; }
   std::uint64_t dropped() const { return m_dropped; }
 
@@ -52,8 +52,7 @@ class AnswerReader {
   std::uint64_t m_dropped = 0;
 };
 
-/// An answer as one JSON value, for programs: the rows, the facts, or {"text":…}; {"error":…} if it is
-/// refused.
+/// Returns an answer as one JSON value: the rows, the facts, {"text":…}, or {"error":…} for a refusal.
 std::string answerJson(const AdminAnswer& answer);
 
 }  // namespace naiad

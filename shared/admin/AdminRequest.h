@@ -1,4 +1,4 @@
-// One command with its arguments, read from words: of a shell's command line, or of a line of chat.
+// One command with its arguments, parsed from the words of a shell command line or of a chat line.
 #pragma once
 
 #include <map>
@@ -11,31 +11,31 @@
 
 namespace naiad {
 
-/// A command that makes no sense; what() is one sentence.
+/// An invalid command; what() is one sentence.
 class AdminUsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Checked against the table: its command is there, required arguments are given, choices and spans are some.
+/// A request checked against the table: the command exists, and its arguments are complete and valid.
 struct AdminRequest {
   const AdminCommand* command = nullptr;
-  std::map<std::string, std::string> arguments;  ///< by name; those that were left out are not there
+  std::map<std::string, std::string> arguments;  ///< values by name, without omitted arguments
 
-  /// The argument's text; empty if it was left out.
+  /// Returns the argument's text; empty if it was omitted.
   std::string of(const std::string& name) const;
   bool has(const std::string& name) const { return arguments.contains(name); }
-  /// The command for logs and history: secrets are "***", texts in quotes.
+  /// Returns the command for logs and history: secrets are "***", texts in quotes.
   std::string redacted() const;
 };
 
-/// Of the command's name and what follows. Throws AdminUsageError.
+/// Parses a command's words, name first. Throws AdminUsageError.
 AdminRequest readAdminRequest(const std::vector<std::string>& words);
-/// The same of arguments by name. Throws AdminUsageError.
+/// Like readAdminRequest(words), with the arguments by name.
 AdminRequest readAdminRequest(const std::string& command, std::map<std::string, std::string> arguments);
 
-/// The words of a line, separated by blanks; "in quotes" is one word. A text that takes the rest of a line
-/// gets its words with single blanks between them.
+/// Splits a line at blanks into words; "in quotes" is one word. Later, a text argument that takes the rest of
+/// the line joins its words with single blanks.
 std::vector<std::string> splitAdminLine(std::string_view line);
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// Where the control sockets of a user's servers are, if no option says so.
+// Default paths of the control sockets of a user's servers.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,13 @@
 
 namespace naiad {
 
-/// The naiad folder in the user's runtime directory ($XDG_RUNTIME_DIR), else in that for state
-/// (~/.local/state); nothing without a home.
+/// Returns the naiad folder in $XDG_RUNTIME_DIR, else in ~/.local/state; nullopt without a home directory.
 std::optional<std::filesystem::path> controlFolder();
-/// control-PORT.sock in there.
+/// Returns the path of control-PORT.sock in controlFolder().
 std::optional<std::filesystem::path> controlPath(std::uint16_t port);
-/// Is that how such a file is called?
+/// True if the file name is of the form control-*.sock.
 bool isControlName(const std::filesystem::path& path);
-/// All such files in the folder, sorted; none if it cannot be read.
+/// Returns all control sockets in the folder, sorted; none if it cannot be read.
 std::vector<std::filesystem::path> controlSockets(const std::filesystem::path& folder);
 
 }  // namespace naiad

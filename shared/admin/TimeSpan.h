@@ -8,16 +8,16 @@
 
 namespace naiad {
 
-/// The longest span that is read: ten years.
+/// The longest accepted span: ten years.
 inline constexpr std::chrono::seconds kMaxTimeSpan{std::chrono::hours(24 * 3653)};
 
-/// A whole number from 1 on and a unit: s, m, h, d or w. Nothing for other texts, and beyond kMaxTimeSpan.
+/// Parses a whole number >= 1 and a unit: s, m, h, d or w. Returns nullopt if invalid or above kMaxTimeSpan.
 std::optional<std::chrono::seconds> readTimeSpan(std::string_view text);
 
-/// "90s", "30m", "2h", "7d": in the largest unit in which it is whole. Spans below a second are "0s".
+/// Returns "90s", "30m", "2h" or "7d": the span in the largest unit that divides it. "0s" below a second.
 std::string timeSpanText(std::chrono::seconds span);
 
-/// "2026-11-25 19:01 UTC".
+/// Returns, for example, "2026-11-25 19:01 UTC".
 std::string timeText(std::chrono::system_clock::time_point time);
 
 }  // namespace naiad

@@ -18,11 +18,11 @@ bool isIdLetter(char c) {
 
 constexpr std::int64_t kResultFormat = 1;
 constexpr std::size_t kMaxGame = 64;
-constexpr std::size_t kMaxTable = 32;                       // as HighScores.h has it
-constexpr std::int64_t kMaxPoints = 1'000'000'000'000'000;  // the same
+constexpr std::size_t kMaxTable = 32;                       // as in HighScores.h
+constexpr std::int64_t kMaxPoints = 1'000'000'000'000'000;  // as in HighScores.h
 constexpr std::size_t kRoundDigits = 32;
 constexpr std::size_t kMaxRecording = 128;
-constexpr std::int64_t kLastSecond = 253'402'300'799;  // of the year 9999
+constexpr std::int64_t kLastSecond = 253'402'300'799;  // the last second of the year 9999
 
 bool isTable(const std::string& table) {
   return !table.empty() && isPlainName(table) && table.find('.') == std::string::npos;
@@ -39,7 +39,8 @@ bool isGameWord(std::string_view game) {
   return !game.empty() && game.size() <= PresenceRoom::kMaxGame && isPlainName(game);
 }
 
-/// What is in front of `mark`, which goes with it; nothing, and `text` stays, if there is none.
+/// Removes the text up to and including `mark` and returns the part before it. Returns nullopt, and leaves
+/// `text` unchanged, without a mark.
 std::optional<std::string_view> takeUntil(std::string_view& text, char mark) {
   const std::size_t at = text.find(mark);
   if (at == std::string_view::npos) return std::nullopt;
@@ -63,7 +64,7 @@ constexpr std::int64_t kPresenceFormat = 1;
 constexpr std::size_t kMaxHost = 255;
 constexpr std::int64_t kMaxCounted = 1'000'000;
 
-/// Brackets are for links; here an IPv6 address is as sockets take it.
+/// True for a valid host. An IPv6 address has no brackets here, as for sockets.
 bool isHost(const std::string& host) {
   const auto read = LinkHost::parse(host.find(':') != std::string::npos ? "[" + host + "]" : host);
   return read && read->host == host && read->port == kDefaultPort;
@@ -190,7 +191,7 @@ std::string SendOn::payload() const {
   return Json{{"v", kSendOnFormat}, {"to", to}, {"link", link.text()}}.toString();
 }
 
-// A link in another spelling is none that a directory writes.
+// Refuses links that are not in the spelling that a directory writes.
 std::optional<SendOn> SendOn::parse(std::string_view payload) {
   BusFields fields(payload);
   fields.number("v", kSendOnFormat, kSendOnFormat);
@@ -214,7 +215,7 @@ std::string roomsText(const std::vector<PresenceRoom>& rooms) {
   return text;
 }
 
-// Numbers have one spelling, so what is written again is the same.
+// Each number has only one spelling, so writing the result again gives an equal text.
 std::optional<std::vector<PresenceRoom>> readRooms(std::string_view text) {
   std::vector<PresenceRoom> rooms;
   std::set<std::string> names;

@@ -1,4 +1,4 @@
-// What servers of a fleet and its directory say on the bus: each a JSON object (BusFields), under the
+// The messages of a fleet's servers and directory on the bus: each is a JSON object (BusFields) under the
 // subject of a server.
 #pragma once
 
@@ -16,42 +16,41 @@
 
 namespace naiad {
 
-/// Which bus a fleet has, and how to reach it.
+/// The bus of a fleet, and how to connect to it.
 struct BusSettings {
   std::string url;          ///< nats://HOST:PORT or tls://HOST:PORT
   std::string credentials;  ///< file of a user's token and seed; empty: none
-  std::string authorities;  ///< file of certificates (PEM) that the bus's is signed with; empty: the system's
-  std::vector<std::string> subjects = {};  ///< to listen to; "naiad.presence.*" are all with one word there
+  std::string authorities;  ///< PEM file of authorities for the bus's certificate; empty: the system's
+  std::vector<std::string> subjects = {};  ///< subjects to subscribe to; in "naiad.presence.*", * is any word
 
   bool isEncrypted() const { return url.starts_with("tls://"); }
 };
 
-/// Returns why there can be no such bus: a sentence; empty if there can. Whether it can be reached shows
-/// later.
+/// Returns why the settings are invalid, as a sentence; empty if they are valid. Does not connect.
 std::string busComplaint(const BusSettings& settings);
 
 inline constexpr std::size_t kMaxBusPayload = 2048;
 
-/// Reads a payload of the bus: one flat JSON object (RFC 8259) of kMaxBusPayload bytes at most. Payloads are
-/// as untrusted as a client's: what is missing, of another kind or out of range makes the whole unreadable.
-/// Members that are not known are left out, so that a fleet may have servers of two versions.
+/// Reads a payload of the bus: one flat JSON object (RFC 8259) of at most kMaxBusPayload bytes. Payloads are
+/// as untrusted as a client's: a missing, mistyped or out-of-range member makes the whole payload invalid.
+/// Unknown members are ignored, so that a fleet may mix two versions of servers.
 class BusFields {
  public:
   explicit BusFields(std::string_view payload);
 
-  /// All that was asked for was there and good.
+  /// True if all members read so far were present and valid.
   bool ok() const { return m_ok; }
 
-  /// True if the payload has the member, as a text, a number or a flag.
+  /// True if the payload has the member as a text, a number or a flag.
   bool has(std::string_view name) const;
 
-  // Of a member; fails, and is empty, for one that is not so.
+  // Each returns a member. For an invalid one, ok() becomes false and the result is empty, false or `least`.
 
   std::int64_t number(std::string_view name, std::int64_t least, std::int64_t most);
   bool flag(std::string_view name);
-  /// Drawable characters only, `most` of them; an empty one is good.
+  /// Returns a text of at most `most` drawable characters; may be empty.
   std::string line(std::string_view name, std::size_t most);
-  /// As it stands, `most` bytes of printable ASCII.
+  /// Returns a text of at most `most` printable ASCII characters without blanks; may be empty.
   std::string word(std::string_view name, std::size_t most);
 
  private:
@@ -59,68 +58,67 @@ class BusFields {
   bool m_ok = true;
 };
 
-// How servers of a fleet are called on the bus.
+// Server ids on the bus.
 inline constexpr std::size_t kMaxServerId = 48;
 
-/// 1 to kMaxServerId of a-z, 0-9 and '-', beginning with a letter or digit: one word of a subject, whose
-/// parts are separated by dots.
+/// True for 1 to kMaxServerId characters a-z, 0-9 and '-', beginning with a letter or digit: one word of a
+/// subject, whose words are separated by dots.
 bool isServerId(std::string_view text);
-/// The same made of any text: others become '-'. "server" if nothing is left.
+/// Makes an id of any text: other characters become '-'; "server" if nothing is left.
 std::string serverIdOf(std::string_view text);
 
-/// "naiad.presence.ID", "naiad.results.ID", "naiad.sendon.ID".
+/// Return "naiad.presence.ID", "naiad.results.ID" and "naiad.sendon.ID".
 std::string presenceSubject(std::string_view id);
 std::string resultSubject(std::string_view id);
 std::string sendOnSubject(std::string_view id);
 
-/// A score of a server's game on the bus (HighScores.h): a row of a table, with what names it.
+/// A score on the bus (HighScores.h): a row of a table, with its origin.
 ///
 ///   naiad.results.ID  {"v":1,"server":"berlin-9876","game":"tron","table":"rides","name":"Ann","points":143,
 ///                      "at":1800000000,"round":"…32 hexadecimal
 ///                      digits…","tick":4711,"number":0,"recording":""}
 ///
-/// messageId() names the row for JetStream, which keeps one of each.
+/// messageId() identifies the row for JetStream, which drops duplicates.
 struct GameResult {
   std::string server;  ///< isServerId()
   std::string game;
   std::string table;
-  std::string name;  ///< of the player
+  std::string name;  ///< the player's name
   std::int64_t points = 0;
   std::int64_t at = 0;  ///< seconds since 1970
   std::string round;
   std::uint32_t tick = 0;
   int number = 0;
-  std::string recording;  ///< empty: there is none
+  std::string recording;  ///< name of the recording; empty: none
 
   /// Returns the JSON text that parse() reads.
   std::string payload() const;
-  /// "ROUND-TICK-NUMBER".
+  /// Returns "ROUND-TICK-NUMBER".
   std::string messageId() const;
-  /// Nothing for what no server writes.
+  /// Returns nullopt for a payload that no server writes.
   static std::optional<GameResult> parse(std::string_view payload);
 
   friend bool operator==(const GameResult&, const GameResult&) = default;
 };
 
-/// What a directory says to a server that is full, or nearly so: where it may send players on. Said as often
-/// as servers say that they are there (Presence) while it holds; after three times that without a word it
-/// does not.
+/// A directory's message to a full or nearly full server: the server to which it may redirect players. While
+/// it holds, it is repeated as often as servers send Presence. It expires after three intervals without a
+/// message.
 ///
 ///   naiad.sendon.ID  {"v":1,"to":"paris-9876","link":"naiad://192.0.2.8:9876/duel#…26 characters…"}
 struct SendOn {
   std::string to;  ///< the other server: isServerId()
-  JoinLink link;   ///< to it, and to a room of it where it has rooms
+  JoinLink link;   ///< link to the server, and to one of its rooms if it has rooms
 
   /// Returns the JSON text that parse() reads.
   std::string payload() const;
-  /// Nothing for what no directory writes.
+  /// Returns nullopt for a payload that no directory writes.
   static std::optional<SendOn> parse(std::string_view payload);
 
   friend bool operator==(const SendOn&, const SendOn&) = default;
 };
 
-/// The rooms of a server (isRoomName()) in what it says of itself (Presence): a text of one entry for each,
-/// with blanks between.
+/// A room of a server in its Presence, whose `rooms` is a text with an entry per room, separated by blanks.
 ///
 ///   "lobby=lobby:2/64 duel=tron:2/2 arcade=saucershoot:0/8"   NAME=GAME:PLAYERS/PLACES
 struct PresenceRoom {
@@ -128,46 +126,46 @@ struct PresenceRoom {
   static constexpr std::uint32_t kMaxPlaces = 1'000'000;
 
   std::string name;  ///< isRoomName()
-  std::string game;  ///< 1 to kMaxGame of the characters of a room's name
+  std::string game;  ///< 1 to kMaxGame characters, as allowed in a room's name
   std::uint32_t players = 0;
   std::uint32_t max_players = 0;
 
   friend bool operator==(const PresenceRoom&, const PresenceRoom&) = default;
 };
 
-/// Of the text. With the rest of a presence it fits into a payload of the bus.
+/// Limit of the text in bytes. With the rest of a presence it fits into a payload of the bus.
 inline constexpr std::size_t kMaxRoomsText = 900;
 
-/// The first ones that fit, without those whose game has no name that can be written.
+/// Returns the text of the first rooms that fit. Omits rooms whose game has a name that cannot be written.
 std::string roomsText(const std::vector<PresenceRoom>& rooms);
-/// Nothing for what roomsText() does not write; names differ, and not only in case.
+/// Parses the format of roomsText(); nullopt for other texts. Names must differ, not only in case.
 std::optional<std::vector<PresenceRoom>> readRooms(std::string_view text);
 
-/// What a server says of itself on the bus, again and again: where it is, which key it proves, who plays.
+/// A server's heartbeat on the bus: its address, its key, its players.
 ///
 ///   naiad.presence.ID
 ///   {"v":1,"id":"berlin-9876","name":"Berlin","game":"tron","host":"192.0.2.7","port":9876,
 ///                       "key":"…64 hexadecimal digits…","protocol":4,"players":3,"max_players":64,
 ///                       "password":false,"open":true,"rooms":"lobby=lobby:3/64 duel=tron:0/2"}
 struct Presence : ServerFacts {
-  /// Between two, unless --bus-interval says another; a server that is silent for three of them is gone.
+  /// Heartbeat interval without --bus-interval; a server silent for three of them is removed.
   static constexpr std::chrono::milliseconds kInterval{2000};
-  static constexpr std::chrono::milliseconds kLeastInterval{50};  ///< so much each server costs the directory
-  /// Players are sent to a dead server for three of them.
+  static constexpr std::chrono::milliseconds kLeastInterval{50};  ///< limits a server's load on the directory
+  /// Players are redirected to a dead server for up to three of these.
   static constexpr std::chrono::milliseconds kMaxInterval{60'000};
 
   std::string id;          ///< isServerId()
-  std::string host;        ///< name or numeric address for players; empty: it does not know
+  std::string host;        ///< name or numeric address for players; empty: unknown
   std::uint16_t port = 0;  ///< 1 to 65535
-  std::string key;         ///< Fingerprint::text(); empty: without encryption
-  bool is_open = true;     ///< lets players in: it neither drains nor ends
-  /// Those that have names, in the server's order, as many as fit (kMaxRoomsText). A server without them has
-  /// none, and says nothing of rooms.
+  std::string key;         ///< Fingerprint::text(); empty: no encryption
+  bool is_open = true;     ///< accepts players: it neither drains nor shuts down
+  /// The named rooms in the server's order, as many as fit (kMaxRoomsText). Empty for a server without rooms,
+  /// whose text has no member "rooms".
   std::vector<PresenceRoom> rooms = {};
 
   /// Returns the JSON text that parse() reads.
   std::string payload() const;
-  /// Nothing for what no server writes.
+  /// Returns nullopt for a payload that no server writes.
   static std::optional<Presence> parse(std::string_view payload);
 
   friend bool operator==(const Presence&, const Presence&) = default;

@@ -44,7 +44,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
     bool is_object;
     Json::Array elements = {};
     Json::Object members = {};
-    std::map<std::string, std::size_t> places = {};  ///< of members, by name
+    std::map<std::string, std::size_t> places = {};  ///< index in `members`, by name
     std::size_t current = 0;                         ///< the member that gets the next value
   };
 
@@ -68,7 +68,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   const std::size_t m_max_depth;
   const Json::Duplicates m_duplicates;
-  std::vector<Level> m_levels{{false}};  ///< the first gets the result
+  std::vector<Level> m_levels{{false}};  ///< open levels; the first one receives the result
 };
 
 }  // namespace

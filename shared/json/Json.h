@@ -1,7 +1,7 @@
 // A JSON value (RFC 8259): parsed from text, or built and written as text.
 //
-// Json.cpp alone includes the library that parses and writes, because its headers take longer to compile than
-// the sources that need a value.
+// Only Json.cpp includes the library that parses and writes, because the library's headers take longer to
+// compile than the sources that need a value.
 #pragma once
 
 #include <concepts>
@@ -20,7 +20,7 @@ class Json {
  public:
   using Array = std::vector<Json>;
   using Member = std::pair<std::string, Json>;
-  using Object = std::vector<Member>;  ///< in the order of insertion; no name occurs twice
+  using Object = std::vector<Member>;  ///< members in the order of insertion, with unique names
 
   /// Treatment of a name that occurs twice in an object. kKeepLast: its last value, in the first place.
   enum class Duplicates { kRefuse, kKeepLast };
@@ -41,7 +41,7 @@ class Json {
   /// An object: Json{{"id", 7}, {"name", name}}.
   Json(std::initializer_list<Member> members) : m_value(Object(members)) {}
 
-  /// Parses exactly one value. Returns nullopt for other text, among it comments, NaN, NUL bytes, invalid
+  /// Parses exactly one value. Returns nullopt for other text, including comments, NaN, NUL bytes, invalid
   /// UTF-8, half a surrogate pair, numbers beyond the range of a double, and arrays and objects nested more
   /// than `max_depth` deep. A value may take 50 times the memory of its text, so limit the text as well.
   static std::optional<Json> parse(std::string_view text, std::size_t max_depth,
@@ -49,26 +49,26 @@ class Json {
   /// Writes the value on one line. Invalid UTF-8 becomes U+FFFD.
   std::string toString(Style style = Style::kCompact) const;
 
-  // Each returns nullptr or nullopt if the value is of another kind.
+  // Each getter returns nullptr or nullopt if the value is of another kind.
 
   const bool* boolean() const { return std::get_if<bool>(&m_value); }
-  /// Also nullopt for a fraction, an exponent (1.0, 1e3), or an integer beyond 64 bits with a sign.
+  /// Returns an integer that fits 64 bits with a sign; nullopt for a fraction or an exponent too (1.0, 1e3).
   std::optional<std::int64_t> integer() const;
-  /// Any number, rounded to a double.
+  /// Returns any number, rounded to a double.
   std::optional<double> number() const;
   const std::string* text() const { return std::get_if<std::string>(&m_value); }
   const Array* array() const { return std::get_if<Array>(&m_value); }
   const Object* object() const { return std::get_if<Object>(&m_value); }
 
-  /// True for an integer of 64 bits, with a sign or without.
+  /// True for an integer that fits 64 bits, signed or unsigned.
   bool isInteger() const { return integer() || std::holds_alternative<std::uint64_t>(m_value); }
   /// Returns the text, or an empty one if the value is of another kind.
   std::string textOrEmpty() const { return text() != nullptr ? *text() : std::string(); }
-  /// Returns the member, or nullptr if there is none or this is not an object. Time is linear in the members.
+  /// Returns the member, or nullptr if it is missing or this is not an object. Time is linear in the members.
   const Json* find(std::string_view name) const;
-  /// Like find(), but returns null if there is none: json["status"]["ports"].
+  /// Like find(), but returns null if the member is missing: json["status"]["ports"].
   const Json& operator[](std::string_view name) const;
-  /// Sets a member of an object, in its old place if it has one. Any other value becomes an object first.
+  /// Sets a member, in its old position if it exists. A value that is not an object becomes one first.
   void set(std::string_view name, Json value);
 
  private:

@@ -12,7 +12,7 @@ namespace {
 constexpr DoubleDouble kHalfPi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr DoubleDouble kWholePi = {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 
-// atan(i / 16), each from the one before by the addition theorem.
+// atan(i / 16), each computed from the previous one by the addition theorem.
 constexpr std::array<DoubleDouble, 17> kAngles = [] {
   std::array<DoubleDouble, 17> angles{};
   for (int i = 1; i <= 16; ++i) {
@@ -28,7 +28,7 @@ constexpr std::array<DoubleDouble, 17> kAngles = [] {
   return angles;
 }();
 
-// The angle of (x, y) for 0 <= y <= x, both within 2^±100 and y not below 2^-70 of x.
+// Returns the angle of (x, y) for 0 <= y <= x, both within 2^±100 and y not below 2^-70 of x.
 DoubleDouble angleInOctant(DoubleDouble y, DoubleDouble x) {
   const double steps = rounded(y.hi / x.hi * 16), c = steps / 16;
   const int index = static_cast<int>(steps);
@@ -75,7 +75,7 @@ double atan(double x) {
   return atan2(x, 1);
 }
 
-// The cathetus of x in the unit circle.
+// Returns √(1 − x²).
 static DoubleDouble cathetus(double x) {
   return squareRoot(-twoProduct(x, x) + 1.0);
 }

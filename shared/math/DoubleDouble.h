@@ -1,17 +1,16 @@
 // Sums of two doubles that do not overlap: about 106 bits, from + − × ÷ √ in double precision alone.
 //
-// What the elementary functions use where one double is too short. The error-free sum is Knuth's, the
-// error-free product Dekker's with Veltkamp's splitting (T. J. Dekker, "A floating-point technique for
-// extending the available precision", 1971): no fused multiply-add, so that every machine gets the same bits.
-// All of it is constexpr: tables are made by the compiler instead of being typed in.
+// For the elementary functions, where one double is too short. The exact sum is Knuth's, the exact product
+// Dekker's with Veltkamp's splitting (T. J. Dekker, "A floating-point technique for extending the available
+// precision", 1971). Without fused multiply-add, every machine gets the same bits. Everything is constexpr:
+// the compiler computes the tables.
 #pragma once
 
 #include <cmath>
 
 namespace df::math {
 
-/// `x` to the nearest whole number, ties to even, for |x| < 2^51: beside the large number no bits remain
-/// behind the point.
+/// Rounds `x` to the nearest whole number, ties to even, for |x| < 2^51: the sum with kShift has no fraction.
 constexpr double rounded(double x) {
   constexpr double kShift = 0x1.8p52;
   return (x + kShift) - kShift;
@@ -23,26 +22,26 @@ struct DoubleDouble {
   double lo = 0;
 };
 
-/// a + b, exactly. Any order of magnitudes; no overflow.
+/// Returns a + b exactly, for any order of magnitudes; no overflow.
 constexpr DoubleDouble twoSum(double a, double b) {
   const double sum = a + b;
   const double from_b = sum - a;
   return {sum, (a - (sum - from_b)) + (b - from_b)};
 }
 
-/// a + b, exactly, for |a| >= |b| or a = 0.
+/// Returns a + b exactly, for |a| >= |b| or a = 0.
 constexpr DoubleDouble fastTwoSum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// The upper 26 bits of `a`; a minus them fits 26 bits, too. |a| < 2^996.
+/// Returns the upper 26 bits of `a`; the rest also fits 26 bits. |a| < 2^996.
 constexpr double upperHalf(double a) {
   const double scaled = 134217729.0 * a;  // 2^27 + 1
   return scaled - (scaled - a);
 }
 
-/// a · b, exactly, if the product is above 2^-968 and both are below 2^996.
+/// Returns a · b exactly, if the product is above 2^-968 and both are below 2^996.
 constexpr DoubleDouble twoProduct(double a, double b) {
   const double product = a * b;
   const double a1 = upperHalf(a), b1 = upperHalf(b);
@@ -86,7 +85,7 @@ constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   return fastTwoSum(quotient, (rest.hi + rest.lo) / b.hi);
 }
 
-/// The square root of a + nothing negative; 0 for 0.
+/// Returns the square root of a >= 0.
 inline DoubleDouble squareRoot(DoubleDouble a) {
   const double root = std::sqrt(a.hi);
   if (root == 0) return {};

@@ -1,12 +1,12 @@
-// The elementary functions that state may depend on: the same bits on every processor, compiler and level.
+// Elementary functions for game state: equal bits on every processor, compiler and optimisation level.
 //
-// The C library's are not that: glibc chooses other code for other processors, and compilers fold calls with
-// constant arguments by another library. These are made from + − × ÷ √ of doubles (each exactly defined by
-// IEEE 754) and from integers. Every result is within one unit in the last place of the true value (measured:
-// docs of the test, tests/shared/math/ElementaryTest.cpp), over the whole range of double. Rounding mode: to
-// nearest. No function sets errno; the floating-point flags are not part of the promise. Any thread.
+// The C library's functions differ: glibc has different code for different processors, and compilers fold
+// constant arguments with another library. These functions use only + − × ÷ √ of doubles (exactly defined by
+// IEEE 754) and integers. Every result is within one unit in the last place of the true value, over the whole
+// range of double (measured by tests/shared/math/ElementaryTest.cpp). Rounding mode: to nearest. No function
+// sets errno; the floating-point flags are unspecified. Thread-safe.
 //
-// A NaN argument gives a NaN; the rest is said at each function. "Tiny" results may be subnormal.
+// A NaN argument gives a NaN; each function documents other special values. Tiny results may be subnormal.
 #pragma once
 
 namespace df::math {
@@ -17,7 +17,7 @@ inline constexpr double kPi = 0x1.921fb54442d18p+1;
 double exp(double x);
 /// e^x − 1 without cancellation near 0. expm1(±0) = ±0, expm1(−∞) = −1; above 709.78 it is +∞.
 double expm1(double x);
-/// The natural logarithm. log(±0) = −∞, log(x < 0) = NaN, log(+∞) = +∞.
+/// Natural logarithm. log(±0) = −∞, log(x < 0) = NaN, log(+∞) = +∞.
 double log(double x);
 /// log(1 + x) without cancellation near 0. log1p(±0) = ±0, log1p(−1) = −∞, log1p(x < −1) = NaN.
 double log1p(double x);
@@ -35,7 +35,7 @@ double cos(double x);
 double tanh(double x);
 /// sinh(±0) = ±0; beyond ±710.48 it is ±∞.
 double sinh(double x);
-/// Beyond ±710.48 it is +∞.
+/// cosh(±0) = 1; beyond ±710.48 it is +∞.
 double cosh(double x);
 
 /// The angle of the point (x, y) in [−π, π]. Zeros and infinities as in C99's annex F: atan2(±0, x > 0) = ±0,

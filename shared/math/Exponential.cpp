@@ -9,7 +9,7 @@ namespace df::math {
 
 namespace {
 
-constexpr int kSteps = 64;  // per doubling
+constexpr int kSteps = 64;  // table entries per doubling
 
 // ln 2 / 64. The first part has 36 bits, so that its product with a number of steps (17 bits) is exact.
 constexpr double kStep1 = 0x1.62e42fefap-7;
@@ -33,7 +33,7 @@ double powerOfTwo(int exponent) {  // −1022 to 1023
   return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
-// e^x − 1 for |x| < 0.4, as a head that is exact and a tail.
+// Returns e^x − 1 for |x| < 0.4, as an exact head and a tail.
 DoubleDouble nearOne(double x) {
   const double series =
       1.0 / 6 +

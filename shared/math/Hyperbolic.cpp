@@ -9,7 +9,7 @@ namespace df::math {
 
 namespace {
 
-// sinh(x) − x for |x| < 0.4.
+// Returns sinh(x) − x for |x| < 0.4.
 double sineBeyondLinear(double x) {
   const double z = x * x;
   return x * z *
@@ -19,7 +19,7 @@ double sineBeyondLinear(double x) {
                                                                              z * (1.0 / 1307674368000)))))));
 }
 
-// cosh(x) for |x| < 0.4.
+// Returns cosh(x) for |x| < 0.4.
 DoubleDouble cosineNearOne(double x) {
   const DoubleDouble square = twoProduct(x, x);
   const double z = square.hi;
@@ -30,7 +30,7 @@ DoubleDouble cosineNearOne(double x) {
   return fastTwoSum(head.hi, head.lo + (0.5 * square.lo + z * z * series));
 }
 
-// e^x and e^-x over 2^exponent, for 0.4 <= x < 711.
+// e^x and e^-x divided by 2^exponent, for 0.4 <= x < 711.
 struct Both {
   DoubleDouble up;
   DoubleDouble down;

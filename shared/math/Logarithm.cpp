@@ -32,7 +32,7 @@ constexpr std::array<DoubleDouble, kLast - kFirst + 1> kLogarithms = [] {
   return logarithms;
 }();
 
-// log(1 + r) − r for |r| < 1/80.
+// Returns log(1 + r) − r for |r| < 1/80.
 double beyondLinear(double r) {
   const double series =
       1.0 / 3 +
@@ -41,7 +41,7 @@ double beyondLinear(double r) {
   return r * r * (-0.5 + r * series);
 }
 
-// log((hi + lo)·2^exponent) for a normal hi > 0 and |lo| below half a unit of it.
+// Returns log((hi + lo)·2^exponent) for a normal hi > 0 and |lo| below half a unit in the last place of hi.
 double logarithm(double hi, double lo, int exponent) {
   const auto bits = std::bit_cast<std::uint64_t>(hi);
   int shift = static_cast<int>(bits >> 52) - 1023;

@@ -15,8 +15,7 @@ __extension__ typedef unsigned __int128 Wide;
 constexpr double kHalfPiHead = 0x1.921fb54442d18p+0;
 constexpr double kHalfPiTail = 0x1.1a62633145c07p-54;
 
-// An angle as a multiple of a right angle, modulo 4, and the rest in [−π/4, π/4] (a little beyond, when
-// rounded).
+// An angle as a number of right angles, modulo 4, and the rest in [−π/4, π/4] (a little beyond if rounded).
 struct Reduced {
   DoubleDouble rest;
   unsigned quadrant;
@@ -34,10 +33,9 @@ Reduced reduceModerate(double x) {
   return {rest, static_cast<unsigned>(static_cast<int>(n)) & 3};
 }
 
-// Payne and Hanek: of the product of x with 2/π only the bits that matter, in integers.
+// Payne and Hanek: computes only the relevant bits of x · 2/π, in integers.
 //
-// The first 1280 bits of 2/π behind the point, after one word of zeros for arguments with bits behind the
-// point.
+// The first 1280 bits of 2/π behind the point, after a word of zeros for arguments with fractional bits.
 constexpr std::array<std::uint64_t, 21> kTwoOverPi = {
     0,
     0xa2f9836e4e441529,
@@ -67,7 +65,7 @@ Reduced reduceLarge(double x) {
   const std::uint64_t mantissa = (bits & 0xfffffffffffffULL) | 0x10000000000000ULL;
   const int exponent = static_cast<int>(bits >> 52 & 0x7ff) - 1075;  // x = mantissa · 2^exponent
 
-  // 192 bits of 2/π from the one with the weight 2^(1 − exponent) on: what lies before makes whole turns.
+  // 192 bits of 2/π beginning with the bit of weight 2^(1 − exponent): earlier ones give whole turns.
   const unsigned start = static_cast<unsigned>(64 + exponent - 2);
   const unsigned word = start / 64, shift = start % 64;
   const auto window = [&](unsigned i) {
@@ -85,9 +83,9 @@ Reduced reduceLarge(double x) {
   w1 = w1 << 2 | w0 >> 62;
   w0 <<= 2;
   const bool beyond_half = w2 >> 63;
-  if (beyond_half) {  // down from the next right angle instead
+  if (beyond_half) {  // measure down from the next right angle
     ++quadrant;
-    w0 = ~w0, w1 = ~w1, w2 = ~w2;  // minus one of 2^192 parts, which does not matter
+    w0 = ~w0, w1 = ~w1, w2 = ~w2;  // ~w is −w − 1: an error of 2^-192, which is negligible
   }
   DoubleDouble fraction{};
   double weight = 0x1p-192;
@@ -112,7 +110,7 @@ Reduced reduce(double x) {
   return x > -kCodyWaiteLimit && x < kCodyWaiteLimit ? reduceModerate(x) : reduceLarge(x);
 }
 
-// Taylor's series; at π/4 what is left out is below 2^-62.
+// Taylor series; at π/4 the omitted terms are below 2^-62.
 double sineOf(DoubleDouble r) {
   const double z = r.hi * r.hi, z2 = z * z;
   const double series =

@@ -7,7 +7,7 @@ namespace naiad {
 
 std::string roff(std::string_view text) {
   std::string escaped;
-  bool begins = true;  // of a line, where . and ' are commands
+  bool begins = true;  // at the beginning of a line, where . and ' start a command
   for (const char c : text) {
     if (begins && (c == '.' || c == '\'')) escaped += "\\&";
     if (c == '\\') {
@@ -24,7 +24,7 @@ std::string roff(std::string_view text) {
 
 namespace {
 
-/// Does it stand alone, without a value?
+/// True if the option takes no value.
 bool isFlag(const Option& option) {
   return std::holds_alternative<bool*>(option.target);
 }
@@ -37,7 +37,7 @@ bool isFile(const Option& option) {
   return option.type == "FILE" || option.type == "DIR" || option.type == "SOCKET";
 }
 
-/// The words that its value may be, with blanks between; empty: anything.
+/// Returns the possible values of the option, separated by blanks; empty if any value is possible.
 std::string wordsOf(const Option& option) {
   std::string words;
   for (const std::string& one : option.one_of) words += (words.empty() ? "" : " ") + one;
@@ -47,7 +47,7 @@ std::string wordsOf(const Option& option) {
   return words;
 }
 
-/// `text` with a backslash before each of `specials`.
+/// Returns `text` with a backslash before each of `specials`.
 std::string escaped(std::string_view text, std::string_view specials) {
   std::string result;
   for (const char c : text) {
@@ -57,7 +57,7 @@ std::string escaped(std::string_view text, std::string_view specials) {
   return result;
 }
 
-/// In single quotes for a shell of Bourne's kind.
+/// Returns the text in single quotes for a Bourne shell.
 std::string inShellQuotes(std::string_view text) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -87,7 +87,7 @@ const char* const kBashBegin = R"(  local word=${COMP_WORDS[COMP_CWORD]} before=
   case $before in
 )";
 
-/// One of zsh's specifications.
+/// Returns the option's specification for zsh's _arguments.
 std::string zshSpecification(const Option& option) {
   const std::string what = "[" + escaped(option.help, "[]:\\") + "]";
   if (isFlag(option)) return option.name + what;
@@ -100,7 +100,7 @@ std::string zshSpecification(const Option& option) {
 
 constexpr std::size_t kCommentWidth = 100;
 
-/// What --help shows, --help, --version and --config among it, in its order.
+/// Returns the options that --help shows, in its order, with --help, --version and --config first.
 std::vector<Option> shownOptions(const Program& program, const std::vector<Option>& options) {
   static bool flag = false;
   static std::string text;
@@ -115,7 +115,7 @@ std::vector<Option> shownOptions(const Program& program, const std::vector<Optio
   return shown;
 }
 
-// Completions of shells: names of options, values that are one of a few words, and files.
+// Shell completions: names of options, values from a list of words, and files.
 
 std::string bashCompletion(const Program& program, const std::vector<Option>& options) {
   std::ostringstream file;
@@ -177,14 +177,14 @@ std::string fishCompletion(const Program& program, const std::vector<Option>& op
   return file.str();
 }
 
-// ---- the page for man -------------------------------------------------------------------------------------
+// ---- the man page -----------------------------------------------------------------------------------------
 
 std::string defaultOf(const Option& option) {
   if (!option.default_text.empty()) return option.default_text;
   return option.shows_default && !isFlag(option) ? currentValue(option) : "";
 }
 
-/// What stands behind the name: "=FILE", "=on|off".
+/// Returns the value's placeholder: "FILE", "on|off"; empty for a flag.
 std::string valueOf(const Option& option) {
   if (isFlag(option)) return {};
   std::string value;
@@ -209,11 +209,11 @@ void writeOption(std::ostream& page, const Option& option) {
   page << "\n";
 }
 
-/// The end of --help, paragraph by paragraph, line by line as it is there.
+/// Writes the end of --help, paragraph by paragraph, and keeps its line breaks.
 void writeFooter(std::ostream& page, const std::string& footer) {
   std::istringstream lines(footer);
   std::string section;
-  bool begins = true;  // of a paragraph
+  bool begins = true;  // at the beginning of a paragraph
   for (std::string line; std::getline(lines, line);) {
     if (line.empty()) {
       begins = true;
@@ -253,9 +253,9 @@ std::string settingsPage(const std::vector<Option>& options) {
   return page.str();
 }
 
-// ---- the file of --config ---------------------------------------------------------------------------------
+// ---- the --config file ------------------------------------------------------------------------------------
 
-/// The text as comments of at most kCommentWidth columns.
+/// Writes the text as comment lines of at most kCommentWidth columns.
 void writeComment(std::ostream& page, const std::string& text) {
   std::istringstream words(text);
   std::string line = "#";

@@ -1,6 +1,5 @@
-// Pages that a build makes from a program's table of options: for man, for shells, and for who writes its
-// file of --config. `PROGRAM --option-page KIND` prints one (parseOptions()), so that they cannot differ from
-// what the program takes.
+// Pages that the build makes from a program's table of options: for man, for shells, and for authors of
+// --config files. `PROGRAM --option-page KIND` prints one (parseOptions()), so they match the program.
 #pragma once
 
 #include <optional>
@@ -12,20 +11,20 @@
 
 namespace naiad {
 
-/// KIND: "man" (the sections OPTIONS, NOTES and EXIT STATUS of a page for man, in roff), "bash", "zsh",
-/// "fish" (completions), "settings" (what a file of --config may say, in roff), "config" (such a file: each
-/// line a default, commented out). Nothing for another KIND.
+/// Returns the page of this kind: "man" (the sections OPTIONS, NOTES and EXIT STATUS of a man page, in roff),
+/// "bash", "zsh", "fish" (completions), "settings" (the settings of a --config file, in roff), "config" (an
+/// example file: each line a default, commented out). Returns nullopt for other kinds.
 std::optional<std::string> optionPage(std::string_view kind, const Program& program,
                                       const std::vector<Option>& options);
 
-/// The text in roff, as the pages for man have it.
+/// Escapes the text for roff.
 std::string roff(std::string_view text);
 
-/// "name = value": what the option is now, as a line for the file of --config, in quotes where it takes some.
-/// A comment for a secret.
+/// Returns "name = value" with the option's current value, as a line for the --config file, in quotes where
+/// needed. A secret becomes a comment without its value.
 std::string configLine(const Option& option);
 
-/// Is it set by such a file, too? What has no variable is for the command line alone.
+/// True if a --config file can set the option: it has an environment variable and is not hidden.
 bool isSetting(const Option& option);
 
 }  // namespace naiad

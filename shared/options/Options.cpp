@@ -17,9 +17,9 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kLongest = 64;  ///< what is longer is no name
+constexpr std::size_t kLongest = 64;  ///< longer names get no suggestion
 
-/// Optimal string alignment distance, by rows.
+/// Returns the optimal string alignment distance, computed row by row.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -57,7 +57,7 @@ CLI::Option* addTo(CLI::App& app, const Option& row) {
       row.target);
 }
 
-/// CLI::Range, whose sentence differs between versions of CLI11.
+/// Like CLI::Range, whose message differs between versions of CLI11.
 template <class Number>
 CLI::Validator within(Number least, Number most) {
   const CLI::Range range(least, most);
@@ -96,7 +96,7 @@ Parsed complain(const Program& program, const std::string& sentence) {
   return Parsed::kUsageError;
 }
 
-/// What the parser says, without the option's name in front.
+/// Returns the parser's message without the option's name in front.
 std::string withoutName(const Option& option, const std::string& said) {
   const std::string prefix = option.name + ": ";
   return said.starts_with(prefix) ? said.substr(prefix.size()) : said;
@@ -109,7 +109,7 @@ bool isOnCommandLine(const Option& option, int argc, const char* const* argv) {
   });
 }
 
-/// The parser names the option; the variable that set it is what to look at.
+/// Returns the parser's message, which names the environment variable if that set the option.
 std::string inWords(const std::vector<Option>& options, const CLI::ParseError& error, int argc,
                     const char* const* argv) {
   std::string said = error.what();
@@ -141,7 +141,7 @@ std::string unknownArgument(const Program& program, const std::vector<Option>& o
   return "there is no option " + name + (near.empty() ? "" : "; did you mean " + near + "?");
 }
 
-// ---- the file of --config ---------------------------------------------------------------------------------
+// ---- the --config file ------------------------------------------------------------------------------------
 
 std::string trimmed(const std::string& text) {
   constexpr const char* kBlanks = " \t\r";
@@ -150,7 +150,8 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
-/// A value as it stands behind the `=`: in quotes, or up to a # behind a blank. Nothing if quotes do not end.
+/// Parses the text after the `=`: a value in quotes, or one that ends at a # after a blank. Returns nullopt
+/// if the quotes do not end or other text follows them.
 std::optional<std::string> configValue(const std::string& text) {
   if (text.starts_with('"') || text.starts_with('\'')) {
     const std::size_t end = text.find(text.front(), 1);
@@ -165,7 +166,7 @@ std::optional<std::string> configValue(const std::string& text) {
   return text;
 }
 
-/// Stores what a line says, unless the command line or the environment did. Throws OptionError.
+/// Stores the value of a line, unless the command line or the environment set the option. Throws OptionError.
 void storeConfigLine(const std::string& line, const std::string& place, const std::vector<Option>& options,
                      const std::vector<CLI::Option*>& added) {
   const std::size_t equals = line.find('=');
@@ -192,13 +193,12 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
   if (found->p_place != nullptr) *found->p_place = place;
 }
 
-/// Lines `name = value`; empty ones and those that begin with # or ; are passed over. Throws OptionError: a
-/// line for each that is wrong.
+/// Reads lines `name = value`; skips empty ones and # and ; comments. Throws OptionError: a line per error.
 void readConfig(const std::string& path, const std::vector<Option>& options,
                 const std::vector<CLI::Option*>& added) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-    throw OptionError("--config: " + path + " is not a regular file");  // a pipe would be waited for
+    throw OptionError("--config: " + path + " is not a regular file");  // a pipe would block
   std::ifstream file(path);
   if (!file) throw OptionError("--config: " + path + " cannot be read");
   int number = 0;
@@ -216,9 +216,9 @@ void readConfig(const std::string& path, const std::vector<Option>& options,
   if (!wrong.empty()) throw OptionError(wrong);
 }
 
-// ---- pages of the build -----------------------------------------------------------------------------------
+// ---- pages for the build ----------------------------------------------------------------------------------
 
-/// `PROGRAM --option-page KIND`, and nothing else: what the program needs to run is not asked for.
+/// Handles `PROGRAM --option-page KIND`, which requires no other option or argument.
 std::optional<Parsed> printPage(const Program& program, const std::vector<Option>& options, int argc,
                                 const char* const* argv) {
   if (argc != 3 || std::string_view(argv[1]) != "--option-page") return std::nullopt;
@@ -228,7 +228,7 @@ std::optional<Parsed> printPage(const Program& program, const std::vector<Option
   return Parsed::kDone;
 }
 
-/// A text that a file gives without a value is empty; the parser would want one.
+/// Empties a text or path, for a line without a value, which the parser would reject. False if it is neither.
 bool clearText(const Option& option) {
   if (!option.one_of.empty()) return false;
   if (std::string* const* p_text = std::get_if<std::string*>(&option.target)) {
@@ -242,7 +242,7 @@ bool clearText(const Option& option) {
   return false;
 }
 
-/// CLI11 since 2.2 leaves out a variable whose value is wrong. Throws CLI::ParseError.
+/// Rejects environment variables with wrong values, which CLI11 ignores since 2.2. Throws CLI::ParseError.
 void refuseWrongVariables(const std::vector<Option>& options, const std::vector<CLI::Option*>& added) {
   for (std::size_t i = 0; i < options.size(); ++i) {
     const std::string& variable = options[i].environment;
@@ -253,7 +253,7 @@ void refuseWrongVariables(const std::vector<Option>& options, const std::vector<
   }
 }
 
-/// Reads all; false: --help or --version was asked for, and printed. Throws OptionError.
+/// Reads all options. Returns false after it printed --help or --version. Throws OptionError.
 bool readAll(const Program& program, const std::vector<Option>& options, int argc, const char* const* argv) {
   CLI::App app(program.purpose, program.name);
   app.set_version_flag("--version", program.name + " " + kVersion);
@@ -292,7 +292,7 @@ std::string nearestName(const std::string& typed, const std::vector<std::string>
   if (typed.size() > kLongest) return {};
   std::string nearest;
   std::size_t least = typed.size() / 3 + 1;
-  constexpr std::size_t kBeginning = 4;  // of "--max-players", "--m" could be anything
+  constexpr std::size_t kBeginning = 4;  // a shorter one is ambiguous: "--m" of "--max-players"
   for (const std::string& name : names) {
     const bool begins = typed.size() >= kBeginning && name.starts_with(typed);
     const std::size_t changes = begins ? 1 : distance(typed, name);

@@ -9,7 +9,7 @@ namespace naiad {
 
 namespace {
 
-constexpr std::size_t kPrefixes = 1024;  ///< that are remembered
+constexpr std::size_t kPrefixes = 1024;  ///< number of remembered address prefixes
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void ClientLog::logRefusal(const std::string& address, const std::string& senten
 
 void ClientLog::log(Kind& kind, const std::string& address, LogEvent event, Time now) {
   const auto prefix = AddressPrefix::ofEndpoint(address).value_or(AddressPrefix());
-  // The prefix first: one that is over its limit takes nothing from the others.
+  // Checks the prefix first: one over its limit uses no tokens of the others.
   if (kind.prefixes.use(prefix).takeToken(kind.of_a_prefix, now) && kind.all.takeToken(kind.in_all, now)) {
     event.fields.insert(event.fields.begin(), {"address", address});
     return m_log(event);

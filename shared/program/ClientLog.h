@@ -1,7 +1,7 @@
-// The log lines that clients cause, fewer than these could make them.
+// A rate limit for log lines that clients cause.
 //
-// Each begins with the client's address, which has finished a TCP handshake and so is the client's own. Names
-// in them are quoted (LogText.h). What is over the limits is counted, and the count is a line.
+// Each line begins with the client's address, which is genuine because TCP's handshake is done. Names in the
+// lines are quoted (LogText.h). Lines over the limits are counted, and the count is logged.
 #pragma once
 
 #include <chrono>
@@ -19,25 +19,25 @@ class ClientLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Of refusals: a second.
+  /// Limit of refusals: rate per second and burst, per address prefix and in all.
   static constexpr BucketRate kRefusalsOfAPrefix{1, 1};
   static constexpr BucketRate kRefusalsInAll{20, 20};
-  /// Of the rest: players who join, leave and come back. A class joins and leaves at once.
+  /// Limit of other lines: players join, leave and return. A whole class may join and leave at once.
   static constexpr BucketRate kNewsOfAPrefix{1, 128};
   static constexpr BucketRate kNewsInAll{20, 512};
-  /// Between two lines with counts of one kind.
+  /// Interval between two lines with the count of one kind.
   static constexpr std::chrono::seconds kCountTime{10};
 
   explicit ClientLog(LogLine log);
 
-  /// "ADDRESS TEXT", with the address among the facts. `address` is that of a TCP connection,
+  /// Logs "ADDRESS TEXT"; the address becomes a field too. `address` is that of a TCP connection,
   /// "127.0.0.1:40000".
   void logNews(const std::string& address, LogEvent event, Time now);
-  /// `ADDRESS refused: "SENTENCE"`, with the sentence among the facts.
+  /// Logs `ADDRESS refused: "SENTENCE"`; the sentence becomes a field too.
   void logRefusal(const std::string& address, const std::string& sentence, Time now);
-  /// Log the counts that are due. Once a tick.
+  /// Logs the counts that are due. Call once per tick.
   void update(Time now);
-  /// Log them all: the server ends.
+  /// Logs all counts. Call when the server ends.
   void finish();
 
  private:

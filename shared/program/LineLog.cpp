@@ -26,7 +26,7 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMaxField = 128;  ///< bytes of a value in JSON: addresses, names, refusals
+constexpr std::size_t kMaxField = 128;  ///< most bytes of a JSON value: addresses, names, refusals
 
 std::string localTime(std::chrono::system_clock::time_point time) {
   const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
@@ -65,17 +65,17 @@ const char* nameOf(LogEvent::Level level) {
 std::string asJson(const LogEvent& event, std::string_view text, const std::string& time) {
   Json line{{"time", time}, {"level", nameOf(event.level)}, {"event", event.name}, {"text", oneLine(text)}};
   for (const auto& [name, value] : event.fields) line.set(name, oneLine(value).substr(0, kMaxField));
-  return line.toString() + '\n';  // with U+FFFD for half a character that a cut has left
+  return line.toString() + '\n';  // half a character that the cut left becomes U+FFFD
 }
 
-constexpr std::chrono::milliseconds kRetry{200};        ///< after a write that failed
-constexpr std::chrono::milliseconds kLastChance{1000};  ///< for a writer to end
-constexpr int kPollMillis = 100;                        ///< until the thread asks whether it is to end
-constexpr std::size_t kPipePiece = 4096;                ///< PIPE_BUF: not mixed with what others write there
+constexpr std::chrono::milliseconds kRetry{200};        ///< pause after a failed write
+constexpr std::chrono::milliseconds kLastChance{1000};  ///< time that a writer gets to finish at the end
+constexpr int kPollMillis = 100;                        ///< interval of checks whether the thread must end
+constexpr std::size_t kPipePiece = 4096;                ///< PIPE_BUF: other writers cannot split these
 constexpr std::size_t kFilePiece = std::size_t{64} << 10;
 
-constinit std::atomic<unsigned> g_openings = 0;       ///< that were asked for by reopenAll()
-constinit std::atomic<std::int64_t> g_unwritten = 0;  ///< bytes, of all logs
+constinit std::atomic<unsigned> g_openings = 0;       ///< number of reopenAll() calls
+constinit std::atomic<std::int64_t> g_unwritten = 0;  ///< unwritten bytes of all logs
 
 LogEvent lossEvent(std::uint64_t lost, int error) {
   const std::string why = error == 0 ? "its reader did not read" : std::generic_category().message(error);
@@ -88,7 +88,7 @@ bool isRegular(int file) {
   return fstat(file, &facts) == 0 && S_ISREG(facts.st_mode);
 }
 
-/// -1 with errno; ENXIO: a pipe or the like, whose other end could hold the server up.
+/// Returns a descriptor, or -1 with errno. ENXIO: a pipe or the like, which could block the server.
 int openLog(const std::string& path) {
   constexpr int kAppend = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
   const int file = ::open(path.c_str(), kAppend, 0640);
@@ -100,7 +100,7 @@ int openLog(const std::string& path) {
   return -1;
 }
 
-/// As much of the beginning of `bytes` as is written at once: whole lines, where they fit.
+/// Returns the part of `bytes` to write at once: whole lines, if they fit.
 std::string_view nextPiece(std::string_view bytes, std::size_t most) {
   if (bytes.size() <= most) return bytes;
   const std::size_t end = bytes.rfind('\n', most - 1);
@@ -155,17 +155,17 @@ struct LineLog::Shared : std::enable_shared_from_this<Shared> {
 
   std::mutex mutex;
   std::condition_variable changed;
-  // Under the mutex.
+  // Guarded by `mutex`.
   std::string waiting;
   std::uint64_t lost = 0;
   bool started = false;
   bool closing = false;
   bool done = false;
-  int error = 0;  ///< as `problem`, for add()
+  int error = 0;  ///< copy of `problem` for add()
 
-  // The writer's.
+  // Used only by the writer.
   std::string out;
-  int problem = 0;  ///< of the last write that failed, as errno; 0: its reader does not read
+  int problem = 0;  ///< errno of the last failed write; 0: the reader is too slow
   unsigned openings = g_openings;
 };
 
@@ -182,7 +182,7 @@ void LineLog::Shared::add(const LogEvent& event) {
   }
 }
 
-// With the first line: a server that forks worlds does so before.
+// Called with the first line, because a server must fork its worlds before it has threads.
 void LineLog::Shared::start() {
   // A game may call exit() in a handler.
   [[maybe_unused]] static const int registered = std::atexit([] { waitUntilWritten(kLastChance); });
@@ -197,7 +197,7 @@ bool LineLog::Shared::keep(const std::string& line) {
   return true;
 }
 
-// What does not go at once is lost: there is no thread that could try again.
+// Bytes that cannot be written at once are lost: there is no thread to retry.
 bool LineLog::Shared::writeNow(const std::string& line) {
   out = line;
   g_unwritten += static_cast<std::int64_t>(out.size());
@@ -208,7 +208,7 @@ bool LineLog::Shared::writeNow(const std::string& line) {
   return written;
 }
 
-// Writes `out`, as far as it goes. False: it did not go on.
+// Writes `out`. Returns false if it could not be written completely.
 bool LineLog::Shared::write(int patience_millis) {
   const std::size_t most = isRegular(file) ? kFilePiece : kPipePiece;
   while (!out.empty()) {
@@ -240,7 +240,7 @@ void LineLog::Shared::reopen() {
 
 void LineLog::Shared::awaitWork() {
   std::unique_lock lock(mutex);
-  if (lost > 0 && waiting.empty()) {  // all before them is written
+  if (lost > 0 && waiting.empty()) {  // all earlier lines are written
     waiting = asLine(lossEvent(std::exchange(lost, 0), error));
     g_unwritten += static_cast<std::int64_t>(waiting.size());
   }
@@ -248,7 +248,7 @@ void LineLog::Shared::awaitWork() {
   out = std::exchange(waiting, {});
 }
 
-// The thread.
+// The thread's function.
 void LineLog::Shared::run() {
   for (;;) {
     awaitWork();

@@ -1,4 +1,4 @@
-// Log lines with the time of day, to a file or stderr, by a thread of their own: callers never wait.
+// Log lines with the time of day, written to a file or stderr by their own thread: callers never wait.
 #pragma once
 
 #include <chrono>
@@ -11,21 +11,20 @@
 
 namespace naiad {
 
-/// Something worth a line of the log: a sentence for people, and the facts in it by name for programs.
-/// The text format writes the sentence, the JSON format the sentence and the facts: both come from one event,
-/// so that they cannot differ. A plain text is an event, too.
+/// A log entry: a sentence for people, and its facts by name for programs. The text format writes the
+/// sentence, the JSON format both. Both come from one event, so they agree. A plain text is also an event.
 struct LogEvent {
   enum class Level { kError, kWarning, kInfo };
-  /// Names are written as they are; values are escaped.
+  /// Names are written unescaped; values are escaped.
   using Fields = std::vector<std::pair<std::string, std::string>>;
 
   LogEvent(std::string sentence) : text(std::move(sentence)) {}  // NOLINT(google-explicit-constructor)
   LogEvent(const char* p_sentence) : text(p_sentence) {}         // NOLINT(google-explicit-constructor)
   LogEvent(Level how_bad, std::string sentence) : level(how_bad), text(std::move(sentence)) {}
-  /// `what`: a literal, "joined". `sentence` has the fields' values in it.
+  /// `what`: a string literal, "joined". `sentence` contains the fields' values.
   LogEvent(const char* what, std::string sentence, Fields facts)
       : name(what), text(std::move(sentence)), fields(std::move(facts)) {}
-  /// For people the sentence stands behind "warning: ".
+  /// Makes a warning; the text for people begins with "warning: ".
   static LogEvent warning(const std::string& sentence) { return {Level::kWarning, "warning: " + sentence}; }
   operator const std::string&() const { return text; }  // NOLINT(google-explicit-constructor)
 
@@ -35,60 +34,59 @@ struct LogEvent {
   Fields fields;
 };
 
-/// How an event of the log becomes a line.
+/// The format of a log line.
 enum class LogFormat {
   kText,  ///< "2026-01-31 13:59:59 sentence", in local time
   kBare,  ///< "sentence"
   kJson,  ///< {"time":"2026-01-31T12:59:59.123Z","level":"info","event":"note","text":"sentence",…}
 };
 
-/// The event as a line that ends with \n, of at most `max_bytes` (512 or more) bytes: sentences that are
-/// longer are cut off. Control characters are escaped; JSON stays valid whatever the bytes are.
+/// Formats the event as a line that ends with a newline, at most `max_bytes` (512 or more) bytes long; longer
+/// sentences are truncated. Control characters are escaped; JSON is valid for any bytes.
 std::string formatEvent(const LogEvent& event, LogFormat format, std::chrono::system_clock::time_point time,
                         std::size_t max_bytes);
 
-/// Where log lines go.
+/// A function that receives log events.
 using LogLine = std::function<void(const LogEvent& event)>;
 
-/// A reader that stalls, a full disk or a pipe without a reader costs lines and never time: what does not fit
-/// in kMaxWaiting is dropped, writing is tried again, and once it works a line says how many were lost.
+/// A stalled reader, a full disk or a pipe without a reader loses lines but no time: lines beyond kMaxWaiting
+/// are dropped, writing is retried, and afterwards a line reports how many were lost.
 class LineLog {
  public:
-  /// Who writes. A world in a process of its own has no further threads: there each line is written by its
-  /// caller, or dropped where that would wait; the time is the front's to add, which copies it into its log.
+  /// The writer of the lines. A world process has no further threads: the caller writes each line, or drops
+  /// it if it would wait. The front adds the time when it copies the lines into its log.
   enum class Writer { kThread, kCaller };
 
-  /// Bytes of lines that wait to be written, at most.
+  /// Most bytes of lines that wait to be written.
   static constexpr std::size_t kMaxWaiting = std::size_t{1} << 20;
-  /// Bytes of one line, at most; the rest is cut off. So a pipe takes each line as a whole.
+  /// Most bytes of a line; the rest is truncated. A pipe accepts a line of this size as a whole.
   static constexpr std::size_t kMaxLine = 2048;
 
-  /// Append to this file, made with mode 0640; empty: stderr. Throws std::runtime_error if it cannot be
+  /// Appends to this file, created with mode 0640; empty: stderr. Throws std::runtime_error if it cannot be
   /// written, or is a folder or a pipe.
   explicit LineLog(const std::string& path, Writer writer = Writer::kThread);
-  /// Waits a second, at most, for what has not been written.
+  /// Waits at most a second for unwritten lines.
   ~LineLog();
   LineLog(const LineLog&) = delete;
   LineLog& operator=(const LineLog&) = delete;
 
-  /// Log a line; control characters in it are escaped. Any thread.
+  /// Logs a line; control characters in it are escaped. Thread-safe.
   void operator()(const LogEvent& event);
-  /// From the next line on. Any thread.
+  /// Sets the format of later lines. Thread-safe.
   void setFormat(LogFormat format);
-  /// Log what is as bad as this, or worse; at first everything. Any thread.
+  /// Logs only this level and more severe ones; default: all. Thread-safe.
   void setLevel(LogEvent::Level least);
-  /// What the lines are written to. Stays the same when the file is opened again.
+  /// The descriptor that lines are written to. Does not change when the file is reopened.
   int descriptor() const;
 
-  /// Every log of this process opens its file again before its next line, as after a rotation of logs. Any
-  /// thread.
+  /// Makes every log of this process reopen its file before its next line, for log rotation. Thread-safe.
   static void reopenAll();
-  /// Wait until all logs of this process have written their lines, or for so long. Any thread.
+  /// Waits until all logs of this process have written their lines, at most this time. Thread-safe.
   static void waitUntilWritten(std::chrono::milliseconds most);
 
  private:
   struct Shared;
-  std::shared_ptr<Shared> m_shared;  ///< the thread's, too: it may outlive this in a write that does not end
+  std::shared_ptr<Shared> m_shared;  ///< shared with the thread, which may outlive this in a blocked write
 };
 
 }  // namespace naiad

@@ -12,7 +12,7 @@ void appendEscaped(std::string& text, unsigned char byte) {
   text += escape;
 }
 
-/// Is there a C1 control character (U+0080 to U+009F in UTF-8) at `i`?
+/// True if a C1 control character (U+0080 to U+009F in UTF-8) is at `i`.
 bool isC1(std::string_view text, std::size_t i) {
   return text[i] == '\xc2' && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) >= 0x80 &&
          static_cast<unsigned char>(text[i + 1]) < 0xa0;

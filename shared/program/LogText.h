@@ -1,4 +1,4 @@
-// Texts from players and games in log lines.
+// Texts from players and games, made safe for log lines.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace naiad {
 
-/// The text with control characters (C0, DEL, C1) as \n, \t, \xNN, so that it stays in its line.
+/// Returns the text with control characters (C0, DEL, C1) as \n, \t, \xNN, so that it stays on its line.
 std::string oneLine(std::string_view text);
 
-/// The same in double quotes, with \" and \\ for those inside: where the text ends is seen, whatever it is.
+/// Like oneLine(), in double quotes and with \" and \\ for those inside: the end of the text is unambiguous.
 std::string inQuotes(std::string_view text);
 
 }  // namespace naiad

@@ -22,7 +22,7 @@ std::size_t allowOpenFiles(std::size_t wanted) {
 void surviveBrokenPipes() {
   struct sigaction before {};
   if (sigaction(SIGPIPE, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
-  // A handler, since exec() takes that back; a signal that is ignored stays so in what it starts.
+  // A handler instead of SIG_IGN: exec() resets handlers, but started programs inherit an ignored signal.
   struct sigaction action {};
   action.sa_handler = [](int /*signal*/) {};
   action.sa_flags = SA_RESTART;

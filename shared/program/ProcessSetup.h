@@ -1,4 +1,4 @@
-// Settings of a process: the limit of open files, SIGPIPE, and threads that block all signals.
+// Process settings: the limit of open files, SIGPIPE, and threads that block all signals.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace naiad {
 
-/// Raises the limit of open files and sockets to `wanted`, or as far as the system allows. Returns the limit
-/// now, which may be lower than that. Never lowers it.
+/// Raises the limit of open files and sockets to `wanted`, or as far as the system allows; never lowers it.
+/// Returns the new limit, which may be lower.
 std::size_t allowOpenFiles(std::size_t wanted);
 
-/// Unless the process handles SIGPIPE already, a write to a pipe without a reader fails with EPIPE from now
-/// on. Programs that this process starts have the default again.
+/// Makes writes to a pipe without a reader fail with EPIPE, unless the process already handles SIGPIPE.
+/// Programs started by this process get the default.
 void surviveBrokenPipes();
 
 /// Runs `job` on a new thread that blocks all signals, so that only other threads handle them. Throws

@@ -3,7 +3,7 @@
 namespace naiad {
 
 void AckWindow::addReceived(std::uint32_t number) {
-  if (newest == 0) {  // the first; any number where a session is resumed
+  if (newest == 0) {  // the first one; may be any number after a resumed session
     newest = number;
     return;
   }

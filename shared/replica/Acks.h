@@ -1,20 +1,18 @@
-// Which snapshots arrived: the receiver's half of acknowledgement by number and mask.
+// The set of received snapshots, acknowledged by number and mask.
 //
-// Snapshot numbers count up from 1 and wrap around after 2^32 − 1; "newer" is meant in serial-number
-// arithmetic (RFC 1982).
+// Snapshot numbers count from 1 and wrap after 2^32 − 1; "newer" follows serial-number arithmetic (RFC 1982).
 #pragma once
 
 #include <cstdint>
 
 namespace naiad {
 
-/// Is `a` newer than `b`?
+/// True if `a` is newer than `b`.
 constexpr bool isNewer(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::int32_t>(a - b) > 0;
 }
 
-/// The number with these 16 low bits that is nearest to `near`: right as long as they are less than 2^15
-/// apart.
+/// Returns the number with these 16 low bits that is nearest to `near`: correct if it is less than 2^15 away.
 constexpr std::uint32_t restored(std::uint64_t low, std::uint32_t near) {
   const auto apart =
       static_cast<std::int16_t>(static_cast<std::uint16_t>(low) - static_cast<std::uint16_t>(near));
@@ -26,9 +24,9 @@ struct AckWindow {
   std::uint32_t newest = 0;
   std::uint64_t mask = 0;
 
-  /// `number` arrived; one older than the window is ignored.
+  /// Records that `number` arrived; ignores one older than the window.
   void addReceived(std::uint32_t number);
-  /// Is `number` known to have arrived?
+  /// True if `number` is known to have arrived.
   bool has(std::uint32_t number) const;
 };
 

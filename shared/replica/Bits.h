@@ -1,10 +1,10 @@
-// Writing and reading numbers of any width as a string of bits, for records that must be small.
+// Writes and reads numbers of any width as a string of bits, for records that must be small.
 //
-// Bits fill each byte from its low end; a number is written low bit first. The codes beside plain fields:
+// Bits fill each byte from its low end; a number is written low bit first. There are two further codes:
 //
 //   exp-Golomb of order k   v + 2^k in binary takes n bits: n − 1 − k zeros, a one, then the n − 1 lower
 //   bits.
-//                           Small numbers are short, none is impossible (ITU-T H.264, 9.1).
+//                           Small numbers are short, all numbers are possible (ITU-T H.264, 9.1).
 //   zig-zag                 0, −1, 1, −2 … as 0, 1, 2, 3 …
 #pragma once
 
@@ -19,10 +19,10 @@
 
 namespace naiad {
 
-/// Keeps its memory when cleared, so that a reused one allocates nothing.
+/// clear() keeps the memory, so that a reused writer allocates nothing.
 class BitWriter {
  public:
-  /// The `count` low bits of `value`; the others must be zero. count: 0 … 64.
+  /// Appends the `count` low bits of `value`; the others must be zero. count: 0 … 64.
   void bits(std::uint64_t value, int count) {
     assert(count >= 0 && count <= 64 && (count == 64 || value >> count == 0));
     m_pending |= value << m_pending_count;
@@ -30,18 +30,18 @@ class BitWriter {
     if (m_pending_count < 64) return;
     m_words.push_back(m_pending);
     m_pending_count -= 64;
-    // What did not fit: the upper bits of the value, if any. (A shift by 64 is undefined.)
+    // The rest: the upper bits of the value, if any. (A shift by 64 is undefined.)
     m_pending = m_pending_count == 0 ? 0 : value >> (count - m_pending_count);
   }
   void flag(bool value) { bits(value ? 1 : 0, 1); }
-  /// The `count` low bits of a two's complement number that fits them.
+  /// Appends the `count` low bits of a two's complement number, which must fit.
   void signedBits(std::int64_t value, int count) {
     assert(count == 0 ? value == 0 : value >> (count - 1) == 0 || value >> (count - 1) == -1);
     bits(count == 64 ? static_cast<std::uint64_t>(value)
                      : static_cast<std::uint64_t>(value) & ((std::uint64_t{1} << count) - 1),
          count);
   }
-  /// Exp-Golomb; value + 2^order must not reach 2^64.
+  /// Appends an exp-Golomb code; value + 2^order must be below 2^64.
   void golomb(std::uint64_t value, int order) {
     const std::uint64_t shifted = value + (std::uint64_t{1} << order);
     const int length = std::bit_width(shifted);
@@ -54,14 +54,14 @@ class BitWriter {
     golomb((static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63), order);
   }
   void append(const BitWriter& other) { append(other, 0, other.bitCount()); }
-  /// `count` bits of another writer, from bit `from` on.
+  /// Appends `count` bits of another writer, beginning with bit `from`.
   void append(const BitWriter& other, std::size_t from, std::size_t count) {
     for (; count > 64; from += 64, count -= 64) bits(other.word(from), 64);
     if (count == 64) return bits(other.word(from), 64);
     bits(other.word(from) & ((std::uint64_t{1} << count) - 1), static_cast<int>(count));
   }
 
-  /// Forget all but the first `count` bits.
+  /// Removes all but the first `count` bits.
   void truncate(std::size_t count) {
     assert(count <= bitCount());
     m_pending_count = static_cast<int>(count % 64);
@@ -69,7 +69,7 @@ class BitWriter {
     m_words.resize(count / 64);
   }
 
-  /// All bits as a number, the first one lowest; there must be fewer than 64.
+  /// Returns all bits as a number, the first one lowest; there must be fewer than 64.
   std::uint64_t value() const {
     assert(m_words.empty());
     return m_pending;
@@ -81,7 +81,7 @@ class BitWriter {
     m_pending = 0;
     m_pending_count = 0;
   }
-  /// The same into a string whose memory is reused.
+  /// Like bytes() below, into a string whose memory is reused.
   void bytes(std::string& all) const {
     all.resize(m_words.size() * 8 + static_cast<std::size_t>(m_pending_count + 7) / 8);
     char* at = all.data();
@@ -93,7 +93,7 @@ class BitWriter {
       *at++ = static_cast<char>(rest & 0xFF);
     }
   }
-  /// All bits, the last byte filled up with zeros.
+  /// Returns all bits; the last byte is padded with zeros.
   std::string bytes() const {
     std::string all;
     bytes(all);
@@ -101,7 +101,7 @@ class BitWriter {
   }
 
  private:
-  /// The 64 bits from `from` on, zeros where there are none.
+  /// Returns the 64 bits from `from` on, padded with zeros.
   std::uint64_t word(std::size_t from) const {
     const std::size_t index = from / 64;
     const int shift = static_cast<int>(from % 64);
@@ -113,13 +113,12 @@ class BitWriter {
     return index == m_words.size() ? m_pending : 0;
   }
 
-  std::vector<std::uint64_t> m_words;  ///< full ones
+  std::vector<std::uint64_t> m_words;  ///< full words
   std::uint64_t m_pending = 0;
   int m_pending_count = 0;  ///< below 64 between calls
 };
 
-/// Reads what a BitWriter wrote. The first thing that is missing or out of range makes the reader fail; it
-/// stays failed and yields zeros.
+/// Reads the bits of a BitWriter. After a missing or out-of-range number, it has failed and returns zeros.
 class BitReader {
  public:
   explicit BitReader(std::string_view bytes) : m_bytes(bytes) {}
@@ -127,7 +126,7 @@ class BitReader {
   bool ok() const { return m_ok; }
   void fail() { m_ok = false; }
   std::size_t bitsLeft() const { return m_bytes.size() * 8 - m_at; }
-  /// Nothing is left but the zeros that fill the last byte.
+  /// True if nothing is left but the padding of the last byte.
   bool atEnd() {
     const int left = static_cast<int>(bitsLeft());
     return m_ok && bitsLeft() < 8 && bits(left) == 0;
@@ -149,7 +148,7 @@ class BitReader {
     const std::uint64_t sign = std::uint64_t{1} << (count - 1);
     return static_cast<std::int64_t>((value ^ sign) - sign);
   }
-  /// Exp-Golomb, at most `most`.
+  /// Reads an exp-Golomb code of at most `most`.
   std::uint64_t golomb(int order, std::uint64_t most) {
     const int zeros = std::countr_zero(next());
     const int length = order + zeros;
@@ -160,7 +159,7 @@ class BitReader {
     if (value > most) m_ok = false;
     return m_ok ? value : 0;
   }
-  /// Zig-zag and exp-Golomb, within ±`most`.
+  /// Reads a zig-zag exp-Golomb code within ±`most`.
   std::int64_t signedGolomb(int order, std::int64_t most) {
     const std::uint64_t code = golomb(order, UINT64_MAX);
     const std::int64_t value = static_cast<std::int64_t>(code >> 1) ^ -static_cast<std::int64_t>(code & 1);
@@ -169,14 +168,14 @@ class BitReader {
   }
 
  private:
-  /// The next 64 bits, zeros where there are none.
+  /// Returns the next 64 bits, padded with zeros.
   std::uint64_t next() const {
     const std::size_t at = m_at >> 3;
     const int offset = static_cast<int>(m_at & 7);
     const std::uint64_t low = word(at) >> offset;
     return offset == 0 ? low : low | word(at + 8) << (64 - offset);
   }
-  /// Eight bytes, likewise.
+  /// Returns eight bytes, padded with zeros.
   std::uint64_t word(std::size_t at) const {
     const std::size_t size = m_bytes.size();
     if (at + 8 <= size) return loadLittleEndian<std::uint64_t>(m_bytes.data() + at);
@@ -190,7 +189,7 @@ class BitReader {
   }
 
   std::string_view m_bytes;
-  std::size_t m_at = 0;  ///< bit
+  std::size_t m_at = 0;  ///< index of the next bit
   bool m_ok = true;
 };
 

@@ -1,4 +1,4 @@
-// Writing and reading small integers as bytes: LEB128 varints and zig-zag, as protobuf encodes them.
+// Writes and reads small integers as bytes: LEB128 varints and zig-zag, like protobuf.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ class ByteWriter {
   std::string& m_out;
 };
 
-/// Reads what a ByteWriter wrote. The first thing that is missing, overlong or out of range makes the
-/// reader fail; it stays failed and yields zeros.
+/// Reads the bytes of a ByteWriter. After a missing, overlong or out-of-range number, it has failed and
+/// returns zeros.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : m_bytes(bytes) {}
@@ -58,7 +58,7 @@ class ByteReader {
     return 0;
   }
 
-  /// A varint of at most `most`.
+  /// Reads a varint of at most `most`.
   std::uint64_t upTo(std::uint64_t most) {
     const std::uint64_t value = varint();
     if (value > most) m_ok = false;
@@ -70,14 +70,14 @@ class ByteReader {
     return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
   }
 
-  /// A zig-zag number within ±`most`.
+  /// Reads a zig-zag number within ±`most`.
   std::int64_t within(std::int64_t most) {
     const std::int64_t value = zigzag();
     if (value < -most || value > most) m_ok = false;
     return m_ok ? value : 0;
   }
 
-  /// All that has not been read.
+  /// Returns all unread bytes.
   std::string_view rest() { return bytes(m_bytes.size() - m_at); }
   std::string_view bytes(std::size_t count) {
     if (!m_ok || count > m_bytes.size() - m_at) {

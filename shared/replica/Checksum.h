@@ -1,7 +1,7 @@
-// The sum by which server and client make sure that they mean the same world.
+// The checksum that server and client compare to find out whether their worlds are equal.
 //
-// Every group of every object a client holds gives 64 bits; the sum of all of them, modulo 2^64, depends on
-// no order, and each side keeps it up to date group by group. It guards against mistakes, not attacks.
+// Every group of every object that a client has contributes 64 bits. Their sum modulo 2^64 does not depend on
+// the order, and each side updates it group by group. It detects mistakes, not attacks.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 namespace naiad {
 
 std::uint64_t lifeSum(std::uint32_t id, std::uint8_t generation, std::uint64_t order);
-/// Any base tick of the same path gives the same sum.
+/// Does not depend on the base tick: motions with one path have one sum.
 std::uint64_t motionSum(std::uint32_t id, const Motion& motion);
-/// For a clock that goes round, any start that shows the same gives the same sum; for one that stops, only
-/// the start that was sent. See rebase().
+/// For a looping clock, all starts that show equal frames give one sum; for one that stops, only the sent
+/// start. See rebase().
 std::uint64_t lookSum(std::uint32_t id, const Look& look);
 std::uint64_t bodySum(std::uint32_t id, const Body& body);
 

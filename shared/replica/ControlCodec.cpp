@@ -61,7 +61,7 @@ ControlRow readRow(ByteReader& in) {
   return row;
 }
 
-// Mostly a lever pulls with just the velocity that the object has.
+// A flag for the usual case: the lever's pull equals the object's velocity.
 void writeLever(BitWriter& out, const df::ControlLever& lever, df::Fixed velocity) {
   out.flag(lever.let_go);
   out.flag(lever.pull != 0);

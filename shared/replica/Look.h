@@ -1,4 +1,4 @@
-// What an object looks like, as data: captured from draw() on the server, drawn by the client.
+// The look of an object as data: captured from draw() on the server, drawn by the client.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace naiad {
 
-/// One character of an appearance, placed relative to the object's position in units of 1/256 cell (so a
-/// sprite of even width, whose cells lie at half offsets, is drawn in the right cells wherever it goes).
+/// One character of an appearance, placed relative to the object's position in units of 1/256 cell. So a
+/// sprite of even width, whose cells have half offsets, is drawn in the right cells everywhere.
 struct Glyph {
   std::int32_t dx = 0;
   std::int32_t dy = 0;
@@ -28,7 +28,7 @@ inline constexpr int kGlyphUnitBits = 8;  ///< 2^8 glyph units are one cell
 /// Farthest from its object that a glyph may be drawn, in glyph units (8192 cells).
 inline constexpr std::int64_t kMaxGlyphOffset = std::int64_t{1} << (13 + kGlyphUnitBits);
 
-/// The cell, in world cells, in which a glyph of an object at `position` is drawn.
+/// Returns the world cell in which a glyph of an object at `position` is drawn.
 struct CellPosition {
   std::int32_t x = 0;
   std::int32_t y = 0;
@@ -36,11 +36,11 @@ struct CellPosition {
 };
 CellPosition glyphCell(df::FixedVector position, const Glyph& glyph);
 
-/// Everything one draw() put on the screen, in drawing order.
+/// The characters of one draw() call, in drawing order.
 using Appearance = std::vector<Glyph>;
 
-/// Appearances in their order. Never changed once made, and shared by all copies: they are cheap, and many
-/// objects that look alike take the memory of one.
+/// An immutable list of appearances. Copies share its memory, so they are cheap, and objects with equal looks
+/// need it only once.
 class Sequence {
  public:
   Sequence() = default;
@@ -55,21 +55,21 @@ class Sequence {
   auto end() const { return frames().end(); }
   const std::vector<Appearance>& frames() const;
 
-  /// In all of them together.
+  /// The number of glyphs in all appearances.
   std::size_t glyphCount() const { return empty() ? 0 : m_p_data->glyphs; }
-  /// What it counts towards limits of memory: its glyphs, and three for each appearance beyond the first.
+  /// The size that counts towards memory limits: its glyphs, and three for each appearance after the first.
   std::size_t weight() const { return empty() ? 0 : m_p_data->glyphs + 3 * (m_p_data->frames.size() - 1); }
-  /// Of all they say; PROTOCOL.md ("Checksum") says how. 0 if there are none.
+  /// Checksum of the sequence (PROTOCOL.md, "Checksum"); 0 if it is empty.
   std::uint64_t sum() const { return empty() ? 0 : m_p_data->sum; }
-  /// Farthest that a glyph lies from the object on an axis, in glyph units.
+  /// Largest distance of a glyph from the object on an axis, in glyph units.
   std::int32_t reach() const { return empty() ? 0 : m_p_data->reach; }
-  /// Do all glyphs lie whole cells from each other, on each axis whole or half ones from the object?
+  /// True if all glyphs are whole cells apart, and whole or half cells from the object on each axis.
   bool isWhole() const { return empty() || m_p_data->whole; }
-  /// If so: the fraction of a cell, in glyph units.
+  /// If isWhole(): the fraction of a cell, in glyph units.
   CellPosition fraction() const { return empty() ? CellPosition{} : m_p_data->fraction; }
-  /// Are they the same in memory? Then they are equal.
+  /// True if both share their memory; then they are equal.
   bool isSharedWith(const Sequence& other) const { return m_p_data == other.m_p_data; }
-  /// What the copies share; null if there are none.
+  /// The address of the shared memory; null if empty.
   const void* identity() const { return m_p_data.get(); }
 
   friend bool operator==(const Sequence& a, const Sequence& b) {
@@ -88,7 +88,7 @@ class Sequence {
   std::shared_ptr<const Data> m_p_data;
 };
 
-/// A sequence of appearances, some of which may draw nothing, and a selector that both ends evaluate.
+/// A sequence of appearances, which may be empty ones, and a selector that both ends evaluate.
 struct Look {
   Look() = default;
   Look(Sequence frames, std::int32_t height, Selector chosen_by = {})
@@ -98,16 +98,16 @@ struct Look {
   std::int32_t altitude = 2;
   Selector selector;
 
-  /// The appearance shown at `tick`; null if the look draws nothing.
+  /// Returns the appearance shown at `tick`; null if the look draws nothing.
   const Appearance* select(std::uint32_t tick) const {
     return sequence.empty() ? nullptr : &sequence[selector.at(tick, sequence.size())];
   }
-  /// One appearance at all times?
+  /// True if the look always shows one appearance.
   bool isConstant() const { return selector.kind == Selector::kFixed; }
   friend bool operator==(const Look&, const Look&) = default;
 };
 
-/// The same look; clocks count from the latest start that shows what is shown from `tick` on.
+/// Returns an equal look whose clock has the latest start that shows the same frames from `tick` on.
 Look rebase(const Look& look, std::uint32_t tick);
 
 }  // namespace naiad

@@ -13,14 +13,14 @@ namespace naiad {
 
 // The layout, drawn out in PROTOCOL.md:
 //
-//   look        altitude is 2: 1, else 0 and 8 bits | kind 2: 0 nothing, 1 a character (character, colour),
+//   look        altitude 2: 1, else 0 and 8 bits | kind 2: 0 nothing, 1 a character (character, colour),
 //               2 spelled (named 1 | id 12 if named | sequence | selector), 3 named (id 12 | selector)
 //   sequence    one: 1, else 0 and count - 2: exp-Golomb(3) | whole 1 (half x 1, half y 1)
 //               | each: appearance
 //   appearance  glyphs: exp-Golomb(3) | each: if whole: plain 1 | unless plain: moved 1, recoloured 1
 //               | if whole: the same character 1 | character, unless the same | dx, dy if moved: signed
 //               exp-Golomb, of order 8, or in cells of order 1 if whole | colour 3 if recoloured
-//   selector    the first for ever: 1, else 0 | kind 2: 0 fixed (frame 8), 1 clock, 2 clock once (ticks - 1:
+//   selector    always the first: 1, else 0 | kind 2: 0 fixed (frame 8), 1 clock, 2 clock once (ticks - 1:
 //               exp-Golomb(3) | age: exp-Golomb(6)), 3 angle (code 3 | upper bits | width 6 | spin)
 //   character   wide 1 | 7 bits, or 14
 //   body        usual box: 1, else 0 and its vectors | solidness 2 | no-soft 1
@@ -40,14 +40,14 @@ constexpr int kFrameCountOrder = 3;
 constexpr int kFrameBits = 8;
 constexpr int kTicksOrder = 3;
 constexpr int kAgeOrder = 6;
-constexpr int kAngleCodeBits = 3;  ///< of the angle, 4 (code + 1) upper bits are sent
+constexpr int kAngleCodeBits = 3;  ///< the angle is sent as 4 (code + 1) upper bits
 constexpr int kSpinWidthBits = 6;
 constexpr std::int64_t kGlyphStep = 1 << kGlyphUnitBits;
 constexpr df::Fixed kMaxBoxCorner = df::Fixed{1'000'001} << df::kFixedBits;
 
 constexpr std::int32_t kHalfCell = 1 << (kGlyphUnitBits - 1);
 
-/// What the first glyph is written as a difference to.
+/// Returns the glyph that the first glyph is encoded relative to.
 Glyph beforeFirst(CellPosition fraction) {
   return {fraction.x - (1 << kGlyphUnitBits), fraction.y, U' ', df::COLOR_DEFAULT};
 }
@@ -82,8 +82,8 @@ df::Color readColor(BitReader& in) {
 
 namespace {
 
-// Neighbouring characters of a string differ by one cell in x and nothing else, so offsets are written as
-// differences from "one cell to the right", and colour and row only where they change.
+// Neighbouring characters of a string differ only by one cell in x. So offsets are encoded relative to one
+// cell to the right, and colour and row only if they change.
 void writeAppearance(BitWriter& out, const Appearance& glyphs, bool whole, CellPosition fraction) {
   out.golomb(glyphs.size(), kGlyphCountOrder);
   Glyph last = beforeFirst(fraction);
@@ -107,7 +107,7 @@ void writeAppearance(BitWriter& out, const Appearance& glyphs, bool whole, CellP
   }
 }
 
-/// `room`: glyphs that there may be yet.
+/// `room`: number of further glyphs allowed.
 Appearance readAppearance(BitReader& in, bool whole, CellPosition fraction, std::size_t& room) {
   Appearance glyphs;
   const std::uint64_t count = in.golomb(kGlyphCountOrder, room);
@@ -197,7 +197,7 @@ void writeSelector(BitWriter& out, const Selector& selector, std::uint32_t tick,
   out.signedBits(selector.spin, width);
 }
 
-// Whether it fits its sequence is not known here: a name may be defined later.
+// Does not check whether the selector fits its sequence: a name may be defined later.
 Selector readSelector(BitReader& in, std::uint32_t tick) {
   Selector selector;
   if (in.flag()) return selector;

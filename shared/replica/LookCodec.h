@@ -1,4 +1,4 @@
-// Looks and bodies <-> bits.
+// Encodes looks and bodies as bits, and decodes them.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,28 @@
 
 namespace naiad {
 
-/// How a look's sequence is written: spelled out, named by an id that the client knows, or spelled out and
-/// given an id.
+/// The encoding of a look's sequence: in full (kSpelled), as an id that the client knows (kNamed), or in full
+/// with a new id (kDefined).
 struct LookForm {
   enum Kind : std::uint8_t { kSpelled, kNamed, kDefined } kind = kSpelled;
   std::uint32_t id = 0;
 };
 
-/// `tick`: of the snapshot; clocks count from it.
+/// `tick`: the snapshot's tick, from which clocks count.
 void writeLook(BitWriter& out, const Look& look, LookForm form, std::uint32_t tick);
-/// `define` is called for a sequence that gets an id, `find_named` for one that is named: it returns it,
-/// or null if unknown yet (then the caller has to resolve it, and whether the selector isCanonical()).
+/// `define` is called for a sequence with a new id, `find_named` for an id. `find_named` returns its
+/// sequence, or null if it is not known yet; then the caller must look it up later, and check that the
+/// selector isCanonical().
 template <class Define, class FindNamed>
 Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find_named);
 
 void writeSequence(BitWriter& out, const Sequence& sequence);
 Sequence readSequence(BitReader& in);
-/// How a selector is written at `tick`. `frames`: of its sequence.
+/// Encodes a selector at `tick`. `frames`: number of appearances in its sequence.
 void writeSelector(BitWriter& out, const Selector& selector, std::uint32_t tick, std::size_t frames);
 Selector readSelector(BitReader& in, std::uint32_t tick);
 
-/// One character where the object is: what most looks are, and shorter than any name.
+/// True for one character at the object's position: the most frequent look, shorter than an id.
 bool isSingleCharacter(const Sequence& sequence);
 
 void writeCharacter(BitWriter& out, char32_t ch);
@@ -38,13 +39,13 @@ char32_t readCharacter(BitReader& in);
 void writeColor(BitWriter& out, df::Color color);
 df::Color readColor(BitReader& in);
 
-/// The solidness of what is on the view, as sent.
+/// The code for the solidness of objects on the view.
 inline constexpr std::uint64_t kOnViewSolidness = 3;
 std::uint64_t wireSolidness(const Body& body);
 void writeBody(BitWriter& out, const Body& body);
 Body readBody(BitReader& in);
 
-/// Bits that `sequence` takes, spelled out.
+/// Returns the size of `sequence` in full, in bits.
 std::size_t encodedBits(const Sequence& sequence);
 
 // ---- implementation ------------------------------------------------------------------------------------

@@ -26,7 +26,7 @@ Selector Selector::turning(std::uint32_t tick, std::uint32_t angle, std::int32_t
   return selector;
 }
 
-// 32 bits that wrap are a turn, and ticks that wrap fit into that: there is no tick at which it jumps.
+// Angles of 32 bits wrap after a turn, and so does the product with a tick that wraps: the angle never jumps.
 std::uint32_t Selector::angleAt(std::uint32_t tick) const {
   return angle + static_cast<std::uint32_t>(spin) * tick;
 }

@@ -1,4 +1,4 @@
-// Mixes numbers into 64 bits, one after the other: what checksums are made of. No defence against attacks.
+// Mixes numbers into 64 bits, one after the other, for checksums. Not secure against attacks.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace naiad {
 
-/// The finaliser of SplitMix64 between the numbers.
+/// Applies the finaliser of SplitMix64 between the numbers.
 class Mixer {
  public:
   void add(std::uint64_t value) {

@@ -3,7 +3,7 @@
 namespace naiad {
 
 static df::Fixed extrapolate(df::Fixed p, df::Fixed w, df::Fixed a, std::int64_t n) {
-  // n(n-1)/2 is whole and fits: |n| < 2^31. Unsigned, so that garbage wraps and is never undefined.
+  // n(n-1)/2 is whole and fits: |n| < 2^31. Unsigned, so that invalid numbers wrap with defined behaviour.
   const auto u = [](std::int64_t v) { return static_cast<std::uint64_t>(v); };
   return static_cast<df::Fixed>(u(p) + u(n) * u(w) + u(n * (n - 1) / 2) * u(a));
 }

@@ -18,7 +18,7 @@ namespace {
 
 enum MotionKind : std::uint8_t { kStill = 0, kLinear = 1, kAccelerated = 2 };
 
-/// The numbers of bits behind the point that four bits can name.
+/// The numbers of fractional bits that a code of four bits selects.
 constexpr std::array<int, 16> kFractions = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 16, 22, 32};
 constexpr int kFractionCodeBits = 4;
 constexpr int kFarOrder = 10;
@@ -30,7 +30,7 @@ int codeFor(df::FixedVector v) {
                           kFractions.begin());
 }
 
-/// Bits that a number takes in two's complement; 0 for 0.
+/// Returns the bits of a number in two's complement; 0 for 0.
 int widthOf(std::int64_t value) {
   return value == 0 ? 0 : std::bit_width(static_cast<std::uint64_t>(value < 0 ? ~value : value)) + 1;
 }
@@ -50,7 +50,7 @@ void writeSteps(BitWriter& out, df::FixedVector v) {
 df::FixedVector readSteps(BitReader& in, df::Fixed most) {
   const int fraction = kFractions[in.bits(kFractionCodeBits)];
   const auto width = fraction + static_cast<int>(in.signedGolomb(1, 64));
-  // More than 58 bits cannot be a legal number of steps.
+  // More bits cannot be a valid number of steps.
   if (width < 0 || width > 64 - (df::kFixedBits - fraction)) {
     in.fail();
     return {};
@@ -69,7 +69,7 @@ bool isNear(const Origin& origin, std::int64_t x, std::int64_t y) {
   return x >= 0 && y >= 0 && x >> origin.x_bits == 0 && y >> origin.y_bits == 0;
 }
 
-// Positions count from the middle of a cell's lower edge on: the whole part is the cell it is drawn in.
+// Adds half a cell to positions, so that the whole part is the cell in which they are drawn.
 constexpr df::Fixed kHalf = df::kFixedOne / 2;
 
 df::FixedVector shifted(df::FixedVector v, df::Fixed by) {
@@ -90,8 +90,8 @@ void writePosition(BitWriter& out, df::FixedVector position, const Origin& origi
   }
 }
 
-// Fractions of half a cell are common (the middle of a cell is a whole number), so the fraction is that of
-// the position itself.
+// Encodes the fraction of the position itself, not of position + 1/2: the middle of a cell is a whole number,
+// so most fractions are short.
 void writeFraction(BitWriter& out, df::FixedVector position) {
   constexpr df::Fixed kMask = df::kFixedOne - 1;
   const df::FixedVector fraction{position.x & kMask, position.y & kMask};
@@ -114,8 +114,8 @@ CellPosition readCell(BitReader& in, const Origin& origin) {
   return {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
 }
 
-// The cell and the fraction of a coordinate determine it: the fraction of c + 1/2 is that of c, moved by
-// half.
+// Returns the coordinate with this cell and fraction. The cell is that of c + 1/2, so it is one above the
+// whole part of c if the fraction is at least 1/2.
 df::Fixed joined(std::int32_t cell, std::uint64_t fraction) {
   // Unsigned, so that a cell at the end of its type wraps to a position that is refused.
   const std::uint64_t upper = static_cast<std::uint64_t>(std::int64_t{cell}) - (fraction >= kHalf ? 1 : 0);

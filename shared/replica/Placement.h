@@ -1,5 +1,5 @@
-// Where things are drawn, if not where their models say: what a client adds to the picture by itself, like
-// the prediction of the player's object. A drawing rule, never part of the replica.
+// Overrides the places at which a client draws objects, for example by its prediction of the player's object.
+// It affects only drawing and is never part of the replica.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ namespace naiad {
 class Placement {
  public:
   virtual ~Placement() = default;
-  /// Where an object of the replica is drawn in the picture of `tick`.
+  /// Returns the position at which an object of the replica is drawn in the picture of `tick`.
   virtual df::FixedVector positionOf(const ObjectState& object, std::uint32_t tick) const = 0;
-  /// Where the upper left corner of the view is; by the view's record it would be at `modelled`.
+  /// Returns the upper left corner of the view; `modelled` is the corner by the view's record.
   virtual df::FixedVector viewCorner(df::FixedVector modelled) const = 0;
 };
 

@@ -27,29 +27,29 @@ df::FixedVector placed(const ObjectState& object, std::uint32_t tick, const Plac
 /// An object in the view.
 struct Shown {
   df::FixedVector at;
-  CellPosition from;  ///< of the view's corner, in the cells that its glyphs count in
+  CellPosition from;  ///< corner of the view in world cells; (0, 0) for objects on the view
   const Appearance* p_glyphs;
 };
 
 struct DrawingOrder {
   std::int32_t altitude;
   std::uint64_t order;
-  std::uint32_t index;  ///< of its Shown
+  std::uint32_t index;  ///< index of its Shown
   friend bool operator<(const DrawingOrder& a, const DrawingOrder& b) {
     return std::tie(a.altitude, a.order, a.index) < std::tie(b.altitude, b.order, b.index);
   }
 };
 
-/// May a glyph of an object at `at` be on the canvas?
+/// True if a glyph of an object at `at` may be on the canvas.
 bool reaches(const Sequence& sequence, df::FixedVector at, CellPosition from, const df::Canvas& canvas) {
-  // A glyph lies at most a cell beyond its whole cells, and so does the fraction of its object's place.
+  // The fractions of the glyph's offset and the object's position add at most a cell each.
   const std::int64_t cells = (sequence.reach() >> kGlyphUnitBits) + 2;
   const std::int64_t x = std::int64_t{df::cellOf(at.x)} - from.x;
   const std::int64_t y = std::int64_t{df::cellOf(at.y)} - from.y;
   return x >= -cells && y >= -cells && x < canvas.width() + cells && y < canvas.height() + cells;
 }
 
-/// Those drawn last, in any order.
+/// Keeps the objects that are drawn last, in any order.
 void keepTopmost(std::vector<DrawingOrder>& order) {
   const auto kept = order.end() - static_cast<std::ptrdiff_t>(kMaxDrawnObjects);
   std::nth_element(order.begin(), kept, order.end());
@@ -136,7 +136,7 @@ void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
     entry.state.order = record.state.order;
     ++m_alive;
   }
-  if (!entry.alive) return;  // of an object that was not born yet, or is dead
+  if (!entry.alive) return;  // an object that is not born yet, or dead
 
   for (int i = 0; i < kGroupCount; ++i) {
     const int group = 1 << i;
@@ -148,7 +148,7 @@ void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
   }
 }
 
-// The object is dead since snapshot `number`.
+// Marks the object as dead since snapshot `number`.
 void Replica::end(Entry& entry, std::uint32_t number) {
   m_alive -= entry.alive ? 1 : 0;
   release(entry.state.look.sequence);

@@ -1,6 +1,6 @@
-// The client's copy of the world: records go in, a picture of any tick comes out.
+// The client's copy of the world: it takes records and draws the picture of any tick.
 //
-// Not thread-safe. Bounded: a hostile server can make it hold at most kMaxReplicaObjects objects with
+// Not thread-safe. Bounded: a hostile server can make it store at most kMaxReplicaObjects objects with
 // kMaxReplicaGlyphs glyphs.
 #pragma once
 
@@ -20,21 +20,20 @@
 
 namespace naiad {
 
-/// Objects, dead ones included, that a replica remembers; records for more are ignored and counted.
+/// Objects, including dead ones, that a replica remembers; records of further ones are ignored and counted.
 inline constexpr std::size_t kMaxReplicaObjects = 1u << 17;
-/// Glyphs in all looks together (16 bytes each), those of a sequence that several share once, each appearance
-/// beyond its first as three more; a look beyond that is ignored and counted.
+/// Glyphs of all looks together (16 bytes each): a shared sequence counts once, and each appearance after its
+/// first as three more. A look beyond that is ignored and counted.
 inline constexpr std::size_t kMaxReplicaGlyphs = 1u << 21;
 
-/// One picture has at most so many objects and so many glyphs, those on top: a view of 400 x 150 cells has
-/// 60,000.
+/// Most objects and glyphs of one picture; the topmost are kept. A view of 400 x 150 cells has 60,000 cells.
 inline constexpr std::size_t kMaxDrawnObjects = 1u << 16;
 inline constexpr std::size_t kMaxDrawnGlyphs = 1u << 19;
 
 class Replica {
  public:
-  /// One remembered object. The newest number applied is kept per group; a death counts for all of them,
-  /// so that a late birth cannot bring back the dead.
+  /// One remembered object. Stores the newest applied number of each group; a death sets all of them, so that
+  /// a late birth cannot revive the object.
   struct Entry {
     std::uint8_t generation = 0;
     bool alive = false;
@@ -42,66 +41,65 @@ class Replica {
     ObjectState state;
   };
 
-  /// `tick`: one near those of the snapshots to come (the welcome names it).
+  /// `tick`: near those of the first snapshots (the welcome contains it).
   explicit Replica(std::uint32_t tick = 0) : m_context{0, tick, 0} {}
-  /// Empty, for a session that goes on with a new world: numbers, ticks and inputs continue from `near`.
+  /// Returns an empty replica for a session in a new world: numbers, ticks and inputs continue from `near`.
   static Replica continuing(const SnapshotContext& near) {
     Replica replica;
     replica.m_context = near;
     return replica;
   }
 
-  /// Read a snapshot of this replica's epoch, without applying it.
+  /// Reads a snapshot of this replica's epoch, without applying it.
   ReadResult read(std::string_view bytes, Snapshot& out) const {
     return readSnapshot(bytes, m_context, m_dictionary, out);
   }
-  /// Apply what was read. Order of arrival does not matter, nor does a second time.
+  /// Applies a snapshot. The order does not matter, and repeating it has no effect.
   void apply(const Snapshot& snapshot);
 
-  /// Snapshots to come are of ticks near this one, if it is newer than all that were applied.
+  /// Expects later snapshots near this tick, if it is newer than all applied ones.
   void noteTick(std::uint32_t tick) {
     if (isNewer(tick, m_context.tick)) m_context.tick = tick;
   }
 
-  /// Draw the player's view as it is at `tick`: objects by altitude, then creation order, then texts.
-  /// The canvas has the size of the view. With a placement, things are drawn where it says. Of more than
-  /// kMaxDrawnObjects objects that reach into the view, or kMaxDrawnGlyphs glyphs, the lowest are left out.
+  /// Draws the player's view at `tick`: objects by altitude, then creation order, then texts. The canvas has
+  /// the size of the view. A placement overrides positions. Beyond kMaxDrawnObjects objects that reach into
+  /// the view, or kMaxDrawnGlyphs glyphs, the lowest objects are omitted.
   df::Canvas render(std::uint32_t tick, const Placement* p_placement = nullptr) const;
 
-  /// Where the view's upper left corner is at `tick`, in whole world cells.
+  /// Returns the view's upper left corner at `tick`, in whole world cells.
   CellPosition viewCorner(std::uint32_t tick, const Placement* p_placement = nullptr) const;
-  /// Where the followed object is drawn at `tick`, in view cells; the view's centre if there is none.
+  /// Returns the view cell of the followed object at `tick`; the view's centre if no object is followed.
   CellPosition focus(std::uint32_t tick, const Placement* p_placement = nullptr) const;
-  /// Where the object that the player steers is drawn at `tick`, in view cells; nothing if there is none, or
-  /// it is outside the view.
+  /// Returns the view cell of the player's steered object at `tick`; nullopt without one or outside the view.
   std::optional<CellPosition> ownCell(std::uint32_t tick, const Placement* p_placement = nullptr) const;
-  /// The view at `tick` by its record, and the world it looks into.
+  /// Returns the view at `tick` by its record, and the boundary of its world.
   ViewFrame viewFrame(std::uint32_t tick) const;
-  /// The object that the view follows; null if there is none.
+  /// Returns the object that the view follows, or null.
   const ObjectState* followed() const;
 
-  /// The player's own controls, and the newest number that carried them; 0: none has yet.
+  /// The player's control table, and the newest number that contained one; 0: none yet.
   const df::ControlTable& controlTable() const { return m_table; }
   std::uint32_t controlTableNumber() const { return m_table_newest; }
-  /// What the player steers, by the client's ids, and the newest number that carried it; 0: none has yet.
+  /// The steered object's state, with the client's ids, and the newest number that contained one; 0: none
+  /// yet.
   const ControlRecord& control() const { return m_control; }
   std::uint32_t controlNumber() const { return m_control_newest; }
 
   int viewWidth() const { return m_world.view_width; }
   int viewHeight() const { return m_world.view_height; }
-  /// Behind all characters of the view.
+  /// The colour behind all characters of the view.
   df::Color background() const { return m_world.background; }
   std::size_t aliveCount() const { return m_alive; }
-  /// The newest snapshot, tick and input that were applied, or the tick of noteTick().
+  /// The newest applied snapshot, tick and input, or the tick of noteTick().
   const SnapshotContext& newest() const { return m_context; }
-  /// The live object with this id; null if there is none.
+  /// Returns the live object with this id, or null.
   const Entry* find(std::uint32_t id) const;
-  /// By id; those that are not alive are remembered only to ignore what comes late.
+  /// All objects by id. Dead ones are kept only to ignore late records.
   const std::unordered_map<std::uint32_t, Entry>& entries() const { return m_entries; }
-  /// A sum over everything the replica holds, the same whatever the order in which it came. PROTOCOL.md
-  /// ("Checksum") says of what.
+  /// Returns a checksum of all objects, independent of the order of arrival (PROTOCOL.md, "Checksum").
   std::uint64_t checksum() const;
-  /// Records left out because the replica was full.
+  /// The number of records ignored because the replica was full.
   std::uint64_t overflowCount() const { return m_overflows; }
 
  private:
@@ -125,8 +123,8 @@ class Replica {
   std::uint32_t m_view_newest = 0;
   std::uint32_t m_view_tick = 0;  ///< the tick at which m_view holds
   std::size_t m_alive = 0;
-  std::unordered_map<const void*, std::uint32_t> m_uses;  ///< looks by identity() of their sequence
-  std::size_t m_glyphs = 0;                               ///< in these sequences
+  std::unordered_map<const void*, std::uint32_t> m_uses;  ///< number of looks by identity() of their sequence
+  std::size_t m_glyphs = 0;                               ///< weight of these sequences
   std::uint64_t m_overflows = 0;
 };
 

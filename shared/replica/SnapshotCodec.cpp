@@ -34,7 +34,7 @@ constexpr int kTextYOrder = 4;
 constexpr int kTextLengthOrder = 5;
 constexpr std::size_t kMaxTextCharacters = kMaxViewWidth;
 
-/// The first two bits of an object's record, the first one low.
+/// The first two bits of an object's record, the first one lowest.
 enum Prefix : std::uint8_t { kJustMotion = 0b00, kJustLook = 0b10, kBirth = 0b01, kElse = 0b11 };
 
 int idOrder(std::uint32_t last_id, std::size_t count) {
@@ -42,7 +42,7 @@ int idOrder(std::uint32_t last_id, std::size_t count) {
   return std::clamp(static_cast<int>(std::bit_width(gap)) - 1, 0, (1 << kIdOrderBits) - 1);
 }
 
-/// The size of a boundary may exceed what a position can be.
+/// Writes the size in 64 bits: that of a boundary may exceed the largest position.
 void writeBox(BitWriter& out, const df::FixedBox& box) {
   writeVector(out, box.corner);
   out.bits(static_cast<std::uint64_t>(box.size.x), 64);
@@ -106,7 +106,7 @@ TextRecord readText(BitReader& in) {
   return record;
 }
 
-/// Reads the objects of one snapshot; sequences defined in it may be named in it.
+/// Reads the objects of one snapshot; its looks may refer to sequences that it defines.
 class ObjectReader {
  public:
   ObjectReader(BitReader& in, const SnapshotHeader& header, const Origin& origin,
@@ -173,7 +173,7 @@ class ObjectReader {
         });
   }
 
-  // A name may be defined after its use, since objects come by id.
+  // Looks up the named sequences. An id may be used before its definition because objects are sorted by id.
   void resolve() {
     for (const auto& [object, id] : m_named) {
       const Sequence* sequence = find(id);
@@ -200,7 +200,7 @@ class ObjectReader {
   const Origin& m_origin;
   const SnapshotDictionary& m_dictionary;
   Records& m_records;
-  std::vector<std::pair<std::size_t, std::uint32_t>> m_named;  ///< objects, and the ids of their sequences
+  std::vector<std::pair<std::size_t, std::uint32_t>> m_named;  ///< object indices, and sequence ids
   bool m_stale = false;
 };
 

@@ -1,4 +1,4 @@
-// Snapshots <-> bytes. The writing side asserts, the reading side checks everything.
+// Encodes and decodes snapshots. Writers assert, readers check everything.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@
 
 namespace naiad {
 
-/// The header of a snapshot. On the wire numbers, ticks and inputs have their 16 low bits only; the
-/// reader restores them near those it knows, so it must not fall behind by 2^15.
+/// The header of a snapshot. The wire has only the low 16 bits of numbers, ticks and inputs; the reader
+/// restores the others from the newest known ones, so it must not fall behind by 2^15.
 struct SnapshotHeader {
-  std::uint32_t number = 0;  ///< never 0
-  std::uint32_t tick = 0;    ///< the records hold at its end
-  std::uint8_t epoch = 0;    ///< 0 … 3; another one than before: forget the world, all of it is sent again
-  bool complete = true;      ///< nothing is pending that this snapshot does not carry
-  bool has_input = false;    ///< the next two are set
-  std::uint32_t input = 0;   ///< newest input that reached the game
-  std::uint32_t input_tick = 0;  ///< the tick that it was applied in, at most 63 before `tick`, else that
+  std::uint32_t number = 0;      ///< never 0
+  std::uint32_t tick = 0;        ///< the records hold at the end of this tick
+  std::uint8_t epoch = 0;        ///< 0 … 3; on a change, forget the world: all of it is sent again
+  bool complete = true;          ///< true if no records are pending after this snapshot
+  bool has_input = false;        ///< `input` and `input_tick` are set
+  std::uint32_t input = 0;       ///< newest input that reached the game
+  std::uint32_t input_tick = 0;  ///< tick that applied it, or tick − 63 if that was earlier
 };
 
-/// What restores the numbers: the newest ones known.
+/// The newest known numbers, from which shortened ones are restored.
 struct SnapshotContext {
   std::uint32_t number = 0;
   std::uint32_t tick = 0;
@@ -40,47 +40,47 @@ struct Snapshot {
 
 enum class ReadResult {
   kOk,
-  kStale,      ///< uses a name that a newer snapshot has replaced: drop it, do not acknowledge it
+  kStale,      ///< uses an id that a newer snapshot has replaced: drop it, do not acknowledge it
   kMalformed,  ///< bytes that no honest server sends; `out` is unspecified
 };
 
-/// Read a snapshot. `dictionary` must be that of the epoch of the snapshot; it is not changed.
+/// Reads a snapshot. `dictionary` must be that of the snapshot's epoch; it is not changed.
 ReadResult readSnapshot(std::string_view bytes, const SnapshotContext& context,
                         const SnapshotDictionary& dictionary, Snapshot& out);
-/// The epoch of a snapshot, before it is read; nothing if the bytes are too few.
+/// Returns the epoch of an unread snapshot; nullopt if the bytes are too few.
 std::optional<std::uint8_t> peekEpoch(std::string_view bytes);
-/// The header without the records; nothing if the bytes are too few or malformed.
+/// Returns the header without the records; nullopt if the bytes are too few or malformed.
 std::optional<SnapshotHeader> peekHeader(std::string_view bytes, const SnapshotContext& context);
 
-/// Puts a snapshot together, in any order.
+/// Assembles a snapshot from records in any order.
 class SnapshotWriter {
  public:
-  /// Positions and orders are counted from `origin`, which the client knows under `slot` (0: Origin{}).
+  /// Begins a snapshot whose positions and orders are relative to `origin`, which the client has in `slot`
+  /// (0: Origin{}).
   void beginSnapshot(const SnapshotHeader& header, std::uint32_t slot, const Origin& origin);
   void write(const WorldRecord& record);
   void write(const ViewRecord& record);
   void write(const OriginRecord& record);
   void write(const TextRecord& record);
-  /// A table of controls, as writeControlTable() wrote it.
+  /// Adds a control table, as encoded by writeControlTable().
   void writeTable(std::string_view bytes);
-  /// It must hold at the header's tick, its newest input be the header's if that has one.
+  /// Adds a record that holds at the header's tick; its newest input must be the header's if that has one.
   void write(const ControlRecord& record);
 
-  /// The bits of an object's record but for its id. `motion` must hold at the header's tick; that of `state`
-  /// is ignored.
+  /// Encodes an object's record without its id. `motion` must hold at the header's tick; that of `state` is
+  /// ignored.
   void encode(BitWriter& out, std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
               const Motion& motion, LookForm form = {}) const;
-  /// Add an encoded record. Each id at most once.
+  /// Adds an encoded record. Each id at most once.
   void object(std::uint32_t id, const BitWriter& bits);
 
-  /// The same without a copy: encode a record to see how many bits it takes, then keep() or drop() it.
+  /// Like encode() and object() without a copy: returns the record's bits; then call keep() or drop().
   std::size_t stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
                     const SharedMotion& motion, LookForm form = {});
   void keep(std::uint32_t id);
   void drop() { m_encoded.truncate(m_kept); }
 
-  /// Would the snapshot stay within `bytes` with `more` bits for one more object, whatever its id up to
-  /// `last_id`?
+  /// True if one more object of `more` bits and any id up to `last_id` fits into `bytes`.
   bool hasRoom(std::size_t more, std::uint32_t last_id, std::size_t bytes) const;
   bool isEmpty() const { return m_objects.empty() && m_bits == kHeaderBits; }
   /// Overrides SnapshotHeader::complete of beginSnapshot().
@@ -90,15 +90,15 @@ class SnapshotWriter {
     finish(bytes);
     return bytes;
   }
-  /// The same into a string whose memory is reused.
+  /// Like finish() above, into a string whose memory is reused.
   void finish(std::string& bytes);
 
  private:
-  /// Header, counts and the bits that fill the last byte, at most.
+  /// Upper bound of header, counts and padding, in bits.
   static constexpr std::size_t kHeaderBits = 112;
   struct Object {
     std::uint32_t id;
-    std::size_t from;  ///< in m_encoded
+    std::size_t from;  ///< first bit in m_encoded
     std::size_t bits;
   };
   template <class AnyMotion>
@@ -115,13 +115,13 @@ class SnapshotWriter {
   BitWriter m_origins;
   BitWriter m_texts;
   BitWriter m_control;
-  BitWriter m_encoded;     ///< the objects, in the order they came
-  std::size_t m_kept = 0;  ///< bits of m_encoded; more are staged
-  BitWriter m_out;         ///< kept for its memory
+  BitWriter m_encoded;     ///< the objects, in the order in which they were added
+  std::size_t m_kept = 0;  ///< bits of m_encoded without the staged record
+  BitWriter m_out;         ///< a member to reuse its memory
   unsigned m_origin_count = 0;
   unsigned m_text_count = 0;
   std::vector<Object> m_objects;
-  std::size_t m_bits = 0;  ///< without ids
+  std::size_t m_bits = 0;  ///< size of the snapshot so far without ids
 };
 
 }  // namespace naiad

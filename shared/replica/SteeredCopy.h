@@ -1,9 +1,9 @@
-// A copy of the object that a player steers, ahead of its last known state: on the client to draw it, on the
-// server to find out what the client draws.
+// A copy of a player's object, advanced beyond its last known state. The client draws it; the server computes
+// with it what the client draws.
 //
-// One tick is beginTick(), applyKey() for each input, finishTick(): the order of World::tick(). It equals the
-// engine's object to the last bit as long as nothing but the table, its own motion and the barriers change
-// its path; handlers of the game, swept moves, masks and setMayMoveOut() are not known here.
+// One tick is beginTick(), applyKey() for each input, finishTick(): the order of World::tick(). The copy
+// equals the engine's object exactly if only the table, its own motion and the barriers change its path. It
+// does not know the game's handlers, swept moves, masks and setMayMoveOut().
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@
 
 namespace naiad {
 
-/// What blocks a copy.
+/// The obstacles of a copy.
 class Barriers {
  public:
   virtual ~Barriers() = default;
-  /// Would the object be blocked at `to`, in the tick that ends as `tick`? `in_update`: at its turn among
-  /// those that move; else before, among the inputs.
+  /// True if the object is blocked at `to` in the tick that ends as `tick`. `in_update`: at its turn in the
+  /// movement phase; else before it, during the inputs.
   virtual bool block(df::FixedVector to, std::uint32_t tick, bool in_update) const = 0;
 };
 
 class SteeredCopy : public Steered {
  public:
-  /// As it was at the end of `known.tick`. Without barriers nothing blocks. All must outlive the copy.
+  /// Starts at the end of `known.tick`. Without barriers nothing blocks. The arguments must outlive the copy.
   SteeredCopy(const ControlRecord& known, const df::ControlTable& table,
               const Barriers* p_barriers = nullptr);
 
@@ -33,9 +33,9 @@ class SteeredCopy : public Steered {
   void applyKey(df::Keyboard::Key key, df::EventKeyboardAction action);
   void finishTick();
 
-  /// The state after the last finishTick(); its newest_input is left to the caller.
+  /// The state after the last finishTick(); its newest_input is unchanged.
   const ControlRecord& now() const { return m_now; }
-  /// All positions since the beginning, for the view that follows it.
+  /// All positions that it moved to, for the view that follows it.
   const std::vector<df::FixedVector>& trail() const { return m_trail; }
 
   df::FixedVector position() const override { return m_now.position; }
@@ -55,8 +55,8 @@ class SteeredCopy : public Steered {
 /// Ticks after which a state that still changes by itself is sent again.
 inline constexpr int kMaxCoasting = 30;
 
-/// The state that a client which knows only `known` assumes at `tick`: no keys, no obstacles, and no change
-/// after kMaxCoasting ticks (dead reckoning). A server need not send a state that equals it.
+/// Returns the state that a client with only `known` assumes at `tick` (dead reckoning): no keys, no
+/// obstacles, no change after kMaxCoasting ticks. A server need not send an equal state.
 ControlRecord coast(const ControlRecord& known, const df::ControlTable& table, std::uint32_t tick);
 
 }  // namespace naiad

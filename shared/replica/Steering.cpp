@@ -28,7 +28,7 @@ Axes driven(const ControlTable& table) {
   return axes;
 }
 
-/// The velocity with which something that is no longer driven gets to the next whole cell.
+/// Returns the velocity of an object that is no longer driven, on its way to the next whole cell.
 Fixed glide(Fixed position, Fixed velocity) {
   constexpr Fixed kFraction = df::kFixedOne - 1;
   const Fixed passed = position & kFraction;
@@ -51,7 +51,7 @@ bool isOutside(const ControlTable& table, df::FixedVector p) {
                            isOutside(p.y, table.bounds.corner.y, table.bounds.size.y));
 }
 
-/// The velocity that the drives ask for. Any velocity, a drive's or not, ends at the bounds, axis by axis.
+/// Sets the velocity of the drives. Any velocity, of a drive or not, ends at the bounds, axis by axis.
 void setOff(const ControlTable& table, const ControlState& state, Steered& object) {
   const Axes axes = driven(table);
   const df::FixedVector at = object.position();
@@ -70,7 +70,7 @@ void pull(ControlLever& lever, Fixed to, bool down) {
   if (down) {
     lever = {to, false};
   } else if (lever.pull == to) {
-    lever.let_go = true;  // with the next tick: a key that goes down and up within one still counts in it
+    lever.let_go = true;  // from the next tick on, so a key pressed and released in one tick still acts
   }
 }
 

@@ -1,7 +1,7 @@
-// What a table of controls does to an object: the one function that server and client run.
+// Applies a control table to an object. Server and client both run these functions.
 //
 // In each tick: beginControlTick() once, then applyControlKey() for each key in the order the keys came, then
-// the world moves everything by its velocity. Pure integer; nothing is read but the arguments.
+// the world moves all objects by their velocities. Uses only integers and the arguments.
 #pragma once
 
 #include "shared/values/ControlTable.h"
@@ -9,25 +9,24 @@
 
 namespace naiad {
 
-/// The object that is steered: the engine's, or the client's copy that runs ahead.
+/// The steered object: the engine's, or the client's predicted copy.
 class Steered {
  public:
   virtual ~Steered() = default;
   virtual df::FixedVector position() const = 0;
-  /// What a tick adds to the position.
+  /// The change of the position per tick.
   virtual df::FixedVector velocity() const = 0;
   virtual void setVelocity(df::FixedVector velocity) = 0;
-  /// Move there unless something blocks it, by the rules of the book's moveObject(): all or nothing.
+  /// Moves to `position` unless something blocks it, like the book's moveObject(): all or nothing.
   virtual void moveTo(df::FixedVector position) = 0;
 };
 
-/// A tick begins: waits get shorter, keys that went up in the last tick no longer pull, a keyboard that has
-/// been silent for too long releases its drives; then the drives and the bounds set the velocity.
+/// Begins a tick: shortens waits, ends the pull of keys released in the last tick, and ends all drives if the
+/// keyboard was silent for too long. Then drives and bounds set the velocity.
 void beginControlTick(const df::ControlTable& table, df::ControlState& state, Steered& object);
 
-/// Apply an action of a key. A drive acts immediately when its key is pressed, and with the next tick when
-/// the key is reported as held or goes up. Returns whether a row of the table is for the key (and there is an
-/// object to steer).
+/// Applies an action of a key. A drive acts immediately when its key is pressed, and with the next tick when
+/// the key is reported as held or released. Returns true if a row is for the key and an object is steered.
 bool applyControlKey(const df::ControlTable& table, df::ControlState& state, df::Keyboard::Key key,
                      df::EventKeyboardAction action, Steered& object);
 

@@ -34,7 +34,7 @@ void TruthWriter::write(std::uint32_t tick, std::uint32_t player, const df::Canv
 TruthReader::TruthReader(const std::string& path) : m_in(path, std::ios::binary) {}
 
 std::optional<TruthRecord> TruthReader::next() {
-  // getline() at the very end of an unfinished file also yields a line, but sets eof: not a whole one.
+  // getline() also returns an incomplete last line, but then it sets eof.
   const auto line = [this](std::string& into) { return std::getline(m_in, into) && !m_in.eof(); };
   const auto malformed = [this]() -> std::optional<TruthRecord> {
     m_malformed = true;

@@ -1,5 +1,5 @@
-// The truth file: what each player should see, tick by tick, as `dfserver --truth` writes it from the
-// engine's own display (not from the encoder) and `dfbot --truth` compares its replica with.
+// The truth file: the correct picture of each player at each tick. `dfserver --truth` writes it from the
+// engine's own display (not from the encoder), and `dfbot --truth` compares its replica with it.
 //
 // Text, one record per tick and player, in the order of ticks:
 //
@@ -8,7 +8,7 @@
 //   …                            24 lines of 80 colour digits 0-7; '.' where the character is a blank
 //                                an empty line
 //
-// A file that is still being written ends anywhere; what follows the last whole record is ignored.
+// A file that is still being written may end anywhere; an incomplete last record is ignored.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ namespace naiad {
 
 class TruthWriter {
  public:
-  /// Creates the file, or empties it. Check isGood(): the directory may not exist, the disk may be full.
+  /// Creates or empties the file. Check isGood(): the directory may not exist, the disk may be full.
   explicit TruthWriter(const std::string& path);
 
-  /// Append one record and hand it to the operating system.
+  /// Appends one record and passes it to the operating system.
   void write(std::uint32_t tick, std::uint32_t player, const df::Canvas& canvas);
   bool isGood() const { return m_out.good(); }
 
@@ -46,7 +46,7 @@ class TruthReader {
   explicit TruthReader(const std::string& path);
   bool isOpen() const { return m_in.is_open(); }
 
-  /// The next record; nothing at the end, at a record that is not whole, or at bytes that are none (then
+  /// Returns the next record; nullopt at the end, at an incomplete record, or at invalid bytes (then
   /// isMalformed()).
   std::optional<TruthRecord> next();
   bool isMalformed() const { return m_malformed; }

@@ -1,4 +1,5 @@
-// What a client sends while it plays: what arrived, and what its player did. The same bytes on both channels.
+// The message that a client sends while it plays: the snapshots that arrived, and the player's inputs. Its
+// bytes are equal on both channels.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +16,12 @@ namespace naiad {
 /// One key or mouse action. Ids count up from 1 in a session; the server applies each once, in order.
 struct Input {
   std::uint32_t id = 0;
-  std::uint32_t tick = 0;      ///< of a key: the one that should apply it; of the mouse: the one drawn
-  std::uint32_t snapshot = 0;  ///< the newest snapshot applied then
+  std::uint32_t tick = 0;      ///< key: the tick that should apply it; mouse: the tick that was drawn
+  std::uint32_t snapshot = 0;  ///< newest snapshot applied at that time
   bool is_mouse = false;
   std::uint8_t action = 0;  ///< df::EventKeyboardAction or df::EventMouseAction
   std::uint8_t key = 0;     ///< df::Keyboard::Key
-  std::uint8_t button = 0;  ///< df::Mouse::Button + 1; 0 is none
+  std::uint8_t button = 0;  ///< df::Mouse::Button + 1; 0: no button
   std::uint16_t x = 0;      ///< cell of the player's view
   std::uint16_t y = 0;
   friend bool operator==(const Input&, const Input&) = default;
@@ -28,26 +29,26 @@ struct Input {
 
 struct ClientUpdate {
   AckWindow acks;                         ///< newest 0: nothing arrived yet
-  std::optional<std::uint64_t> checksum;  ///< of the replica that has just what `acks` says
-  bool wants_reset = false;               ///< the world is beyond repair: send all of it again
-  std::vector<Input> inputs;              ///< those that no snapshot has acknowledged, with ids in a row
+  std::optional<std::uint64_t> checksum;  ///< checksum of the replica with exactly the snapshots in `acks`
+  bool wants_reset = false;               ///< true if the replica is unusable: send the whole world again
+  std::vector<Input> inputs;              ///< unacknowledged inputs, with consecutive ids
 };
 
-/// Inputs in one update, at most.
+/// Most inputs in one update.
 inline constexpr std::size_t kMaxUpdateInputs = 48;
-/// Bytes of an update, at most.
+/// Most bytes of an update.
 inline constexpr std::size_t kMaxUpdate = 1024;
 
-/// Encode; of too many inputs the first ones are taken.
+/// Encodes an update with its first kMaxUpdateInputs inputs.
 std::string writeUpdate(const ClientUpdate& update);
 
-/// Numbers of which the update carries the low bits only are restored near these.
+/// The newest known numbers. The update has only the low bits of its numbers, which are restored from these.
 struct UpdateContext {
-  std::uint32_t snapshot = 0;  ///< newest sent
-  std::uint32_t tick = 0;      ///< newest published
-  std::uint32_t input = 0;     ///< newest received
+  std::uint32_t snapshot = 0;  ///< newest sent snapshot
+  std::uint32_t tick = 0;      ///< newest published tick
+  std::uint32_t input = 0;     ///< newest received input
 };
-/// Decode; nothing if any byte is malformed or any number out of its range.
+/// Decodes an update; nullopt if a byte is malformed or a number out of its range.
 std::optional<ClientUpdate> readUpdate(std::string_view bytes, const UpdateContext& context);
 
 }  // namespace naiad

@@ -6,7 +6,7 @@ namespace naiad {
 
 namespace {
 
-// Saturating, because boundary and target may come from a hostile server.
+// Adds with saturation, because boundary and target may come from a hostile server.
 df::Fixed add(df::Fixed a, df::Fixed b) {
   df::Fixed sum = 0;
   if (!__builtin_add_overflow(a, b, &sum)) return sum;
@@ -42,7 +42,7 @@ df::FixedVector followView(const ViewFrame& f, df::FixedVector target) {
 df::FixedVector viewCornerAt(const ViewFrame& frame, std::uint32_t known, const Motion* motion,
                              std::uint32_t tick) {
   if (motion == nullptr || static_cast<std::int32_t>(tick - known) <= 0) return frame.corner;
-  // Along a straight path, following every step ends where following the first and the last does.
+  // A straight path needs only the first and the last step, with the result of following each step.
   const std::uint32_t from = static_cast<std::int32_t>(motion->tick - known) > 0 ? motion->tick : known + 1;
   ViewFrame moved = frame;
   moved.corner = followView(moved, positionAt(*motion, from));

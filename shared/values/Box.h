@@ -7,13 +7,13 @@ namespace df {
 
 class Box {
  public:
-  /// Corner (0,0), size 0 by 0.
+  /// Makes a box with corner (0,0) and size 0 by 0.
   Box() = default;
-  /// Upper left `corner`, `horizontal` cells wide and `vertical` cells high (both >= 0).
+  /// Makes a box with upper left `corner`, `horizontal` cells wide and `vertical` cells high (both >= 0).
   Box(Vector corner, double horizontal, double vertical)
       : m_corner(corner), m_horizontal(horizontal), m_vertical(vertical) {}
 
-  /// Upper left corner, in cells. Of an Object's box: relative to its position.
+  /// Upper left corner, in cells. In an Object's box, relative to its position.
   void setCorner(Vector corner) { m_corner = corner; }
   Vector getCorner() const { return m_corner; }
   /// Width, in cells.
@@ -22,11 +22,11 @@ class Box {
   /// Height, in cells.
   void setVertical(double vertical) { m_vertical = vertical; }
   float getVertical() const { return static_cast<float>(m_vertical); }
-  /// The sizes with all digits.
+  /// The sizes in double precision.
   double width() const { return m_horizontal; }
   double height() const { return m_vertical; }
 
-  /// Corner, horizontal and vertical size, "(x,y),horizontal,vertical".
+  /// Returns corner, horizontal and vertical size as "(x,y),horizontal,vertical".
   std::string toString() const;
 
   friend bool operator==(const Box& a, const Box& b) {
@@ -41,12 +41,12 @@ class Box {
 };
 
 #if __cplusplus >= 201703L
-/// The box in fixed point; nothing if a number is not finite, a size is negative, the corner is beyond
-/// 1e6 cells or a size beyond `size_limit` cells.
+/// The box in fixed point; nullopt if a number is not finite, a size is negative, the corner is beyond 1e6
+/// cells or a size beyond `size_limit` cells.
 std::optional<FixedBox> toFixed(const Box& box, double size_limit = 1e6);
 #endif
 
-/// The box of a fixed-point box.
+/// Converts a fixed-point box.
 Box fromFixed(const FixedBox& box);
 
 }  // namespace df

@@ -98,8 +98,8 @@ std::u32string decodeUtf8(const std::string& text) {
   return out;
 }
 
-// A table of the ranges that occupy exactly one column would be long; games draw ASCII, Latin, Greek,
-// Cyrillic, box drawing, blocks, arrows and a few symbols, so those are what is let through.
+// A complete table of one-column ranges would be long. Games draw ASCII, Latin, Greek, Cyrillic, box drawing,
+// blocks, arrows and a few symbols, so only those are allowed.
 bool isDrawable(char32_t ch) {
   struct Range {
     char32_t first;
@@ -107,7 +107,7 @@ bool isDrawable(char32_t ch) {
   };
   static constexpr std::array<Range, 9> kNarrow = {{{0x20, 0x7E},
                                                     {0xA0, 0xAC},        // Latin-1, without the soft hyphen
-                                                    {0xAE, 0x2FF},       // to the modifier letters
+                                                    {0xAE, 0x2FF},       // up to the modifier letters
                                                     {0x370, 0x373},      // Greek
                                                     {0x384, 0x482},      // Greek, Cyrillic
                                                     {0x2010, 0x2027},    // dashes, quotes, dots

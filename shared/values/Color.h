@@ -16,12 +16,12 @@ enum Color {
   MAGENTA,
   CYAN,
   WHITE,
-  CUSTOM,  ///< a mix of red, green and blue, where a game gives one; never on the wire, never in a cell
+  CUSTOM,  ///< a game's mix of red, green and blue; never on the wire or in a cell
 };
 
-/// What is drawn without a colour.
+/// The colour of characters without a colour.
 inline constexpr Color COLOR_DEFAULT = WHITE;
-/// Colours that a terminal shows.
+/// The number of colours that a terminal shows.
 inline constexpr int kColorCount = 8;
 
 }  // namespace df

@@ -1,8 +1,8 @@
-// How a player's keys move their Object, as data: what a game declares (Controls.h), the server runs on the
-// Object, and the client runs ahead of the server's answer on its own copy. Steering.h has the one function
-// that both run.
+// The table of a player's keys and their effects on the player's Object. A game declares it (Controls.h), the
+// server applies it to the Object, and the client applies it in advance to its own copy. Both call the
+// functions in Steering.h.
 //
-// Plain data, lengths in fixed point (cells · 2^32), times in ticks.
+// Plain data. Lengths are in fixed point (cells · 2^32), times in ticks.
 #pragma once
 
 #include <array>
@@ -16,29 +16,29 @@
 namespace df {
 
 inline constexpr std::size_t kMaxControlRows = 32;
-/// Groups of rows that wait for each other.
+/// Number of groups of rows that share a wait.
 inline constexpr std::size_t kControlGroups = 8;
-/// Longest wait between two effects, and longest patience with a silent keyboard, in ticks.
+/// Longest `wait` and `patience`, in ticks.
 inline constexpr std::uint16_t kMaxControlTicks = 9000;
-/// Farthest step, and fastest velocity of an axis, in cells.
+/// Farthest step in cells, and fastest velocity of an axis in cells per tick.
 inline constexpr Fixed kMaxControlReach = fromCells(1024);
 
-/// What a row does to the Object.
+/// The effect of a row on the Object.
 enum class ControlEffect : std::uint8_t {
-  kStep,      ///< one moveObject() by `value`, at once
-  kVelocity,  ///< from now on this velocity, on the axes that the row names
-  kDrive,     ///< this velocity, on those axes, while the key is down; then to rest
+  kStep,      ///< one moveObject() by `value`, immediately
+  kVelocity,  ///< sets this velocity on the axes of the row
+  kDrive,     ///< this velocity on those axes while the key is down; then rest
 };
 
-/// What one key does.
+/// The effect of one key.
 struct ControlRow {
   Keyboard::Key key = Keyboard::SPACE;
-  EventKeyboardAction action = KEY_PRESSED;  ///< kDrive: KEY_PRESSED, and stands for all three
+  EventKeyboardAction action = KEY_PRESSED;  ///< the key's action; kDrive: KEY_PRESSED, meaning all three
   ControlEffect effect = ControlEffect::kStep;
-  bool x = true;  ///< the row names the x axis (a step: always both)
+  bool x = true;  ///< true if the row affects the x axis (kStep: always both)
   bool y = true;
-  FixedVector value;       ///< of a step: how far; else the velocity in cells per tick; 0 on unnamed axes
-  std::uint16_t wait = 0;  ///< ticks from one effect to the next of any row of the group; 0 and 1: no wait
+  FixedVector value;       ///< kStep: distance in cells; else velocity in cells per tick; 0 on other axes
+  std::uint16_t wait = 0;  ///< ticks between two effects of the group's rows; 0 and 1: no wait
   std::uint8_t group = 0;
 
   friend bool operator==(const ControlRow& a, const ControlRow& b) {
@@ -51,9 +51,9 @@ struct ControlRow {
 struct ControlTable {
   std::vector<ControlRow> rows;
   bool bounded = false;
-  FixedBox bounds;             ///< if bounded: positions, edges included, that no key leads out of
-  bool whole_cells = false;    ///< what is driven comes to rest on the next whole cell, not where it is
-  std::uint16_t patience = 0;  ///< all drives are let go after so many ticks without a key; 0: never
+  FixedBox bounds;             ///< positions, edges included, that keys cannot leave if bounded
+  bool whole_cells = false;    ///< a drive ends on the next whole cell, not where the Object is
+  std::uint16_t patience = 0;  ///< drives end after this many ticks without a key; 0: never
 
   friend bool operator==(const ControlTable& a, const ControlTable& b) {
     return a.rows == b.rows && a.bounded == b.bounded && a.bounds == b.bounds &&
@@ -62,13 +62,13 @@ struct ControlTable {
   friend bool operator!=(const ControlTable& a, const ControlTable& b) { return !(a == b); }
 };
 
-/// Is every number of the table within its range?
+/// True if every number of the table is in its range.
 bool isValid(const ControlTable& table);
 
-/// One axis that keys drive.
+/// The state of an axis that keys drive.
 struct ControlLever {
-  Fixed pull = 0;       ///< the velocity that the key pulled last asks for; 0: none does
-  bool let_go = false;  ///< its key went up: the pull ends with the next tick
+  Fixed pull = 0;       ///< velocity that the newest key asks for; 0: no key does
+  bool let_go = false;  ///< its key was released: the pull ends with the next tick
 
   friend bool operator==(const ControlLever& a, const ControlLever& b) {
     return a.pull == b.pull && a.let_go == b.let_go;
@@ -76,12 +76,12 @@ struct ControlLever {
   friend bool operator!=(const ControlLever& a, const ControlLever& b) { return !(a == b); }
 };
 
-/// What the table has to remember from tick to tick.
+/// The state of a table between ticks.
 struct ControlState {
-  bool steering = false;  ///< keys have effects; otherwise they are only remembered
+  bool steering = false;  ///< keys have effects; otherwise they are only recorded
   ControlLever x;
   ControlLever y;
-  std::uint16_t silence = 0;                         ///< ticks since the last key, if there is a patience
+  std::uint16_t silence = 0;                         ///< ticks since the last key, if `patience` is set
   std::array<std::uint16_t, kControlGroups> wait{};  ///< ticks until the group may act again
 
   friend bool operator==(const ControlState& a, const ControlState& b) {

@@ -1,6 +1,6 @@
-// Which C++ the public headers are read as. The engine is C++20; games are what they are: the Makefile that
-// comes with the published engine says -std=c++11. Compilers know inline variables and the like there, too,
-// and only warn.
+// The C++ version in which games read the public headers. The engine is C++20, but the Makefile of the
+// published engine compiles games with -std=c++11. Compilers accept inline variables and the like in C++11
+// with a warning, which is disabled here.
 #pragma once
 
 #if __cplusplus < 201703L && defined(__GNUC__)

@@ -1,7 +1,7 @@
-// A fast hash of 64 bits for finding differences: of worlds executed again, and of what they answer.
+// A fast 64-bit hash to find differences between replayed worlds and between their answers.
 //
-// Each step multiplies two words to 128 bits and folds the halves, as wyhash does (Wang Yi, 2019). The same
-// on every machine. Not for secrets, and not against someone who looks for collisions.
+// Each step multiplies two words to 128 bits and folds the halves, as wyhash does (Wang Yi, 2019). Equal on
+// every machine. Not cryptographic: collisions can be constructed.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class FastHash {
   void bytes(std::string_view data) {
     std::uint64_t other = kSecond;
     word(data.size());
-    for (; data.size() >= 32; data.remove_prefix(32)) {  // two chains, so that the processor has two to do
+    for (; data.size() >= 32; data.remove_prefix(32)) {  // two chains, which the processor runs in parallel
       m_state = fold(at(data, 0) ^ kFirst, at(data, 8) ^ m_state);
       other = fold(at(data, 16) ^ kSecond, at(data, 24) ^ other);
     }

@@ -1,12 +1,11 @@
-// Fixed-point world coordinates: the one number type of the world store, the replica and the wire.
+// Fixed-point world coordinates: the only number type of the world store, the replica and the wire.
 //
-// A coordinate is an int64 in units of 2^-32 cell. Sums of coordinates are exact and associative, so a
-// path is the same wherever in the world it lies, on every compiler and at every optimisation level, and
-// server and client that add the same numbers hold the same numbers.
+// A coordinate is an int64 in units of 2^-32 cell. Sums of coordinates are exact and associative, so a path
+// does not depend on its place in the world, the compiler or the optimisation level, and server and client
+// get equal sums.
 //
-// Ranges: a position is within ±kMaxCells on each axis (2e9 cells; the type itself reaches 2^31), a
-// velocity or acceleration within ±kMaxVelocityCells per tick. Both fit together: a legal position plus a
-// legal velocity never overflows.
+// Ranges: a position is within ±kMaxCells on each axis (2e9 cells; the type itself reaches 2^31), a velocity
+// or acceleration within ±kMaxVelocityCells per tick. A valid position plus a valid velocity never overflows.
 #pragma once
 
 #include <cmath>
@@ -29,7 +28,7 @@ inline constexpr double kMaxCells = 2e9;
 /// Largest magnitude of a velocity or acceleration component, in cells per tick (2^24).
 inline constexpr double kMaxVelocityCells = 16777216.0;
 
-/// A pair of coordinates. Plain data; arithmetic is exact as long as the ranges above are kept.
+/// A pair of coordinates. Plain data; arithmetic is exact within the ranges above.
 struct FixedVector {
   Fixed x = 0;
   Fixed y = 0;
@@ -38,7 +37,7 @@ struct FixedVector {
   friend constexpr bool operator!=(FixedVector a, FixedVector b) { return !(a == b); }
 };
 
-/// An axis-aligned box in fixed point: corner is the upper left one, size is non-negative.
+/// An axis-aligned box in fixed point: upper left corner, and size >= 0.
 struct FixedBox {
   FixedVector corner;
   FixedVector size;
@@ -49,17 +48,17 @@ struct FixedBox {
   friend constexpr bool operator!=(const FixedBox& a, const FixedBox& b) { return !(a == b); }
 };
 
-/// Fixed point -> cells. Exact up to 2^21 cells; beyond that rounded to the nearest double.
+/// Converts fixed point to cells. Exact up to 2^21 cells; beyond that rounded to the nearest double.
 constexpr double toCells(Fixed value) {
   return static_cast<double>(value) / static_cast<double>(kFixedOne);
 }
 
-/// A whole number of cells as a coordinate.
+/// Converts a whole number of cells.
 constexpr Fixed fromCells(std::int32_t cells) {
   return static_cast<Fixed>(cells) * kFixedOne;
 }
 
-#if __cplusplus >= 201703L  // games have no use for what follows
+#if __cplusplus >= 201703L  // games do not need the rest
 
 constexpr FixedVector operator+(FixedVector a, FixedVector b) {
   return {a.x + b.x, a.y + b.y};
@@ -68,26 +67,26 @@ constexpr FixedVector operator-(FixedVector a, FixedVector b) {
   return {a.x - b.x, a.y - b.y};
 }
 
-/// `box` moved by `offset`.
+/// Returns `box` moved by `offset`.
 constexpr FixedBox translate(FixedBox box, FixedVector offset) {
   return {box.corner + offset, box.size};
 }
 
-/// Do two closed boxes share a point? Touching edges intersect (book, positionsIntersect: |dx| <= 1).
+/// True if two closed boxes share a point. Touching edges count (book, positionsIntersect: |dx| <= 1).
 constexpr bool intersects(const FixedBox& a, const FixedBox& b) {
   return a.corner.x <= b.corner.x + b.size.x && b.corner.x <= a.corner.x + a.size.x &&
          a.corner.y <= b.corner.y + b.size.y && b.corner.y <= a.corner.y + a.size.y;
 }
 
-/// Cells -> fixed point, rounded to nearest (ties to even). Nothing if `cells` is not finite or exceeds
-/// `limit` in magnitude.
+/// Converts cells to fixed point, rounded to nearest (ties to even). Returns nullopt if `cells` is not finite
+/// or exceeds `limit` in magnitude.
 inline std::optional<Fixed> toFixed(double cells, double limit = kMaxCells) {
-  if (!(cells >= -limit && cells <= limit)) return std::nullopt;  // catches NaN as well
+  if (!(cells >= -limit && cells <= limit)) return std::nullopt;  // also catches NaN
   return static_cast<Fixed>(std::llrint(cells * static_cast<double>(kFixedOne)));
 }
 
-/// The character cell in which a coordinate is drawn: floor(v + 0.5), everywhere (server, client, mouse).
-/// Unsigned inside, so that a number from a hostile peer wraps instead of overflowing.
+/// Returns the character cell in which a coordinate is drawn: floor(v + 0.5), everywhere (server, client,
+/// mouse). Adds as unsigned, so that a number from a hostile peer wraps instead of overflowing.
 constexpr std::int32_t cellOf(Fixed value) {
   const auto shifted = static_cast<std::uint64_t>(value) + static_cast<std::uint64_t>(kFixedOne / 2);
   return static_cast<std::int32_t>(static_cast<Fixed>(shifted) >> kFixedBits);

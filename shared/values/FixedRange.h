@@ -1,4 +1,4 @@
-// The largest places and velocities as fixed-point numbers, and what is compared with such.
+// The largest position and velocity components as fixed-point numbers, and a comparison with them.
 #pragma once
 
 #include "shared/values/Fixed.h"
@@ -8,7 +8,7 @@ namespace df {
 inline constexpr Fixed kMaxPosition = static_cast<Fixed>(kMaxCells) * kFixedOne;
 inline constexpr Fixed kMaxVelocity = static_cast<Fixed>(kMaxVelocityCells) * kFixedOne;
 
-/// No coordinate is farther from 0 than `most`.
+/// True if no component is farther from 0 than `most`.
 constexpr bool isWithin(FixedVector v, Fixed most) {
   return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most;
 }

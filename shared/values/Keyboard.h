@@ -1,5 +1,5 @@
-// Keys and mouse buttons: names the game reads and numbers the wire carries (book, Listings 4.84 to 4.88).
-// All have int as their type, so that one cast from any number can be compared with those that exist.
+// Keys and mouse buttons: names for games and numbers on the wire (book, Listings 4.84 to 4.88). Their type
+// is int, so that any number can be cast to them and compared with the known ones.
 #pragma once
 
 #include "detail/Dialect.h"
@@ -93,7 +93,7 @@ enum Key : int {
   END,
   PAGEUP,
   PAGEDOWN,
-  // The published engine's names for what comes as another key or not at all: never on the wire.
+  // Names of the published engine for keys that are reported as other keys or not at all: never on the wire.
   MULTIPLY,
   QMARK,
   GRAVE,
@@ -101,12 +101,12 @@ enum Key : int {
   RBRACKET = RIGHTBRACKET,
 };
 
-/// Keys that travel on the wire.
+/// Number of keys that travel on the wire.
 inline constexpr int kKeyCount = PAGEDOWN + 1;
 
 }  // namespace Keyboard
 
-/// What happened to a key.
+/// The action of a key.
 enum EventKeyboardAction : int {
   UNDEFINED_KEYBOARD_ACTION = -1,
   KEY_PRESSED = 0,  ///< The key went down.
@@ -123,12 +123,12 @@ enum Button : int {
   RIGHT,
   MIDDLE,
 };
-/// The older name.
+/// The old name.
 using EventMouseButton = Button;
 
 }  // namespace Mouse
 
-/// What the mouse did.
+/// The action of the mouse.
 enum EventMouseAction : int {
   UNDEFINED_MOUSE_ACTION = -1,
   CLICKED = 0,  ///< A button went down.

@@ -1,4 +1,4 @@
-// Numbers as the wire has them: the lowest byte first.
+// Stores and loads numbers in wire order: lowest byte first.
 #pragma once
 
 #include <concepts>

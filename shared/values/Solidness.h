@@ -1,4 +1,4 @@
-// How an Object takes part in collisions (book, Listing 4.103).
+// The role of an Object in collisions (book, Listing 4.103).
 #pragma once
 
 namespace df {

@@ -5,7 +5,7 @@
 
 namespace df {
 
-// sqrt is correctly rounded by IEEE 754, hypot is not: only the former is the same on every machine.
+// IEEE 754 rounds sqrt correctly, but not hypot: only sqrt is equal on every machine.
 static double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }

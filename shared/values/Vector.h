@@ -1,8 +1,8 @@
 // A 2d vector in cells: positions, directions, velocities (book, Listing 4.26 and following).
 //
-// The components are doubles; getX() and getY() return float, as the book prints them, and x() and y()
-// return all digits. y grows downward. The World stores positions in fixed point (Fixed.h), so what a
-// Vector carries into the world is rounded to 2^-32 cell there.
+// The components are doubles; getX() and getY() return float, as the book prints them, and x() and y() return
+// the doubles. y grows downward. The World stores positions in fixed point (Fixed.h), so it rounds the
+// components to 2^-32 cell.
 #pragma once
 
 #include <iosfwd>
@@ -14,34 +14,34 @@ namespace df {
 
 class Vector {
  public:
-  /// (0, 0).
+  /// Makes the vector (0, 0).
   constexpr Vector() = default;
   constexpr Vector(double x, double y) : m_x(x), m_y(y) {}
-  /// The exact value of a fixed-point vector (rounded beyond 2^21 cells, see Fixed.h).
+  /// Returns the exact value of a fixed-point vector (rounded beyond 2^21 cells, see Fixed.h).
   static constexpr Vector fromFixed(FixedVector v) { return {toCells(v.x), toCells(v.y)}; }
 
-  /// In cells, or cells per tick.
+  /// Sets the components, in cells or cells per tick.
   void setX(double x) { m_x = x; }
   void setY(double y) { m_y = y; }
   void setXY(double x, double y) {
     m_x = x;
     m_y = y;
   }
-  /// As floats, as in the book; x() and y() keep all digits.
+  /// Returns the component as a float, as in the book.
   float getX() const { return static_cast<float>(m_x); }
   float getY() const { return static_cast<float>(m_y); }
-  /// All digits, where the book's float is too short (positions beyond about 10,000 cells).
+  /// Returns the component in double precision: a float is too short beyond about 10,000 cells.
   constexpr double x() const { return m_x; }
   constexpr double y() const { return m_y; }
 
-  /// Length, in the unit of the components. 0 for the zero vector.
+  /// Returns the length, in the unit of the components; 0 for the zero vector.
   float getMagnitude() const;
-  /// Multiply both components by `s`.
+  /// Multiplies both components by `s`.
   void scale(double s);
-  /// Make the length 1, keeping the direction. The zero vector stays as it is.
+  /// Sets the length to 1 and keeps the direction. The zero vector is unchanged.
   void normalize();
 
-  /// Component by component.
+  /// Add and subtract component by component.
   Vector& operator+=(const Vector& other);
   Vector& operator-=(const Vector& other);
   friend Vector operator+(Vector a, const Vector& b) { return a += b; }
@@ -51,14 +51,14 @@ class Vector {
   }
   friend constexpr bool operator!=(const Vector& a, const Vector& b) { return !(a == b); }
 
-  /// Is it (0,0)?
+  /// True for (0,0).
   bool operator!() const { return m_x == 0 && m_y == 0; }
 
-  /// Write both components, and read them. Return 0, or -1 if the stream failed.
+  /// Write and read both components. Return 0, or -1 if the stream failed.
   int serialize(std::stringstream* p_ss) const;
   int deserialize(std::stringstream* p_ss);
 
-  /// "(x,y)", for log lines.
+  /// Returns "(x,y)", for log lines.
   std::string toString() const;
 
  private:
@@ -67,7 +67,7 @@ class Vector {
 };
 
 #if __cplusplus >= 201703L
-/// Both components in fixed point; nothing if either is not finite or beyond `limit` cells.
+/// Converts both components to fixed point; nullopt if either is not finite or beyond `limit` cells.
 inline std::optional<FixedVector> toFixed(const Vector& v, double limit = kMaxCells) {
   const auto x = toFixed(v.x(), limit);
   const auto y = toFixed(v.y(), limit);

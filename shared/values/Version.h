@@ -3,7 +3,7 @@
 
 namespace naiad {
 
-/// Of programs and library.
+/// The version of the programs and the library.
 inline constexpr const char* kVersion = "0.2.0";
 
 }  // namespace naiad

@@ -37,7 +37,7 @@ bool AddressPrefix::isIPv4() const {
   return std::memcmp(&bits_, kMappedIPv4.data() + sizeof bits_, kMappedIPv4.size() - sizeof bits_) == 0;
 }
 
-// The last `bytes` of the eight are zero.
+// Returns the prefix with the last `bytes` of its 8 bytes cleared.
 AddressPrefix AddressPrefix::without(std::size_t bytes) const {
   AddressPrefix wider = *this;
   std::memset(reinterpret_cast<char*>(&wider.bits_) + sizeof bits_ - bytes, 0, bytes);

@@ -1,4 +1,4 @@
-// The key of limits per address: an IPv4 address, or an IPv6 network of 64 bits; and an address with a port.
+// The key of per-address limits (an IPv4 address or an IPv6 /64 network), and an address with a port.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace naiad {
 
-/// The bytes in front of an IPv4 address that is mapped into IPv6: ::ffff:a.b.c.d.
+/// The first bytes of an IPv4 address that is mapped into IPv6: ::ffff:a.b.c.d.
 inline constexpr std::array<std::uint8_t, 12> kMappedIPv4{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
 
-/// A household has one IPv4 address, or a /64 of which it can use any address: limits count by these.
+/// The unit of per-address limits: a household has one IPv4 address, or a /64 of IPv6 addresses.
 class AddressPrefix {
  public:
   /// The network-order bytes of an IPv6 address, or of an IPv4 address mapped into IPv6 (::ffff:a.b.c.d).
@@ -23,13 +23,12 @@ class AddressPrefix {
   explicit AddressPrefix(const Bytes& address);
   /// The /32 of an IPv4 address (mapped into IPv6 or not), the /64 of an IPv6 address.
   static AddressPrefix of(const asio::ip::address& address);
-  /// Of "127.0.0.1:40000" or "[::1]:40000", as ReliableChannel::peerAddress() gives it. Nothing for other
-  /// texts.
+  /// Returns the prefix of "127.0.0.1:40000" or "[::1]:40000" (ReliableChannel::peerAddress()), else nullopt.
   static std::optional<AddressPrefix> ofEndpoint(std::string_view text);
 
-  /// What a small customer can have: the /24 of an IPv4 address, the /56 of an IPv6 network.
+  /// The range of a small customer: the /24 of an IPv4 address, the /56 of an IPv6 network.
   AddressPrefix wide() const;
-  /// What a large customer can have: the /24 of an IPv4 address, the /48 of an IPv6 network.
+  /// The range of a large customer: the /24 of an IPv4 address, the /48 of an IPv6 network.
   AddressPrefix widest() const;
 
   friend bool operator==(const AddressPrefix&, const AddressPrefix&) = default;
@@ -43,7 +42,7 @@ class AddressPrefix {
   std::uint64_t bits_ = 0;
 };
 
-/// IPv4 mapped into IPv6 as IPv4, everything else as it is.
+/// Returns an IPv4 address for one that is mapped into IPv6, and other addresses unchanged.
 asio::ip::address unmapped(const asio::ip::address& address);
 
 /// "127.0.0.1:40000" or "[::1]:40000": an address, IPv6 in brackets, and a port of 0 … 65535.
@@ -51,7 +50,7 @@ struct NumericEndpoint {
   asio::ip::address address;
   std::uint16_t port = 0;
 
-  /// Nothing for other texts.
+  /// Returns nullopt for other texts.
   static std::optional<NumericEndpoint> parse(std::string_view text);
 };
 

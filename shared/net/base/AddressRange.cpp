@@ -35,13 +35,13 @@ AddressReach reachOfIPv6(const asio::ip::address_v6& address) {
   if (bytes[0] == 0x20 && bytes[1] == 0x02) return reachOfIPv4(carried(bytes, 2));
   if (address.is_loopback() || address.is_unspecified()) return AddressReach::kSelf;
   if (bytes[0] == 0xff) return AddressReach::kNone;
-  // IPv4-compatible addresses (::a.b.c.d) and the like have no use any more.
+  // IPv4-compatible addresses (::a.b.c.d) and the like are obsolete.
   if (bytes[0] == 0) return AddressReach::kNone;
   const bool is_private = (bytes[0] & 0xfe) == 0xfc || (bytes[0] == 0xfe && (bytes[1] & 0xc0) == 0x80);
   return is_private ? AddressReach::kPrivate : AddressReach::kPublic;
 }
 
-constexpr int kHouseholdBits = 64;  ///< of IPv6
+constexpr int kHouseholdBits = 64;  ///< prefix length of a household's IPv6 network
 
 int widthOf(const asio::ip::address& address) {
   return address.is_v4() ? 32 : 128;

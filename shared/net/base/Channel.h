@@ -1,9 +1,9 @@
-// The two transports a session is built on, as the protocol code sees them.
+// The two transports of a session, as the protocol code sees them.
 //
-// A ReliableChannel carries frames in order, each whole or not at all; a DatagramChannel carries packets
-// that may be lost, doubled or reordered. TCP and a lossy in-process link in virtual time stand behind
-// them; the protocol code is the same for both. Neither interface blocks, and neither is thread-safe:
-// callbacks come on the thread that runs the channel's event loop.
+// A ReliableChannel carries frames in order, each complete or not at all; a DatagramChannel carries packets
+// that may be lost, duplicated or reordered. The implementations are TCP, UDP and a lossy in-process link in
+// virtual time. Neither interface blocks or is thread-safe: callbacks run on the thread of the channel's
+// event loop.
 #pragma once
 
 #include <cstddef>
@@ -14,44 +14,44 @@
 
 namespace naiad {
 
-/// Why a channel ended.
+/// The reason why a channel ended.
 enum class CloseReason {
   kLocal,     ///< close() was called here.
-  kPeer,      ///< The other end closed in order.
+  kPeer,      ///< The other end closed the connection properly.
   kError,     ///< The transport failed (reset, unreachable).
-  kProtocol,  ///< The other end sent bytes that are no frame, or a frame over the limit.
-  kOverflow,  ///< More was queued for sending than the channel's cap allows.
+  kProtocol,  ///< The other end sent an invalid frame, or one over the limit.
+  kOverflow,  ///< More bytes were queued for sending than the channel's limit allows.
 };
 
-/// A phrase for logs: "the other end closed", …
+/// Returns a phrase for logs: "the other end closed".
 std::string_view describe(CloseReason reason);
 
 class ReliableChannel {
  public:
   struct Callbacks {
-    /// One whole frame arrived. The view is valid during the call only. The callee may close the channel.
+    /// One whole frame arrived. The view is valid only during the call. The callee may close the channel.
     std::function<void(std::string_view frame)> on_frame;
-    /// The channel is finished; called once, never from inside send() or close().
+    /// The channel ended. Called once, never from inside send() or close().
     std::function<void(CloseReason)> on_closed;
   };
 
   virtual ~ReliableChannel() = default;
 
-  /// Begin to receive. Call once.
+  /// Begins to receive. Call once.
   virtual void start(Callbacks callbacks) = 0;
-  /// Queue one frame (<= the sending limit of the channel). Ignored after close.
+  /// Queues one frame (<= the channel's send limit). Ignored after close().
   virtual void send(std::string_view frame) = 0;
-  /// Bytes accepted by send() that have not left this machine yet: the queue here and the kernel's.
+  /// Bytes accepted by send() that have not left this machine: in this queue and in the kernel's.
   virtual std::size_t unsentBytes() const = 0;
-  /// Finish: what is queued is still sent (for at most a second), then the connection ends.
+  /// Sends the queued frames for at most a second, then ends the connection.
   virtual void close() = 0;
   /// "127.0.0.1:40000", for logs.
   virtual std::string peerAddress() const = 0;
   /// The largest frame accepted from the peer from now on, in bytes.
   virtual void setReceiveLimit(std::size_t bytes) = 0;
-  /// `bytes` secret bytes for `label` and `context` that only the two ends of this connection know: the same
-  /// at both, others for any other label, context, length or connection (the TLS exporter, RFC 8446 7.5).
-  /// Empty where the channel is not encrypted, and after it ended.
+  /// Returns a secret of `bytes` bytes that only the two ends of this connection know, equal at both. Other
+  /// labels, contexts, lengths and connections give other secrets (TLS exporter, RFC 8446 7.5). Empty if the
+  /// channel is not encrypted or has ended.
   virtual std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
 };
 
@@ -59,11 +59,11 @@ class DatagramChannel {
  public:
   virtual ~DatagramChannel() = default;
 
-  /// Begin to receive: `on_packet` is called once per packet; the view is valid during the call only.
+  /// Begins to receive. `on_packet` is called once per packet; the view is valid only during the call.
   virtual void start(std::function<void(std::string_view packet)> on_packet) = 0;
-  /// Send one packet (<= 1200 bytes); it may never arrive.
+  /// Sends one packet (<= 1200 bytes); it may be lost.
   virtual void send(std::string_view packet) = 0;
-  /// The largest packet that may be sent now; nothing if none may (the other end's address is not known).
+  /// The largest packet in bytes that may be sent now; nullopt while the other end's address is unknown.
   virtual std::optional<std::size_t> room() const { return 1200; }
   /// "127.0.0.1:40000", for logs.
   virtual std::string peerAddress() const = 0;

@@ -1,5 +1,5 @@
-// Sizes and counts of frames and messages, which both ends enforce. PROTOCOL.md lists them; those
-// of snapshots are in shared/replica/Limits.h.
+// Limits of the sizes and counts of frames and messages, which both ends enforce. PROTOCOL.md lists them;
+// shared/replica/Limits.h has those of snapshots.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,25 @@ inline constexpr std::uint32_t kProtocolVersion = 4;
 inline constexpr std::uint32_t kHelloMagic = 0x6e616961;
 inline constexpr std::uint16_t kDefaultPort = 9876;
 
-/// Largest frame payload, in bytes: server to client; client to server; before login.
+/// Largest frame payload in bytes: from the server; from the client; from the client before its login.
 inline constexpr std::size_t kMaxServerFrame = std::size_t{16} * 1024;
 inline constexpr std::size_t kMaxClientFrame = std::size_t{4} * 1024;
 inline constexpr std::size_t kMaxHelloFrame = 1024;
 
-/// Names and chat, in characters.
+/// Longest name and chat line, in characters.
 inline constexpr std::size_t kMaxNameLength = 16;
 inline constexpr std::size_t kMaxChatLength = 200;
-inline constexpr std::size_t kMaxNameBytes = 4 * kMaxNameLength;  ///< as UTF-8
-/// Sentences for people (refusals, goodbyes), names of games and programs, in characters.
+inline constexpr std::size_t kMaxNameBytes = 4 * kMaxNameLength;  ///< bytes of a name in UTF-8
+/// Longest message for people (refusals, goodbyes) and longest name of a game or program, in characters.
 inline constexpr std::size_t kMaxSentenceLength = 300;
 inline constexpr std::size_t kMaxProgramLength = 40;
-/// The game's lines for the help screen.
+/// Number and length, in characters, of the game's lines on the help screen.
 inline constexpr std::size_t kMaxHelpLines = 24;
 inline constexpr std::size_t kMaxHelpLength = 76;
-/// Entries of a player list (so that it fits a frame).
+/// Most entries of a player list; it fits one frame.
 inline constexpr std::size_t kMaxPlayers = 200;
 
-/// Entries of one message of sounds, and characters of a sound's label.
+/// Most sounds in one message, and most characters in a sound's label.
 inline constexpr std::size_t kMaxSounds = 16;
 inline constexpr std::size_t kMaxSoundLabel = 40;
 

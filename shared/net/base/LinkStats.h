@@ -1,4 +1,4 @@
-// What an end of a link finds out about it: the round trip, silence, whether datagrams pass. Time is passed
+// Measurements of a link by one of its ends: the round trip, silence, whether datagrams pass. Time is passed
 // in.
 #pragma once
 
@@ -7,27 +7,28 @@
 
 namespace naiad {
 
-/// Whether datagrams pass on the current path, and when to probe it. Both ends run one.
+/// Finds out whether datagrams pass on the current path, and when to probe it. Both ends run one.
 ///
-/// Evidence is what only a datagram can bring: to a server an acknowledgement of a datagram by a datagram, to
-/// a client any datagram.
+/// Evidence that they pass is, for a server, an acknowledgement of a datagram that came in a datagram, and
+/// for a client, any datagram.
 class PathProbe {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Millis = std::chrono::milliseconds;
 
-  static constexpr Millis kOpenFor{1000};     ///< after evidence
-  static constexpr Millis kProbeEvery{1000};  ///< while datagrams do not pass
-  static constexpr Millis kFirstProbes{100};  ///< in the first second of a session or path, and while open
-  /// While datagrams passed a moment ago, or there is no other way: on a line that loses most, one probe a
-  /// second hardly ever gets through and its acknowledgement back.
+  static constexpr Millis kOpenFor{1000};     ///< time for which the path counts as open after evidence
+  static constexpr Millis kProbeEvery{1000};  ///< interval while datagrams do not pass
+  static constexpr Millis kFirstProbes{100};  ///< interval while open, and in a session's or path's first
+                                              ///< second
+  /// Interval for kEagerFor after the last evidence, or always if there is no other way. On a line that loses
+  /// most packets, one probe a second rarely results in an acknowledgement.
   static constexpr Millis kEagerProbes{250};
   static constexpr std::chrono::seconds kEagerFor{10};
 
   /// Probes are due after `quiet` without evidence.
   explicit PathProbe(Millis quiet, Time now = {}) : m_quiet(quiet), m_began(now) {}
 
-  /// Another address or stream: find out again, soon.
+  /// Restarts probing after a change of address or stream.
   void renew(Time now) { m_began = now; }
   void addEvidence(Time now) {
     m_passed = true;
@@ -36,12 +37,12 @@ class PathProbe {
   void probeSent(Time now) { m_last_probe = now; }
 
   bool isOpen(Time now) const { return m_passed && now - m_last_evidence < kOpenFor; }
-  /// `only`: there is no other way.
+  /// True if a probe is due. `only`: datagrams are the only way to the other end.
   bool isDue(Time now, bool only) const {
     const bool quiet = !m_passed || now - m_last_evidence >= m_quiet;
     return quiet && now - m_last_probe >= interval(now, only);
   }
-  /// Of the last evidence, or of the last renew(), whichever came later.
+  /// The time of the last evidence or of the last renew(), the later of the two.
   Time lastChange() const { return m_last_evidence > m_began ? m_last_evidence : m_began; }
 
  private:
@@ -57,29 +58,29 @@ class PathProbe {
   bool m_passed = false;
 };
 
-/// How long the other end of a line has been silent while this end listened.
+/// Measures how long the other end of a line has been silent while this end listened.
 ///
-/// A process that gets no processor hears nothing, and when it goes on, what came in the meantime still waits
-/// to be read. So time counts as silence only as far as this end looked at the clock in it.
+/// A process that gets no CPU time receives nothing, and afterwards the bytes that arrived still wait to be
+/// read. Therefore time counts as silence only while this end calls listen().
 class IdleTimer {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Duration = Time::duration;
 
-  /// Of the time between two calls of listen() no more than this counts.
+  /// At most this much of the time between two listen() calls counts as silence.
   static constexpr std::chrono::milliseconds kMaxAtOnce{500};
 
   explicit IdleTimer(Time now) : m_since(now), m_listened(now) {}
 
-  /// Something came.
+  /// Records that something was received.
   void heard(Time now) { m_since = now; }
-  /// This end is about to look at deadlines, which it should do a few times a second.
+  /// Call before checking deadlines, a few times a second.
   void listen(Time now) {
     const Duration away = now - m_listened - kMaxAtOnce;
     if (away > Duration::zero()) m_since = std::min(m_since + away, now);
     m_listened = std::max(m_listened, now);
   }
-  /// How long it has lasted.
+  /// The length of the silence.
   Duration at(Time now) const { return now - m_since; }
 
  private:
@@ -87,7 +88,7 @@ class IdleTimer {
   Time m_listened;
 };
 
-/// The round trip: smoothed, and the shortest of late.
+/// The round-trip time: smoothed, and the shortest recent one.
 class LinkStats {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -106,9 +107,9 @@ class LinkStats {
     m_shortest = std::min(m_shortest, sample);
   }
 
-  /// 0 before the first sample.
+  /// The smoothed round trip; 0 before the first sample.
   Millis smoothed() const { return m_smoothed; }
-  /// The shortest sample of about the last ten seconds; very long before the first.
+  /// The shortest sample of about the last ten seconds; very long before the first one.
   Millis shortest() const { return std::min(m_shortest, m_shortest_before); }
 
  private:

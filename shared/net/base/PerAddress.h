@@ -1,4 +1,4 @@
-// One value for each of the address prefixes that were used last, in bounded memory.
+// A map with one value per address prefix, in bounded memory: it keeps the most recently used prefixes.
 #pragma once
 
 #include <cassert>
@@ -12,9 +12,9 @@
 
 namespace naiad {
 
-/// When the table is full, the least recently used prefix is evicted and would begin again with a fresh
-/// value. Forged addresses can at most reset the limits of others, never use them up. A lookup
-/// costs O(log capacity) whichever prefixes an attacker chooses.
+/// If the table is full, the least recently used prefix is evicted; later it starts with a new value. Forged
+/// addresses can at most reset the limits of others, never use them up. A lookup costs O(log capacity),
+/// whichever prefixes an attacker chooses.
 template <class T>
 class PerAddress {
  public:
@@ -22,8 +22,8 @@ class PerAddress {
   PerAddress(const PerAddress&) = delete;
   PerAddress& operator=(const PerAddress&) = delete;
 
-  /// The value of `prefix`, made if there is none. It becomes the most recently used one. Valid until it is
-  /// erased or evicted.
+  /// Returns the value of `prefix`, created if missing, and makes it the most recently used one. Valid until
+  /// it is erased or evicted.
   T& use(const AddressPrefix& prefix) {
     if (const auto found = index_.find(prefix); found != index_.end()) {
       order_.splice(order_.end(), order_, found->second);
@@ -37,7 +37,7 @@ class PerAddress {
     index_.emplace(prefix, std::prev(order_.end()));
     return order_.back().second;
   }
-  /// Null if there is none. This is not a use.
+  /// Returns nullptr if the prefix is unknown. Does not count as a use.
   T* find(const AddressPrefix& prefix) {
     const auto found = index_.find(prefix);
     return found != index_.end() ? &found->second->second : nullptr;

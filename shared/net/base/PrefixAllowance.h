@@ -1,8 +1,7 @@
-// How often something may happen from one address, and from its network, whoever does it.
+// Rate limits for an address and for its network.
 //
-// What a connection or session may do is limited for each of them, and a client that comes again has a new
-// one. These limits stay: they belong to the address. A client with many addresses shares those of its
-// network.
+// Per-connection limits restart when a client reconnects; these belong to the address. A client with many
+// addresses shares the limits of its network.
 #pragma once
 
 #include <cstddef>
@@ -14,29 +13,29 @@
 
 namespace naiad {
 
-/// Not thread-safe. Time is passed in. Memory is bounded: the prefixes and networks used last are remembered.
+/// Not thread-safe. Time is passed in. Bounded: only the last used prefixes and networks are remembered.
 class PrefixAllowance {
  public:
   using Time = TokenBucket::Time;
 
   struct Rates {
     BucketRate of_a_prefix;            ///< an IPv4 address or an IPv6 /64
-    BucketRate of_a_network;           ///< the /24 or /48 that it is in
-    std::optional<BucketRate> in_all;  ///< nothing: no limit
+    BucketRate of_a_network;           ///< the /24 or /48 that contains it
+    std::optional<BucketRate> in_all;  ///< nullopt: no limit
   };
-  static constexpr std::size_t kPrefixes = 1024;  ///< that are remembered, and as many networks
+  static constexpr std::size_t kPrefixes = 1024;  ///< remembered prefixes; as many networks are remembered
 
   explicit PrefixAllowance(const Rates& rates) : m_rates(rates) {}
 
-  /// May it happen once more? Then it counts.
+  /// Counts one more event and returns true, or returns false if that is over a limit.
   bool take(const AddressPrefix& prefix, Time now) {
-    // The narrowest first: what is over its own limit takes nothing from the others.
+    // Narrowest first: an event over its own limit does not consume tokens of the wider ones.
     return m_prefixes.use(prefix).takeToken(m_rates.of_a_prefix, now) &&
            m_networks.use(prefix.widest()).takeToken(m_rates.of_a_network, now) &&
            (!m_rates.in_all || m_all.takeToken(*m_rates.in_all, now));
   }
 
-  /// Would take() say so now? Nothing is counted.
+  /// Returns the value that take() would return now, without counting.
   bool has(const AddressPrefix& prefix, Time now) {
     TokenBucket* const p_prefix = m_prefixes.find(prefix);
     TokenBucket* const p_network = m_networks.find(prefix.widest());
@@ -52,32 +51,33 @@ class PrefixAllowance {
   TokenBucket m_all;
 };
 
-/// The allowances of a server that lets so many players in from one address.
+/// The rates of a server that accepts `max_per_address` players per address. A class is this many players, at
+/// least 64, behind one address.
 struct PrefixRates {
-  /// TLS handshakes. A class that comes twice at once, each time with second streams; then one of each in
-  /// eight seconds.
+  /// TLS handshakes. Burst: a class connects twice, with second streams. Then one per player in 8 seconds.
   static PrefixAllowance::Rates handshakes(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{crowd / 8, 4 * crowd}, {crowd / 2, 16 * crowd}, std::nullopt};
   }
-  /// A class that joins, leaves and joins again at once; then two in a second.
+  /// Joins. Burst: a class joins, leaves and joins again. Then two a second.
   static PrefixAllowance::Rates joins(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{2, 2 * crowd}, {8, 8 * crowd}, std::nullopt};
   }
-  /// Private worlds, each a process to start: the same class, then one in a second.
+  /// Private worlds, each a new process. Burst: two per player of a class. Then one a second.
   static PrefixAllowance::Rates worlds(int max_per_address, int max_players) {
     const double crowd = classSize(max_per_address);
     return {{1, 2 * crowd}, {4, 8 * crowd}, BucketRate{8, 2.0 * max_players}};
   }
-  /// Rooms that are woken, each a process to start: a few at once, then one in a second.
+  /// Wake-ups of rooms, each a new process. Burst: four. Then one a second.
   static PrefixAllowance::Rates wakes() { return {{1, 4}, {4, 16}, BucketRate{8, 64}}; }
-  /// Moves to another room, each a world to send: of a class, all at once through one door.
+  /// Moves to another room, each of which sends a world. Burst: three per player of a class, through one
+  /// door. Then one per player in four seconds.
   static PrefixAllowance::Rates moves(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};
   }
-  /// Lines of chat: three at once from each player of a class, and one of each in four seconds.
+  /// Chat lines. Burst: three per player of a class. Then one per player in four seconds.
   static PrefixAllowance::Rates chat(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
   throw std::system_error(error, std::generic_category(), path.string());
 }
 
-/// A pipe would be waited for, and a device need not end.
+/// Refuses the file: reading a pipe could block, and a device may never end.
 [[noreturn]] void refuseKind(const fs::path& path) {
   throw std::system_error(EINVAL, std::generic_category(),
                           path.string() + " is not a regular file, but a folder, a pipe or a device");
@@ -74,10 +74,10 @@ std::string randomSuffix() {
   return text;
 }
 
-/// Does a crash of the system lose the file?
+/// Whether the file survives a system crash.
 enum class Durable { kNo, kYes };
 
-/// A new file beside `path` with a name of its own, gone when this is, unless it was renamed.
+/// A new file next to `path` with a unique name. The destructor deletes it unless it was renamed.
 class Draft {
  public:
   Draft(const fs::path& path, std::string_view content, mode_t mode, Durable durable)
@@ -101,7 +101,7 @@ class Draft {
   std::string name_;
 };
 
-/// So that the new name survives a crash, too.
+/// Syncs the parent folder, so that the new name survives a system crash.
 void syncDirectoryOf(const fs::path& path) {
   const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
   File(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), parent).sync();
@@ -110,7 +110,7 @@ void syncDirectoryOf(const fs::path& path) {
 }  // namespace
 
 std::optional<std::filesystem::path> userDirectory(const char* variable, const char* fallback) {
-  // Relative paths are to be ignored, says the specification.
+  // The specification says to ignore relative paths.
   const char* const chosen = std::getenv(variable);
   if (chosen && *chosen == '/') return std::filesystem::path(chosen) / "naiad";
   const char* const home = std::getenv("HOME");

@@ -1,4 +1,4 @@
-// Text from the network or the keyboard: made fit for a terminal, and read strictly.
+// Text from the network or the keyboard: sanitized for a terminal, and parsed strictly.
 #pragma once
 
 #include <charconv>
@@ -14,40 +14,39 @@ namespace naiad {
 
 /// Maximum number of characters in a room's name.
 inline constexpr std::size_t kMaxRoomName = 32;
-/// Rooms of a server.
+/// Maximum number of rooms of a server.
 inline constexpr std::size_t kMaxRooms = 64;
-/// What a name has to be, for complaints.
+/// The rule for room names, for error messages.
 inline constexpr const char* kRoomNameRule =
     "1 to 32 of a-z, A-Z, 0-9, '-', '_' and '.', beginning with a letter or digit";
 
-/// kRoomNameRule holds.
+/// True if the name obeys kRoomNameRule.
 bool isRoomName(std::string_view name);
 
-/// `text` (UTF-8, perhaps malformed) cut to `max_characters`, each of them drawable in one cell: anything
-/// else (control, escape, bidi, zero-width, wide) becomes '?'. Line breaks and tabs become blanks.
+/// Returns at most `max_characters` of `text` (UTF-8, possibly malformed), each drawable in one cell. Other
+/// characters (control, escape, bidi, zero-width, wide) become '?', line breaks and tabs become blanks.
 std::string safeText(const std::string& text, std::size_t max_characters);
 
-/// A player's name: as above with the limit of names, without blanks at the ends; "player" if nothing is
-/// left.
+/// Returns a player's name: like safeText() with the limit of names, trimmed; "player" if nothing is left.
 std::string safeName(const std::string& name);
 
-/// Columns that a safe text occupies.
+/// Returns the number of columns that a safe text occupies.
 std::size_t columnsOf(const std::string& text);
 
-/// The text with ASCII letters in lower case: names of hosts as DNS compares them.
+/// Returns the text with ASCII letters in lower case: DNS compares host names like that.
 std::string lowerCase(std::string_view text);
-/// True if there is nothing but a-z, A-Z, 0-9, '-', '_' and '.'.
+/// True if the text has no characters but a-z, A-Z, 0-9, '-', '_' and '.'.
 bool isPlainName(std::string_view text);
 
-/// Bytes as lower-case hexadecimal digits, and back: digits of either case, and nothing else.
+/// Converts bytes to lower-case hexadecimal digits, and digits of either case to bytes (nullopt if invalid).
 std::string hexText(std::string_view bytes);
 inline std::string hexText(std::span<const std::uint8_t> bytes) {
   return hexText(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 std::optional<std::string> bytesOfHex(std::string_view digits);
 
-/// Returns the decimal number that the whole text is; nullopt if it is malformed or not in [least, most]. '-'
-/// is accepted for signed types.
+/// Parses the whole text as a decimal number; nullopt if it is malformed or not in [least, most]. '-' is
+/// accepted for signed types.
 template <class Number>
 std::optional<Number> readNumber(std::string_view text, Number least, Number most) {
   Number number{};

@@ -1,4 +1,4 @@
-// A token bucket: limits a rate in the long run, and how much may come at once. Time is passed in.
+// A token bucket: limits the long-term rate and the size of a burst. Time is passed in.
 #pragma once
 
 #include <algorithm>
@@ -8,26 +8,26 @@ namespace naiad {
 
 struct BucketRate {
   double per_second = 0;
-  double burst = 0;  ///< tokens that a bucket holds, and begins with
+  double burst = 0;  ///< capacity in tokens, and the initial number
 };
 
-/// Refilled by time alone. The rate is passed in, so that a table of buckets does not repeat it.
+/// Refills with time. The rate is passed in, so that a table of buckets need not store it.
 class TokenBucket {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Takes one token, if there is one. `now` may be earlier than in the last call: nothing is added then.
+  /// Takes one token if there is one. `now` may be earlier than in the last call; then no tokens are added.
   bool takeToken(const BucketRate& rate, Time now) {
     if (!hasToken(rate, now)) return false;
     tokens_ -= 1;
     return true;
   }
-  /// Is there one to take?
+  /// True if there is a token to take.
   bool hasToken(const BucketRate& rate, Time now) {
     refill(rate, now);
     return tokens_ >= 1;
   }
-  /// Takes one token even if there is none. The debt is at most a burst.
+  /// Takes one token even from an empty bucket. The debt is at most `burst`.
   void forceToken(const BucketRate& rate, Time now) {
     refill(rate, now);
     tokens_ = std::max(tokens_ - 1, -rate.burst);

@@ -18,7 +18,7 @@ bool DatagramGate::add(SealedLink& link, OnPayload on_payload) {
 void DatagramGate::remove(ConnectionId id) {
   const auto found = doors_.find(id);
   if (found == doors_.end()) return;
-  if (&found->second == open_) {  // its callback is running
+  if (&found->second == open_) {  // its callback runs now
     leaving_ = doors_.extract(found);
   } else {
     doors_.erase(found);
@@ -63,8 +63,7 @@ void DatagramGate::receive(const Path& path, std::string_view packet, Time now) 
   leaving_ = {};
 }
 
-/// The buckets are asked from the narrowest to the widest, so that a flood spends as little as possible of
-/// what others share.
+/// Checks the narrowest bucket first, so that a flood uses as few shared tokens as possible.
 bool DatagramGate::allowed(Door& door, const Path& path, Time now) {
   if (door.link->isValidated(path)) {
     if (door.own.takeToken(rates_.session, now)) return true;

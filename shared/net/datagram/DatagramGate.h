@@ -1,10 +1,10 @@
-// The server's entry for datagrams: finds the session of a packet, and keeps floods away from the
-// cryptography. What is refused is counted, and never answered.
+// The server's entry for datagrams: finds the session of each packet and protects the decryption from floods.
+// Refused packets are counted and never answered.
 //
-// The order is: length, kind, connection id, replay window, token buckets, authentication. A forged packet
-// without a known connection id costs one look-up. One with it spends tokens of all unproven addresses, of
-// which that session and that prefix have a share each. Packets from a session's proven path use that
-// session's own bucket, which no other address can empty.
+// The order of checks is: length, kind, connection id, replay window, token buckets, authentication. A forged
+// packet without a known connection id costs one look-up. One with a known id spends tokens shared by all
+// unproven addresses; each session and each prefix has only a part of them. Packets from a session's proven
+// path use the session's own bucket, which no other address can empty.
 #pragma once
 
 #include <chrono>
@@ -20,48 +20,48 @@
 
 namespace naiad {
 
-/// Every packet is counted once: delivered, refused by its link (whose counters say why), or one of the
-/// others.
+/// Every packet is counted once: as delivered, as refused by its link (whose counters give the reason), or in
+/// one of the other counters.
 struct DatagramGateCounters {
   std::uint64_t delivered = 0;
   std::uint64_t too_short = 0;
   std::uint64_t too_long = 0;
   std::uint64_t bad_kind = 0;
   std::uint64_t unknown_id = 0;
-  std::uint64_t session_flood = 0;   ///< a session sends more than its allowance
-  std::uint64_t claimed_flood = 0;   ///< more for one session from unproven addresses than its share
-  std::uint64_t prefix_flood = 0;    ///< more from one unproven prefix than its share
-  std::uint64_t stranger_flood = 0;  ///< more from unproven addresses in all than is allowed
-  std::uint64_t refused = 0;         ///< by the link
+  std::uint64_t session_flood = 0;   ///< over `session`: too many from a session's proven path
+  std::uint64_t claimed_flood = 0;   ///< over `claimed`: too many for one session from unproven addresses
+  std::uint64_t prefix_flood = 0;    ///< over `prefix`: too many from one unproven prefix
+  std::uint64_t stranger_flood = 0;  ///< over `strangers`: too many from all unproven addresses
+  std::uint64_t refused = 0;         ///< refused by the link
 };
 
-/// Packets per second and at once that may reach the authentication.
+/// Packets per second and burst that may reach the authentication.
 struct DatagramGateRates {
   BucketRate session{.per_second = 250, .burst = 500};      ///< each session, from its proven path
-  BucketRate claimed{.per_second = 32, .burst = 64};        ///< for each session, from elsewhere
+  BucketRate claimed{.per_second = 32, .burst = 64};        ///< each session, from unproven addresses
   BucketRate prefix{.per_second = 500, .burst = 500};       ///< each unproven prefix
-  BucketRate strangers{.per_second = 4000, .burst = 1000};  ///< unproven addresses in all
+  BucketRate strangers{.per_second = 4000, .burst = 1000};  ///< all unproven addresses together
 };
 
-/// Not thread-safe. Times are of one monotonic clock.
+/// Not thread-safe. All times come from one monotonic clock.
 class DatagramGate {
  public:
   using Time = SealedLink::Time;
-  /// An authentic payload, valid during the call. The callee may add and remove sessions, its own too.
+  /// Receives an authentic payload, valid during the call. May add and remove sessions, including its own.
   using OnPayload = std::function<void(std::string_view payload)>;
 
-  /// Unproven prefixes whose allowance is remembered.
+  /// Number of unproven prefixes whose buckets are kept.
   static constexpr std::size_t kPrefixes = 4096;
 
   explicit DatagramGate(DatagramGateRates rates = {}) : rates_(rates) {}
 
-  /// Packets with the link's id go through `link` (a server's), which must live until removed. False, and
-  /// nothing changes, if there is such an id already: draw another.
+  /// Adds a server's link, which handles packets with its id and must live until it is removed. Returns false
+  /// and changes nothing if the id exists; draw another one then.
   bool add(SealedLink& link, OnPayload on_payload);
   void remove(ConnectionId id);
   bool has(ConnectionId id) const { return doors_.contains(id); }
 
-  /// A packet arrived.
+  /// Handles a packet that arrived.
   void receive(const Path& path, std::string_view packet, Time now);
 
   const DatagramGateCounters& counters() const { return counters_; }
@@ -80,8 +80,8 @@ class DatagramGate {
   using Doors = std::unordered_map<ConnectionId, Door>;
 
   Doors doors_;
-  const Door* open_ = nullptr;  ///< whose payload is being delivered
-  Doors::node_type leaving_;    ///< the same, if it was removed meanwhile
+  const Door* open_ = nullptr;  ///< session whose payload is being delivered
+  Doors::node_type leaving_;    ///< keeps that session if its callback removes it
   PerAddress<TokenBucket> prefixes_{kPrefixes};
   TokenBucket strangers_;
   DatagramGateCounters counters_;

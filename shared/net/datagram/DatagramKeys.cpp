@@ -10,7 +10,7 @@
 namespace naiad {
 namespace {
 
-/// Take key and IV off the front of the material.
+/// Removes key and IV from the front of the material.
 void take(std::string_view& material, SealKey& key) {
   const std::size_t size = aeadKeySize(key.aead);
   std::copy_n(material.begin(), size, key.key.begin());

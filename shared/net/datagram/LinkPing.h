@@ -1,7 +1,7 @@
-// The round trip of datagrams, measured by bytes that ride on packets which are sent anyway.
+// Measures the round trip of datagrams with bytes added to packets that are sent anyway.
 //
-// A client's ping is a token; the server returns it with its next packet, and how long it has held it, so
-// that what it waited for a tick does not count. Pure: time is passed in.
+// A client's ping is a token. The server's next packet returns it with the time the server held it, so that
+// the wait for a tick does not count. Time is passed in.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace naiad {
 
-/// The client's end. One ping at a time counts; one that is lost is forgotten with the next.
+/// The client's end. Only the newest ping counts: the next one replaces a lost one.
 class LinkPing {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -23,28 +23,28 @@ class LinkPing {
     std::uint8_t held_millis = 0;
   };
 
-  /// Makes the next packet carry a ping.
+  /// Requests a ping in the next packet.
   void ask() { m_asked = true; }
   bool isAsked() const { return m_asked; }
-  /// The token for the packet that is sent now.
+  /// Returns the ping's token for a packet that is sent now.
   std::uint8_t sent(Time now) {
     m_asked = false;
     m_sent = now;
     return ++m_token;
   }
-  /// An echo came. One of another ping, or a second one, is ignored.
+  /// Records an echo. Ignores those of older pings and duplicates.
   void answered(const Echo& echo, Time now) {
     if (!m_sent || echo.token != m_token) return;
     const Millis held(echo.held_millis);
     m_round_trip = std::max(Millis(now - *std::exchange(m_sent, std::nullopt)) - held, Millis(0));
   }
-  /// Nothing if none was measured since the last call.
+  /// Returns and clears the round trip; nullopt if none was measured since the last call.
   std::optional<Millis> takeRoundTrip() { return std::exchange(m_round_trip, std::nullopt); }
 
  private:
   bool m_asked = false;
   std::uint8_t m_token = 0;
-  std::optional<Time> m_sent;  ///< the newest, until it is answered
+  std::optional<Time> m_sent;  ///< time of the newest ping, until it is answered
   std::optional<Millis> m_round_trip;
 };
 
@@ -53,11 +53,11 @@ class LinkEcho {
  public:
   using Time = LinkPing::Time;
 
-  /// A ping held for longer is not answered.
+  /// Pings held longer than this are not answered.
   static constexpr std::chrono::milliseconds kMaxHeld{255};
 
   void notePing(std::uint8_t token, Time now) { m_waiting = {token, now}; }
-  /// The echo for the packet that is sent now.
+  /// Returns the echo for a packet that is sent now; nullopt if no ping waits.
   std::optional<LinkPing::Echo> takeEcho(Time now) {
     const auto waiting = std::exchange(m_waiting, std::nullopt);
     if (!waiting || now - waiting->second > kMaxHeld) return std::nullopt;

@@ -1,11 +1,11 @@
-// The bytes in front of every sealed datagram.
+// The header of every sealed datagram.
 //
 //   to server   [kind 4 bits | epoch 4 bits] [connection id, 8 bytes] [sequence, 2 bytes] ciphertext tag
 //   to client   [kind 4 bits | epoch 4 bits]                          [sequence, 2 bytes] ciphertext tag
 //
 // The kind is the upper half of the first byte, the lowest four bits of the epoch the lower half. Numbers are
-// little-endian. The kind also gives the direction, so that a packet thrown back at its sender is refused
-// before any key is touched. The server needs no id on the way back: a client has one session.
+// little-endian. The kind also gives the direction, so a packet reflected to its sender is refused before any
+// key is used. Packets to a client need no id because it has one session.
 #pragma once
 
 #include <compare>
@@ -16,12 +16,12 @@
 
 namespace naiad {
 
-/// The largest datagram that is ever sent or accepted, in bytes of UDP payload.
+/// The largest datagram that is sent or accepted, in bytes of UDP payload.
 inline constexpr std::size_t kMaxDatagram = 1200;
 /// The authentication tag at the end of every sealed datagram, in bytes.
 inline constexpr std::size_t kSealTagSize = 16;
 
-/// Names a session on the wire. Random, chosen by the server, not secret, the same for the whole session.
+/// Identifies a session on the wire: random, chosen by the server, not secret, never changed.
 struct ConnectionId {
   std::uint64_t value = 0;
   friend auto operator<=>(const ConnectionId&, const ConnectionId&) = default;
@@ -35,7 +35,7 @@ inline constexpr Epoch kEpochMask = (1u << kEpochBits) - 1;
 /// The sender of a packet.
 enum class SealDirection : std::uint8_t { kClientToServer, kServerToClient };
 
-/// Header bytes, and the shortest packet that can be one: header, one byte of flags, tag.
+/// The header size in bytes, and the shortest valid packet: header, one byte of flags, tag.
 constexpr std::size_t sealedHeaderSize(SealDirection direction) {
   return direction == SealDirection::kClientToServer ? 11 : 3;
 }
@@ -49,14 +49,13 @@ struct SealedHeader {
   std::uint16_t sequence = 0;  ///< the low bits of the sequence number
 };
 
-/// Why bytes are no sealed datagram at all. Tested in this order, from lengths on.
+/// The reason why bytes are not a sealed datagram. Tested in this order.
 enum class HeaderFault : std::uint8_t { kNone, kTooShort, kTooLong, kKind };
 
-/// Read the header of a packet that travels in `direction`.
+/// Reads the header of a packet that travels in `direction`.
 HeaderFault readSealedHeader(SealDirection direction, std::string_view packet, SealedHeader& header);
 
-/// Write all of a header but its two bytes of sequence number, which the Sealer adds. Returns the bytes
-/// written.
+/// Writes a header without its sequence number, which the Sealer adds. Returns the number of bytes written.
 std::size_t writeSealedPrefix(SealDirection direction, Epoch epoch, ConnectionId id, char* out);
 
 }  // namespace naiad
@@ -64,6 +63,6 @@ std::size_t writeSealedPrefix(SealDirection direction, Epoch epoch, ConnectionId
 template <>
 struct std::hash<naiad::ConnectionId> {
   std::size_t operator()(const naiad::ConnectionId& id) const noexcept {
-    return static_cast<std::size_t>(id.value);  // random already
+    return static_cast<std::size_t>(id.value);  // already random
   }
 };

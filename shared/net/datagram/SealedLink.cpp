@@ -128,7 +128,7 @@ bool SealedLink::plausible(std::string_view packet, Time now) {
   return admit(packet, now) != nullptr;
 }
 
-/// The cheap checks, the cheapest first. Null if the packet is refused; that is counted.
+/// Does the cheap checks, the cheapest first. Returns null and counts the packet if it is refused.
 SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
   expire(now);
   SealedHeader header;
@@ -157,7 +157,7 @@ SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
   return accept(keys->opener.check(header.sequence)) ? keys : nullptr;
 }
 
-/// Counts the refusals.
+/// Returns true for kOpened; counts other results.
 bool SealedLink::accept(OpenResult result) {
   switch (result) {
     case OpenResult::kOpened:
@@ -236,7 +236,7 @@ std::size_t SealedLink::maxPayload() const {
   return kMaxDatagram - smallestSealedPacket(sends()) - kFieldSize;
 }
 
-/// Bytes of the next packet that are not payload.
+/// Returns the bytes of the next packet that are not payload.
 std::size_t SealedLink::overhead() const {
   const bool field = isServer() ? !guard_.validated() : pending_answer_.has_value();
   return smallestSealedPacket(sends()) + (field ? kFieldSize : 0);
@@ -280,7 +280,7 @@ std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, T
   return Outgoing{*guard_.current(), {sealed, size}};
 }
 
-/// `spare`: bytes that the packet may still have beyond overhead() and the payload.
+/// Writes flags and fields, returns their size. `spare`: bytes left for a ping or echo.
 std::size_t SealedLink::writeFields(char* out, std::size_t spare, Time now) {
   std::size_t size = 1;
   out[0] = 0;

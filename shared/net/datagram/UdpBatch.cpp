@@ -8,7 +8,7 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMapped = 12;  // bytes in front of an IPv4 address in its mapped form
+constexpr std::size_t kMapped = 12;  // bytes before an IPv4 address in its mapped form
 
 in_addr fourOf(const Endpoint& endpoint) {
   in_addr address;
@@ -128,9 +128,9 @@ void UdpSendBatch::send(int descriptor, UdpCounters& counters) {
     } else if (errno == EINTR) {
       continue;
     } else if (errno == ECONNREFUSED && !refused) {
-      refused = true;  // an ICMP message about an earlier packet; this one was not tried
+      refused = true;  // an ICMP message about an earlier packet; this one was not sent yet
     } else {
-      ++counters.send_errors;  // about the first packet of the call alone
+      ++counters.send_errors;  // the error concerns only the call's first packet
       ++next;
       refused = false;
     }

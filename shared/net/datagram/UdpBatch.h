@@ -1,5 +1,5 @@
-// Packets for and from the kernel, many to a call (sendmmsg, recvmmsg), each with the local address it leaves
-// from or was sent to (IP_PKTINFO, IPV6_PKTINFO). The buffers are allocated once.
+// Batches of packets to and from the kernel, many per call (sendmmsg, recvmmsg). Each packet has the local
+// address that it leaves from or was sent to (IP_PKTINFO, IPV6_PKTINFO). The buffers are allocated once.
 #pragma once
 
 #include <netinet/in.h>
@@ -16,17 +16,17 @@
 
 namespace naiad {
 
-/// What a UDP socket did, and what was lost on the way through it.
+/// Counters of a UDP socket's packets, including lost ones.
 struct UdpCounters {
-  std::uint64_t sent = 0;            ///< packets that the kernel took
-  std::uint64_t received = 0;        ///< packets handed on
+  std::uint64_t sent = 0;            ///< packets accepted by the kernel
+  std::uint64_t received = 0;        ///< packets passed on
   std::uint64_t dropped_full = 0;    ///< not sent: the kernel's buffer was full
-  std::uint64_t send_errors = 0;     ///< not sent: no route, address gone, too large for the link, …
-  std::uint64_t receive_errors = 0;  ///< errors where a packet was expected (refusals by ICMP), ignored
+  std::uint64_t send_errors = 0;     ///< not sent: no route, address gone, too large for the link etc.
+  std::uint64_t receive_errors = 0;  ///< ICMP and other errors reported instead of a packet, ignored
   std::uint64_t too_large = 0;       ///< received, longer than 1200 bytes, ignored
 };
 
-inline constexpr std::size_t kUdpBatch = 64;  // packets to a call
+inline constexpr std::size_t kUdpBatch = 64;  // packets per call
 
 namespace detail {
 
@@ -42,17 +42,17 @@ struct ControlBuffer {
 
 }  // namespace detail
 
-/// `six`: for an IPv6 socket, which takes IPv4 addresses in their mapped form.
+/// `six`: for an IPv6 socket, which sends to IPv4 addresses in their mapped form.
 class UdpSendBatch {
  public:
   explicit UdpSendBatch(bool six);
 
   bool full() const { return count_ == kUdpBatch; }
-  /// Memory of the next packet, kMaxDatagram bytes: add() copies nothing that is there. Not when full.
+  /// Returns memory for the next packet, kMaxDatagram bytes, which add() need not copy. Not when full.
   char* nextPacket();
-  /// False, and nothing is added, if a socket of this family cannot reach that address. Not when full.
+  /// Adds a packet; false if a socket of this family cannot reach the address. Not when full.
   bool add(const Path& path, std::string_view packet);
-  /// Hand everything to the kernel, without blocking. The batch is empty afterwards, whatever happened.
+  /// Passes all packets to the kernel without blocking. The batch is empty afterwards, even after errors.
   void send(int descriptor, UdpCounters& counters);
   void clear() { count_ = 0; }
 
@@ -75,9 +75,9 @@ class UdpReceiveBatch {
  public:
   explicit UdpReceiveBatch(std::uint16_t local_port);
 
-  /// Packets that were waiting, at most kUdpBatch; 0 if none; −1 on an error, see errno.
+  /// Receives at most kUdpBatch waiting packets. Returns their number; 0 if none; −1 on an error, see errno.
   int receive(int descriptor);
-  /// The n-th of them; empty and without a path if it was longer than 1200 bytes.
+  /// Returns the n-th packet; empty and without a path if it was longer than 1200 bytes.
   std::string_view packet(int n) const;
   Path path(int n);
   bool tooLarge(int n) const;

@@ -20,11 +20,11 @@ int setOption(int descriptor, int level, int option, int value) {
   return ::setsockopt(descriptor, level, option, &value, sizeof value);
 }
 
-/// False, with errno, if replies could not leave from the right address or packets might be fragmented.
+/// Returns false, with errno, if replies could leave from a wrong address or packets could be fragmented.
 bool setOptions(int descriptor, bool six, const UdpOptions& options) {
   setOption(descriptor, SOL_SOCKET, SO_RCVBUF, options.buffer);
   setOption(descriptor, SOL_SOCKET, SO_SNDBUF, options.buffer);
-  // No fragments. ICMP about smaller packets is ignored too: any machine can send that.
+  // No fragments. ICMP "too big" messages are ignored too: any machine can send them.
   const bool four_whole = setOption(descriptor, IPPROTO_IP, IP_MTU_DISCOVER, IP_PMTUDISC_PROBE) == 0;
   if (!six) return four_whole && setOption(descriptor, IPPROTO_IP, IP_PKTINFO, 1) == 0;
   return setOption(descriptor, IPPROTO_IPV6, IPV6_MTU_DISCOVER, IPV6_PMTUDISC_PROBE) == 0 &&
@@ -53,9 +53,9 @@ struct UdpSocket::State : std::enable_shared_from_this<State> {
   Endpoint local;
   std::optional<UdpSendBatch> outgoing;
   std::optional<UdpReceiveBatch> incoming;
-  OnPacket on_packet;  // as long-lived as this, for a callback may destroy the socket
+  OnPacket on_packet;  // stored here because a callback may destroy the socket
   bool started = false;
-  std::uint64_t opened = 0;  // distinguishes a wait for an earlier descriptor from one for this
+  std::uint64_t opened = 0;  // tells waits on an earlier descriptor from those on this one
   UdpCounters counters;
 };
 
@@ -87,7 +87,7 @@ void UdpSocket::State::open(std::uint16_t port) {
 void UdpSocket::State::fail(std::uint16_t port, std::error_code error) {
   std::error_code ignored;
   socket.close(ignored);
-  error.assign(error.value(), std::generic_category());  // Asio's category does not compare with std::errc
+  error.assign(error.value(), std::generic_category());  // Asio's category does not equal std::errc
   const std::string where = "UDP port " + std::to_string(port) + " on " + options.address;
   if (error == std::errc::address_in_use) {
     throw ListenError("Cannot listen: " + where + " is in use by another program.", error);
@@ -111,12 +111,12 @@ void UdpSocket::State::receive() {
   if (socket.is_open() && opened == number) wait();
 }
 
-/// False when there is no more, or no socket any more.
+/// Returns false if no packets are left or the socket was destroyed.
 bool UdpSocket::State::receiveBatch() {
   const int count = incoming->receive(socket.native_handle());
   if (count < 0) {
     ++counters.receive_errors;
-    return true;  // reported once each; there may be packets behind it
+    return true;  // each error is reported once; packets may follow
   }
   const std::uint64_t number = opened;
   for (int i = 0; i < count; ++i) {

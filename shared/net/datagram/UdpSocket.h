@@ -1,4 +1,4 @@
-// UDP: one socket for all peers of a server, or for the server of a client.
+// A UDP socket: one for all peers of a server, or for a client's server.
 #pragma once
 
 #include <asio/ts/netfwd.hpp>
@@ -13,24 +13,23 @@
 namespace naiad {
 
 struct UdpOptions {
-  /// Numeric, IPv4 or IPv6. "0.0.0.0" or "::" hears every address of this machine.
+  /// Numeric IPv4 or IPv6 address. "0.0.0.0" or "::" receives on every address of this machine.
   std::string address = "127.0.0.1";
-  std::uint16_t port = 0;  ///< 0 takes any free one
-  bool v6_only = true;     ///< false: "::" hears IPv4, too
-  /// Bytes asked of the kernel for what waits to be read, and to be sent; it may grant less.
+  std::uint16_t port = 0;  ///< 0: any free port
+  bool v6_only = true;     ///< false: "::" also receives IPv4
+  /// Requested size of the kernel's receive and send buffers, in bytes; it may grant less.
   int buffer = 4 * 1024 * 1024;
-  /// A UDP socket that is bound already, to `address` and `port`; it is the UdpSocket's from now on. Below 0:
-  /// none.
+  /// A UDP socket already bound to `address` and `port`; the UdpSocket takes ownership. Negative: none.
   int inherited = -1;
 };
 
-/// Packets are never fragmented, on this machine or on the way. Up to 256 are read before other things in the
-/// event loop have their turn; errors that ICMP reports are counted and change nothing.
+/// Packets are never fragmented, on this machine or on the way. Reads up to 256 before other handlers of the
+/// event loop run. Errors reported by ICMP are counted and have no other effect.
 ///
 /// Thread: the one that runs `context`, which must outlive the socket.
 class UdpSocket : public DatagramSocket {
  public:
-  /// Binds, or takes over what is bound. Throws ListenError.
+  /// Binds, or takes over an inherited socket. Throws ListenError.
   UdpSocket(asio::io_context& context, UdpOptions options);
   ~UdpSocket() override;
   UdpSocket(const UdpSocket&) = delete;

@@ -61,7 +61,7 @@ void HttpExchange::run(const StreamTarget& server, const HttpRequest& request,
   m_on_body = std::move(on_body);
   m_request = request.text();
   m_timer.start(timeout, [self = shared_from_this()] { self->finish(End::kTimedOut); });
-  // The timer keeps this alive while the attempt runs; a reference from there would be one in a circle.
+  // The timer keeps this alive while the attempt runs; a reference in the attempt would be a cycle.
   m_attempt = std::make_shared<StreamAttempt>(m_context, server, timeout,
                                               [this](StreamResult result) { onStream(std::move(result)); });
   std::error_code is_name;
@@ -109,7 +109,7 @@ void HttpExchange::takeBytes(std::string_view bytes) {
   judge();
 }
 
-/// Goes on reading, unless the answer is complete or refused.
+/// Continues to read, unless the answer is complete or refused.
 void HttpExchange::judge() {
   const HttpError error = m_reader.error();
   if (error == HttpError::kBodyTooLong) return finish(End::kTooLong);
@@ -144,7 +144,7 @@ void HttpExchange::stop() {
   m_timer.cancel();
   if (m_attempt) m_attempt->cancel();
   if (!m_stream) return;
-  m_stream->end();  // as far as that goes without waiting
+  m_stream->end();  // sends the end without waiting
   std::error_code ignored;
   m_stream->socket().close(ignored);
 }

@@ -1,4 +1,4 @@
-// One request of HTTP/1.1 to a web server and its answer, on a connection of its own, without blocking.
+// One HTTP/1.1 request to a web server and its answer, on its own connection, without blocking.
 #pragma once
 
 #include <asio/ts/netfwd.hpp>
@@ -20,29 +20,29 @@ namespace naiad {
 struct HttpRequest {
   std::string method = "GET";
   std::string target = "/";                                      ///< path and query
-  std::string host;                                              ///< what stands in the header Host
-  std::vector<std::pair<std::string, std::string>> fields = {};  ///< without CR and LF, which is not checked
-  std::string body = {};                                         ///< if not empty, Content-Length is added
+  std::string host;                                              ///< value of the Host header
+  std::vector<std::pair<std::string, std::string>> fields = {};  ///< must not contain CR or LF; not checked
+  std::string body = {};                                         ///< body; adds Content-Length unless empty
 
-  /// The request's bytes.
+  /// Returns the request's bytes.
   std::string text() const;
 };
 
 /// One exchange, one use. Make it with std::make_shared; it keeps itself alive while it runs.
 ///
-/// Nothing is sent to a server whose certificate is not good, with TLS (StreamTarget::tls is
+/// If TLS is used, nothing is sent to a server with an invalid certificate (StreamTarget::tls is
 /// TlsContext::forWebClient()). Without TLS, only loopback addresses are connected to.
 ///
-/// Thread: the one that runs `context`, which must outlive the exchange. Destroying the io_context waits for
-/// a name that is being resolved (StreamAttempt.h).
+/// Thread: the one that runs `context`, which must outlive the exchange. The io_context's destructor waits
+/// until a pending name lookup ends (StreamAttempt.h).
 class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
  public:
   enum class End {
-    kAnswered,      ///< answer() is complete, whatever its status.
+    kAnswered,      ///< answer() is complete; its status may be any.
     kNotFound,      ///< The host has no address.
     kOtherMachine,  ///< The host is not this machine, and there is no TLS.
     kUnreachable,
-    kUntrusted,  ///< The TLS handshake failed, which includes a certificate that is not good.
+    kUntrusted,  ///< The TLS handshake failed, for example because of an invalid certificate.
     kHungUp,     ///< The connection broke while the request was sent.
     kBadAnswer,  ///< The answer is truncated or not HTTP/1.1.
     kTooLong,    ///< The body has more bytes than allowed.
@@ -51,27 +51,26 @@ class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
   };
   struct Result {
     End end = End::kAnswered;
-    std::string detail;  ///< reason in a few words, not from the peer; empty if `end` says all
+    std::string detail;  ///< reason in a few words, not from the peer; empty if `end` is enough
   };
   using Done = std::function<void(const Result& result)>;
-  /// A piece of the body of an answer with status 200; false: the rest is not needed.
+  /// Receives a piece of the body of an answer with status 200. Returns false if the rest is not needed.
   using BodyHandler = std::function<bool(std::string_view piece)>;
 
   explicit HttpExchange(asio::io_context& context, const HttpLimits& limits = {});
 
   /// Sends `request` to `server`. `done` is called once, from the event loop, unless cancelled. `timeout`
-  /// covers everything. With `on_body` the body is not kept but handed over as it comes, another status than
-  /// 200 is a bad answer, and `timeout` covers the time until the request is sent: the answer may come
-  /// whenever there is something to say.
+  /// covers everything. With `on_body`, the body is not stored but passed on as it arrives, a status other
+  /// than 200 is a bad answer, and `timeout` covers only the time until the request is sent, not the answer.
   void run(const StreamTarget& server, const HttpRequest& request, std::chrono::milliseconds timeout,
            Done done, BodyHandler on_body = nullptr);
   /// Gives up; `done` will not be called.
   void cancel();
 
   const HttpResponseReader& answer() const { return m_reader; }
-  /// After an answer with status 101, in `done`: the stream, which now speaks the protocol asked for.
+  /// Returns the stream, which now speaks the requested protocol, after status 101. Call in `done`.
   std::unique_ptr<ByteStream> releaseStream() { return std::move(m_stream); }
-  /// The first bytes of that protocol, which came with the answer.
+  /// The first bytes of that protocol, received with the answer.
   const std::string& bytesBehind() const { return m_behind; }
 
  private:
@@ -95,7 +94,7 @@ class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
   std::size_t m_written = 0;
   std::string m_behind;
   BodyHandler m_on_body;
-  Done m_done;  // empty: over
+  Done m_done;  // empty: the exchange is over
 };
 
 }  // namespace naiad

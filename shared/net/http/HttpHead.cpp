@@ -18,7 +18,7 @@ bool isTokenCharacter(char c) {
   return is_letter_or_digit || std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
 }
 
-/// Characters of a line without its CRLF (RFC 9110 5.5); bytes above ASCII are allowed.
+/// True for a character that a line may contain (RFC 9110 5.5), including bytes above ASCII.
 bool isTextCharacter(char c) {
   return c == '\t' || (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f);
 }

@@ -1,8 +1,7 @@
 // The head of an HTTP/1.1 message (RFC 9112): a start line and fields, read from pieces with a limit.
 //
-// Strict where leniency has let requests and answers be read in two ways: lines end with CRLF, a CR or LF
-// alone is refused, as are folded lines (obs-fold), blanks around a field's name, and other control
-// characters.
+// Strict wherever lenient parsers have disagreed about a message: lines must end with CRLF. A CR or LF alone,
+// folded lines (obs-fold), blanks around a field's name and other control characters are refused.
 #pragma once
 
 #include <cstddef>
@@ -14,30 +13,30 @@
 
 namespace naiad {
 
-/// Reasons to refuse a message. A reader that found an error reads nothing more.
+/// Reasons to refuse a message. After an error, a reader reads nothing more.
 enum class HttpError {
   kNone,
   kMalformed,    ///< not HTTP/1.0 or 1.1, or ambiguous
-  kHeadTooLong,  ///< the head, or what frames a body, has more bytes than allowed
+  kHeadTooLong,  ///< the head or the framing of the body has more bytes than allowed
   kBodyTooLong,
   kTruncated,  ///< the connection ended within the message
 };
 
-/// Start line and fields of a message. The texts are bytes of the peer, without control characters except
+/// Start line and fields of a message. The texts are the peer's bytes, without control characters except
 /// tabs.
 struct HttpHead {
   std::string start_line;
   /// Names in lower case, values without blanks at their ends, in the order of the message.
   std::vector<std::pair<std::string, std::string>> fields;
 
-  /// The value of the first field of this name (lower case); empty if there is none.
+  /// Returns the value of the first field of this name (lower case); empty if it is missing.
   std::string_view value(std::string_view name) const;
   std::size_t count(std::string_view name) const;
   /// True if a comma-separated list of such fields has this element (RFC 9110 5.6.1), in any case.
   bool lists(std::string_view name, std::string_view element) const;
 };
 
-/// Takes lines from pieces of a stream. The bytes of all lines together are limited.
+/// Extracts lines from pieces of a stream. Limits the bytes of all lines together.
 class HttpLines {
  public:
   explicit HttpLines(std::size_t limit) : m_limit(limit) {}
@@ -46,14 +45,14 @@ class HttpLines {
   /// is valid until the next call. Returns nullopt if `bytes` is used up, or after an error.
   std::optional<std::string_view> next(std::string_view& bytes);
   HttpError error() const { return m_error; }
-  /// Lets the limit count from here; between two lines only.
+  /// Resets the byte count for the limit; call only between two lines.
   void restart() { m_used = 0; }
 
  private:
   std::size_t m_limit;
   std::size_t m_used = 0;  // bytes of all lines so far
   std::string m_line;
-  bool m_complete = false;  // m_line was handed out; the next call forgets it
+  bool m_complete = false;  // m_line was returned; the next call clears it
   HttpError m_error = HttpError::kNone;
 };
 
@@ -64,7 +63,7 @@ class HttpLines {
 ///   if (reader.isDone()) use(reader.head());    // `bytes` begins with what follows the head
 class HttpHeadReader {
  public:
-  /// `limit`: bytes of the head, its empty line among them.
+  /// `limit`: bytes of the head, including its empty line.
   explicit HttpHeadReader(std::size_t limit) : m_lines(limit) {}
 
   /// Removes the bytes of the head from the front of `bytes`.
@@ -83,7 +82,7 @@ class HttpHeadReader {
   bool m_done = false;
 };
 
-/// The start line of a request of HTTP/1.0 or 1.1 (RFC 9112 3). The views are into the line.
+/// The start line of an HTTP/1.0 or 1.1 request (RFC 9112 3). The views point into the line.
 struct HttpRequestLine {
   std::string_view method;
   std::string_view target;  ///< printable ASCII without blanks, not empty
@@ -91,11 +90,11 @@ struct HttpRequestLine {
   static std::optional<HttpRequestLine> parse(std::string_view line);
 };
 
-/// Name and value of a field line (RFC 9112 5); nullopt if the line is not a field.
+/// Parses a field line into name and value (RFC 9112 5); nullopt if it is invalid.
 std::optional<std::pair<std::string, std::string>> parseHttpField(std::string_view line);
-/// True for a name of a method or field (RFC 9110 5.6.2).
+/// True for a valid method or field name (RFC 9110 5.6.2).
 bool isHttpToken(std::string_view text);
-/// Equal but for the case of ASCII letters.
+/// True if the texts are equal except for the case of ASCII letters.
 bool equalsIgnoringCase(std::string_view a, std::string_view b);
 
 }  // namespace naiad

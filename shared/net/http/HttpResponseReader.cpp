@@ -14,7 +14,7 @@ struct StatusLine {
   unsigned status = 0;
 };
 
-/// "HTTP/1.1 200 OK", "HTTP/1.0 200 ", "HTTP/1.1 200".
+/// Parses "HTTP/1.1 200 OK", "HTTP/1.0 200 " or "HTTP/1.1 200".
 std::optional<StatusLine> parseStatusLine(std::string_view line) {
   constexpr std::size_t kStatus = std::string_view("HTTP/1.1 ").size();
   const bool is_1_0 = line.starts_with("HTTP/1.0 ");
@@ -26,7 +26,7 @@ std::optional<StatusLine> parseStatusLine(std::string_view line) {
   return StatusLine{is_1_0, *status};
 }
 
-/// All of `text`, as a number in this base.
+/// Parses the whole `text` as a number in this base.
 std::optional<std::uint64_t> parseNumber(std::string_view text, int base) {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
@@ -75,7 +75,7 @@ void HttpResponseReader::readHead(std::string_view& bytes) {
   chooseFraming(line->is_1_0);
 }
 
-/// RFC 9112 6.3.
+/// Determines where the body ends (RFC 9112 6.3).
 void HttpResponseReader::chooseFraming(bool is_1_0) {
   const HttpHead& head = m_head.head();
   const std::size_t codings = head.count("transfer-encoding");
@@ -98,7 +98,7 @@ void HttpResponseReader::chooseFraming(bool is_1_0) {
   }
 }
 
-/// Announces this many more bytes of the body.
+/// Expects this many more bytes of the body.
 void HttpResponseReader::begin(std::uint64_t bytes) {
   if (bytes > m_limits.body - m_total && m_limits.body != HttpLimits::kUnlimited)
     return fail(HttpError::kBodyTooLong);
@@ -119,7 +119,7 @@ void HttpResponseReader::takeBody(std::string_view& bytes) {
   }
 }
 
-/// RFC 9112 7.1: extensions of chunks are ignored, and so are trailers.
+/// Handles a line of a chunked body (RFC 9112 7.1). Chunk extensions and trailers are ignored.
 void HttpResponseReader::takeLine(std::string_view line) {
   if (m_state == State::kChunkSize) {
     takeChunkSize(line);

@@ -1,5 +1,4 @@
-// Reads the answer to a request of HTTP/1.1 (RFC 9112) from pieces, with limits. It has no socket and no
-// clock.
+// Reads the answer to an HTTP/1.1 request (RFC 9112) from pieces, with limits. It has no socket and no clock.
 #pragma once
 
 #include <cstddef>
@@ -14,35 +13,35 @@
 namespace naiad {
 
 struct HttpLimits {
-  /// Bytes of the head and of interim answers before it; also of the lines between two chunks of a body, and
-  /// of those after the last one.
+  /// Limit in bytes of the head and the interim answers before it; also of the lines between two chunks of a
+  /// body, and of those after the last chunk.
   std::size_t head = std::size_t{16} * 1024;
-  /// Bytes of the body in all.
+  /// Limit in bytes of the whole body.
   std::uint64_t body = std::uint64_t{1} << 20;
-  /// Value of `body` for an answer without end, whose pieces the caller takes out.
+  /// Value of `body` for an endless answer, whose pieces the caller removes.
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 };
 
-/// One answer to a GET, POST or PATCH; not to HEAD, whose answers announce a body that does not follow.
+/// One answer to a GET, POST or PATCH, but not to HEAD, whose answers announce a body that does not follow.
 ///
 ///   reader.feed(bytes);       // until isDone() or error()
 ///   reader.feedEnd(true);     // the connection ended
 ///
 /// Interim answers (1xx) are skipped, except 101, after which the connection speaks another protocol. A body
 /// is framed by Content-Length, by chunks, or by the end of the connection (RFC 9112 6.3). Refused as
-/// malformed: more than one Content-Length, Content-Length beside Transfer-Encoding, other codings than
-/// chunked, and chunks in HTTP/1.0.
+/// malformed: more than one Content-Length, Content-Length together with Transfer-Encoding, other codings
+/// than chunked, and chunks in HTTP/1.0.
 ///
-/// The result does not depend on the pieces in which the bytes come. Memory: the head, and the body as far as
-/// it came and was not taken out.
+/// The result does not depend on how the bytes are split into pieces. Memory: the head, and the received part
+/// of the body that popBody() has not removed.
 class HttpResponseReader {
  public:
   explicit HttpResponseReader(const HttpLimits& limits = {});
 
-  /// Removes the answer's bytes from the front of `bytes`; what is left follows the answer.
+  /// Removes the answer's bytes from the front of `bytes`; the remaining bytes follow the answer.
   void feed(std::string_view& bytes);
-  /// `in_order`: the peer said that this was all (with TLS: close_notify). Otherwise a body that ends with
-  /// the connection counts as truncated.
+  /// `in_order`: the peer marked the end (TLS: close_notify). Else a body ended by the connection is
+  /// truncated.
   void feedEnd(bool in_order);
 
   bool isDone() const { return m_state == State::kDone; }
@@ -53,13 +52,13 @@ class HttpResponseReader {
   unsigned status() const { return m_status; }
   const HttpHead& head() const { return m_head.head(); }
 
-  /// The body as far as it came and was not taken out.
+  /// The received part of the body that popBody() has not removed.
   const std::string& body() const { return m_body; }
-  /// Takes it out, for callers that use it piece by piece.
+  /// Removes and returns it, for callers that use it piece by piece.
   std::string popBody() { return std::exchange(m_body, {}); }
 
  private:
-  // The states follow each other in this order.
+  // The states occur in this order.
   enum class State { kHead, kLength, kToEnd, kChunkSize, kChunk, kChunkEnd, kTrailer, kDone };
 
   void step(std::string_view& bytes);
@@ -74,10 +73,10 @@ class HttpResponseReader {
   HttpLimits m_limits;
   HttpHeadReader m_head;
 
-  HttpLines m_lines;          // of a chunked body
+  HttpLines m_lines;          // lines of a chunked body
   std::size_t m_interim = 0;  // bytes of interim heads
-  std::uint64_t m_left = 0;   // bytes of this body or chunk that have not come
-  std::uint64_t m_total = 0;  // bytes of the body so far and of what was announced
+  std::uint64_t m_left = 0;   // bytes of this body or chunk that are still missing
+  std::uint64_t m_total = 0;  // bytes of the body so far, including the announced chunk
   unsigned m_status = 0;
   State m_state = State::kHead;
   HttpError m_error = HttpError::kNone;

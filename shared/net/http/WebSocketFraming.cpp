@@ -12,9 +12,9 @@ constexpr unsigned kClose = 0x8;
 constexpr unsigned kPing = 0x9;
 constexpr unsigned kPong = 0xa;
 
-constexpr unsigned kLastBit = 0x80;    // of the first byte
-constexpr unsigned kMaskBit = 0x80;    // of the second
-constexpr std::uint64_t kShort = 125;  // the longest payload of a control frame, and with 7 bits of length
+constexpr unsigned kLastBit = 0x80;    // in the first byte
+constexpr unsigned kMaskBit = 0x80;    // in the second byte
+constexpr std::uint64_t kShort = 125;  // longest payload of control frames and of 7-bit lengths
 constexpr unsigned kTwoBytes = 126;
 constexpr unsigned kEightBytes = 127;
 
@@ -36,7 +36,7 @@ void appendBigEndian(std::string& out, std::uint64_t number, std::size_t bytes) 
   for (std::size_t i = bytes; i-- > 0;) out += static_cast<char>(number >> (8 * i) & 0xff);
 }
 
-/// May stand in a close frame (RFC 6455 7.4).
+/// True for a code that a close frame may contain (RFC 6455 7.4).
 bool isCloseCode(std::uint64_t code) {
   return (code >= 1000 && code <= 1014 && code != 1004 && code != 1005 && code != 1006) ||
          (code >= 3000 && code <= 4999);
@@ -74,7 +74,7 @@ std::optional<std::string_view> WebSocketFraming::next() {
   return std::nullopt;
 }
 
-/// Nullopt: not all of it has come, or it was refused.
+/// Returns nullopt if the header is incomplete or was refused.
 std::optional<WebSocketFraming::Header> WebSocketFraming::readHeader() {
   const std::string_view bytes = std::string_view(m_bytes).substr(m_at);
   if (bytes.size() < 2) return std::nullopt;

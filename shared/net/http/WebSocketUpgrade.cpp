@@ -9,7 +9,7 @@
 namespace naiad {
 namespace {
 
-/// RFC 6455 1.3.
+/// Appended to the key to compute Sec-WebSocket-Accept (RFC 6455 1.3).
 constexpr std::string_view kAcceptSuffix = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
 
 std::string base64(std::string_view bytes) {

@@ -1,5 +1,4 @@
-// The handshake that opens a WebSocket, at a client's end (RFC 6455 4.1): what it asks for, and whether the
-// answer grants that.
+// The client's part of a WebSocket handshake (RFC 6455 4.1): request fields, and the check of the answer.
 #pragma once
 
 #include <string>
@@ -13,13 +12,13 @@ namespace naiad {
 
 class WebSocketUpgrade {
  public:
-  /// Asks for this subprotocol, and no other. `key`: 16 bytes, new ones for each handshake.
+  /// Requests this subprotocol, and no other. `key`: 16 bytes, new ones for each handshake.
   WebSocketUpgrade(std::string_view subprotocol, std::string_view key);
 
   /// Adds the fields of the handshake to a GET.
   void addTo(HttpRequest& request) const;
-  /// Returns why the answer is a refusal or breaks the rules, in a few words; empty if the WebSocket is open.
-  /// Nothing in it comes from the peer, except the number of the status.
+  /// Returns in a few words why the answer is a refusal or invalid; empty if the WebSocket is open. The text
+  /// contains nothing from the peer except the status number.
   std::string problem(unsigned status, const HttpHead& answer) const;
 
  private:

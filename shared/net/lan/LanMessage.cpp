@@ -14,14 +14,14 @@ constexpr char kFormat = 1;
 constexpr char kQuery = 1;
 constexpr char kAnswer = 2;
 constexpr char kPasswordFlag = 1;
-constexpr std::size_t kHead = 24;   // up to and with the nonce, of both messages
-constexpr std::size_t kTexts = 48;  // where an answer's begin
-constexpr std::size_t kLonger = 1;  // bytes of a text's length
+constexpr std::size_t kHead = 24;   // bytes of both messages up to the end of the nonce
+constexpr std::size_t kTexts = 48;  // offset of the texts in an answer
+constexpr std::size_t kLonger = 1;  // size of a text's length field
 
 static_assert(kTexts + 2 * (kLonger + kMaxLanTextBytes) <= kLanQuerySize,
               "an answer is no longer than a query");
 
-/// The highest there is, where it is higher.
+/// Appends 16 bits; larger numbers become 0xffff.
 void appendNumber(std::string& out, std::uint32_t number) {
   char bytes[2];
   storeLittleEndian(static_cast<std::uint16_t>(std::min(number, 0xffffU)), bytes);
@@ -52,7 +52,7 @@ std::array<std::uint8_t, kSize> bytesAt(std::string_view bytes, std::size_t at) 
   return result;
 }
 
-/// Takes a text from the front of `rest`. Nothing if it is too long, or not all there.
+/// Removes a text from the front of `rest`. Returns nullopt if it is too long or truncated.
 std::optional<std::string> takeText(std::string_view& rest) {
   if (rest.empty()) return std::nullopt;
   const std::size_t size = static_cast<unsigned char>(rest.front());

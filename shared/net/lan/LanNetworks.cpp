@@ -15,9 +15,9 @@
 namespace naiad {
 namespace {
 
-/// Have both the same first `bits`, of the 32 or 128 of their family?
+/// True if both have one family and equal first `bits`, of its 32 or 128.
 bool haveSameBegin(const asio::ip::address& a, const asio::ip::address& b, unsigned bits) {
-  const int length = static_cast<int>(bits) + (a.is_v4() ? 96 : 0);  // of a mapped address
+  const int length = static_cast<int>(bits) + (a.is_v4() ? 96 : 0);  // counted in a mapped address
   return a.is_v4() == b.is_v4() && AddressRange::masked(AddressRange::bytesOf(a), length) ==
                                        AddressRange::masked(AddressRange::bytesOf(b), length);
 }
@@ -35,7 +35,7 @@ bool isOfPrivateRange(const asio::ip::address& address) {
          isIn(address, "192.168.0.0", 16) || isIn(address, "169.254.0.0", 16);
 }
 
-/// Nothing for families other than IP.
+/// Returns nullopt for families other than IP.
 std::optional<asio::ip::address> addressOf(const sockaddr* p_address) {
   if (p_address == nullptr) return std::nullopt;
   if (p_address->sa_family == AF_INET) {
@@ -55,11 +55,10 @@ unsigned prefixOf(const asio::ip::address& mask) {
   unsigned bits = 0;
   for (const unsigned char byte : AddressRange::bytesOf(mask))
     bits += static_cast<unsigned>(std::popcount(byte));
-  return mask.is_v4() ? bits - 16 : bits;  // those in front of a mapped address
+  return mask.is_v4() ? bits - 16 : bits;  // minus the bits in front of a mapped address
 }
 
-/// Is this address of the interface one to ask, or answer, from? Systems have no route for IPv6 groups on
-/// loopback.
+/// True if the address can be used. Systems have no route for IPv6 groups on loopback.
 bool isSuitable(unsigned flags, const asio::ip::address& address) {
   if ((flags & IFF_UP) == 0 || (flags & IFF_POINTOPOINT) != 0) return false;
   return (flags & IFF_LOOPBACK) != 0 ? address.is_v4() : (flags & IFF_MULTICAST) != 0;

@@ -12,7 +12,7 @@
 namespace naiad {
 namespace {
 
-constexpr int kBuffer = 64 * 1024;  // bytes; what a flood fills, the system drops
+constexpr int kBuffer = 64 * 1024;  // receive buffer in bytes; the system drops packets beyond it
 
 #ifndef IPV6_MULTICAST_ALL
 constexpr int IPV6_MULTICAST_ALL = 29;
@@ -128,7 +128,7 @@ LanSocket::LanSocket(Family family)
   require(setInt(file, IPPROTO_IPV6, IPV6_RECVHOPLIMIT, 1), "IPV6_RECVHOPLIMIT");
   require(setInt(file, IPPROTO_IPV6, IPV6_RECVPKTINFO, 1), "IPV6_RECVPKTINFO");
   setInt(file, IPPROTO_IPV6, IPV6_MULTICAST_ALL,
-         0);  // since Linux 4.20; without it the interface is checked later
+         0);  // since Linux 4.20; without it, the interface is checked later
 }
 
 LanSocket::LanSocket(LanSocket&& other) noexcept
@@ -140,10 +140,10 @@ LanSocket::~LanSocket() {
 
 LanSocket LanSocket::forServer(Family family) {
   LanSocket socket(family);
-  // Of a group each of the sockets on the port gets its copy.
+  // Several servers share the port: each of their sockets receives every packet to the group.
   require(setInt(socket.m_descriptor, SOL_SOCKET, SO_REUSEADDR, 1), "SO_REUSEADDR");
-  // To the group itself, so that nothing else is heard. That of the link's scope in IPv6 would take a socket
-  // for each interface.
+  // IPv4 binds to the group, so that no other packets are received. For IPv6, a group of link-local scope
+  // would need a socket for each interface.
   const asio::ip::udp::endpoint any(asio::ip::udp::v6(), kLanPort);
   bindTo(socket.m_descriptor, family == Family::kIPv4 ? group(family) : any);
   return socket;
@@ -184,7 +184,7 @@ std::optional<LanPacket> LanSocket::receivePacket() {
   message.msg_control = control;
   message.msg_controllen = sizeof control;
   ssize_t size = 0;
-  // An error that ICMP reported stands before the packets behind it.
+  // A pending ICMP error is reported before the packets that wait behind it.
   for (int tries = 0; tries < 8; ++tries) {
     size = ::recvmsg(m_descriptor, &message, 0);
     if (size >= 0 || errno == EAGAIN || errno == EWOULDBLOCK) break;

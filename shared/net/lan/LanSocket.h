@@ -1,8 +1,8 @@
-// A UDP socket for the queries of the local network, or for their answers: it sends with the full hop limit
-// and says of each packet by which interface it came and which hop limit it had left.
+// A UDP socket for LAN queries or their answers. It sends with the full hop limit and reports, for each
+// received packet, its interface and remaining hop limit.
 //
-// A server's shares its port with the other servers of the machine. No packet goes through a router
-// (MSG_DONTROUTE; groups of the link).
+// A server's socket shares its port with the other servers of the machine. No packet passes a router
+// (MSG_DONTROUTE; link-local groups).
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ namespace naiad {
 struct LanPacket {
   asio::ip::udp::endpoint source;
   unsigned interface = 0;
-  int hop_limit = 0;       ///< what is left of it; 0: the system did not say
-  bool to_group = false;   ///< it was sent to the group, not to this machine alone
-  std::string_view bytes;  ///< cut to kLanQuerySize + 1
+  int hop_limit = 0;       ///< remaining hop limit; 0: the system did not report it
+  bool to_group = false;   ///< sent to the group, not to this machine alone
+  std::string_view bytes;  ///< truncated to kLanQuerySize + 1
 };
 
 /// Never blocks. Thread: one at a time.
@@ -30,9 +30,9 @@ class LanSocket {
  public:
   enum class Family { kIPv4, kIPv6 };
 
-  /// Hears queries on the interfaces of joinGroup(). Throws std::system_error, as the other one.
+  /// Opens a socket that receives queries on the interfaces of joinGroup(). Throws std::system_error.
   static LanSocket forServer(Family family);
-  /// Sends queries and hears their answers, on a port of its own.
+  /// Opens a socket, on its own port, that sends queries and receives answers. Throws std::system_error.
   static LanSocket forClient(Family family);
   ~LanSocket();
   LanSocket(LanSocket&& other) noexcept;
@@ -43,11 +43,11 @@ class LanSocket {
 
   /// False if the system refuses. Joining again changes nothing.
   bool joinGroup(unsigned interface);
-  /// The next packet, if one waits; its bytes are good until the next call.
+  /// Returns the next packet, if one waits; its bytes are valid until the next call.
   std::optional<LanPacket> receivePacket();
-  /// To the group, by the network's interface, from its address. False if it could not be sent.
+  /// Sends a query to the group through the network's interface, from its address. False if that failed.
   bool sendQuery(const LanNetwork& from, std::string_view bytes);
-  /// To a neighbour in this network.
+  /// Sends an answer to a neighbour in this network.
   bool sendAnswer(const LanNetwork& from, const asio::ip::udp::endpoint& to, std::string_view bytes);
 
  private:
@@ -59,8 +59,8 @@ class LanSocket {
   std::array<char, kLanQuerySize + 1> m_bytes{};
 };
 
-/// Those that there are of the two families, each by LanSocket::forServer or forClient: a machine may lack
-/// IPv6. Throws what the last one threw if there is none.
+/// Opens the sockets of both families with LanSocket::forServer or forClient. A machine may lack IPv6: throws
+/// only if both fail, the last error.
 std::vector<LanSocket> openLanSockets(LanSocket (*p_open)(LanSocket::Family family));
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// What listeners have in common: they accept one connection after the other.
+// The accept loop that listeners share.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -10,17 +10,16 @@
 
 namespace naiad {
 
-/// How long a listener waits for descriptors or memory to come free.
+/// Pause of a listener that ran out of descriptors or memory.
 inline constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
 
-/// Base of the state of a listener, which accepts until its acceptor is closed. Running out of descriptors or
-/// memory does not end that: it tries again after kAcceptRetryDelay, while the connections wait in the
-/// kernel's backlog.
+/// Base of a listener's state. Accepts until its acceptor is closed. If descriptors or memory run out, it
+/// retries after kAcceptRetryDelay; the connections wait in the kernel's backlog.
 ///
-/// `State` is held by std::shared_ptr, and kept alive by what is under way. It has
+/// `State` is owned by std::shared_ptr; pending operations keep it alive. It has
 ///
 ///   void meet(Socket socket);         called for each connection; may close the acceptor
-///   … counters.failed_accepts         attempts that were put off
+///   … counters.failed_accepts         counts attempts that will be retried
 ///
 /// Thread: the one that runs `context`, which must outlive it.
 template <class State, class Protocol>
@@ -28,7 +27,7 @@ class AcceptLoop : public std::enable_shared_from_this<State> {
  public:
   using Socket = typename Protocol::socket;
 
-  /// Begin, when `acceptor` listens.
+  /// Begins to accept. Call once `acceptor` listens.
   void accept() {
     acceptor.async_accept([self = this->shared_from_this()](const std::error_code& error, Socket socket) {
       self->onAccepted(error, std::move(socket));

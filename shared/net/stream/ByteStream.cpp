@@ -21,7 +21,7 @@ bool mayTryAgain(const std::error_code& error) {
   return error == asio::error::would_block || error == asio::error::interrupted;
 }
 
-constexpr int kNotSentLowWater = 4096;  // bytes the kernel takes beyond what it could send
+constexpr int kNotSentLowWater = 4096;  // unsent bytes that the kernel accepts
 
 std::string peerOf(const ByteStream::Socket& socket) {
   std::error_code error;
@@ -58,7 +58,7 @@ ByteStream::Outcome PlainStream::end() {
 
 ByteStream::ByteStream(Socket socket, std::string peer) : socket_(std::move(socket)), peer_(std::move(peer)) {
   if (peer_.empty()) peer_ = peerOf(socket_);
-  // A socket that is broken already fails here and again, visibly, on the first read.
+  // The calls below fail on a broken socket; the first read then reports the error.
   std::error_code ignored;
   socket_.non_blocking(true, ignored);
   socket_.set_option(tcp::no_delay(true), ignored);

@@ -1,8 +1,7 @@
-// Bytes over a connected socket, without blocking: as they are (PlainStream) or in TLS (TlsStream.h).
+// A non-blocking byte stream on a connected socket: plain (PlainStream) or in TLS (TlsStream.h).
 //
-// What a channel (TcpChannel.h) needs to know about the difference, and no more. All calls on the thread that
-// runs the socket's io_context. No call blocks or calls back; the caller waits for the socket and tries
-// again.
+// It hides the difference from channels (TcpChannel.h). All calls must be on the thread that runs the
+// socket's io_context. No call blocks or calls back; the caller waits for the socket and retries.
 #pragma once
 
 #include <asio/generic/stream_protocol.hpp>
@@ -18,23 +17,23 @@ class ByteStream {
  public:
   enum class Outcome {
     kDone,
-    kWantsRead,       ///< Try again when the socket is readable.
-    kWantsWrite,      ///< Try again when the socket is writable.
-    kWantsJudgement,  ///< Try again if that is wanted (TlsStream::handshake).
-    kEnd,             ///< The peer said that this was all.
-    kTruncated,       ///< The connection ended, but the peer had not said that this was all.
-    kBroken,   ///< The connection failed (reset, unreachable), or the peer gave up on it with an alert.
-    kGarbage,  ///< The peer sent what is no TLS, or was tampered with.
+    kWantsRead,       ///< Retry when the socket is readable.
+    kWantsWrite,      ///< Retry when the socket is writable.
+    kWantsJudgement,  ///< A server has the client's whole hello; retry to continue (TlsStream::handshake).
+    kEnd,             ///< The peer marked the end of the stream.
+    kTruncated,       ///< The connection ended without the peer's mark.
+    kBroken,          ///< The connection failed (reset, unreachable), or the peer ended it with an alert.
+    kGarbage,         ///< The peer's bytes are not TLS, or were modified on the way.
   };
   struct Progress {
     Outcome outcome;
-    std::size_t bytes = 0;  ///< with kDone: how many were read or written, at least one
+    std::size_t bytes = 0;  ///< number of bytes read or written, at least one; only with kDone
   };
 
-  /// TCP, or a socket of the file system.
+  /// A TCP or Unix domain socket.
   using Socket = asio::generic::stream_protocol::socket;
 
-  /// Takes a connected socket; makes it non-blocking, TCP with TCP_NODELAY and TCP_NOTSENT_LOWAT of 4 KiB.
+  /// Takes a connected socket and makes it non-blocking. TCP gets TCP_NODELAY and TCP_NOTSENT_LOWAT of 4 KiB.
   /// `peer`: "192.0.2.7:40000", the address of the other end; empty: the socket's own peer address.
   explicit ByteStream(Socket socket, std::string peer = {});
   virtual ~ByteStream() = default;
@@ -42,19 +41,19 @@ class ByteStream {
   ByteStream& operator=(const ByteStream&) = delete;
 
   virtual Progress read(std::span<char> into) = 0;
-  /// `bytes`: not empty. After kWantsRead or kWantsWrite the next call must begin with the same bytes (which
-  /// may lie elsewhere by then, with more behind them).
+  /// `bytes`: not empty. After kWantsRead or kWantsWrite, the next call must begin with equal bytes, at any
+  /// address, and may add more.
   virtual Progress write(std::string_view bytes) = 0;
-  /// Tell the peer that nothing more comes. What it still sends can be read. May be called again.
+  /// Tells the peer that nothing more follows. read() still works. May be called again.
   virtual Outcome end() = 0;
-  /// True if read() may yield something although the socket is not readable.
+  /// True if read() may return bytes although the socket is not readable.
   virtual bool holdsInput() const { return false; }
   /// See ReliableChannel::exportSecret().
   virtual std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
 
-  /// For waiting and closing; the bytes belong to read() and write().
+  /// The socket, for waiting and closing; use only read() and write() for the bytes.
   Socket& socket() { return socket_; }
-  /// "127.0.0.1:40000", "[::1]:40000"; IPv4 mapped into IPv6 is shown as IPv4. "unknown" if that is not
+  /// The peer's address: "127.0.0.1:40000" or "[::1]:40000", mapped IPv4 as IPv4; "unknown" if that is not
   /// known.
   const std::string& peer() const { return peer_; }
 
@@ -63,10 +62,10 @@ class ByteStream {
   std::string peer_;
 };
 
-/// An address as ByteStream::peer() writes it.
+/// Returns an address in the format of ByteStream::peer().
 std::string peerName(const asio::ip::tcp::endpoint& endpoint);
 
-/// Bytes as they are.
+/// Plain bytes, without TLS.
 class PlainStream : public ByteStream {
  public:
   using ByteStream::ByteStream;

@@ -1,4 +1,4 @@
-// The one part that needs OpenSSL: a client in a browser has none.
+// The only part of Fingerprint that needs OpenSSL, which a client in a browser lacks.
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/x509.h>

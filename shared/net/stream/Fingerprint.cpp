@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kDigits = "abcdefghijklmnopqrstuvwxyz234567";
 constexpr std::size_t kBitsPerDigit = 5;
-constexpr std::size_t kLength = 26;  // digits for 128 bits; two bits are left over
+constexpr std::size_t kLength = 26;  // digits for 128 bits and two unused ones
 
 int base32DigitOf(char c) {
   if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

@@ -1,6 +1,6 @@
-// The name of a server's key, as people copy it: SHA-256 of the SubjectPublicKeyInfo (as in RFC 7469 2.4), 64
-// hexadecimal digits. Of the key, not of the certificate, so that a renewed certificate keeps it.
-// Hexadecimal, because it stands in command lines: no quoting, no leading dash, one double click selects it.
+// The fingerprint of a server's key, as people copy it: SHA-256 of the SubjectPublicKeyInfo (as in RFC 7469
+// 2.4), 64 hexadecimal digits. It is made from the key, not the certificate, so that a renewed certificate
+// keeps it. Hexadecimal suits command lines: no quoting, no leading dash, one double click selects it.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ namespace naiad {
 
 class Fingerprint {
  public:
-  /// Of the key in a certificate.
+  /// Returns the fingerprint of the key in a certificate.
   static Fingerprint of(const x509_st& certificate);
-  /// 64 hexadecimal digits of either case, and nothing else.
+  /// Parses exactly 64 hexadecimal digits of either case; nullopt for other texts.
   static std::optional<Fingerprint> parse(std::string_view text);
-  /// 64 lower-case hexadecimal digits.
+  /// Returns 64 lower-case hexadecimal digits.
   std::string text() const;
   const std::array<std::uint8_t, 32>& bytes() const { return bytes_; }
 
@@ -31,11 +31,11 @@ class Fingerprint {
   std::array<std::uint8_t, 32> bytes_{};
 };
 
-/// The short name of a server's key, as it stands in a link: the first 128 bits of its fingerprint in base32
-/// (RFC 4648 6, without padding, lower case), 26 characters.
+/// The short name of a server's key in a link: the first 128 bits of its fingerprint in base32 (RFC 4648 6,
+/// without padding, lower case), 26 characters.
 ///
-/// 128 bits are enough for a key that nobody can make on purpose to have this name. Base32, because it is
-/// typed and read out: either case means the same, and 0, 1, 8 and 9, which look like letters, do not occur.
+/// With 128 bits, making another key with this short name is infeasible. Base32 is easy to type and read out:
+/// case does not matter, and it lacks 0, 1, 8 and 9, which look like letters.
 class ShortKey {
  public:
   static constexpr std::size_t kBytes = 16;
@@ -48,10 +48,10 @@ class ShortKey {
     key.bytes_ = bytes;
     return key;
   }
-  /// 26 characters a…z, A…Z, 2…7 of which the last bits are 0, and nothing else: each key has one text, but
-  /// for its case.
+  /// Parses 26 characters a…z, A…Z, 2…7 whose two unused bits are 0; nullopt for other texts. Each key has
+  /// one text, except for its case.
   static std::optional<ShortKey> parse(std::string_view text);
-  /// 26 lower-case characters.
+  /// Returns 26 lower-case characters.
   std::string text() const;
   const Bytes& bytes() const { return bytes_; }
 
@@ -62,12 +62,12 @@ class ShortKey {
   Bytes bytes_{};
 };
 
-/// What a TLS handshake proved about the server at the other end. Whether that is enough is the client's
-/// decision.
+/// The facts that a TLS handshake proved about the server. The client decides whether they are enough.
 struct PeerFacts {
-  Fingerprint key;              ///< of the key that the server proved to hold
-  bool chain_verifies = false;  ///< its certificate is for this host name and from an authority trusted here
-  std::string chain_problem;    ///< why not, in OpenSSL's words ("self-signed certificate"); empty if it is
+  Fingerprint key;              ///< fingerprint of the key that the server proved to have
+  bool chain_verifies = false;  ///< the certificate is valid for this host name and from an authority trusted
+                                ///< here
+  std::string chain_problem;    ///< OpenSSL's reason ("self-signed certificate"); empty if it verifies
 };
 
 }  // namespace naiad

@@ -54,7 +54,7 @@ std::optional<std::string_view> FrameReader::next() {
   if (partial_.empty() && pending_.size() >= kFrameHeaderSize) {
     const std::size_t length = lengthIn(pending_);
     if (!accept(length)) return std::nullopt;
-    if (pending_.size() >= kFrameHeaderSize + length) {  // whole: hand out where it is
+    if (pending_.size() >= kFrameHeaderSize + length) {  // complete: return it without a copy
       const std::string_view frame = pending_.substr(kFrameHeaderSize, length);
       pending_.remove_prefix(kFrameHeaderSize + length);
       return frame;
@@ -70,7 +70,7 @@ std::optional<std::string_view> FrameReader::next() {
   return std::string_view(partial_).substr(kFrameHeaderSize);
 }
 
-/// Move bytes from the piece to the partial frame until that has `wanted` bytes, or the piece is used up.
+/// Moves bytes from the piece to the partial frame until it has `wanted` bytes or the piece is used up.
 void FrameReader::keep(std::size_t wanted) {
   if (partial_.size() >= wanted) return;
   const std::size_t count = std::min(wanted - partial_.size(), pending_.size());

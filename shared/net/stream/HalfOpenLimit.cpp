@@ -18,10 +18,10 @@ HalfOpenLimit::Verdict HalfOpenLimit::judge(const AddressPrefix& prefix) const {
     return oldest ? Verdict{Kind::kEndFirst, *oldest} : Verdict{Kind::kFullForPrefix};
   }
   if (count() < limits_.in_all) return {};
-  return {Kind::kEndFirst, *oldestOfMostCrowded()};  // there are some, or kFull would have been the verdict
+  return {Kind::kEndFirst, *oldestOfMostCrowded()};  // there is a silent one, otherwise kFull was returned
 }
 
-// The widest prefix has at least as many as the others in it.
+// Tests only the widest prefix, which has at least as many connections as those in it.
 bool HalfOpenLimit::exceedsShare(const AddressPrefix& prefix) const {
   const auto group = groups_.back().find(prefix.widest());
   return group != groups_.back().end() && group->second.greeted >= limits_.in_all - greeted_;
@@ -34,7 +34,8 @@ std::optional<HalfOpenLimit::Id> HalfOpenLimit::oldestSilent(const AddressPrefix
   return found != by_id_.end() ? std::optional(found->first) : std::nullopt;
 }
 
-// The most crowded of the widest prefixes; in it the most crowded narrower one; in that one the oldest.
+// Returns the oldest silent connection of the most crowded prefix: first the most crowded widest prefix, then
+// the most crowded narrower ones in it.
 std::optional<HalfOpenLimit::Id> HalfOpenLimit::oldestOfMostCrowded() const {
   std::optional<Id> oldest;
   std::array<std::size_t, 3> most{};

@@ -1,14 +1,14 @@
-// Decides which connections may be half-open: between "accepted" and "handshake done".
+// Limits half-open connections: those between "accepted" and "handshake done".
 //
-// A connection is silent until its client hello is complete; from then on it has greeted. Silence is free for
-// an attacker, while the hello of an honest client comes with its connection. So silent connections are ended
-// to make room: the oldest one of the most crowded prefix. A connection that has greeted is never ended for
-// another one. Lest these fill all places, a prefix may have no more of them than places are left: one prefix
-// leaves half of the places free, and n that take all they can in turn leave 1/(n + 1). That is judged when a
-// connection comes and again when its hello is complete, for many may begin their hellos before one is.
+// A connection is silent until its client hello is complete; then it has greeted. Silence costs an attacker
+// nothing, while an honest client sends its hello at once. So silent connections are ended when places are
+// needed: the oldest one of the most crowded prefix. Greeted connections are never ended for others. So that
+// they cannot fill all places, a prefix may have at most as many of them as places are left: one greedy
+// prefix leaves half of the places free, n of them 1/(n + 1). This is checked when a connection arrives and
+// again when its hello is complete, because many hellos may begin before one is complete.
 //
-// A prefix counts in three widths (AddressPrefix.h), so an IPv6 customer with many networks, or a
-// neighbourhood of rented servers, is as crowded as all of it together.
+// Prefixes of three widths count (AddressPrefix.h), so an IPv6 customer with many networks, or a group of
+// rented servers, counts as one crowd.
 #pragma once
 
 #include <array>
@@ -21,43 +21,43 @@
 
 namespace naiad {
 
-/// Not thread-safe. Uses no clock: older is what was admitted earlier. Memory is that of the connections
-/// admitted; the dearest call goes through them once.
+/// Not thread-safe. Uses no clock: age is the order of admission. Memory is proportional to the admitted
+/// connections; the slowest call visits each of them once.
 class HalfOpenLimit {
  public:
   using Id = std::uint64_t;
 
   struct Limits {
-    std::size_t in_all = 256;     ///< connections at once
-    std::size_t per_prefix = 64;  ///< of these, from one IPv4 address or IPv6 /64
+    std::size_t in_all = 256;     ///< simultaneous connections
+    std::size_t per_prefix = 64;  ///< connections from one IPv4 address or IPv6 /64
   };
-  /// What a connection from some prefix meets.
+  /// The result for a connection from some prefix.
   struct Verdict {
     enum class Kind {
       kFits,
-      kEndFirst,       ///< It fits once the silent connection `id` has ended. Ask again afterwards.
+      kEndFirst,       ///< It fits after the silent connection `id` was ended. Call judge() again then.
       kFull,           ///< Refuse it: all places belong to connections that have greeted.
-      kFullForPrefix,  ///< Refuse it: its prefix has its share of the places.
+      kFullForPrefix,  ///< Refuse it: its prefix uses its share of the places.
     } kind = Kind::kFits;
     Id id = 0;
   };
 
   explicit HalfOpenLimit(Limits limits) : limits_(limits) {}
 
-  /// May one more connection come from `prefix`? Changes nothing.
+  /// Decides about one more connection from `prefix`. Changes nothing.
   Verdict judge(const AddressPrefix& prefix) const;
-  /// Count this one, until release(). `id` is greater than all before.
+  /// Counts a connection until release(). `id` must be greater than all earlier ones.
   void admit(Id id, const AddressPrefix& prefix);
-  /// The client hello of this one is complete. False: its prefix has its share of the places, so hang up on
-  /// it; it counts as silent until release(). Throws std::out_of_range if it is not admitted.
+  /// Records that the connection's client hello is complete. Returns false if its prefix uses its share of
+  /// the places: close it; it counts as silent until release(). Throws std::out_of_range if not admitted.
   [[nodiscard]] bool noteHello(Id id);
-  /// Once for each admitted. Throws std::out_of_range if it is not.
+  /// Removes an admitted connection; throws std::out_of_range if it is not admitted.
   void release(Id id);
 
-  /// Admitted, and its hello is not complete.
+  /// True if the connection is admitted and its hello is not complete.
   bool isSilent(Id id) const;
   std::size_t count() const { return by_id_.size(); }
-  /// More than half of the places are taken: time to be less patient.
+  /// True if more than half of the places are taken: use shorter timeouts.
   bool isCrowded() const { return 2 * count() > limits_.in_all; }
 
  private:
@@ -70,7 +70,7 @@ class HalfOpenLimit {
   struct Entry {
     AddressPrefix prefix;
     bool greeted = false;
-    std::array<Groups::iterator, 3> groups;  ///< by width, the narrowest first
+    std::array<Groups::iterator, 3> groups;  ///< its groups, narrowest width first
   };
 
   static std::array<AddressPrefix, 3> widthsOf(const AddressPrefix& prefix);
@@ -80,7 +80,7 @@ class HalfOpenLimit {
 
   Limits limits_;
   std::size_t greeted_ = 0;
-  std::map<Id, Entry> by_id_;  // so the oldest first
+  std::map<Id, Entry> by_id_;  // oldest first
   std::array<Groups, 3> groups_;
 };
 

@@ -11,16 +11,16 @@ namespace naiad {
 namespace {
 
 constexpr std::string_view kScheme = "naiad:";
-constexpr std::size_t kMaxLink = 512;  // bytes; the longest good one has some 330
-constexpr std::size_t kMaxHost = 253;  // of a name (RFC 1035 2.3.4)
-constexpr std::size_t kMaxLabel = 63;  // of a part of it
+constexpr std::size_t kMaxLink = 512;  // bytes; the longest valid link has about 330
+constexpr std::size_t kMaxHost = 253;  // characters of a host name (RFC 1035 2.3.4)
+constexpr std::size_t kMaxLabel = 63;  // characters between two dots of it
 constexpr std::size_t kMaxPortDigits = 5;
 
 bool isGraphic(char c) {
   return c > ' ' && c < 0x7f;
 }
 
-/// Nothing if a % is not followed by two hexadecimal digits, or what they mean is not printable ASCII.
+/// Decodes %XX. Returns nullopt if it is malformed or the result is not printable ASCII.
 std::optional<std::string> decoded(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -51,7 +51,7 @@ bool isName(std::string_view host) {
   return label > 0;
 }
 
-// Asio reads a C string, which ends at a zero byte, and takes a scope behind a %.
+// Checks the characters first: Asio's parser stops at a zero byte and accepts a scope after a %.
 bool isIPv6(std::string_view host) {
   if (host.find_first_not_of("0123456789abcdefABCDEF:.") != std::string_view::npos) return false;
   std::error_code error;

@@ -1,9 +1,8 @@
-// The link that leads to a game: naiad://HOST[:PORT][/ROOM]#KEY.
+// The link to a game: naiad://HOST[:PORT][/ROOM]#KEY.
 //
-// HOST is a name or an address (IPv6 in brackets), PORT the default one if it is left out, KEY the short name
-// of the server's key (ShortKey). A link comes from strangers, by way of pages, chats and desktops: it
-// holds these four and nothing else, each checked strictly. %XX is decoded, as desktops may encode what they
-// pass on (RFC 3986 2.1).
+// HOST is a name or an address (IPv6 in brackets), PORT is optional, KEY is the short name of the server's
+// key (ShortKey). Links come from untrusted pages and chats: they contain only these four parts, each checked
+// strictly. %XX is decoded because desktops may encode the links that they pass on (RFC 3986 2.1).
 #pragma once
 
 #include <cstdint>
@@ -17,8 +16,7 @@
 
 namespace naiad {
 
-/// Why a text is no link: the end of a sentence, "it has no key at its end". It has no text of the link in
-/// it.
+/// The reason why a text is not a valid link: the end of a sentence, without text of the link.
 struct LinkProblem {
   std::string sentence;
 };
@@ -28,11 +26,11 @@ struct LinkHost {
   std::string host;  ///< IPv6 without brackets
   std::uint16_t port = kDefaultPort;
 
-  /// A name of ASCII letters, digits, '-', '_' and dots that does not begin with '-', an IPv4 address, or an
-  /// IPv6 address in brackets, without a zone; and a port of 1 … 65535, `default_port` if there is none.
-  /// Nothing if it is none of these.
+  /// Parses a name of ASCII letters, digits, '-', '_' and dots that does not begin with '-', an IPv4 address,
+  /// or an IPv6 address in brackets, without a zone; then a port of 1 … 65535, or none for `default_port`.
+  /// Returns nullopt for other texts.
   static std::optional<LinkHost> parse(std::string_view text, std::uint16_t default_port = kDefaultPort);
-  /// Returns "game.example" or "[::1]:9877". Leaves the port out if it is `default_port`.
+  /// Returns "game.example" or "[::1]:9877"; omits the port if it is `default_port`.
   std::string text(std::uint16_t default_port = kDefaultPort) const;
 
   friend bool operator==(const LinkHost&, const LinkHost&) = default;
@@ -40,10 +38,10 @@ struct LinkHost {
 
 struct JoinLink {
   LinkHost where;
-  std::string room;  ///< empty, or a name that isRoomName() takes
+  std::string room;  ///< empty, or a name that isRoomName() accepts
   ShortKey key;
 
-  /// Does the text mean to be a link? It begins with "naiad:", in any case.
+  /// True if the text begins with "naiad:", in any case: parse it as a link.
   static bool isMeant(std::string_view text);
   static std::variant<JoinLink, LinkProblem> parse(std::string_view text);
   std::string text() const;

@@ -1,8 +1,8 @@
-// A time-out for an answer from elsewhere.
+// A timeout for a peer's answer that excludes stalls of this process.
 //
-// A process that gets no processor for a while finds both when it goes on: the answer, which came in the
-// meantime and is not read yet, and its time-out, which is over. So the time is waited for in parts, and a
-// part that took longer than it should counts as what it should have taken (see also IdleTimer).
+// After a process got no CPU time for a while, both are there: the answer, which is not read yet, and its
+// timeout, which has expired. So the timer divides the time into parts. A part that took too long counts only
+// with its planned length (see also IdleTimer).
 #pragma once
 
 #include <asio/any_io_executor.hpp>
@@ -20,14 +20,14 @@ class PatientTimer {
  public:
   using Duration = asio::steady_timer::duration;
 
-  /// Into so many parts a time is divided.
+  /// The number of parts.
   static constexpr int kParts = 8;
 
   explicit PatientTimer(const asio::any_io_executor& executor) : m_timer(executor) {}
   explicit PatientTimer(asio::io_context& context) : m_timer(context) {}
 
-  /// Call `over` after `time` in which this process ran. Takes the place of a time-out under way. `over` has
-  /// to keep this timer alive; it is let go of when it was called, or soon after cancel().
+  /// Calls `over` after this process ran for `time`. Replaces a pending timeout. `over` must keep this timer
+  /// alive; it is destroyed after its call, or soon after cancel().
   void start(Duration time, std::function<void()> over) {
     wait(time / kParts, kParts, ++m_started, std::move(over));
   }

@@ -1,9 +1,9 @@
-// Frames that must arrive although the stream that carries them may break.
+// Frames that must arrive even if the stream that carries them breaks.
 //
-// The sender numbers them, from 1, and keeps each until the other end says that it came; what is left is sent
-// again on the session's next stream. The receiver takes each number once. Numbers are compared as serial
-// numbers (RFC 1982) and may have gaps: a server leaves out what a later frame replaces, and the oldest chat
-// where there is too much (host/session/ReliableOutbox.h).
+// The sender numbers them from 1 and keeps each until the other end acknowledges it; kept frames are sent
+// again on the session's next stream. The receiver accepts each number once. Numbers are compared as serial
+// numbers (RFC 1982). Gaps are allowed: a server drops frames that a later one replaces, and the oldest chat
+// if there is too much (host/session/ReliableOutbox.h).
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,19 @@
 
 namespace naiad {
 
-/// A client's end as a sender. Not thread-safe.
+/// The sending end of a client. Not thread-safe.
 class ReliableFrames {
  public:
-  /// Kept at most, in bytes with their headers.
+  /// Limit of the kept frames, in bytes with their headers.
   static constexpr std::size_t kMax = std::size_t{64} * 1024;
 
   /// The number of the next frame; never 0.
   std::uint32_t next() const { return m_next; }
-  /// Keep this frame, which has the number next(). False, and nothing is kept, if that is more than kMax.
+  /// Keeps this frame under the number next(). Returns false, and keeps nothing, if that exceeds kMax.
   bool keep(std::string frame);
-  /// The other end has all up to `number`. What was never sent is no acknowledgement.
+  /// Drops the frames up to `number`, which the other end has received. Ignores numbers that were never sent.
   void acknowledge(std::uint32_t number);
-  /// Call `send(frame)` for all that is kept, in order.
+  /// Calls `send(frame)` for all kept frames, in order.
   template <class Send>
   void forEach(Send send) const {
     for (const Kept& kept : m_kept) send(kept.frame);
@@ -40,17 +40,17 @@ class ReliableFrames {
     std::size_t size() const;
   };
 
-  std::deque<Kept> m_kept;  ///< in order
+  std::deque<Kept> m_kept;  ///< kept frames, by number
   std::size_t m_bytes = 0;
   std::uint32_t m_next = 1;
 };
 
-/// The receiver's end.
+/// The receiving end.
 class ReliableFramesHeard {
  public:
-  /// Is this frame news? `number` 0: it is not kept, so it is. Each other number is so once.
+  /// Returns true if the frame is new, once per number. `number` 0 (a frame that is not kept) is always new.
   bool take(std::uint32_t number);
-  /// Number of the newest that came; 0: none.
+  /// The newest received number; 0: none.
   std::uint32_t newest() const { return m_newest; }
 
  private:

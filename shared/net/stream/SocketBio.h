@@ -1,4 +1,4 @@
-// An OpenSSL BIO for a non-blocking socket, and its guard against long hellos. OpenSSL's own BIO for sockets
+// An OpenSSL BIO for a non-blocking socket, with a guard against long client hellos. OpenSSL's own socket BIO
 // raises SIGPIPE and does not tell why it failed.
 #pragma once
 
@@ -12,22 +12,21 @@ struct bio_st;
 
 namespace naiad {
 
-/// Looks at what a client sends before its handshake is done, and stops it from making OpenSSL reserve
+/// Inspects a client's bytes before its handshake is done, so that it cannot make OpenSSL reserve much
 /// memory.
 ///
-/// OpenSSL accepts a ClientHello of up to 131,396 bytes and reserves for all of it when its length has come.
-/// An honest one takes a few hundred bytes. The client's hello messages (a second one may follow a
-/// HelloRetryRequest) are the only handshake messages that it sends in the clear (RFC 8446 4, 5.1), so their
-/// headers can be read in passing:
+/// OpenSSL accepts a ClientHello of up to 131,396 bytes and reserves memory for it as soon as it knows its
+/// length. Honest ones have a few hundred bytes. A client sends only its hello messages unencrypted (a second
+/// one may follow a HelloRetryRequest; RFC 8446 4, 5.1), so their headers can be read:
 ///
-///   record   [type 1][version 2][length 2] payload      type 22: handshake messages, cut anywhere
+///   record   [type 1][version 2][length 2] payload      type 22: handshake messages, split anywhere
 ///   message  [kind 1][length 3] body
 class ClientHelloGuard {
  public:
-  /// Bytes of one hello. (Ours has about 300; a hybrid key share adds 1.2 KiB.)
+  /// The largest accepted hello in bytes. (Ours has about 300; a hybrid key share adds 1.2 KiB.)
   static constexpr std::size_t kMaxHello = 4096;
 
-  /// The next bytes from the client, in any pieces. False if they announce a longer hello: hang up.
+  /// Checks the client's next bytes, in any pieces. Returns false if they announce a longer hello.
   bool accept(std::string_view bytes);
 
  private:
@@ -41,15 +40,15 @@ class ClientHelloGuard {
   std::size_t message_left_ = 0;
 };
 
-/// Must outlive the BIO and stay where it is.
+/// The state of a BIO. Must outlive the BIO and stay at its address.
 struct SocketBio {
   int socket = -1;                        ///< connected, non-blocking; not owned
   bool ended = false;                     ///< the peer closed its side
-  bool failed = false;                    ///< the socket did
-  bool refused = false;                   ///< `guard` did
-  std::optional<ClientHelloGuard> guard;  ///< while set, sees what comes in
+  bool failed = false;                    ///< the socket failed
+  bool refused = false;                   ///< `guard` refused the bytes
+  std::optional<ClientHelloGuard> guard;  ///< while set, checks received bytes
 
-  /// A BIO on this, for SSL_set_bio(); null if out of memory.
+  /// Returns a BIO that uses this object, for SSL_set_bio(); null if out of memory.
   bio_st* make();
 };
 

@@ -36,7 +36,7 @@ void StreamAttempt::limit() {
 
 void StreamAttempt::resolve() {
   limit();
-  // No flag for "addresses configured": a machine that is off-line still has its loopback.
+  // No "addresses configured" flag: an off-line machine still has its loopback.
   resolver_.async_resolve(
       target_.host, std::to_string(target_.port), tcp::resolver::numeric_service,
       [self = shared_from_this()](const std::error_code& error, const tcp::resolver::results_type& results) {
@@ -86,13 +86,12 @@ void StreamAttempt::choose(const std::vector<tcp::endpoint>& addresses) {
   fail(End::kOtherMachine, addresses.empty() ? "no address" : addresses.front().address().to_string());
 }
 
-/// A small "happy eyeballs" (RFC 8305 without the races): a silent address costs its share of the time, no
-/// more.
+/// A small "happy eyeballs" (RFC 8305 without the races): a silent address costs its share of the timeout.
 void StreamAttempt::tryNext() {
   disconnect();
   if (turn_ == endpoints_.size()) return fail(last_end_, last_detail_);
   const std::size_t mine = ++turn_;
-  if (mine < endpoints_.size()) {  // the last one has all the time that is left
+  if (mine < endpoints_.size()) {  // the last one has all remaining time
     share_.start(timeout_ / static_cast<int>(endpoints_.size()), [self = shared_from_this(), mine] {
       if (self->done_ && self->turn_ == mine) self->tryNext();
     });
@@ -105,7 +104,7 @@ void StreamAttempt::tryNext() {
 
 void StreamAttempt::onConnected(const std::error_code& error) {
   std::error_code ignored;
-  // A port without a listener may be the very one the kernel picks for us; TCP then connects to itself.
+  // If nothing listens, the kernel may choose this port for the client's end; TCP then connects to itself.
   const bool myself = !error && socket_.local_endpoint(ignored) == socket_.remote_endpoint(ignored);
   if (myself || error) {
     const bool refused = myself || error == asio::error::connection_refused;
@@ -123,7 +122,7 @@ void StreamAttempt::onEntered(const std::error_code& error, const std::string& p
                               const tcp::endpoint& visitor) {
   std::error_code failed = error;
   const std::string header = visitorHeader(visitor);
-  // It fits into the socket's empty buffer as a whole.
+  // The header fits into the socket's empty buffer.
   if (!failed) asio::write(door_, asio::buffer(header), failed);
   if (!failed) return shakeHands(std::move(door_));
   fail(End::kUnusable, "Could not connect through " + path + " (" + failed.message() + ").",

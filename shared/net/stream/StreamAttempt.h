@@ -1,4 +1,4 @@
-// Opens one stream to a host and port, without blocking: resolves the name, connects, and does the TLS
+// Opens one stream to a host and port without blocking: resolves the name, connects, and does the TLS
 // handshake.
 #pragma once
 
@@ -21,13 +21,13 @@
 
 namespace naiad {
 
-/// A stream, or the reason why there is none.
+/// A stream, or the reason why it could not be opened.
 struct StreamResult {
   enum class End {
     kOpen,
     kNotFound,      ///< The resolver has no address for the host.
     kNotAllowed,    ///< StreamTarget::is_allowed refused the addresses.
-    kOtherMachine,  ///< The host is not this machine, and there is no TLS. `detail`: its address.
+    kOtherMachine,  ///< The host is not this machine, and TLS is off. `detail`: its address.
     kRefused,       ///< Nothing listens at the last address.
     kUnreachable,   ///< The last address cannot be reached.
     kHandshake,     ///< The TLS handshake failed.
@@ -35,30 +35,30 @@ struct StreamResult {
     kUnusable,  ///< The host's name or the path of the socket cannot be used. `detail`: one sentence.
   };
   End end = End::kOpen;
-  std::string detail = {};                   ///< reason, as the end of a sentence if nothing else is said
+  std::string detail = {};                   ///< the reason, usually the end of a sentence
   bool hung_up = false;                      ///< the server closed the connection during the handshake
-  std::unique_ptr<ByteStream> stream = {};   ///< with kOpen
-  std::optional<PeerFacts> peer_facts = {};  ///< with kOpen and TLS
+  std::unique_ptr<ByteStream> stream = {};   ///< set with kOpen
+  std::optional<PeerFacts> peer_facts = {};  ///< set with kOpen and TLS
 };
 
 struct StreamTarget {
   std::string host;  ///< a name, or an IPv4 or IPv6 address without brackets
   std::uint16_t port = 0;
   std::shared_ptr<const TlsContext> tls = {};  ///< null: plain TCP, to loopback addresses only
-  /// Addresses that may be connected to; empty: all.
+  /// True for addresses that may be used; empty: all.
   std::function<bool(const asio::ip::address& address)> is_allowed = {};
 
-  /// "127.0.0.1:9876", "[::1]:9876".
+  /// Returns "127.0.0.1:9876" or "[::1]:9876".
   std::string text() const;
 };
 
 /// One attempt, one use. Make it with std::make_shared; it keeps itself alive while it runs.
 ///
-/// Addresses are tried in turn, each for its share of the timeout, which covers everything. The next address
-/// is tried when one is silent or cannot be reached, not when the handshake with a server fails.
+/// Tries the addresses in turn, each for its share of `timeout`, which covers the whole attempt. The next
+/// address is tried if one is silent or unreachable, not if the handshake with a server fails.
 ///
-/// Thread: the one that runs `context`, which must outlive the attempt. A name is resolved on a thread of
-/// Asio's own; destroying the io_context waits for it.
+/// Thread: the one that runs `context`, which must outlive the attempt. Asio resolves names on its own
+/// thread; the io_context's destructor waits for it.
 class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
  public:
   using Done = std::function<void(StreamResult result)>;
@@ -66,13 +66,12 @@ class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
   /// `done` is called once, from the event loop, unless the attempt is cancelled.
   StreamAttempt(asio::io_context& context, StreamTarget target, std::chrono::milliseconds timeout, Done done);
 
-  /// Exactly one of these is called, once.
+  /// Resolves the host's name and connects. Call exactly one of resolve(), connect() and enter(), once.
 
   void resolve();
   /// Skips the resolver: `endpoints` are the addresses of the host.
   void connect(const std::vector<asio::ip::tcp::endpoint>& endpoints);
-  /// Goes through a visitors' socket of this machine (VisitorsListener.h) for a player at `visitor`. With TLS
-  /// only.
+  /// Connects through a visitors' socket (VisitorsListener.h) for a player at `visitor`. Only with TLS.
   void enter(const std::string& path, const asio::ip::tcp::endpoint& visitor);
 
   /// Gives up; `done` will not be called.
@@ -100,9 +99,9 @@ class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
   Done done_;  // empty: this attempt is over
   asio::ip::tcp::resolver resolver_;
   asio::ip::tcp::socket socket_;
-  asio::local::stream_protocol::socket door_;  // in place of `socket_`: enter()
+  asio::local::stream_protocol::socket door_;  // used by enter() instead of `socket_`
   PatientTimer timer_;
-  PatientTimer share_;  // of the address that is being tried
+  PatientTimer share_;  // ends the turn of the current address
   std::shared_ptr<TlsHandshake> handshake_;
   std::vector<asio::ip::tcp::endpoint> endpoints_;
   std::size_t turn_ = 0;  // endpoints_[turn_ - 1] is being tried

@@ -16,11 +16,11 @@
 namespace naiad {
 namespace {
 
-/// Frames (StreamFraming) over a stream of bytes: the one state machine behind every channel on a TCP
-/// socket, encrypted or not. Handlers under way share it, so the channel that started them may go first.
+/// Frames (StreamFraming) over a stream of bytes: the state machine of all channels on a TCP socket,
+/// encrypted or not. Pending handlers share it, so the channel may be destroyed before them.
 class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
  public:
-  /// `stream`: ready for bytes both ways (a handshake is over). `framing`: may have been fed bytes already.
+  /// `stream`: its handshake is over. `framing`: may have been fed bytes already.
   StreamConnection(std::unique_ptr<ByteStream> stream, std::unique_ptr<StreamFraming> framing,
                    const TcpOptions& options);
 
@@ -28,7 +28,7 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
   void send(std::string_view frame);
   std::size_t unsentBytes();
   void close();
-  /// The channel is being destroyed.
+  /// Called by the channel's destructor.
   void abandon();
 
   const std::string& peer() const { return peer_; }
@@ -62,22 +62,22 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
   TcpOptions options_;
   std::string peer_;
   std::unique_ptr<StreamFraming> framing_;
-  std::shared_ptr<ReliableChannel::Callbacks> callbacks_;  // shared with the call that is running
+  std::shared_ptr<ReliableChannel::Callbacks> callbacks_;  // shared with the running call
   std::string queue_;
-  std::size_t written_ = 0;  // bytes at the front of the queue that the kernel took
+  std::size_t written_ = 0;  // bytes at the front of the queue that the kernel accepted
   Phase phase_ = Phase::kOpen;
   CloseReason reason_ = CloseReason::kLocal;
   bool pump_posted_ = false;
   bool reading_ = false;
   bool awaiting_room_ = false;
   bool write_failed_ = false;
-  bool counts_unread_ = false;  // the kernel does not know what is unsent, only what is unread
+  bool counts_unread_ = false;  // the kernel reports unread bytes, not unsent ones
 };
 
 using asio::ip::tcp;
 
 constexpr std::size_t kReadSize = 16'384;      // one read per turn of the loop, for fairness; one TLS record
-constexpr std::size_t kKeptCapacity = 65'536;  // a queue that grew beyond this is given back
+constexpr std::size_t kKeptCapacity = 65'536;  // a queue that grew beyond this frees its memory
 
 tcp::socket::wait_type waitFor(ByteStream::Outcome wish) {
   return wish == ByteStream::Outcome::kWantsWrite ? tcp::socket::wait_write : tcp::socket::wait_read;
@@ -103,8 +103,8 @@ void StreamConnection::start(ReliableChannel::Callbacks callbacks) {
   awaitInput();
 }
 
-// Input. Waiting for readiness instead of reading into a buffer of its own: an idle connection then holds
-// no memory but a partial frame.
+// Input. Waits for readiness instead of reading into its own buffer, so an idle connection needs no memory
+// except for a partial frame.
 
 void StreamConnection::awaitInput(Outcome wish) {
   if (reading_) return;
@@ -168,7 +168,7 @@ void StreamConnection::onInputEnded(Outcome outcome) {
   }
 }
 
-// Output. send() only queues; one posted call hands everything queued in this turn to one write.
+// Output. send() only queues; one posted call writes everything that was queued in this turn.
 
 void StreamConnection::send(std::string_view frame) {
   if (phase_ != Phase::kOpen || write_failed_) return;
@@ -195,8 +195,8 @@ std::size_t StreamConnection::unsentBytes() {
   return queuedBytes() + bytesInKernel();
 }
 
-// Sockets of the file system know SIOCOUTQ alone: the memory of what the other program has not read yet,
-// which is more than its bytes.
+// Unix domain sockets support only SIOCOUTQ: the memory of bytes that the other program has not read, which
+// is more than their number.
 std::size_t StreamConnection::bytesInKernel() {
   const int socket = stream_->socket().native_handle();
   int bytes = 0;
@@ -243,7 +243,7 @@ void StreamConnection::dropWritten() {
   if (queue_.empty() && queue_.capacity() > kKeptCapacity) std::string().swap(queue_);
 }
 
-/// Frames that came before the failure may still wait in the kernel; reading finds the end after them.
+/// Frames received before the failure may still wait in the kernel; reading finds the end after them.
 void StreamConnection::onWriteFailed() {
   write_failed_ = true;
   if (phase_ == Phase::kClosing) finish(CloseReason::kLocal, false);
@@ -264,8 +264,8 @@ void StreamConnection::close() {
   pump();
 }
 
-/// Everything is sent. Closing now would reset the connection if the peer's last bytes are unread, and the
-/// reset could overtake ours; so say that this was all, and read until the peer closes as well.
+/// Ends the stream after everything was sent. Closing now would reset the connection if the peer's last bytes
+/// are unread, and the reset could overtake our bytes. So announce the end, and read until the peer closes.
 void StreamConnection::endStream() {
   const Outcome outcome = stream_->end();
   if (outcome == Outcome::kWantsWrite || outcome == Outcome::kWantsRead) {
@@ -280,7 +280,7 @@ void StreamConnection::abandon() {
   if (phase_ == Phase::kOpen) finish(CloseReason::kLocal, false);
 }
 
-/// `cut`: throw away what the kernel still holds, instead of leaving it there for a peer that does not read.
+/// `cut`: discard the bytes in the kernel's queue, because the peer does not read them.
 void StreamConnection::finish(CloseReason reason, bool cut) {
   phase_ = Phase::kClosed;
   reason_ = reason;
@@ -289,7 +289,7 @@ void StreamConnection::finish(CloseReason reason, bool cut) {
     stream_->socket().set_option(tcp::socket::linger(true, 0), ignored);
   } else if (reason != CloseReason::kError && !write_failed_) {
     sendEnd();
-    stream_->end();  // as far as that goes without waiting
+    stream_->end();  // sends the end without waiting
   }
   stream_->socket().close(ignored);
   deadline_.cancel();
@@ -298,7 +298,7 @@ void StreamConnection::finish(CloseReason reason, bool cut) {
   report();
 }
 
-/// Sends the framing's last word, as far as that goes without waiting.
+/// Sends the framing's end frame as far as possible without waiting.
 void StreamConnection::sendEnd() {
   const std::size_t before = queue_.size();
   framing_->appendEnd(queue_);
@@ -313,7 +313,7 @@ void StreamConnection::sendEnd() {
 void StreamConnection::report() {
   if (!callbacks_) return;
   asio::post(stream_->socket().get_executor(), [self = shared_from_this()] {
-    const auto callbacks = std::move(self->callbacks_);  // none if the channel was destroyed meanwhile
+    const auto callbacks = std::move(self->callbacks_);  // null if the channel was destroyed
     if (callbacks && callbacks->on_closed) callbacks->on_closed(self->reason_);
   });
 }

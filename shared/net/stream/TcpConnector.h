@@ -1,4 +1,4 @@
-// Opens a connection to a host and port, without blocking: TLS, or plain TCP on loopback.
+// Opens a connection to a host and port without blocking: TLS, or plain TCP on loopback.
 #pragma once
 
 #include <asio/ip/tcp.hpp>
@@ -21,19 +21,19 @@ namespace naiad {
 
 class StreamAttempt;
 
-/// One attempt at a time; may be used again after it ended, for a client that reconnects.
+/// Makes one attempt at a time; reusable after it ended, for a client that reconnects.
 ///
 ///   TcpConnector connector(context, {.receive_limit = kMaxServerFrame});
 ///   connector.connect("localhost", kDefaultPort, 5s, [&](auto channel, const std::string& error) { … });
 ///
-/// With TLS it takes any server that can do the protocol. In `done` the caller judges peerFacts(), before it
-/// starts the channel or sends anything on it.
+/// With TLS it accepts any server that supports the protocol. In `done`, the caller must check peerFacts()
+/// before it starts the channel or sends on it.
 ///
 /// Thread: the one that runs `context`, which must outlive the connector. The connector may be destroyed at
-/// any time, in its own callback too; that cancels.
+/// any time, even in its own callback; that cancels.
 class TcpConnector {
  public:
-  /// Either a channel, not started yet, and an empty `error`; or no channel and one sentence for people.
+  /// Receives a channel that is not started, and an empty `error`; or no channel and one sentence for people.
   using Done = std::function<void(std::unique_ptr<ReliableChannel> channel, const std::string& error)>;
 
   /// `tls`: TlsContext::forClient(); without it, plain TCP.
@@ -43,37 +43,36 @@ class TcpConnector {
   TcpConnector(const TcpConnector&) = delete;
   TcpConnector& operator=(const TcpConnector&) = delete;
 
-  /// Resolve `host` (a name, or an IPv4 or IPv6 address without brackets) and try its addresses in turn, each
-  /// for its share of `timeout`, which covers everything. The next address is tried when one is silent or
-  /// cannot be reached, not when a server there fails the handshake. Without TLS, names that do not lead to
-  /// this machine are refused. `done` is called once, from the event loop, unless cancelled. Cancels an
-  /// attempt under way.
+  /// Resolves `host` (a name, or an IPv4 or IPv6 address without brackets) and tries its addresses in turn,
+  /// each for its share of `timeout`, which covers the whole attempt. The next address is tried if one is
+  /// silent or unreachable, not if a server fails the handshake. Without TLS, names of other machines are
+  /// refused. `done` is called once, from the event loop, unless cancelled. Cancels a running attempt.
   void connect(const std::string& host, std::uint16_t port, std::chrono::milliseconds timeout, Done done);
-  /// The same with addresses that are known already. `host`: what they are addresses of.
+  /// Like connect() above, with the known addresses of `host`.
   void connect(const std::string& host, const std::vector<asio::ip::tcp::endpoint>& endpoints,
                std::chrono::milliseconds timeout, Done done);
 
-  /// The same by way of a visitors' socket of this machine (VisitorsListener.h), for a player at `visitor`.
-  /// `host` and `port` are what the server is called. With TLS only.
+  /// Like connect(), through a visitors' socket of this machine (VisitorsListener.h), for a player at
+  /// `visitor`. `host` and `port` are the server's public address. Only with TLS.
   void connectFor(const asio::ip::tcp::endpoint& visitor, const std::string& socket, const std::string& host,
                   std::uint16_t port, std::chrono::milliseconds timeout, Done done);
 
-  /// From now on only addresses are connected to of which `is_allowed` says so; a host that has none is as
-  /// one that cannot be reached. Empty: all.
+  /// Restricts later attempts to addresses for which `is_allowed` returns true; a host without any counts as
+  /// unreachable. Empty: all are allowed.
   void restrict(std::function<bool(const asio::ip::address& address)> is_allowed) {
     is_allowed_ = std::move(is_allowed);
   }
 
-  /// About the server behind the newest channel given out: set from before `done` is called until the next
-  /// connect() or cancel(). Nothing without TLS.
+  /// Facts about the server of the newest channel, valid from the call of `done` to the next connect() or
+  /// cancel(). nullopt without TLS.
   const std::optional<PeerFacts>& peerFacts() const { return peer_facts_; }
 
-  /// The newest attempt ended because the server hung up on it, or the line broke, during the handshake: so
-  /// it does where too many come from one place, and another attempt may do.
+  /// True if, in the newest attempt, the server closed the connection or it broke during the handshake.
+  /// Servers do this if too many come from one address; a retry may succeed.
   bool wasHungUpOn() const { return was_hung_up_on_; }
 
-  /// Give up; `done` will not be called. Harmless when nothing is under way. (A name look-up runs on in its
-  /// own thread until the resolver's time-out; destroying the io_context waits for it.)
+  /// Gives up; `done` will not be called. Has no effect without an attempt. (A name look-up continues on its
+  /// own thread until the resolver's timeout; the io_context's destructor waits for it.)
   void cancel();
 
  private:

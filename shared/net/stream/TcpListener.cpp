@@ -43,11 +43,11 @@ struct TcpListener::State : AcceptLoop<State, tcp> {
   void close();
 
   tcp::endpoint endpoint;
-  OnChannel on_channel;  // as long-lived as this, for a callback may destroy the listener
+  OnChannel on_channel;  // stored here because a callback may destroy the listener
   TcpOptions options;
   TlsListening tls;
   HalfOpenLimit strangers;
-  HalfOpenLimit known;  // by TlsListening::is_known
+  HalfOpenLimit known;  // connections for which TlsListening::is_known is true
   std::map<HalfOpenLimit::Id, std::shared_ptr<TlsHandshake>> handshakes;
   HalfOpenLimit::Id newest = 0;
   Counters counters;
@@ -62,7 +62,7 @@ void TcpListener::State::requireEncryption(const asio::ip::address& address) con
 
 void TcpListener::State::deferAccepts() {
   if (!tls.context || tls.defer_accept.count() <= 0) return;
-  const int seconds = static_cast<int>(tls.defer_accept.count());  // where it fails, silence is accepted
+  const int seconds = static_cast<int>(tls.defer_accept.count());  // on failure silence is accepted
   setsockopt(acceptor.native_handle(), IPPROTO_TCP, TCP_DEFER_ACCEPT, &seconds, sizeof seconds);
 }
 
@@ -101,7 +101,7 @@ void TcpListener::State::listen(const std::string& numeric_address, std::uint16_
   if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
   if (!error) endpoint = acceptor.local_endpoint(error);
   if (!error) return;
-  error.assign(error.value(), std::generic_category());  // Asio's category does not compare with std::errc
+  error.assign(error.value(), std::generic_category());  // Asio's category does not equal std::errc
   const std::string where = "port " + std::to_string(port) + " on " + numeric_address;
   if (error == std::errc::address_in_use) {
     throw ListenError("Cannot listen: " + where + " is in use by another program.", error);
@@ -120,7 +120,7 @@ void TcpListener::State::meet(tcp::socket socket) {
 void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer) {
   if (tls.is_banned && tls.is_banned(peer.address())) return refuse(peer, StreamRefusal::kBanned);
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
-  if (tls.has_handshake && !tls.has_handshake(prefix))  // what OpenSSL takes for a stream is saved
+  if (tls.has_handshake && !tls.has_handshake(prefix))  // refused early to save OpenSSL's memory
     return refuse(peer, StreamRefusal::kTooOften);
   HalfOpenLimit& places = tls.is_known && tls.is_known(prefix) ? known : strangers;
   if (!makeRoom(places, peer)) return;
@@ -128,7 +128,7 @@ void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoi
   try {
     handshake = std::make_shared<TlsHandshake>(
         std::make_unique<TlsStream>(std::move(socket), tls.context, "", peerName(peer)));
-  } catch (const TlsError&) {  // no memory
+  } catch (const TlsError&) {  // out of memory
     ++counters.handshakes_failed;
     return;
   }
@@ -168,7 +168,7 @@ void TcpListener::State::refuse(const tcp::endpoint& peer, StreamRefusal why) {
   if (tls.on_refused) tls.on_refused(peer, why);
 }
 
-// Its place first: what gets none is not counted as a handshake.
+// Checks the place first: a connection without a place does not count as a handshake.
 bool TcpListener::State::judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const tcp::endpoint& peer) {
   if (!places.noteHello(id)) {
     refuse(peer, StreamRefusal::kPrefixFull);
@@ -185,8 +185,8 @@ void TcpListener::State::hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id) {
   places.release(id);
 }
 
-// False: there is no place for another connection of this prefix. Each turn ends a silent one, or finds out
-// that it is silent no longer, or gone.
+// Frees a place for a connection of this prefix if needed; false if that fails. Each iteration ends a silent
+// connection, or finds that it has greeted or is gone.
 bool TcpListener::State::makeRoom(HalfOpenLimit& places, const tcp::endpoint& peer) {
   using Kind = HalfOpenLimit::Verdict::Kind;
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
@@ -198,7 +198,7 @@ bool TcpListener::State::makeRoom(HalfOpenLimit& places, const tcp::endpoint& pe
       return false;
     }
     const std::shared_ptr<TlsHandshake> handshake = handshakes.at(verdict.id);
-    handshake->readAhead();  // its hello may have come, and wait to be read
+    handshake->readAhead();  // its hello may wait to be read
     if (!places.isSilent(verdict.id)) continue;
     hangUp(places, verdict.id);
     ++counters.half_open_ended;

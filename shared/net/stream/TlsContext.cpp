@@ -11,15 +11,15 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMaxCertificates = 32'768;  // bytes of a chain accepted from a server
-constexpr int kMaxChain = 10;                     // certificates sent above the server's own
+constexpr std::size_t kMaxCertificates = 32'768;  // most bytes of a server's chain
+constexpr int kMaxChain = 10;                     // most certificates above the server's own
 
 using Bio = std::unique_ptr<BIO, decltype([](BIO* bio) { BIO_free(bio); })>;
 using Certificate = std::unique_ptr<X509, decltype([](X509* x509) { X509_free(x509); })>;
 using Key = std::unique_ptr<EVP_PKEY, decltype([](EVP_PKEY* key) { EVP_PKEY_free(key); })>;
 
-/// Called before a hello is answered. The first time of a stream it stops there (TlsStream::handshake).
-/// Without the extension OpenSSL would not ask chooseAlpn() at all.
+/// Called before a hello is answered. A stream's first call stops the handshake (TlsStream::handshake). A
+/// hello without the ALPN extension fails here: OpenSSL would not call chooseAlpn().
 int judgeHello(SSL* ssl, int* alert, void*) {
   if (bool* const p_judged = static_cast<bool*>(SSL_get_app_data(ssl)); p_judged && !*p_judged) {
     *p_judged = true;
@@ -51,7 +51,7 @@ int chooseAlpn(SSL*, const unsigned char** out, unsigned char* out_size, const u
   return SSL_TLSEXT_ERR_ALERT_FATAL;
 }
 
-/// Instead of OpenSSL's own, which would ask at the terminal.
+/// Replaces OpenSSL's callback, which would ask at the terminal.
 int noPassword(char*, int, int, void*) {
   return -1;
 }
@@ -83,7 +83,7 @@ TlsContext::TlsContext(bool is_server)
   SSL_CTX_set_verify(c, SSL_VERIFY_NONE, nullptr);
   SSL_CTX_set_mode(
       c, SSL_MODE_RELEASE_BUFFERS | SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
-  SSL_CTX_clear_mode(c, SSL_MODE_AUTO_RETRY);  // a peer that sends no data may not keep read() busy
+  SSL_CTX_clear_mode(c, SSL_MODE_AUTO_RETRY);  // a peer that sends no data must not keep read() busy
 }
 
 std::shared_ptr<const TlsContext> TlsContext::forServer(const std::string& certificate_pem,
@@ -106,12 +106,12 @@ std::shared_ptr<const TlsContext> TlsContext::forWebServer(const std::string& ce
   return made;
 }
 
-/// `protocol`: a constant, for OpenSSL points to it.
+/// `protocol`: a constant, because OpenSSL points to it.
 void TlsContext::choose(const std::string_view& protocol) {
   SSL_CTX_set_alpn_select_cb(get(), chooseAlpn, const_cast<std::string_view*>(&protocol));
 }
 
-/// A list of one name, each with its length in front, as on the wire.
+/// Offers one ALPN name, preceded by its length as on the wire.
 void TlsContext::offer(std::string_view protocol) {
   const std::string alpn = static_cast<char>(protocol.size()) + std::string(protocol);
   if (SSL_CTX_set_alpn_protos(get(), reinterpret_cast<const unsigned char*>(alpn.data()),
@@ -129,7 +129,7 @@ std::shared_ptr<const TlsContext> TlsContext::forWebClient() {
       SSL_CTX_set1_groups_list(c, "X25519:P-256:P-384:P-521") != 1)
     throw TlsError("This machine's OpenSSL does not offer TLS 1.2.");
   SSL_CTX_set_verify(c, SSL_VERIFY_PEER, nullptr);
-  SSL_CTX_set_default_verify_paths(c);  // none here: no chain verifies
+  SSL_CTX_set_default_verify_paths(c);  // if this machine has none, no chain verifies
   ERR_clear_error();
   return made;
 }
@@ -138,7 +138,7 @@ std::shared_ptr<const TlsContext> TlsContext::forClient(const std::string& trust
   std::shared_ptr<TlsContext> made(new TlsContext(false));
   made->offer(kAlpn);
   if (trust_file.empty()) {
-    SSL_CTX_set_default_verify_paths(made->get());  // none here: no chain verifies, keys are pinned
+    SSL_CTX_set_default_verify_paths(made->get());  // without any, no chain verifies and keys are pinned
   } else if (SSL_CTX_load_verify_file(made->get(), trust_file.c_str()) != 1) {
     throw TlsError("The trusted certificates in " + trust_file + " cannot be read.");
   }
@@ -158,7 +158,7 @@ void TlsContext::useCertificate(const std::string& pem) {
       throw TlsError("OpenSSL refuses the certificates above the server's own.");
     }
   }
-  // The end of the file, or something after the chain that is no certificate.
+  // The end of the file, or text after the chain that is not a certificate.
   if (ERR_GET_REASON(ERR_peek_last_error()) != PEM_R_NO_START_LINE) {
     throw TlsError("The chain of certificates is damaged.");
   }

@@ -1,9 +1,8 @@
-// What all TLS connections of one end share: protocol settings, a server's key, a client's trust store.
+// The settings that all TLS connections of one end share: protocol, a server's key, a client's trust store.
 //
-// TLS 1.3 (RFC 8446) and nothing older, ALPN "naiad/1" (RFC 7301) required at both ends. Web servers and
-// clients of web servers are exceptions. No session tickets, no resumption, no early data, no client
-// certificates. Made for many quiet connections: no read-ahead, and buffers are given back while they are
-// empty.
+// Only TLS 1.3 (RFC 8446), and ALPN "naiad/1" (RFC 7301) required at both ends; web servers and their clients
+// are exceptions. No session tickets, no resumption, no early data, no client certificates. For many quiet
+// connections: no read-ahead, and empty buffers are freed.
 #pragma once
 
 #include <memory>
@@ -17,36 +16,36 @@ namespace naiad {
 
 /// The protocol that both ends must agree on.
 inline constexpr std::string_view kAlpn = "naiad/1";
-/// And that of browsers (RFC 7301 6).
+/// The protocol of browsers (RFC 7301 6).
 inline constexpr std::string_view kHttpAlpn = "http/1.1";
 
-/// Key, certificate or trust store cannot be used. what() is one sentence for people.
+/// A key, certificate or trust store is unusable. what() is one sentence for people.
 class TlsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Immutable; connections keep it alive. All on one thread.
+/// Immutable; connections keep it alive. All must be on one thread.
 class TlsContext {
  public:
   /// `certificate_pem`: the server's certificate, then those above it, if any. `key_pem`: its private key,
-  /// without a password. Throws TlsError if they cannot be read or do not belong together.
+  /// without a password. Throws TlsError if they are invalid or do not match.
   static std::shared_ptr<const TlsContext> forServer(const std::string& certificate_pem,
                                                      const std::string& key_pem);
-  /// The same for browsers: TLS 1.3 as well, but "http/1.1" is the only protocol it agrees to, and a client
+  /// Like forServer(), for browsers: also TLS 1.3, but "http/1.1" is the only accepted protocol, and clients
   /// may name none.
   static std::shared_ptr<const TlsContext> forWebServer(const std::string& certificate_pem,
                                                         const std::string& key_pem);
-  /// Takes any server, and finds out about it (PeerFacts). Chains are checked against the system's trust
-  /// store, or the PEM file `trust_file`. Throws TlsError if that file cannot be used.
+  /// Accepts any server and collects facts about it (PeerFacts). Chains are checked against the system's
+  /// trust store, or the PEM file `trust_file`. Throws TlsError if that file is unusable.
   static std::shared_ptr<const TlsContext> forClient(const std::string& trust_file = {});
-  /// Makes the context of a client of web servers: TLS 1.2 or 1.3, ALPN "http/1.1", which a server need not
-  /// know. The handshake fails if the chain is not good in the eyes of the system's trust store
-  /// (SSL_CERT_FILE and SSL_CERT_DIR replace it) or is for another host. Reading the store takes some 20 ms.
+  /// Returns a context for clients of web servers: TLS 1.2 or 1.3, ALPN "http/1.1", which a server need not
+  /// know. The handshake fails if the chain does not verify with the system's trust store (SSL_CERT_FILE and
+  /// SSL_CERT_DIR replace it) or is for another host. Reading the store takes about 20 ms.
   static std::shared_ptr<const TlsContext> forWebClient();
 
   bool isServer() const { return is_server_; }
-  /// The protocol that must have been agreed on by a handshake; empty: none need be.
+  /// The protocol on which a handshake must agree; empty: none.
   std::string_view requiredAlpn() const { return required_alpn_; }
   ssl_ctx_st* get() const { return context_.get(); }
 

@@ -11,7 +11,7 @@ namespace {
 
 using asio::ip::tcp;
 
-/// `required`: empty if anything will do.
+/// `required`: empty accepts any protocol.
 bool negotiated(const SSL* ssl, std::string_view required) {
   const unsigned char* data = nullptr;
   unsigned int size = 0;
@@ -54,8 +54,7 @@ void TlsHandshake::run(std::chrono::milliseconds timeout, Done done, std::functi
   done_ = std::move(done);
   on_hello_ = std::move(on_hello);
   setTimeout(timeout);
-  // OpenSSL takes memory for a handshake when it is called first: not before an idle client has said
-  // something.
+  // OpenSSL's first call allocates memory: wait until an idle client has sent something.
   await(stream_->speaksFirst() ? tcp::socket::wait_write : tcp::socket::wait_read);
 }
 
@@ -66,14 +65,14 @@ void TlsHandshake::setTimeout(std::chrono::milliseconds timeout) {
 void TlsHandshake::readAhead() {
   std::error_code error;
   if (!done_ || stream_->socket().available(error) == 0) return;
-  ++waits_;  // the one under way is over: step() begins another one
+  ++waits_;  // ends the current wait: step() begins another one
   stream_->socket().cancel(error);
   step();
 }
 
 void TlsHandshake::step() {
   if (!done_) return;
-  const auto self = shared_from_this();  // a callback may let go of it
+  const auto self = shared_from_this();  // a callback may drop the last reference
   auto outcome = stream_->handshake();
   if (outcome == ByteStream::Outcome::kWantsJudgement) {
     if (on_hello_) std::exchange(on_hello_, nullptr)();
@@ -101,7 +100,7 @@ void TlsHandshake::finish(End end) {
   timer_.cancel();
   const std::string problem = stream_->problem();
   auto stream = std::move(stream_);
-  if (end != End::kDone) stream.reset();  // hangs up
+  if (end != End::kDone) stream.reset();  // disconnects
   call(end, std::move(stream), problem);
 }
 
@@ -125,7 +124,7 @@ TlsStream::TlsStream(Socket socket, std::shared_ptr<const TlsContext> context, c
   bio_.socket = this->socket().native_handle();
   BIO* const bio = ssl_ ? bio_.make() : nullptr;
   if (!bio) throw TlsError("No memory for a TLS connection.");
-  SSL_set_bio(ssl_.get(), bio, bio);  // owns it
+  SSL_set_bio(ssl_.get(), bio, bio);  // takes ownership
   if (context_->isServer()) {
     bio_.guard.emplace();
     SSL_set_app_data(ssl_.get(), &hello_judged_);  // TlsContext's judgeHello()
@@ -186,7 +185,7 @@ ByteStream::Progress TlsStream::write(std::string_view bytes) {
 }
 
 ByteStream::Outcome TlsStream::end() {
-  if (!end_sent_) {  // a second SSL_shutdown() would read
+  if (!end_sent_) {  // because a second SSL_shutdown() would read
     ERR_clear_error();
     const int result = SSL_shutdown(ssl_.get());
     if (result < 0) return outcomeOf(result);
@@ -198,7 +197,7 @@ ByteStream::Outcome TlsStream::end() {
 }
 
 bool TlsStream::holdsInput() const {
-  return SSL_pending(ssl_.get()) > 0;  // not SSL_has_pending(): a record that came in part can wait
+  return SSL_pending(ssl_.get()) > 0;  // not SSL_has_pending(), which counts incomplete records
 }
 
 std::string TlsStream::exportSecret(std::string_view label, std::string_view context,

@@ -1,7 +1,7 @@
-// Bytes in TLS on a TCP socket.
+// A TLS stream on a TCP socket.
 //
-// OpenSSL reads from and writes to the socket itself: there is no buffer between the two, and an idle
-// connection holds none of OpenSSL's either.
+// OpenSSL itself reads from and writes to the socket, without a buffer between them. An idle connection holds
+// none of OpenSSL's buffers either.
 #pragma once
 
 #include <asio/ip/tcp.hpp>
@@ -24,29 +24,29 @@ namespace naiad {
 
 class TlsStream : public ByteStream {
  public:
-  /// Client or server, as the context is. A client names the server it wants: a name goes into the hello
-  /// (SNI, RFC 6066 3) and a name or address is what the certificate must be for. Throws TlsError if out of
+  /// A client or server, depending on the context. A client names the server: a name goes into the hello
+  /// (SNI, RFC 6066 3), and the certificate must be for this name or address. Throws TlsError if out of
   /// memory.
   TlsStream(Socket socket, std::shared_ptr<const TlsContext> context, const std::string& server_name = {},
             std::string peer = {});
   ~TlsStream() override;
 
-  /// Go on with the handshake; kDone when it is complete. Before that, nothing else may be called. A server
-  /// stops once with kWantsJudgement when the client's hello has come, all of it: nothing of the answer has
-  /// been calculated, which takes a signature. The next call goes on.
+  /// Continues the handshake; returns kDone when it is complete. Before that, nothing else may be called. A
+  /// server stops once with kWantsJudgement when it has the client's whole hello, before it computes the
+  /// answer, which takes a signature. The next call continues.
   Outcome handshake();
-  /// A client does.
+  /// True for a client.
   bool speaksFirst() const { return !context_->isServer(); }
-  /// After a handshake that failed: why, as the end of a sentence ("it does not speak TLS").
+  /// The reason for a failed handshake, as the end of a sentence ("it does not speak TLS").
   const std::string& problem() const { return problem_; }
-  /// The peer closed the connection, or it broke.
+  /// True if the peer closed the connection, or it broke.
   bool isHungUp() const { return bio_.ended || bio_.failed; }
-  /// For a client after the handshake: what it proved about the server.
+  /// Returns the facts that the handshake proved about the server; only for clients.
   std::optional<PeerFacts> peerFacts() const;
 
   Progress read(std::span<char> into) override;
   Progress write(std::string_view bytes) override;
-  /// close_notify, and the end of the TCP stream.
+  /// Sends close_notify and the end of the TCP stream.
   Outcome end() override;
   bool holdsInput() const override;
   std::string exportSecret(std::string_view label, std::string_view context,
@@ -68,34 +68,34 @@ class TlsStream : public ByteStream {
   bool end_sent_ = false;
 };
 
-/// Brings a TLS connection to the point where bytes can flow, within a deadline, without blocking.
+/// Completes a TLS handshake within a time limit, without blocking.
 ///
 /// One handshake, one use. Make it with std::make_shared; it keeps itself alive while it runs.
 ///
-/// Thread: the one that runs the socket's io_context, which must outlive it. A step of it never waits; the
-/// longest, which signs or verifies, takes about a quarter of a millisecond.
+/// Thread: the one that runs the socket's io_context, which must outlive it. Steps never wait; the longest
+/// one, which signs or verifies, takes about 0.25 ms.
 class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
  public:
   enum class End {
     kDone,
     kTimedOut,
-    kHungUp,  ///< by the other side, or the connection broke
+    kHungUp,  ///< the other end disconnected, or the connection broke
     kFailed,  ///< no TLS 1.3, no common protocol …
   };
-  /// `stream`: with kDone only. `problem`: with kHungUp and kFailed, why, as the end of a sentence.
+  /// `stream`: only with kDone. `problem`: with kHungUp and kFailed, the reason as the end of a sentence.
   using Done = std::function<void(End end, std::unique_ptr<TlsStream> stream, const std::string& problem)>;
 
   explicit TlsHandshake(std::unique_ptr<TlsStream> stream);
 
-  /// `timeout` covers all of it, however the bytes dribble in. `done` is called once, from the event loop or
-  /// readAhead(), unless cancelled. `on_hello`, at a server: the same when the client's hello is complete,
-  /// and before its answer is calculated, which takes most of the time of a handshake; it may cancel().
+  /// `timeout` covers the whole handshake, however slowly the bytes arrive. `done` is called once, from the
+  /// event loop or readAhead(), unless cancelled. At a server, `on_hello` is called once when the client's
+  /// hello is complete, before the answer, which takes most of the CPU time of a handshake; it may cancel().
   void run(std::chrono::milliseconds timeout, Done done, std::function<void()> on_hello = nullptr);
-  /// From now on there is this much time.
+  /// Restarts the timeout with this time.
   void setTimeout(std::chrono::milliseconds timeout);
-  /// Take in what has come, without waiting for the event loop.
+  /// Reads the received bytes without waiting for the event loop.
   void readAhead();
-  /// Hang up; `done` will not be called.
+  /// Disconnects; `done` will not be called.
   void cancel();
 
  private:
@@ -105,9 +105,9 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
 
   std::unique_ptr<TlsStream> stream_;
   PatientTimer timer_;
-  Done done_;                       // empty: over
-  std::function<void()> on_hello_;  // empty: called, or not wanted
-  std::uint64_t waits_ = 0;         // of which the newest counts
+  Done done_;                       // empty: the handshake is over
+  std::function<void()> on_hello_;  // empty: already called, or none was given
+  std::uint64_t waits_ = 0;         // number of waits; only the newest continues the handshake
 };
 
 }  // namespace naiad

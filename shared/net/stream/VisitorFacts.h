@@ -1,6 +1,6 @@
-// Where the visitor of a door comes from, in each form that the door needs.
+// The address of a door's visitor, in each form that the door needs.
 //
-// Without types of Asio: a door may be made with Boost's copy of it, and no source can include both.
+// It has no Asio types: a door may be built with Boost's copy of Asio, and no source can include both.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 namespace naiad {
 
 struct VisitorFacts {
-  std::string header;    ///< for the server's visitors' socket (VisitorHeader.h)
+  std::string header;    ///< bytes for the server's visitors' socket (VisitorHeader.h)
   std::string name;      ///< "192.0.2.7:50312"
-  AddressPrefix prefix;  ///< for limits
+  AddressPrefix prefix;  ///< key of per-address limits
 
   /// `address`: IPv6, or IPv4 mapped into it.
   static VisitorFacts of(const AddressPrefix::Bytes& address, std::uint16_t port);

@@ -15,7 +15,7 @@ constexpr std::string_view kSignature("\r\n\r\n\0\r\nQUIT\n", 12);
 constexpr unsigned char kProxy = 0x21;
 constexpr unsigned char kTcpIPv4 = 0x11;
 constexpr unsigned char kTcpIPv6 = 0x21;
-constexpr std::size_t kPorts = 4;  // bytes of both
+constexpr std::size_t kPorts = 4;  // bytes of both ports
 
 unsigned byteAt(std::string_view text, std::size_t at) {
   return static_cast<unsigned char>(text[at]);

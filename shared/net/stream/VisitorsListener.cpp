@@ -31,11 +31,11 @@ constexpr mode_t kMode = 0660;
 }
 
 [[noreturn]] void fail(const fs::path& path, std::error_code code) {
-  code.assign(code.value(), std::generic_category());  // Asio's category does not compare with std::errc
+  code.assign(code.value(), std::generic_category());  // Asio's category does not equal std::errc
   fail(path, code.message(), code);
 }
 
-/// Nobody listens on it: its server was killed.
+/// True if no process listens on the socket: its server was killed.
 bool isStale(asio::io_context& context, const fs::path& path) {
   Socket socket(context);
   std::error_code error;
@@ -66,8 +66,8 @@ pid_t peerOf(Socket& socket) {
   return ::getsockopt(socket.native_handle(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 ? peer.pid : 0;
 }
 
-/// A connection whose header is not complete. Its bytes are read one part after the other and none beyond,
-/// for what follows is the visitor's. Keeps itself alive while it runs.
+/// A connection whose header is incomplete. Reads the header in parts and no byte beyond it, because the
+/// visitor's bytes follow. Keeps itself alive while it runs.
 class Arrival : public std::enable_shared_from_this<Arrival> {
  public:
   enum class End { kVisitor, kBad, kLate };
@@ -78,7 +78,7 @@ class Arrival : public std::enable_shared_from_this<Arrival> {
     m_socket.non_blocking(true, ignored);
   }
 
-  /// Reads what is there already; `done` may be called before this returns.
+  /// Reads the waiting bytes; `done` may be called before this returns.
   void run(std::chrono::milliseconds timeout, Done done) {
     m_done = std::move(done);
     m_timer.start(timeout, [self = shared_from_this()] { self->finish(End::kLate, {}); });
@@ -132,7 +132,7 @@ class Arrival : public std::enable_shared_from_this<Arrival> {
 
   Socket m_socket;
   PatientTimer m_timer;
-  Done m_done;  ///< empty: over
+  Done m_done;  ///< empty: the arrival is over
   std::array<char, kVisitorHeaderBegin + kMaxVisitorHeaderRest> m_header{};
   std::size_t m_size = 0;
   std::size_t m_wanted = kVisitorHeaderBegin;
@@ -156,7 +156,7 @@ struct VisitorsListener::State : AcceptLoop<State, stream_protocol> {
   Counters counters;
 };
 
-// Nobody can connect before the mode is right: that takes write permission and listen().
+// No process can connect before the mode is set: that needs write permission and listen().
 void VisitorsListener::State::listen(asio::io_context& context) {
   const fs::path& path = options.path;
   if (path.string().size() >= sizeof(sockaddr_un::sun_path))
@@ -185,7 +185,7 @@ void VisitorsListener::State::meet(Socket socket) {
     self->arrivals.erase(p_arrival.lock());
     self->onArrival(end, std::move(taken), visitor);
   });
-  // Most headers are there with the connection. Only those that are not take a place.
+  // Most headers arrive with the connection. Only incomplete ones take a place.
   if (arrival->isOver()) return;
   if (arrivals.size() < options.max_waiting) {
     arrivals.insert(arrival);
@@ -207,7 +207,7 @@ void VisitorsListener::State::onArrival(Arrival::End end, Socket socket,
   }
 }
 
-// Another server may have put its own socket there.
+// Removes the file unless another server has replaced it.
 void VisitorsListener::State::close() {
   if (!acceptor.is_open()) return;
   stopAccepting();

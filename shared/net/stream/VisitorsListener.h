@@ -1,9 +1,9 @@
-// Takes connections from programs of this machine that stand between the server and its visitors: an ssh
-// door, a gateway for browsers. Each begins with the visitor's address (VisitorHeader.h), and goes on as a
-// connection from there would.
+// Accepts connections from local programs between the server and its visitors: an ssh door, a gateway for
+// browsers. Each begins with the visitor's address (VisitorHeader.h), then continues like a connection from
+// there.
 //
-// A socket of the file system (AF_UNIX): who may open the file is trusted with addresses, nobody else. No
-// such header is read anywhere else.
+// It listens on a Unix domain socket. Only processes that can open this socket may state a visitor's address;
+// no other listener reads such a header.
 #pragma once
 
 #include <sys/types.h>
@@ -21,13 +21,13 @@
 namespace naiad {
 
 struct VisitorsListening {
-  std::filesystem::path path;  ///< of the socket, 107 bytes at most; empty: none
-  /// From accepting a connection to the end of its header.
+  std::filesystem::path path;  ///< path of the socket, at most 107 bytes; empty: none
+  /// Time limit from accepting a connection to the end of its header.
   std::chrono::milliseconds header_timeout{2000};
-  /// Connections whose header is not complete; further ones are hung up on.
+  /// Limit of connections with an incomplete header; further ones are dropped.
   std::size_t max_waiting = 64;
-  /// Programs that may not speak for others, by their process: what the server has started itself. May be
-  /// empty. Called from the listener's event loop, once for each connection.
+  /// True for processes whose connections are refused: those that the server itself has started. May be
+  /// empty. Called from the listener's event loop, once per connection.
   std::function<bool(pid_t process)> is_refused = nullptr;
 };
 
@@ -35,23 +35,23 @@ struct VisitorsListening {
 /// time.
 class VisitorsListener {
  public:
-  /// A visitor from `address` has come; what they say begins now.
+  /// Receives a connection from the visitor at `address`; the visitor's own bytes come next.
   using OnVisitor = std::function<void(asio::generic::stream_protocol::socket socket,
                                        const asio::ip::tcp::endpoint& address)>;
 
-  /// What became of connections so far.
+  /// Counters of connections.
   struct Counters {
-    std::uint64_t visitors = 0;        ///< given out
-    std::uint64_t bad_headers = 0;     ///< hung up on: no header, or one that names no visitor's address
-    std::uint64_t late_headers = 0;    ///< hung up on: not complete in time
-    std::uint64_t crowded = 0;         ///< hung up on: too many waited
-    std::uint64_t refused_peers = 0;   ///< hung up on: VisitorsListening::is_refused
-    std::uint64_t failed_accepts = 0;  ///< out of descriptors, …: put off
+    std::uint64_t visitors = 0;        ///< delivered
+    std::uint64_t bad_headers = 0;     ///< dropped: an invalid header, or one without a visitor's address
+    std::uint64_t late_headers = 0;    ///< dropped: not complete in time
+    std::uint64_t crowded = 0;         ///< dropped: too many waited
+    std::uint64_t refused_peers = 0;   ///< dropped: VisitorsListening::is_refused
+    std::uint64_t failed_accepts = 0;  ///< out of descriptors or memory: retried later
   };
 
-  /// Listens from now on. The file has mode 0660 (its group is that of the folder, where that has its
-  /// set-group-id bit). A socket on which nobody listens is replaced; one that is in use, and anything else,
-  /// is not: throws ListenError (TcpListener.h), as for a path that cannot be used.
+  /// Starts to listen. The file has mode 0660 (and the folder's group if the folder has the set-group-id
+  /// bit). Replaces a socket without a listening process. Throws ListenError (TcpListener.h) for other
+  /// existing files, a socket in use, and invalid paths.
   VisitorsListener(asio::io_context& context, VisitorsListening options, OnVisitor on_visitor);
   /// Removes the file.
   ~VisitorsListener();
@@ -59,9 +59,9 @@ class VisitorsListener {
   VisitorsListener& operator=(const VisitorsListener&) = delete;
 
   const Counters& counters() const;
-  /// Connections whose header is not complete.
+  /// The number of connections with an incomplete header.
   std::size_t waiting() const;
-  /// Stop listening, and remove the file; no callback after this.
+  /// Stops listening and removes the file; no callback runs after this.
   void close();
 
  private:
