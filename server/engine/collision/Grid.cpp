@@ -63,7 +63,7 @@ void Grid::count(const Record& record, int by) {
   }
 }
 
-// Should characters have a level of their own? The answer changes so rarely that moving them costs nothing.
+// Decides whether characters have a level of their own. It changes so rarely that moving them costs nothing.
 void Grid::weigh() {
   const bool apart = m_characters_apart ? m_small_boxes <= 16 || m_characters * 4 >= m_small_boxes
                                         : m_characters > m_small_boxes;
@@ -74,7 +74,7 @@ void Grid::weigh() {
   }
 }
 
-// Do the boxes beside the characters cover so few cells that it pays to know which?
+// Decides whether the boxes of other levels cover so few cells that it pays to know which.
 void Grid::weighShade() {
   const std::int64_t characters = m_levels[0].count;
   if (m_boxes_beside == 0 || characters == 0) return m_p_shade.reset();
@@ -163,14 +163,14 @@ void Grid::drop(Slot slot) {
   count(m_records[slot], -1);
   m_records[slot].level = kNotFiled;
   if (--level.count == 0) m_occupied &= ~(1u << number);
-  // A sixteenth of what would have it grow beyond this size: give memory back.
+  // Gives memory back at a sixteenth of the boxes that would make it grow beyond this size.
   const std::size_t few = level.words.size() * kBoxesPerWord / 16;
   if (level.words.size() > kMinWords && static_cast<std::size_t>(level.count) < few) {
     rebuild(number, level.words.size() / 4);
   }
 }
 
-// The torus is unrolled over where the boxes are now.
+// Unrolls the torus over the area where the boxes are now.
 void Grid::Level::shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1,
                         std::int64_t y1) {
   assert(std::has_single_bit(word_count) && word_count >= 64);
@@ -184,7 +184,7 @@ void Grid::Level::shape(std::size_t word_count, std::int64_t x0, std::int64_t y0
   const auto bitsOf = [](std::int64_t blocks) { return std::bit_width(static_cast<std::uint64_t>(blocks)); };
   const int wide = bitsOf((x1 >> 6) - base_x);
   const int high = bitsOf((y1 >> 6) - base_y);
-  // What is to spare is shared between the sides; so is what is missing, unless one side needs little.
+  // Spare bits are shared between the sides, and so are missing ones, unless one side needs few.
   x_bits = std::clamp(wide + (bits - wide - high) / 2, 0, bits);
   if (wide + high > bits && wide < bits / 2) x_bits = wide;
   if (wide + high > bits && high < bits / 2) x_bits = bits - high;

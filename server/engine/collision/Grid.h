@@ -1,26 +1,26 @@
 // The broad phase: finds the solid boxes that may touch a box.
 //
 // Boxes are filed by their upper left corner, once each, in levels by their size. Level 0 is for single
-// characters: cells of 1 by 1, so that a query looks at nine of them. Above it the largest boxes of a level
+// characters: cells of 1 by 1, so that a query looks at nine of them. In the levels above, the largest boxes
 // grow by four from 16 by 4 on, four times as wide as high, as text is; the cells are a quarter as wide and
-// half as high. Where characters are few among sprites, they are filed in level 1 with them, and there is one
-// level less to look through.
+// half as high. If characters are few among sprites, they are filed in level 1 with them, and there is one
+// level less to search.
 //
-// A level is two arrays: a bit per cell that says whether it is occupied, 64 cells of a row to a word, the
-// words of the rows below following; and per cell the first of its slots. Nine cells are looked at in three
-// neighbouring words. Level 0 has a third array: per cell the spot in it where its character is, in 15 bits;
-// so that of nine neighbours only those are looked up that touch, or nearly so. (Where characters are few and
-// far between, there is none.) Cells are mapped onto the arrays as onto a torus: the part of the world that
-// the boxes of a level are spread over lies flat, what is a whole turn away falls onto the same cells,
-// shifted by a hash, and the exact test separates them. So the arrays are about as long as there are boxes,
-// wherever these are: 32 to 64 cells for each. Only what is occupied is touched. Nothing is allocated when
-// something moves.
+// A level has two arrays: a bit per cell that says whether it is occupied, 64 cells of a row to a word,
+// followed by the words of the rows below; and the first slot of each cell. Nine cells are looked up in three
+// neighbouring words. Level 0 has a third array: for each cell the spot in it where its character is, in 15
+// bits, so that only those of nine neighbours are looked up that touch, or nearly so. (It is missing if
+// characters are few and far between.) Cells are mapped onto the arrays as onto a torus: the part of the
+// world over which the boxes of a level are spread lies flat. What is a whole turn away falls onto these
+// cells, too, shifted by a hash, and the exact test separates them. So the arrays are about as long as there
+// are boxes, wherever these are: 32 to 64 cells for each. Only occupied cells are touched. Nothing is
+// allocated when something moves.
 //
 // A character that moves looks at the other levels only where a bit per cell of level 0 says that a box of
-// them may be (GridShade.h). The bits are kept while such boxes cover few cells for the number of characters.
+// theirs may be (GridShade.h). The bits are kept while such boxes cover few cells per character.
 //
-// The grid reads positions and boxes from the store's arrays; a slot is filed under what they say when
-// file() or refile() is called.
+// The grid reads positions and boxes from the store's arrays; a slot is filed under their values at its last
+// file() or refile().
 #pragma once
 
 #include <array>
@@ -54,43 +54,43 @@ class Grid {
   Grid(const std::vector<FixedVector>& positions, const std::vector<FixedBox>& boxes);
   ~Grid();
 
-  /// File `slot` under its position and box, wherever it was filed before.
+  /// Files `slot` under its position and box, wherever it was filed before.
   void file(Slot slot);
-  /// Its position has changed, and nothing else: file it again. It must be filed.
+  /// Files `slot` again after a change of its position alone. It must be filed.
   void refile(Slot slot) {
     refile(slot, m_levels[m_records[slot].level]);
     if (m_p_shade != nullptr && m_records[slot].level > 0) shade(slot);
   }
-  /// Forget `slot`, if it was filed.
+  /// Removes `slot`, if it was filed.
   void remove(Slot slot);
   bool contains(Slot slot) const { return slot < m_records.size() && m_records[slot].level != kNotFiled; }
   int size() const;
-  /// What has been done, here and by users of the grid.
+  /// Counters of work done by the grid and its users.
   MoverStats& moverStats() { return m_mover_stats; }
   const MoverStats& moverStats() const { return m_mover_stats; }
-  /// Memory of the levels, in bytes.
+  /// Returns the memory of the levels, in bytes.
   std::size_t bytes() const;
 
   static constexpr std::size_t kAll = ~std::size_t{0};
-  /// Append to `out` the slots whose boxes touch `box`, except `self`; in no particular order, and a slot may
-  /// come twice. If there are more than `most`, some of them: so many at least.
+  /// Appends to `out` the slots whose boxes touch `box`, except `self`, in no particular order; a slot may
+  /// come twice. If there are more than `most`, appends only some, but more than `most`.
   void touching(const FixedBox& box, Slot self, std::vector<Slot>& out, std::size_t most = kAll) const;
-  /// Call `visit(slot)` for every slot of a level in `levels` whose corner may lie in [from, to]; some may
-  /// come twice. If it returns false, that was the last one.
+  /// Calls `visit(slot)` for every slot of a level in `levels` whose corner may lie in [from, to]; some may
+  /// come twice. Stops if it returns false.
   template <class Visit>
   void visitCorners(int level, FixedVector from, FixedVector to, Visit visit) const;
-  /// Bit per level that holds something.
+  /// Returns a bit per level, set if the level holds something.
   std::uint32_t levels() const { return m_occupied; }
-  /// Upper bound of the sizes of boxes in a level.
+  /// Returns the upper bound of the sizes of boxes in a level.
   static FixedVector largest(int level);
 
  private:
   class Shade;
   static constexpr Slot kNone = 0x7FFFFFFF;
-  static constexpr Slot kMore = 0x80000000;      // in a cell's first slot: others follow
-  static constexpr Spot kSeveral = 0x8000;       // in a cell's spot: it has several slots, anywhere
-  static constexpr std::size_t kRowOfSpots = 4;  // that are read at a time, three of them for their own sake
-  static constexpr std::int64_t kBlock = 64;     // cells per side of the squares that lie flat
+  static constexpr Slot kMore = 0x80000000;        // in a cell's first slot: others follow
+  static constexpr Spot kSeveral = 0x8000;         // in a cell's spot: it has several slots, anywhere
+  static constexpr std::size_t kRowOfSpots = 4;    // spots read at a time, of which three are used
+  static constexpr std::int64_t kBlock = 64;       // cells per side of the squares that lie flat
   static constexpr std::uint8_t kNotFiled = 0xff;  // in place of a level
   static constexpr std::size_t kMinWords = 256;
   static constexpr std::size_t kBoxesPerWord = 2;  // at most, on average
@@ -101,7 +101,7 @@ class Grid {
     Slot previous = kNone;
     std::uint8_t level = kNotFiled;
     bool character = false;
-    std::uint16_t area = 0;  // beside level 0: of its shade, in cells; 0: too large for one
+    std::uint16_t area = 0;  // above level 0: area of its shade, in cells; 0: too large for one
   };
 
   struct Level {
@@ -115,16 +115,15 @@ class Grid {
     std::uint32_t word_mask = 0;
     int count = 0;
     std::vector<std::uint64_t> words;  // bit per cell
-    std::unique_ptr<Slot[]> heads;     // first slot of each occupied cell; of others nothing sensible
-    std::unique_ptr<Spot[]>
-        spots;  // of level 0, or null: where in each occupied cell; of others nothing sensible
+    std::unique_ptr<Slot[]> heads;     // first slot of each occupied cell; undefined for others
+    std::unique_ptr<Spot[]> spots;  // level 0 only, or null: spot in each occupied cell; undefined for others
 
     std::uint32_t wordOf(std::int64_t x, std::int64_t y) const;
     std::uint32_t cellOf(FixedVector anchor) const;
     void shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1);
   };
 
-  /// Where in its cell a position is: x in the lower eight bits, y in the seven above, both rounded down.
+  /// Returns the place of a position in its cell: x in the lower eight bits, y in the seven above, floored.
   static Spot spotOf(FixedVector p) {
     return static_cast<Spot>((p.x >> (kFixedBits - 8) & 0xFF) | (p.y >> (kFixedBits - 7) & 0x7F) << 8);
   }
@@ -141,7 +140,7 @@ class Grid {
   void link(Slot slot, Level& level, std::uint32_t cell);
   void unlink(Slot slot, Level& level);
   void rebuild(int level, std::size_t word_count);
-  /// The point by which a box is filed: its corner; of a character its position.
+  /// Returns the point by which a box is filed: its corner; for a character its position.
   FixedVector anchor(Slot slot, int level) const {
     return level == 0 ? m_positions[slot] : m_positions[slot] + m_boxes[slot].corner;
   }
@@ -153,17 +152,17 @@ class Grid {
   std::vector<Record> m_records;
   std::uint32_t m_occupied = 0;
   int m_characters = 0;
-  int m_small_boxes = 0;             // of level 1, without characters
-  bool m_characters_apart = true;    // in level 0; else they are in level 1
-  int m_boxes_beside = 0;            // of all levels but 0
-  int m_large_boxes = 0;             // of these, too large for a shade
-  std::int64_t m_shaded_area = 0;    // of the others, in cells
-  std::unique_ptr<Shade> m_p_shade;  // null: nothing is filed beside characters, or no characters
+  int m_small_boxes = 0;             // boxes of level 1 that are not characters
+  bool m_characters_apart = true;    // true: they are in level 0; else in level 1
+  int m_boxes_beside = 0;            // boxes of all levels but 0
+  int m_large_boxes = 0;             // those of them that are too large for a shade
+  std::int64_t m_shaded_area = 0;    // area of the others' shades, in cells
+  std::unique_ptr<Shade> m_p_shade;  // null: there are no characters, or only characters
   MoverStats m_mover_stats;
-  std::vector<Slot> m_found;  // of Steps, when they are many
+  std::vector<Slot> m_found;  // found slots of Steps, if they are many
 };
 
-// The word that holds cell (x,y), and the 63 others of its row in its block.
+// Returns the word that holds cell (x,y), and the 63 others of its row in its block.
 inline std::uint32_t Grid::Level::wordOf(std::int64_t x, std::int64_t y) const {
   const std::int64_t bx = (x >> 6) - base_x;
   const std::int64_t by = (y >> 6) - base_y;

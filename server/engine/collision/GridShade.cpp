@@ -41,7 +41,7 @@ void Grid::Shade::count(const Level& level, const Area& area, bool is_more) {
 
 void Grid::Shade::file(const Level& level, Slot slot, const FixedBox& box) {
   if (slot >= m_index.size()) m_index.resize(slot + 1, kNowhere);
-  // A character touches what its position is half a cell away from, edges included.
+  // A character touches a box if its position is at most half a cell away, edges included.
   const FixedVector low = box.corner + kCharacterBox.corner;
   const FixedVector high = box.corner + box.size - kCharacterBox.corner;
   const auto cell = [](Fixed at) { return at >> kFixedBits; };

@@ -2,7 +2,7 @@
 
 namespace df {
 
-// Where the nine cells lie in more than one block.
+// Used if the nine cells lie in more than one block.
 bool Grid::Steps::lookAround(Slot s, FixedVector where) {
   --m_nine_cells;
   ++m_grid.m_mover_stats.far_cells;
@@ -25,8 +25,8 @@ void Grid::Steps::lookAtOthers(Slot s, FixedVector where) {
   for (std::uint32_t left = m_others; left != 0; left &= left - 1) visit(std::countr_zero(left), s, box);
 }
 
-// The window is a few cells wide and high for a box of its level; as for characters, the numbers
-// of its cells follow from the box's own while it stays in one block.
+// The window is a few cells wide and high for a box of its level. As for characters, the numbers of its cells
+// follow from the box's own while it stays in one block.
 bool Grid::Steps::isBoxFree(Slot s, const Record& own, FixedVector where) {
   m_count = 0;
   m_lifted = m_plain = false;
@@ -72,7 +72,7 @@ bool Grid::Steps::isBoxFree(Slot s, const Record& own, FixedVector where) {
 inline void Grid::Steps::test(Slot t, Slot self, FixedVector low, FixedVector high) {
   const FixedVector corner = m_p_positions[t] + m_p_boxes[t].corner;
   const FixedVector far = corner + m_p_boxes[t].size;
-  // All four differences must not be negative.
+  // They touch if none of the four differences is negative.
   const Fixed apart = (high.x - corner.x) | (far.x - low.x) | (high.y - corner.y) | (far.y - low.y);
   const bool touches = (apart >= 0) & (t != self);
   if (m_count < kFew) {  // arithmetic in place of an unpredictable branch

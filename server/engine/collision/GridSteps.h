@@ -1,4 +1,4 @@
-// The grid's part in a walker's step: test whether the place is free, then file the box there. Inline,
+// The grid's part in a walker's step: tests whether the target is free, then files the box there. Inline,
 // because most Objects of a busy world do this in most ticks.
 #pragma once
 
@@ -19,24 +19,24 @@
 
 namespace df {
 
-/// Steps of boxes, one after another, while nothing else touches the grid and the store's arrays
-/// stay where they are: the pointers are kept in members.
+/// Steps of boxes, one after another. Nothing else may use the grid in between, and the store's arrays must
+/// stay where they are, because the pointers are kept in members.
 class Grid::Steps {
  public:
-  /// `most`: found() lists all if they are no more; else some of them, so many at least.
+  /// found() lists all touching slots if they are at most `most`, else more than `most` of them.
   explicit Steps(Grid& grid, std::size_t most = kAll);
   ~Steps() { m_grid.m_mover_stats.nine_cells += m_nine_cells; }
   Steps(const Steps&) = delete;
   Steps& operator=(const Steps&) = delete;
-  /// Would `s`, which is filed, touch nothing at `where`? If not, found() lists what it touches.
+  /// True if `s`, which is filed, would touch nothing at `where`. Otherwise found() lists what it touches.
   bool isFree(Slot s, FixedVector where) {
     return m_p_records[s].level == 0 ? isCharacterFree(s, where) : isBoxFree(s, m_p_records[s], where);
   }
-  /// The slots it touches, in no particular order; a slot may come twice.
+  /// Returns the slots it touches, in no particular order; a slot may come twice.
   std::span<const Slot> found() const {
     return {m_count <= kFew ? m_few.data() : m_grid.m_found.data(), m_count};
   }
-  /// File `s`, the argument of the last isFree(), at its target. Its position must be set.
+  /// Files `s`, the argument of the last isFree(), at its target. Its position must be set.
   void fileAtTarget(Slot s);
 
  private:
@@ -46,7 +46,7 @@ class Grid::Steps {
   bool gather(Slot s, FixedVector where, unsigned near);
   bool isBoxFree(Slot s, const Record& own, FixedVector where);
   bool lookAround(Slot s, FixedVector where);
-  /// May a character in this cell of level 0, which is in that word, touch boxes of other levels?
+  /// True if a character in this cell of level 0, which is in that word, may touch boxes of other levels.
   bool mayTouchOthers(std::uint32_t word, std::uint32_t cell) const {
     return m_others != 0 && (m_p_shade[word] >> (cell & 63) & 1) != 0;
   }
@@ -71,25 +71,25 @@ class Grid::Steps {
   std::uint32_t m_others;
   const std::uint64_t* m_p_shade;  // null if there are no others
   std::uint64_t m_nine_cells = 0;
-  // Of the last isFree().
+  // State of the last isFree().
   std::uint32_t m_cell = 0;
-  bool m_lifted = false;  // its own cell, which it has alone, is marked empty meanwhile
-  bool m_plain = false;   // ... and the target cell is empty, too
+  bool m_lifted = false;  // its own cell, which it has alone, is marked empty for now
+  bool m_plain = false;   // m_lifted, and the target cell is empty, too
   std::size_t m_count = 0;
   std::array<Slot, kFew> m_few;
 };
 
-// Which of the characters in nine cells touch one in the middle cell, by their spots: all nine at once,
-// because a branch for each would be mispredicted. Bit 0 to 2 are the row above, 4 to 6 the one below, 8 to
+// Finds which of the characters in nine cells touch one in the middle cell, by their spots: all nine at once,
+// because a branch for each would be mispredicted. Bits 0 to 2 are the row above, 4 to 6 the row below, 8 to
 // 10 the row between, from left to right.
 class Grid::Steps::Nine {
  public:
   static constexpr unsigned kMiddle = 1 << 9;
-  /// From the middle to the cell of each bit.
+  /// Steps from the middle to the cell of each bit.
   static constexpr std::array<std::int32_t, 11> kSteps{-65, -64, -63, 0, 63, 64, 65, 0, -1, 0, 1};
 
-  /// The spots of each row from the left cell on, kRowOfSpots of them, occupied or not; and the one in the
-  /// middle.
+  /// Takes the spots of each row from the left cell on, kRowOfSpots of them, occupied or not, and the spot of
+  /// the middle one.
   Nine(const Spot* p_above, const Spot* p_own, const Spot* p_below, Spot middle) {
     const Eight outer = load(p_above, p_below);
     const Eight inner = load(p_own, p_own);
@@ -98,17 +98,17 @@ class Grid::Steps::Nine {
     const Eight outer_x = outer & 0xFF;
     const Eight outer_y = outer >> 8 & 0x7F;
     const Eight inner_x = inner & 0xFF;
-    // To the left it may not be farther left in its cell than the middle one is in its own, and so on.
+    // One to the left is too far if it is farther left in its cell than the middle one in its own, and so on.
     constexpr Eight kLeft{-1, 0, 0, 0, -1, 0, 0, 0};
     constexpr Eight kRight{0, 0, -1, 0, 0, 0, -1, 0};
     constexpr Eight kAbove{-1, -1, -1, -1, 0, 0, 0, 0};
     const Eight far_outer = ((outer_x < x) & kLeft) | ((outer_x > x) & kRight) | ((outer_y < y) & kAbove) |
                             ((outer_y > y) & ~kAbove);
     const Eight far_inner = ((inner_x < x) & kLeft) | ((inner_x > x) & kRight);
-    m_near = ~bits(far_outer, far_inner) | bits(outer, inner);  // several may be anywhere
+    m_near = ~bits(far_outer, far_inner) | bits(outer, inner);  // kSeveral: may be anywhere
   }
-  /// Those that may touch. They do, unless they miss by less than a spot resolves, or are neighbours on the
-  /// torus only.
+  /// Returns the bits of those that may touch. They do, unless they miss by less than a spot resolves, or are
+  /// neighbours only on the torus.
   unsigned near() const { return m_near; }
 
  private:
@@ -124,7 +124,7 @@ class Grid::Steps::Nine {
     std::memcpy(&eight, &two, sizeof eight);
     return eight;
   }
-  /// The signs.
+  /// Returns the signs.
   static unsigned bits(Eight low, Eight high) {
 #if defined(__SSE2__)
     return static_cast<unsigned>(
@@ -155,7 +155,7 @@ inline Grid::Steps::Steps(Grid& grid, std::size_t most)
       m_p_shade(grid.m_p_shade != nullptr ? grid.m_p_shade->words() : nullptr) {}
 
 // A character touches another if the positions are at most one apart on both axes: nine cells. In the inner
-// part of the block it comes from, their numbers follow from its own.
+// part of the block that it comes from, their numbers follow from its own.
 inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
   const FixedVector from = m_p_positions[s];
   const std::int64_t x = where.x >> kFixedBits;
@@ -201,9 +201,9 @@ inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
   return false;
 }
 
-// Of the slots in the cells of `near` those that touch. Return false if they are too many.
+// Collects those slots in the cells of `near` that touch. Returns false if they are too many.
 inline bool Grid::Steps::gather(Slot s, FixedVector where, unsigned near) {
-  // What touches lies within 2 of the corner that is one up and one to the left.
+  // Touching characters lie within 2 of the corner that is one up and one to the left.
   const FixedVector corner = where - FixedVector{kFixedOne, kFixedOne};
   std::size_t count = 0;
   for (; near != 0; near &= near - 1) {

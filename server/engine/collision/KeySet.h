@@ -1,4 +1,4 @@
-// A set of Objects by their handles that keeps its memory when it is emptied: for lists of a move.
+// A set of Objects by their handles that keeps its memory when it is emptied, for the lists of a move.
 #pragma once
 
 #include <cstddef>
@@ -25,16 +25,16 @@ class KeySet {
     m_count = 0;
     if (m_places.size() <= kMax) {
       m_places.assign(m_places.size(), {});
-    } else {  // a crowd: every later clear() would have to wipe it all
+    } else {  // large: every later clear() would have to wipe it all
       m_places = {};
     }
   }
 
  private:
   static constexpr std::size_t kMin = 16;    // a power of two
-  static constexpr std::size_t kMax = 1024;  // to be kept
+  static constexpr std::size_t kMax = 1024;  // largest size that clear() keeps
 
-  // Where the key is, or would be: generations in the world begin with 1, so 0 marks a free place.
+  // Returns the place of the key, or a free one. Generations in the world begin with 1: 0 marks a free place.
   std::size_t find(ObjectKey key) const {
     const std::uint64_t hash =
         ((std::uint64_t{key.generation} << 32) | key.slot) * std::uint64_t{0x9E3779B97F4A7C15};

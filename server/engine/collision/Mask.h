@@ -1,4 +1,4 @@
-// Which characters of an Object are set: rows of bits, for the precise collision test (docs/collisions.md,
+// The set characters of an Object: rows of bits, for the precise collision test (docs/collisions.md,
 // "Precise").
 #pragma once
 
@@ -16,8 +16,8 @@ class Mask {
   static constexpr int kMaxSide = 1024;
 
 #if __cplusplus >= 201703L
-  /// One string per row, UTF-8; a character is set unless it is a blank or `hole`. Shorter rows are padded
-  /// with holes. Nothing if there is no row, no character at all, or a side is longer than kMaxSide.
+  /// Makes a mask from one string per row, UTF-8; a character is set unless it is a blank or `hole`. Shorter
+  /// rows are padded with holes. Nullopt if there is no row, no character, or a side is longer than kMaxSide.
   static std::optional<Mask> fromRows(const std::vector<std::string>& rows, char32_t hole = U' ');
 #endif
 
@@ -27,7 +27,7 @@ class Mask {
   int height() const {
     return m_height;
   }
-  /// Is character (x,y) set? False outside.
+  /// True if character (x,y) is set; false outside.
   bool isSet(int x, int y) const;
 
  private:
@@ -49,13 +49,13 @@ struct CellBox {
   std::int64_t height;
 };
 
-/// The cells over which an Object's mask lies, holes included. Null is a full mask; `box` is in world
+/// Returns the cells over which an Object's mask lies, holes included. Null is a full mask; `box` is in world
 /// coordinates: character (i,j) is drawn in cell (⌊corner.x⌋ + 1 + i, ⌊corner.y⌋ + 1 + j). A full mask has
 /// max(1, ⌈width⌉) by max(1, ⌈height⌉) characters.
 CellBox drawnCells(const Mask* p_mask, const FixedBox& box);
 
-/// Do two Objects share a drawn cell? Each has a mask, null for a full one, and its box in world coordinates.
-/// The boxes themselves are not tested.
+/// True if two Objects share a drawn cell. Each has a mask, null for a full one, and its box in world
+/// coordinates. The boxes themselves are not tested.
 bool shareCell(const Mask* p_a, const FixedBox& a, const Mask* p_b, const FixedBox& b);
 
 }  // namespace df

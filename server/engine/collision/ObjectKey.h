@@ -1,4 +1,4 @@
-// The handle of an Object: what lists, layers and hosts hold instead of a pointer.
+// The handle of an Object, which lists, layers and hosts hold instead of a pointer.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-// The geometry of one move along a straight line (docs/collisions.md, "Swept"): when it first touches a box,
-// exactly.
+// The geometry of one move along a straight line (docs/collisions.md, "Swept"): computes exactly when it
+// first touches a box.
 //
-// At time t in [0,1] of a move by d, each coordinate has gone floor(|d|·t) units: the move visits
-// representable positions only, and the sweep is the end-point test at every one of them. The first time at
-// which two boxes touch is then a whole number of units over |d|, so moments are fractions, compared without
+// At time t in [0,1] of a move by d, each coordinate has gone floor(|d|·t) units: the move visits only
+// representable positions, and the sweep is the end-point test at every one of them. So the first time at
+// which two boxes touch is a whole number of units over |d|. Moments are fractions, compared without
 // rounding.
 #pragma once
 
@@ -29,26 +29,26 @@ struct Moment {
 
 class Sweep {
  public:
-  /// The move of an Object with `box`, relative to its position, from one legal position to another; they
-  /// may be as far apart as the world is wide.
+  /// Describes the move of an Object with `box`, relative to its position, from one legal position to
+  /// another; they may be as far apart as the world is wide.
   Sweep(const FixedBox& box, FixedVector from, FixedVector to);
 
-  /// When the move hits `other` (world coordinates) by the boxes: the first time at which they touch. A
-  /// pair that touches at the start counts, at time 0, only if the move closes the gap or they touch at the
+  /// Returns when the move hits `other` (world coordinates) by the boxes: the first time at which they touch.
+  /// A pair that touches at the start counts, at time 0, only if the move closes the gap or they touch at the
   /// end.
   std::optional<Moment> firstTouch(const FixedBox& other) const {
     return mayTouch(other) ? touchOnPath(other) : std::nullopt;
   }
-  /// When it hits `other` by the boxes and the masks: the first time at which they touch and share a cell,
-  /// with the same rule for the start; a pair that shares a cell at the start and does not count may hit
-  /// again after the two have come apart. Null for a full mask.
+  /// Returns when it hits `other` by the boxes and the masks: the first time at which they touch and share a
+  /// cell. The start counts as in firstTouch(); a pair that shares a cell at the start and does not count may
+  /// hit again after the two have come apart. Null for a full mask.
   std::optional<Moment> firstShare(const Mask* p_own, const FixedBox& other, const Mask* p_others) const;
 
-  /// The last position before `moment`; the start for time 0. Never beyond the target.
+  /// Returns the last position before `moment`; the start for time 0. Never beyond the target.
   FixedVector before(Moment moment) const;
-  /// Does the gap to `other` shrink as soon as the move begins?
+  /// True if the gap to `other` shrinks as soon as the move begins.
   bool closesGap(const FixedBox& other) const;
-  /// Do the boxes touch at the start, and is the gap larger at the end?
+  /// True if the boxes touch at the start and the gap is larger at the end.
   bool movesOutOf(const FixedBox& other) const;
 
  private:
@@ -63,11 +63,11 @@ class Sweep {
 
   // One axis of the move: `length` steps of one unit each.
   struct Axis {
-    Fixed low;  // of the box at the start
+    Fixed low;  // low edge of the box at the start
     Fixed size;
     std::uint64_t length;  // |d|
     int direction;         // sign of d
-    Fixed path_low;        // what the box covers from the start to the end
+    Fixed path_low;        // range that the box covers from the start to the end
     Fixed path_high;
 
     bool reaches(Fixed first, Fixed last) const;
@@ -79,7 +79,7 @@ class Sweep {
     Gap gapTo(Fixed low_then, Fixed other_low, Fixed other_size) const;
   };
 
-  // Most boxes near a path are not on it: one branch for all four sides.
+  // One branch for all four sides, because most boxes near a path are not on it.
   bool mayTouch(const FixedBox& other) const {
     const bool is_beside = (other.corner.x > m_x.path_high) | (other.corner.x + other.size.x < m_x.path_low);
     const bool is_above = (other.corner.y > m_y.path_high) | (other.corner.y + other.size.y < m_y.path_low);

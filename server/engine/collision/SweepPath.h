@@ -11,13 +11,13 @@ namespace df {
 
 class SweepPath {
  public:
-  /// What the corner of the mover's box passes over: both ends belong to it.
+  /// Range of the corner of the mover's box, both ends included.
   struct Piece {
     FixedVector low;
     FixedVector high;
   };
 
-  /// As for Sweep.
+  /// See Sweep.
   SweepPath(const FixedBox& box, FixedVector from, FixedVector to)
       : m_sweep(box, from, to), m_box(box), m_from(from), m_to(to) {}
 
@@ -25,10 +25,10 @@ class SweepPath {
   const FixedBox& box() const { return m_box; }
   FixedVector from() const { return m_from; }
   FixedVector to() const { return m_to; }
-  /// |to − from| on each axis: more than a signed number holds.
+  /// Returns |to − from| on each axis, which may be more than a signed number holds.
   std::uint64_t lengthX() const { return distance(m_from.x, m_to.x); }
   std::uint64_t lengthY() const { return distance(m_from.y, m_to.y); }
-  /// All of it.
+  /// Returns the whole path.
   Piece whole() const {
     const auto [least_x, most_x] = std::minmax(m_from.x, m_to.x);
     const auto [least_y, most_y] = std::minmax(m_from.y, m_to.y);

@@ -7,7 +7,7 @@ namespace df {
 
 class Debris : public Particle {
  public:
-  /// Terminals do not turn characters: `rotate`, degrees a tick, is kept and not seen.
+  /// `rotate`, in degrees per tick, has no effect, because terminals do not turn characters.
   Debris(int age, unsigned char opacity, Color color, Vector velocity, char ch, float rotate);
 
   DF_DRAW draw() override;

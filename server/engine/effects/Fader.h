@@ -7,14 +7,14 @@ namespace df {
 
 class Fader : public Particle {
  public:
-  /// As a Particle; its opacity sinks evenly until it ends.
+  /// Makes a Particle whose opacity sinks evenly until it ends.
   Fader(float size, int age, unsigned char opacity, unsigned char r, unsigned char g, unsigned char b);
   Fader(float size, int age, unsigned char opacity, Color color);
 
   int eventHandler(const Event* p_e) override;
 
  private:
-  unsigned char m_fade;  // of the opacity, in a tick
+  unsigned char m_fade;  // opacity lost per tick
 };
 
 }  // namespace df

@@ -1,15 +1,15 @@
 // A spark, a drop, a puff: a short-lived Object that is only seen. In a terminal a particle is one character
-// (Shape.h), so hundreds of them are a crowd: addParticles() in utility.h makes a few.
+// (Shape.h), so a few dozen are enough (addParticles() in utility.h).
 #pragma once
 
 #include "Object.h"
 
 namespace df {
 
-/// For addParticles(): none of it differs from one particle to the next.
+/// Spread for addParticles() with which all particles are equal.
 inline constexpr int NO_SPREAD = 0;
 
-/// What addParticles() makes many of.
+/// Kinds of particles that addParticles() makes.
 enum ParticleType {
   UNDEFINED_PARTICLE_TYPE = -1,
   SMOKE,
@@ -18,14 +18,14 @@ enum ParticleType {
   FIREWORKS,
 };
 
-/// Which class of particles addParticles() makes.
+/// Classes of particles that addParticles() makes.
 enum ParticleClass {
   UNDEFINED_PARTICLE_CLASS = -1,
   PARTICLE,
   FIREWORK,
 };
 
-/// Of addParticles(): towards where they move.
+/// Directions in which particles of addParticles() move.
 enum Direction {
   UNDEFINED_DIRECTION = -1,
   UP,
@@ -36,7 +36,7 @@ enum Direction {
 
 class Particle : public Object {
  public:
-  /// SPECTRAL, of type "df-particle", at MAX_ALTITUDE; of this size in pixels, for so many ticks, with this
+  /// Makes a SPECTRAL Object of type "df-particle" at MAX_ALTITUDE, with this size in pixels, age in ticks,
   /// opacity (0 to 255) and colour.
   Particle(float size, int age, unsigned char opacity, unsigned char r, unsigned char g, unsigned char b);
   Particle(float size, int age, unsigned char opacity, Color color);
@@ -44,11 +44,11 @@ class Particle : public Object {
   /// The colour; red, green and blue 0 to 255.
   void setRGB(Color color);
   void setRGB(unsigned char r, unsigned char g, unsigned char b);
-  /// Ticks that are left.
+  /// Remaining ticks.
   void setAge(int new_age) { m_age = new_age; }
   int getAge() const { return m_age; }
 
-  /// Each step makes it older; at 0, and outside the world, it ends.
+  /// Ages by one in each step. At age 0, and outside the world, the particle is deleted.
   int eventHandler(const Event* p_e) override;
 
  private:

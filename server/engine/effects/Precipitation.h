@@ -1,4 +1,4 @@
-// Rain, snow and stars that pass by: particles that come in again on the other side.
+// Rain, snow and stars that pass by: particles that leave the world and enter it again on the other side.
 #pragma once
 
 #include "Particle.h"
@@ -15,13 +15,13 @@ enum PrecipitationType {
 
 class Precipitation : public Particle {
  public:
-  /// At a random place in the world, below everything else.
+  /// Makes one at a random place in the world, below everything else.
   Precipitation(float size, Direction direction, unsigned char opacity, unsigned char r, unsigned char g,
                 unsigned char b);
 
-  /// Move in its direction, in cells per tick.
+  /// Moves in its direction, in cells per tick.
   void fall(double speed);
-  /// Waver to the sides.
+  /// Whether it wavers to the sides.
   void setTurbulence(bool new_turbulence = true) { m_turbulence = new_turbulence; }
   int eventHandler(const Event* p_e) override;
 

@@ -1,5 +1,5 @@
-// What an Object gets in its eventHandler() (book, Listing 4.51). An Event is a container: a type name and,
-// in derived classes, a few values. Games derive their own and send them with WM.onEvent().
+// An event, which an Object gets in its eventHandler() (book, Listing 4.51). It is a container: a type name
+// and, in derived classes, a few values. Games derive their own and send them with WM.onEvent().
 #pragma once
 
 #include <string>
@@ -25,11 +25,11 @@ class Event {
     m_type = EventType(std::move(new_type));
     m_p_known_type = nullptr;
   }
-  /// What kind it is: one of the constants, as STEP_EVENT, or a name of the game's (book, Listing 4.45).
+  /// Returns the type: one of the constants, such as STEP_EVENT, or a game's own name (book, Listing 4.45).
   const EventType& getType() const { return m_p_known_type != nullptr ? *m_p_known_type : m_type; }
 
  protected:
-  /// An event of one of the engine's own types, a constant that lives for ever: nothing is copied.
+  /// Makes an event of one of the engine's types. The constant is not copied, so it must never be destroyed.
   explicit Event(const EventType* p_known_type) : m_p_known_type(p_known_type) {}
 
  private:

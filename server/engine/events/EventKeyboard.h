@@ -18,7 +18,7 @@ class EventKeyboard : public Event {
   /// The key (book, Listing 4.84).
   void setKey(Keyboard::Key key) { m_key = key; }
   Keyboard::Key getKey() const { return m_key; }
-  /// Whether it went down, is held, or went up.
+  /// Whether the key went down, is held, or went up.
   void setKeyboardAction(EventKeyboardAction action) { m_action = action; }
   EventKeyboardAction getKeyboardAction() const { return m_action; }
 
@@ -27,8 +27,8 @@ class EventKeyboard : public Event {
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 
-  /// The player's declared controls (Player::setControls) have done something about it, or would have but
-  /// for a wait or a wall: to move the Object is no longer the handler's business.
+  /// True if the player's declared controls (Player::setControls) have handled it, or would have but for a
+  /// wait or a wall: the handler need not move the Object.
   void setHandled(bool handled) { m_handled = handled; }
   bool isHandled() const { return m_handled; }
 

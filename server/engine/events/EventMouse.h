@@ -11,7 +11,7 @@ namespace df {
 
 /// Register interest in this to get all players' mice.
 inline const EventType MSE_EVENT("df-mouse");
-/// The older name.
+/// Older name of the type.
 inline const EventType MOUSE_EVENT("df-mouse");
 
 class EventMouse : public Event {
@@ -29,7 +29,7 @@ class EventMouse : public Event {
   void setMousePosition(Vector position) { m_position = position; }
   Vector getMousePosition() const { return m_position; }
 
-  /// The player: an id for `WM.getPlayer()`; 0 if no player sent it.
+  /// Player's id for `WM.getPlayer()`; 0 if no player sent it.
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 

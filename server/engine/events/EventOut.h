@@ -1,6 +1,6 @@
 // Sent to an Object whose move took it from inside the world boundary to outside (book, Listing 4.112).
 //
-// Once: an Object that stays outside, or was placed there, gets no second event. No interest needs to be
+// Sent once: an Object that stays outside, or was placed there, gets no second event. No interest needs to be
 // registered. The Object has already moved when it gets the event.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace df {
 
-/// Comes without being registered for.
+/// Type of EventOut, which is sent without registration.
 inline const EventType OUT_EVENT("df-out");
 
 class EventOut : public Event {

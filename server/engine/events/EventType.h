@@ -1,4 +1,4 @@
-// The name of a kind of Event: a std::string in all respects but one. The engine's own events share the
+// The name of a kind of Event: a std::string with a faster comparison. The engine's events refer to the
 // constants of their types, so a handler that asks `p_e->getType() == df::COLLISION_EVENT` mostly compares
 // two addresses.
 #pragma once
@@ -13,8 +13,8 @@ namespace df {
 class EventType : public std::string {
  public:
   EventType() = default;
-  /// Of this name; two of one name are equal.
-  // Explicit: a comparison with any other string is that of strings.
+  /// Makes a type of this name; two types of one name are equal.
+  // Explicit, so that a comparison with any other string compares strings.
   explicit EventType(std::string name) : std::string(std::move(name)) {}
 
   friend bool operator==(const EventType& a, const EventType& b) {

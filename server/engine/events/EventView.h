@@ -14,16 +14,16 @@ inline const EventType VIEW_EVENT("df-view");
 
 class EventView : public Event {
  public:
-  /// Tag VIEW_EVENT (compat: none), value 0, not a difference.
+  /// An event with tag VIEW_EVENT (compat: empty) and value 0, which is not added.
   EventView();
-  /// To the view objects with this text: add the value to theirs, if `new_delta`, else replace it.
+  /// An event for the view objects with this text: adds the value to theirs if `new_delta`, else replaces it.
   EventView(std::string new_tag, int new_value, bool new_delta)
       : Event(&VIEW_EVENT), m_tag(std::move(new_tag)), m_value(new_value), m_delta(new_delta) {}
 
-  /// Which ViewObjects it is for: those with this text (ViewObject::setViewString).
+  /// Text of the ViewObjects that it is for (ViewObject::setViewString).
   void setTag(std::string new_tag) { m_tag = std::move(new_tag); }
   const std::string& getTag() const { return m_tag; }
-  /// Their new value, or what is added to the old one.
+  /// New value, or the amount added to the old one.
   void setValue(int new_value) { m_value = new_value; }
   int getValue() const { return m_value; }
   /// Whether the value is added.

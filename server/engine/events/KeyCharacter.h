@@ -1,4 +1,4 @@
-// What a key types, and what it is called.
+// The characters that keys type, and the names of keys.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace df {
 
-/// The character that a key types; 0 for none.
+/// Returns the character that a key types; 0 for none.
 char characterOf(Keyboard::Key key, bool shift);
-/// The key's name: "space", "a", "f1", …
+/// Returns the key's name, such as "space", "a" or "f1".
 std::string nameOfKey(Keyboard::Key key);
 
 }  // namespace df

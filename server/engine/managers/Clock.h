@@ -1,17 +1,17 @@
-// Measures time between calls, in microseconds (book, Listing 4.21). It is the game's time, which is the same
-// in every run with the same inputs: a tick has its nominal length, however long it took. Within a tick each
-// reading is a microsecond later than the one before, so that a loop that waits comes to an end.
+// Measures time between calls, in microseconds (book, Listing 4.21). It is game time, the same in all runs
+// with the same inputs: a tick has its nominal length, however long it took. Within a tick each reading is a
+// microsecond later than the one before, so that a loop that waits comes to an end.
 #pragma once
 
 namespace df {
 
 class Clock {
  public:
-  /// From now on.
+  /// Starts the clock.
   Clock();
-  /// Time since the last call, or since the clock was made; restarts the clock.
+  /// Returns the time since the last call, or since the clock was made, and restarts the clock.
   long int delta();
-  /// The same, and goes on.
+  /// Like delta(), without restarting the clock.
   long int split() const;
 
  private:

@@ -17,7 +17,7 @@ namespace df {
 
 namespace {
 
-// Takes on the values of keys, one by one.
+// Sets settings from the values of keys, one by one.
 class Reader {
  public:
   Reader(const std::string& text, World& world) : m_text(text), m_world(world) {}
@@ -93,7 +93,7 @@ std::string Config::readConfig() {
   const char* p_named = std::getenv("DRAGONFLY_CONFIG");
   const std::string name = p_named != nullptr ? p_named : CONFIG_FILENAME;
   std::error_code error;
-  if (!std::filesystem::is_regular_file(name, error)) {  // to open a pipe would wait for its writer
+  if (!std::filesystem::is_regular_file(name, error)) {  // opening a pipe would wait for its writer
     if (std::filesystem::is_fifo(name, error))
       World::current().log().write("Configuration: " + name + " is a pipe, and is not read");
     return {};

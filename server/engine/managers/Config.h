@@ -1,13 +1,13 @@
-// The settings of a game: what df-config.txt says, or the defaults.
+// The settings of a game, from df-config.txt or the defaults.
 //
 //     # a comment
 //     window_horizontal_chars:100,
 //     random_seed:7,
 //
-// GM.startUp() reads the file, from the working directory, or the one that the environment names
-// (DRAGONFLY_CONFIG). These count: size in characters and background of the window, random_seed, compat,
-// logfile; in a host frame_time; in a program headless and the host's options. The rest is kept and has no
-// effect.
+// GM.startUp() reads the file from the working directory, or the one that the environment names
+// (DRAGONFLY_CONFIG). These settings have an effect: size in characters and background of the window,
+// random_seed, compat, logfile; in a host frame_time; in a program headless and the host's options. The rest
+// is only stored.
 #pragma once
 
 #include <string>
@@ -29,11 +29,11 @@ const std::string CONFIG_FILENAME = "df-config.txt";
 
 class Config {
  public:
-  /// The current world's.
+  /// Returns the settings of the current world.
   static Config& getInstance();
 
-  // Of each setting a getter and a setter, as getFrameTime() and setFrameTime(33). Setters count before
-  // GM.startUp() opens the window; those of its size in characters and of its background always (DM.setSize).
+  // Each setting has a getter and a setter, such as getFrameTime() and setFrameTime(33). Setters act until
+  // GM.startUp() opens the window; those of its size in characters and background always (DM.setSize).
 /// A setting with its getter and setter.
 #define DF_SETTING(Type, Name, member)     \
   Type get##Name() const {                 \
@@ -42,7 +42,7 @@ class Config {
   void set##Name(Type member) {            \
     settings().member = std::move(member); \
   }
-/// The same, of the window: it takes effect at once.
+/// A setting of the window, whose setter takes effect at once.
 #define DF_WINDOW_SETTING(Type, Name, member) \
   Type get##Name() const {                    \
     return settings().member;                 \
@@ -52,7 +52,7 @@ class Config {
     applyWindow();                            \
   }
   // clang-format off
-  /// Settings as df-config.txt names them (its comments above say which have an effect).
+  /// Settings as df-config.txt names them (the top of this file says which have an effect).
   DF_SETTING(std::string, Config, text)
   DF_SETTING(int, WindowHorizontalPixels, window_horizontal_pixels)
   DF_SETTING(int, WindowVerticalPixels, window_vertical_pixels)
@@ -78,23 +78,23 @@ class Config {
   // clang-format on
 #undef DF_SETTING
 #undef DF_WINDOW_SETTING
-  /// As `headless:true,` does: no network, and ticks as fast as they go.
+  /// Like `headless:true,`: no network, and ticks as fast as possible.
   void setHeadless() {
     setHeadless(true);
   }
-  /// Kept, and without effect: terminals show their pointer.
+  /// Stored, without effect: terminals show their pointer.
   void setShowMouse() {
     setShowMouse(true);
   }
 
-  /// The value of a key in what was read; empty if there is none.
+  /// Returns the value of a key in the text that was read; empty if it is missing.
   std::string match(const std::string& find) const;
 
-  /// Write all of it to the log.
+  /// Writes the main settings to the log.
   void writeToLog() const;
-  /// What the file says, without comments; empty if there is none.
+  /// Returns the contents of the file, without comments; empty if it is missing.
   std::string readConfig();
-  /// Take on what `str` says, or the file, if it is empty. What a line says wrongly is logged and left out.
+  /// Sets what `str` says, or the file, if `str` is empty. Invalid values are logged and ignored.
   void loadConfig(const std::string& str = "");
 
  private:

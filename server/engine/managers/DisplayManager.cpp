@@ -50,7 +50,7 @@ int DisplayManager::drawString(Vector world_pos, const std::string& str, Justifi
   double x = world_pos.x();
   if (just == CENTER_JUSTIFIED) x -= std::floor(length / 2);
   if (just == RIGHT_JUSTIFIED) x -= length;
-  // Both ends in range, or nothing is drawn.
+  // If one end is out of range, nothing is drawn.
   World& world = World::current();
   if (!toFixed(Vector(x, world_pos.y())) || !toFixed(x + length) || color < BLACK || color > WHITE) {
     return world.log().refuse("DisplayManager", "drawString");
@@ -95,7 +95,7 @@ void DisplayManager::shake(int scale_x, int scale_y, int duration, bool delta) {
   };
   Shaking& shake = World::current().extras().shake;
   const Shaking before = delta ? shake : Shaking{};
-  // The least shake that shows is one of a cell.
+  // The smallest shake that shows is one cell.
   const int x = scale_x > 0 ? std::max(1, cells(scale_x, charWidth())) : 0;
   const int y = scale_y > 0 ? std::max(1, cells(scale_y, charHeight())) : 0;
   shake.scale_x = std::min(before.scale_x + x, kMaxShake);

@@ -1,8 +1,8 @@
 // Puts characters on the screen (book, Listing 4.69).
 //
 // There is no screen here: characters are collected, in world coordinates, and shown to each player by the
-// client. Call these from an Object's draw(). What is drawn elsewhere in a tick is shown for that tick,
-// below everything else.
+// client. Call these functions from an Object's draw(). Characters drawn elsewhere in a tick are shown for
+// that tick, below everything else.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@
 
 namespace df {
 
-/// Where a string lies relative to its position.
+/// Alignment of a string to its position.
 enum Justification {
   LEFT_JUSTIFIED,    ///< it begins there
   CENTER_JUSTIFIED,  ///< its middle is there
@@ -37,54 +37,54 @@ const std::string WINDOW_TITLE_DEFAULT = "Dragonfly";
 const std::string FONT_FILE_DEFAULT = "df-font.ttf";
 inline constexpr float FONT_SCALE_DEFAULT = 2;
 
-/// Size of a character in pixels of the window that the published engine would open.
+/// Returns the size of a character, in pixels of the window that the published engine would open.
 float charHeight();
 float charWidth();
-/// From cells to such pixels, and back.
+/// Converts cells to such pixels, and back.
 Vector spacesToPixels(Vector spaces);
 Vector pixelsToSpaces(Vector pixels);
 
 class DisplayManager : public Manager {
  public:
-  /// The one there is; DM is short for it. It acts on the current world.
+  /// Returns the only instance; DM is short for it. It acts on the current world.
   static DisplayManager& getInstance();
 
-  /// One character at a world position, in the cell floor(v + 0.5). A character that terminals do not draw
-  /// in exactly one cell becomes '?'. Return 0, or -1 for a position or colour out of range.
+  /// Draws one character at a world position, in the cell floor(v + 0.5). A character that terminals do not
+  /// draw in exactly one cell becomes '?'. Returns 0, or -1 for a position or colour out of range.
   int drawCh(Vector world_pos, char ch, Color color = COLOR_DEFAULT) const;
   int drawCh(Vector world_pos, char32_t ch, Color color = COLOR_DEFAULT) const;
-  /// The character with this code, as from `'0' + digit`.
+  /// Draws the character with this code, for example `'0' + digit`.
   int drawCh(Vector world_pos, int ch, Color color = COLOR_DEFAULT) const;
-  /// Terminals do not turn characters: any rotation shows the upright one.
+  /// Ignores the rotation, because terminals do not turn characters.
   int drawCh(Vector world_pos, char ch, Color color, float rotation) const;
-  /// In the one of the eight colours that is nearest to this mix.
+  /// Draws in the one of the eight colours that is nearest to this mix.
   int drawCh(Vector world_pos, char ch, unsigned char r, unsigned char g, unsigned char b,
              float rotation = 0) const;
-  /// A UTF-8 string, one character per cell. Return 0, or -1 as above, with nothing drawn.
+  /// Draws a UTF-8 string, one character per cell. Returns 0, or -1 like drawCh() and draws nothing.
   int drawString(Vector world_pos, const std::string& str, Justification just = LEFT_JUSTIFIED,
                  Color color = COLOR_DEFAULT) const;
 
-  /// Size of the window, and so of every view, in cells: 20 to 400 by 10 to 150; before GM.run(). A
-  /// boundary that was never set follows. Return 0, else -1.
+  /// Size of the window, and so of every view, in cells: 20 to 400 by 10 to 150. Set it before GM.run(). A
+  /// boundary that was never set follows. setSize() returns 0, else -1.
   int setSize(int horizontal, int vertical);
   int getHorizontal() const;
   int getVertical() const;
   void setHorizontal(int new_horizontal) { setSize(new_horizontal, getVertical()); }
   void setVertical(int new_vertical) { setSize(getHorizontal(), new_vertical); }
 
-  /// Of the window that the published engine would open.
+  /// Returns the size of the window that the published engine would open, in pixels.
   int getHorizontalPixels() const;
   int getVerticalPixels() const;
 
-  /// The colour behind all characters, for all players; black is the terminals' own. Return true, or false if
-  /// there is no such colour.
+  /// Sets the colour behind all characters, for all players; black is the terminals' own. Returns true, or
+  /// false for an unknown colour.
   bool setBackgroundColor(Color new_color);
-  /// Shake the picture for so many ticks by up to so many pixels; `delta`: in addition to what it does
-  /// already. In cells, of which one is about 13 by 32 pixels; view objects stay where they are.
+  /// Shakes the picture for this many ticks by up to this many pixels; `delta`: in addition to the present
+  /// shake. The picture moves by cells, of about 13 by 32 pixels; view objects stay where they are.
   void shake(int scale_x, int scale_y, int duration, bool delta = false);
-  /// Nothing, for characters are shown at the end of the tick. Return 0.
+  /// Does nothing, because characters are shown at the end of the tick. Returns 0.
   int swapBuffers() { return 0; }
-  /// What stands in for the published engine's window: it takes calls and does nothing.
+  /// Returns a stand-in for the published engine's window: calls on it do nothing.
   sf::RenderWindow* getWindow() const;
 
  private:

@@ -16,7 +16,7 @@
 #include "Manager.h"
 #include "StandardHeaders.h"
 
-/// The published version that has this interface.
+/// Version of the published engine that has this interface.
 #define DF_VERSION 4.18
 
 /// The game manager.
@@ -33,35 +33,34 @@ inline constexpr int FRAME_TIME_DEFAULT = 33;
 
 class GameManager : public Manager {
  public:
-  /// The one there is; GM is short for it. It acts on the current world.
+  /// Returns the only instance; GM is short for it. It acts on the current world.
   static GameManager& getInstance();
 
-  /// Start all managers, take on what df-config.txt says (Config.h), and decide whether to be compatible
-  /// (docs/dragonfly-api.md). Return 0.
+  /// Starts all managers, applies df-config.txt (Config.h), and decides whether to be compatible
+  /// (docs/dragonfly-api.md). Returns 0.
   int startUp() override;
-  /// Stop all managers and set the world back (WorldManager::shutDown).
+  /// Stops all managers and resets the world (WorldManager::shutDown).
   void shutDown() override;
 
-  /// Run until the game is over: through the installed Runner, which may wait for clocks and players; in a
-  /// program with a main() of its own as a server that terminals join (docs/bring-your-game.md), unless
-  /// df-config.txt says headless:true; else tick after tick as fast as they go. Nothing happens inside a
-  /// tick.
+  /// Runs the game until it is over: through the installed Runner, which may wait for clocks and players. A
+  /// program with its own main() becomes a server that terminals join (docs/bring-your-game.md), unless
+  /// df-config.txt says headless:true. Otherwise ticks run as fast as possible. Does nothing inside a tick.
   void run();
-  /// One full tick: step event; joins, leaves, keys and mouse; WM.update(); WM.draw().
+  /// Runs one full tick: step event; joins, leaves, keys and mouse; WM.update(); WM.draw().
   void tick();
-  /// End run() after the present tick; `false` takes it back. While a player's input is handled, a host may
-  /// take it as the wish of that player alone (InputQueue::setGameOverLeaves).
+  /// Ends run() after the present tick; `false` undoes this. While a player's input is handled, a host may
+  /// end the game for that player alone (InputQueue::setGameOverLeaves).
   void setGameOver(bool new_game_over = true);
   bool getGameOver() const;
 
-  /// Ticks begun since the world began.
+  /// Returns the number of ticks begun since the world began.
   int getStepCount() const;
-  /// Length of a tick, in milliseconds: what df-config.txt says, or the default.
+  /// Returns the length of a tick, in milliseconds, from df-config.txt or the default.
   int getFrameTime() const;
 
-  /// Runs the loop; not owned; null for none.
+  /// Sets what runs the loop. Not owned; null for none.
   void setRunner(running::Runner* p_runner);
-  /// Restart the world's random sequence (WM.randomInt).
+  /// Restarts the world's random sequence (WM.randomInt).
   void setSeed(std::uint64_t seed);
   /// A few lines about the game and its keys, for the help screen of the clients.
   void setHelp(std::vector<std::string> lines);

@@ -1,4 +1,4 @@
-// Hands on what players do (book, Listing 4.91). Keys and mouse come from the host through InputQueue::key()
+// Passes on what players do (book, Listing 4.91). Keys and mouse come from the host through InputQueue::key()
 // and InputQueue::mouse(); Objects get them as EventKeyboard and EventMouse.
 #pragma once
 
@@ -13,10 +13,10 @@ namespace df {
 
 class InputManager : public Manager {
  public:
-  /// The one there is; IM is short for it. It acts on the current world.
+  /// Returns the only instance; IM is short for it. It acts on the current world.
   static InputManager& getInstance();
 
-  /// Send the events of all input that waits. GM.tick() does it, after the step event.
+  /// Sends the events of all waiting input. GM.tick() calls it, after the step event.
   void getInput() const;
 
  private:

@@ -19,7 +19,7 @@ bool isWanted(int log_level) {
   return world.compat() ? log_level >= world.log().level() : log_level <= world.log().level();
 }
 
-// Nothing if `fmt` and `args` make no text.
+// Returns nullopt if `fmt` and `args` make no text.
 std::optional<std::string> format(const char* fmt, std::va_list args) {
   std::va_list again;
   va_copy(again, args);

@@ -1,7 +1,7 @@
 // Writes log lines (book, Listing 4.6).
 //
 // Lines go to the current world's sink; without one, to the file dragonfly.log in the working directory,
-// which is opened, and emptied, by the first line that a process writes there.
+// which the first line of a process opens and empties.
 #pragma once
 
 #include <functional>
@@ -20,12 +20,12 @@ class LogManager : public Manager {
  public:
   static LogManager& getInstance();
 
-  /// Write one line, formatted as by printf; a newline at its end may be given or left out. Return the
-  /// number of characters, or -1 for a bad format.
+  /// Writes one line, formatted like printf(); a newline at its end is optional. Returns the number of
+  /// characters, or -1 for a bad format.
   int writeLog(const char* fmt, ...) const __attribute__((format(printf, 2, 3)));
-  /// The same, if `log_level` is not above the level set (compat: not below it); else return 0.
+  /// Like writeLog(fmt), if `log_level` is not above the level set (compat: not below it); else returns 0.
   int writeLog(int log_level, const char* fmt, ...) const __attribute__((format(printf, 3, 4)));
-  /// The same with a std::string among what is to be printed, which printf could not take: "%s" prints it.
+  /// Takes std::string arguments, too, which printf() could not: "%s" prints them.
   template <class... Printed,
             class = typename std::enable_if<(std::is_base_of<std::string, Printed>::value || ...)>::type>
   int writeLog(const char* fmt, const Printed&... printed) const {
@@ -36,20 +36,20 @@ class LogManager : public Manager {
   int writeLog(int log_level, const char* fmt, const Printed&... printed) const {
     return writeLog(log_level, fmt, printable(printed)...);
   }
-  /// The same into a file of its own, in the working directory, which the first line empties.
+  /// Like writeLog(), into another file in the working directory, which its first line empties.
   int writeMyLog(const std::string& filename, const char* fmt, ...) const
       __attribute__((format(printf, 3, 4)));
   int writeMyLog(const std::string& filename, int log_level, const char* fmt, ...) const
       __attribute__((format(printf, 4, 5)));
-  /// Default 0: writeLog(1, …) and above write nothing.
+  /// Level above which writeLog(level, …) writes nothing (compat: below which). Default: 0.
   void setLogLevel(int new_log_level);
   int getLogLevel() const;
-  /// Flush the file after each line, so that nothing is lost in a crash. Default: no.
+  /// Flushes the file after each line, so that nothing is lost in a crash. Off by default.
   void setFlush(bool do_flush = true);
-  /// Lines carry no times and no step counts, whatever is set here.
+  /// Has no effect: lines carry no times and no step counts.
   void setLogTimeString(bool /*log_time_string*/ = true) {}
   void setLogStepCount(bool /*log_step_count*/ = true) {}
-  /// Where the current world's lines go, without newline; an empty function: back to the file.
+  /// Sets what receives the current world's lines, without newline; an empty function: the file again.
   void setSink(std::function<void(const std::string&)> sink);
 
  private:

@@ -1,5 +1,5 @@
-// Lists of the Objects of the current world by what they are, for games that ask the published engine's scene
-// graph. (Naiad's own order of things is WorldStore.h.)
+// Lists of the Objects of the current world by their properties, for games that use the published engine's
+// scene graph. (Naiad itself uses WorldStore.h.)
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@ namespace df {
 
 class SceneGraph {
  public:
-  /// All active Objects, in creation order, as those below.
+  /// Returns all active Objects. All lists are in creation order.
   ObjectList activeObjects() const;
   ObjectList inactiveObjects() const;  ///< All inactive Objects.
-  /// The active HARD and SOFT ones.
+  /// Returns the active HARD and SOFT Objects.
   ObjectList solidObjects() const;
-  /// The active visible ones of this altitude.
+  /// Returns the active visible Objects of this altitude.
   ObjectList visibleObjects(int altitude) const;
-  ObjectList objectsOfType(const std::string& type) const;  ///< As WM.objectsOfType().
+  ObjectList objectsOfType(const std::string& type) const;  ///< See WM.objectsOfType().
 };
 
 }  // namespace df

@@ -5,7 +5,7 @@ namespace sf {
 
 namespace {
 
-// Since some moment, the same one for all clocks.
+// Returns the time since a moment that is common to all clocks.
 long elapsed() {
   static const df::Clock kBegun;
   return kBegun.split();

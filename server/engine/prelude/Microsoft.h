@@ -16,7 +16,7 @@
 
 // A game written for several compilers may define macros of these names.
 #if !defined(sprintf_s)
-/// As std::snprintf().
+/// Like std::snprintf().
 __attribute__((format(printf, 3, 4))) inline int sprintf_s(char* text, std::size_t size, const char* format,
                                                            ...) {
   std::va_list arguments;
@@ -36,7 +36,7 @@ __attribute__((format(printf, 2, 3))) int sprintf_s(char (&text)[size], const ch
 #endif
 
 #if !defined(strcpy_s)
-/// Copies what fits, with a 0 at the end. Return 0, unless there is no room at all.
+/// Copies what fits, with a 0 at the end. Returns 0, unless there is no room at all.
 inline int strcpy_s(char* text, std::size_t size, const char* from) {
   if (size == 0) return ERANGE;
   const std::size_t length = strnlen(from, size - 1);
@@ -51,7 +51,7 @@ int strcpy_s(char (&text)[size], const char* from) {
 #endif
 
 #if !defined(strcat_s)
-/// Appends what fits. Return 0, unless there is no 0 at the end of the first.
+/// Appends what fits. Returns 0, unless there is no 0 at the end of the first text.
 inline int strcat_s(char* text, std::size_t size, const char* more) {
   const std::size_t length = strnlen(text, size);
   return strcpy_s(text + length, size - length, more);
@@ -63,7 +63,7 @@ int strcat_s(char (&text)[size], const char* more) {
 #endif
 
 #if !defined(fopen_s)
-/// Return 0, else the error number; then the file is null.
+/// Returns 0, else the error number; the file is then null.
 inline int fopen_s(std::FILE** p_file, const char* name, const char* mode) {
   *p_file = std::fopen(name, mode);
   return *p_file != nullptr ? 0 : errno;
@@ -71,7 +71,7 @@ inline int fopen_s(std::FILE** p_file, const char* name, const char* mode) {
 #endif
 
 #if !defined(localtime_s)
-/// Return 0, else the error number.
+/// Returns 0, else the error number.
 inline int localtime_s(std::tm* p_local, const std::time_t* p_time) {
   return localtime_r(p_time, p_local) != nullptr ? 0 : errno;
 }

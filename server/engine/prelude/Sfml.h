@@ -1,7 +1,7 @@
-// Stands in for the graphics library SFML, which the published engine's headers bring along and some games
-// use past the engine: DM.getWindow(), Sound::getSound(), Music::getMusic(), what is drawn on the window,
-// keys and buttons asked for by hand. All of it takes the usual calls and does nothing; no key is ever down.
-// The folder SFML beside this file has the headers that games include by themselves.
+// Stands in for the graphics library SFML, which the published engine's headers include and some games use
+// directly: DM.getWindow(), Sound::getSound(), Music::getMusic(), drawing on the window, asking for keys and
+// buttons. All of it takes the usual calls and does nothing; no key is ever down. The folder SFML next to
+// this file has the headers that games include by themselves.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What games draw past the published engine with the graphics library SFML: shapes, texts and pictures that
-// take the usual calls and show nothing. See Sfml.h.
+// Stands in for the shapes, texts and pictures of the graphics library SFML, which some games draw directly.
+// They take the usual calls and show nothing. See Sfml.h.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ class VertexArray : public Drawable {
   std::vector<Vertex> m_vertices;
 };
 
-/// Has a place.
+/// Has a position.
 class Transformable {
  public:
   void setPosition(float x, float y) { m_position = {x, y}; }

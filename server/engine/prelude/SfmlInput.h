@@ -1,5 +1,5 @@
-// Keys and buttons as in the graphics library SFML, past the engine: none is ever down, because the players'
-// keys come as events. See Sfml.h.
+// Stands in for the keys and buttons of the graphics library SFML. None is ever down, because players' keys
+// come as events. See Sfml.h.
 #pragma once
 
 #include "detail/SfmlValues.h"

@@ -1,5 +1,5 @@
-// The values of the graphics library SFML that games of the published engine name without including it: they
-// work as there. See Sfml.h.
+// Values of the graphics library SFML that games of the published engine use without including it. They work
+// as in SFML. See Sfml.h.
 #pragma once
 
 #include <cstdint>
@@ -91,7 +91,7 @@ inline constexpr Color Color::Magenta{255, 0, 255};
 inline constexpr Color Color::Cyan{0, 255, 255};
 inline constexpr Color Color::Transparent{0, 0, 0, 0};
 
-/// A time span, of the game (df::Clock).
+/// A span of game time (df::Clock).
 class Time {
  public:
   constexpr Time() = default;
@@ -120,7 +120,7 @@ constexpr Time microseconds(std::int64_t amount) {
 /// Returns at once: a game that sleeps would keep its players waiting.
 inline void sleep(Time /*duration*/) {}
 
-/// The game's time, as df::Clock has it.
+/// Game time, as in df::Clock.
 class Clock {
  public:
   Clock();

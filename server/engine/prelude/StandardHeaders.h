@@ -1,5 +1,5 @@
-// The headers of the standard library that games of the published engine expect the engine's to bring, in
-// both spellings, for they call rand() and std::rand() alike.
+// The headers of the standard library that games of the published engine expect its headers to include, in
+// both spellings, because games call rand() and std::rand() alike.
 #pragma once
 
 // NOLINTBEGIN(modernize-deprecated-headers)

@@ -1,5 +1,5 @@
-// Events of the published engine's sockets. The engine sends those of players that come and go, to games that
-// are servers (NetworkManager.h), and no others.
+// Event of the published engine's sockets. The engine sends it only to games that are servers
+// (NetworkManager.h), when players come and go.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ enum class NetworkEventLabel {
   DATA,
 };
 
-/// The label's older name.
+/// Older names of the labels.
 namespace Network {
 using Label = NetworkEventLabel;
 inline constexpr NetworkEventLabel UNDEFINED_LABEL = NetworkEventLabel::UNDEFINED;
@@ -40,7 +40,7 @@ class EventNetwork : public Event {
   int getSocketIndex() const { return m_sock; }
   void setBytes(int new_bytes) { m_bytes = new_bytes; }
   int getBytes() const { return m_bytes; }
-  /// Not owned.
+  /// Message, not owned.
   void setMessage(void* p_new_buff) { m_p_buff = p_new_buff; }
   void* getMessage() const { return m_p_buff; }
 

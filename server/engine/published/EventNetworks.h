@@ -1,7 +1,7 @@
-// The kinds of events of the published engine's sockets. The engine sends those of players that come, go,
-// press keys and use the mouse, to games that are servers (NetworkManager.h), and no others. The build makes
-// a header of the name of each class, as EventNetworkSync.h. EventNetwork.h does not bring them, so that
-// games may have events of these names.
+// Kinds of events of the published engine's sockets. The engine sends only those of players that come, go,
+// press keys and use the mouse, and only to games that are servers (NetworkManager.h). The build makes a
+// header for each class, such as EventNetworkSync.h. EventNetwork.h does not include them, so that games may
+// have events of these names.
 #pragma once
 
 #include "EventKeyboard.h"
@@ -103,7 +103,7 @@ class EventNetworkCustom : public EventNetwork {
     setType(NETWORK_CUSTOM_EVENT);
   }
 
-  /// Not owned.
+  /// Message, not owned.
   void setMessage(const void* new_message) { m_p_message = new_message; }
   const void* getMessage() const { return m_p_message; }
 
@@ -111,10 +111,10 @@ class EventNetworkCustom : public EventNetwork {
   const void* m_p_message = nullptr;
 };
 
-/// The name from 4.5 to 4.18.
+/// Name in versions 4.5 to 4.18.
 using EventCustomNetwork = EventNetworkCustom;
 
-// What a client program would have sent: of the players that are a server's connections (NetworkManager.h).
+// Input that a client program would have sent, of players that are a server's connections (NetworkManager.h).
 
 inline const EventType NETWORK_KEYBOARD_EVENT("df-keyboard-network");
 
@@ -132,7 +132,7 @@ class EventKeyboardNetwork : public EventKeyboard {
 };
 
 inline const EventType NETWORK_MSE_EVENT("df-mouse-network");
-/// The older name.
+/// Older name of the type.
 inline const EventType NETWORK_MOUSE_EVENT("df-mouse-network");
 
 class EventMouseNetwork : public EventMouse {

@@ -1,4 +1,4 @@
-// The name that the DisplayManager had in older versions of the published engine.
+// Name of the DisplayManager in older versions of the published engine.
 #pragma once
 
 #include "DisplayManager.h"

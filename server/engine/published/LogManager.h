@@ -1,4 +1,4 @@
-// LogManager as games include it: the published engine's header brings utility.h along.
+// LogManager as games include it: with utility.h, as in the published engine.
 #pragma once
 
 #include "detail/LogManager.h"

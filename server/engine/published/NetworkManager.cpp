@@ -22,8 +22,8 @@ bool isThere(const std::vector<Player*>& players, std::uint32_t id) {
   return std::any_of(players.begin(), players.end(), [id](const Player* p) { return p->getId() == id; });
 }
 
-// Games of later versions register for the event's own type, those of earlier ones for the common type. Both
-// count during a pause, too.
+// Sends the event with its own type, for games of later versions, and with the common type, for those of
+// earlier ones. Both are sent even during a pause.
 template <class Specific>
 void send(World& world, NetworkEventLabel label, int socket) {
   Specific specific(label);
@@ -51,9 +51,9 @@ EventMouseNetwork fromNetwork(const EventMouse& mouse) {
   return event;
 }
 
-// Return whether it ends here. What no Object takes from the network is the local event that it was: so a key
-// to leave works in a game that is played with the mouse. But a server that plays has local events of its own
-// player alone.
+// Sends an input as a network event. Returns whether it ends here. If no Object takes it from the network, it
+// is also sent as the local event: so a key to leave works in a game that is played with the mouse. But a
+// server that plays gets local events only of its own player.
 template <class Local>
 bool handOn(World& world, const Local& local) {
   const Connections& c = world.extras().connections;
@@ -67,15 +67,15 @@ bool handOn(World& world, const Local& local) {
 }
 
 /// Plays the server's half of a game that was written as two programs, a server and a client for each player,
-/// over the published engine's NetworkManager. The players of the world are the connections: who joins is
+/// over the published engine's NetworkManager. The players of the world are the connections: a new player is
 /// accepted as a socket, and their keys and mouse come as the events that a client program would have sent.
-/// What the server sends goes nowhere, for all players see the server's world.
+/// What the server sends is dropped, because all players see the server's world.
 ///
-/// A game whose server is a player itself (it has keys of its own, one client has the others) says
-/// `server_plays:true,` in df-config.txt: then the first player sits at the server and is no connection.
+/// If the server is a player itself (it has keys of its own, one client has the others), df-config.txt has
+/// `server_plays:true,`: then the first player sits at the server and is not a connection.
 class NetworkServer {
  public:
-  /// From now on this world's players are connections; or no longer.
+  /// Makes this world's players connections. end() stops that.
   static void begin(World& world) {
     world.extras().connections.is_server = true;
     world.extras().input_filter = [&world](const Event* p_event) { return filter(world, p_event); };
@@ -86,7 +86,7 @@ class NetworkServer {
     world.extras().connections.limit = limit;
     world.extras().input_filter = nullptr;
   }
-  /// Close a connection; the player stays and watches. -1: all of them. Return 0, or -1 for none.
+  /// Closes a connection, or all for -1; the player stays and watches. Returns 0, else -1.
   static int close(World& world, int socket) {
     Connections& c = world.extras().connections;
     if (socket >= 0 && !c.isConnected(socket)) return -1;
@@ -152,7 +152,7 @@ Connections& connections() {
   return World::current().extras().connections;
 }
 
-// Once for each world.
+// Logs once for each world. Returns -1.
 int sayInstead(const std::string& what) {
   World& world = World::current();
   bool& said = world.extras().network_said;

@@ -1,14 +1,13 @@
 // The published engine's sockets, which Naiad games do not need: a game is one program, on the server, and
-// all players play in its world. Input of all players comes as EventKeyboard and EventMouse, with
-// getPlayer(); joins and leaves come as EventJoin and EventLeave; the server sends all players what Objects
-// look like.
+// all players play in its world. Their input comes as EventKeyboard and EventMouse, with getPlayer(); joins
+// and leaves come as EventJoin and EventLeave; the server sends all players what Objects look like.
 //
 // A game that was written as two programs is played by its server's half: after setServer() each player that
-// joins is a connection. An EventNetworkAccept says so, with a socket (0, 1, …), and an EventNetworkClose
-// when they leave; their keys and mouse come as EventKeyboardNetwork and EventMouseNetwork with that socket,
-// or as local events where no Object is interested in those. What is sent to clients counts as sent and goes
-// nowhere. The client's half has nothing to do: connect() fails and says so in the log.
-// docs/bring-your-game.md has the whole of it.
+// joins is a connection. EventNetworkAccept reports it, with a socket (0, 1, …), and EventNetworkClose when
+// they leave. Their keys and mouse come as EventKeyboardNetwork and EventMouseNetwork with that socket, or as
+// local events if no Object is interested in those. Messages to clients count as sent and are dropped. The
+// client's half has nothing to do: connect() fails, with a line in the log. docs/bring-your-game.md has the
+// details.
 #pragma once
 
 #include <string>
@@ -26,38 +25,37 @@ class NetworkManager : public Manager {
  public:
   static NetworkManager& getInstance();
 
-  /// Return 0.
+  /// Returns 0.
   int startUp() override;
-  /// The players are connections from now on; false: no longer. The port is the host's (--port). Return 0.
+  /// Makes the players connections; false ends that. The host's port (--port) counts, not `port`. Returns 0.
   int setServer(bool server = true, const std::string& port = DRAGONFLY_PORT);
-  /// Is this the server? Not while Objects draw: what they draw is for the players, who see what a client
-  /// would show them.
+  /// True if this is the server, except while Objects draw: players must see what a client would show them.
   bool isServer() const;
-  /// -1: players are accepted by themselves.
+  /// Returns -1: players are accepted automatically.
   int accept();
-  /// -1.
+  /// Returns -1.
   int connect(const std::string& host, const std::string& port = DRAGONFLY_PORT);
-  /// As the server 0, though nothing receives it; else -1. sendDelayed() has nothing to send.
+  /// Drops the message. Returns 0 on the server, if the socket is connected, else -1.
   int send(const void* buffer, int bytes, int sock = -1);
   int sendNow(const void* buffer, int bytes, int sock = 0) { return send(buffer, bytes, sock); }
   int sendDelayed() { return 0; }
-  /// -1: players send keys and mouse and nothing else.
+  /// Returns -1: players send only keys and mouse.
   int receive(void* buffer, int bytes, bool leave, int sock = 0);
-  /// The player stays and watches; -1: all of them. Return 0, or -1 if there is no such connection.
+  /// Closes a connection, or all for -1; the player stays and watches. Returns 0, else -1.
   int close(int sock = -1);
   int closeAll() { return close(); }
-  /// As the server 0, without effect; else -1.
+  /// Has no effect. Returns 0 on the server, else -1.
   int setDelay(int new_delay, int sock = 0);
 
-  /// Is a player connected as this socket; -1: is any?
+  /// True if a player is connected as this socket, or as any for -1.
   bool isConnected(int sock = -1) const;
-  /// Players beyond this number watch. 16, if never set.
+  /// Limit of connections; further players watch. Default: 16.
   void setMaxConnections(int new_max_sock);
   int getMaxConnections() const;
   int getNumConnections() const;
-  /// The socket of the connection with this index; -1 if there is none.
+  /// Returns the socket of the connection with this index; -1 if unknown.
   int getSocket(int index = 0) const;
-  /// There is never any.
+  /// There is never any data.
   int isData(int /*sock*/ = 0) const { return 0; }
   int isAnyData() const { return -1; }
   int genDataEvents(int /*sock*/ = 0) const { return 0; }

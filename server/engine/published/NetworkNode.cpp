@@ -10,7 +10,7 @@ namespace df {
 
 namespace {
 
-// What the log says where a message cannot arrive is NetworkManager's business.
+// Returns what sendMessage() does. NetworkManager logs why a message cannot arrive.
 int reach(int sock) {
   if (!World::current().extras().connections.is_server) return NM.send(nullptr, 0, sock);
   if (sock >= 0) return NM.isConnected(sock) ? 1 : -1;

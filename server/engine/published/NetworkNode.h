@@ -1,5 +1,5 @@
-// The published engine's end of a socket: an Object that sends and receives messages. Here it hears of
-// players that come and go, if the game is a server (NetworkManager.h); messages to clients go nowhere.
+// An Object that sends and receives messages over the published engine's sockets. Here it gets events of
+// players that come and go, if the game is a server (NetworkManager.h); messages to clients are dropped.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace df {
 
-/// Plain until 4.18 (ObjectAttributes.h).
+/// Unscoped until 4.18 (ObjectAttributes.h).
 DF_ENUM MessageType{
     UNDEFINED_MESSAGE = -1,    SYNC_OBJECT,    DELETE_OBJECT, GAME_OVER,
     SET_GAME_OVER = GAME_OVER, KEYBOARD_INPUT, MOUSE_INPUT,   CUSTOM_MESSAGE,
@@ -19,10 +19,10 @@ DF_ENUM MessageType{
 
 class NetworkNode : public Object {
  public:
-  /// SPECTRAL, interested in NETWORK_EVENT.
+  /// Makes it SPECTRAL and interested in NETWORK_EVENT.
   NetworkNode();
 
-  /// Hand a NETWORK_EVENT to one of those below. Return what it does.
+  /// Passes a NETWORK_EVENT to one of the handlers below. Returns what that returns.
   int eventHandler(const Event* p_e) override;
   virtual int handleConnect(const EventNetwork* /*p_e*/) { return 0; }
   virtual int handleAccept(const EventNetwork* /*p_e*/) { return 0; }
@@ -30,8 +30,8 @@ class NetworkNode : public Object {
   virtual int handleClose(const EventNetwork* /*p_e*/) { return 0; }
   virtual Object* createObject(std::string /*object_type*/) { return nullptr; }
 
-  // As the server: 1, or 0 if no player is connected (-1: if this one is not); what is synchronised counts as
-  // written (Object::isModified). Else -1.
+  // These return 1 on the server, or 0 if no player is connected (-1: if this one is not), and synchronised
+  // attributes count as written (Object::isModified). Elsewhere they return -1.
 
   int sendMessage(MessageType msg_type, int sock = -1);
   int sendMessage(MessageType msg_type, Object* p_obj, unsigned int attr = 0, int sock = -1);
@@ -47,8 +47,8 @@ class NetworkNode : public Object {
   int m_buff_size = 0;
 };
 
-/// "sync-object" and so on. Declared here and not in utility.h, so that games that bring a NetworkManager and
-/// its events of their own, in this namespace, meet none of these unless they ask for them.
+/// Returns "sync-object" and so on. Declared here and not in utility.h, so that games with a NetworkManager
+/// and events of their own in this namespace get none of these names unless they include this.
 std::string toString(MessageType message);
 
 }  // namespace df

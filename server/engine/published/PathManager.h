@@ -1,5 +1,5 @@
-// In the published engine it shares out the time that searches for paths take. Here Object::pathTo() finds
-// its path in the step in which it is asked, so it has nothing to do.
+// Shares out the time for path searches, in the published engine. Here Object::pathTo() finds its path in the
+// step in which it is called, so this has nothing to do.
 #pragma once
 
 #include <string>
@@ -20,11 +20,11 @@ class PathManager : public Manager {
  public:
   static PathManager& getInstance();
 
-  /// Return 0, all of them.
+  /// Returns 0, as do the two below.
   int startUp() override;
   int registerPathFind(PathFind* /*p_path_find*/) { return 0; }
   int unregisterPathFind(PathFind* /*p_path_find*/) { return 0; }
-  /// Milliseconds; kept, without effect.
+  /// Milliseconds; stored, without effect.
   void setMinCycleTime(int new_min_cycle_time) { m_min_cycle_time = new_min_cycle_time; }
   int getMinCycleTime() const { return m_min_cycle_time; }
   void cycle(int /*max_cycle_time*/ = -1) {}

@@ -1,5 +1,5 @@
-// A node of the tree in which the published engine keeps Objects by their places. The world here has a grid
-// of its own; a node is a list of Objects with a boundary, and it never splits.
+// A node of the tree in which the published engine keeps Objects by their positions. The world here has a
+// grid instead: a node is a list of Objects with a boundary, and it never splits.
 #pragma once
 
 #include <string>
@@ -21,14 +21,14 @@ class QuadtreeNode {
   ObjectList getObjects() const { return m_objects; }
   Box getBoundary() const { return m_boundary; }
   int getDepth() const { return m_depth; }
-  /// Return 0, else -1.
+  /// Returns 0, else -1.
   int insertObject(Object* p_o) { return m_objects.insert(p_o); }
   int removeObject(Object* p_o) { return m_objects.remove(p_o); }
   int split() { return 0; }
   QuadtreeNode* findOwner(Object* /*p_o*/) { return this; }
   QuadtreeNode* findOwner(Object* /*p_o*/, Vector /*where*/) { return this; }
   QuadtreeNode* findOwner(Object* /*p_o*/, Box /*box*/) { return this; }
-  /// WM.getCollisions().
+  /// See WM.getCollisions().
   ObjectList getCollisions(Object* p_o, Vector where) const;
   std::string toString() const;
 

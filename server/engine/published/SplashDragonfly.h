@@ -1,4 +1,4 @@
-// Likewise (Splash.h): the dragonfly in it.
+// The dragonfly in the first picture (Splash.h).
 #pragma once
 
 #include "EventStep.h"

@@ -1,5 +1,5 @@
-// One state of a StateMachine: what its owner does while it is in it. States hold nothing of an Object's own,
-// so many machines may share them.
+// One state of a StateMachine: what its owner does while in it. States store nothing about an Object, so
+// several machines may share them.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ class State {
   void setType(std::string new_type) { m_type = std::move(new_type); }
   const std::string& getType() const { return m_type; }
 
-  /// The Object comes into the state, is in it at a step, and goes out of it.
+  /// Called when the Object enters the state, in each StateMachine::Update(), and when it leaves the state.
   virtual void Enter(Object* /*p_obj*/) {}
   virtual void Execute(Object* p_obj) = 0;
   virtual void Exit(Object* /*p_obj*/) {}

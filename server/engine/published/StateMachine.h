@@ -1,5 +1,5 @@
-// A finite state machine for an Object. The game calls Update(), in each step say. Owner and states are not
-// owned.
+// A finite state machine for an Object. The game calls Update(), for example in each step. Owner and states
+// are not owned.
 #pragma once
 
 #include "Object.h"
@@ -13,21 +13,21 @@ class StateMachine {
 
   void setOwner(Object* p_new_owner) { m_p_owner = p_new_owner; }
   Object* getOwner() const { return m_p_owner; }
-  /// Put it into a state without leaving or entering any.
+  /// Sets the state without calling Exit() or Enter().
   void setState(State* p_new_state) { m_p_state = p_new_state; }
   State* getState() const { return m_p_state; }
   void setPreviousState(State* p_new_state) { m_p_previous = p_new_state; }
   State* getPreviousState() const { return m_p_previous; }
-  /// One that is executed besides the present one, before it.
+  /// State that is executed in addition to the present one, before it.
   void setGlobalState(State* p_new_state) { m_p_global = p_new_state; }
   State* getGlobalState() const { return m_p_global; }
 
-  /// Execute the global and the present state.
+  /// Executes the global and the present state.
   void Update() {
     if (m_p_global != nullptr) m_p_global->Execute(m_p_owner);
     if (m_p_state != nullptr) m_p_state->Execute(m_p_owner);
   }
-  /// Leave the present state and enter another one; null is ignored.
+  /// Leaves the present state and enters another one; null is ignored.
   void changeState(State* p_new_state) {
     if (p_new_state == nullptr) return;
     m_p_previous = m_p_state;
@@ -35,7 +35,7 @@ class StateMachine {
     m_p_state = p_new_state;
     m_p_state->Enter(m_p_owner);
   }
-  /// Change to the one before.
+  /// Changes to the previous state.
   void revertToPrevious() { changeState(m_p_previous); }
 
  private:

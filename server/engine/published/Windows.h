@@ -1,5 +1,5 @@
-// Stands in for the header of the system Windows, which games include that were made there, mostly for
-// nothing. Keys come as events, and time is the game's: nothing here waits, or asks the machine.
+// Stands in for the Windows header of this name, which games made there include, mostly without need. Keys
+// come as events, and time is the game's: nothing here waits, or asks the machine.
 #pragma once
 
 #include <algorithm>
@@ -25,14 +25,14 @@ inline void Sleep(DWORD /*milliseconds*/) {}
 inline BOOL Beep(DWORD /*frequency*/, DWORD /*milliseconds*/) {
   return TRUE;
 }
-/// No key is ever down.
+/// Returns 0: no key is ever down.
 inline short GetAsyncKeyState(int /*key*/) {
   return 0;
 }
 inline short GetKeyState(int /*key*/) {
   return 0;
 }
-/// Milliseconds of game time.
+/// Returns milliseconds of game time.
 inline DWORD GetTickCount() {
   return static_cast<DWORD>(GM.getStepCount()) * static_cast<DWORD>(GM.getFrameTime());
 }

@@ -1,4 +1,4 @@
-// The same in the other spelling: on Windows upper and lower case are one.
+// Includes Windows.h by its other name: on Windows file names have no upper and lower case.
 #pragma once
 
 #include "Windows.h"

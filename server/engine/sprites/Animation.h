@@ -1,7 +1,7 @@
-// Which frame of a sprite shows now (book, Listing 4.149). A value: each Object has its own.
+// Selects the frame of a sprite that shows now (book, Listing 4.149). A value: each Object has its own.
 //
-// An Object's animation goes on in the tick, once, after all have been drawn, whether or not it is in a view;
-// that of an inactive or invisible Object waits. One that a game holds for itself goes on with each draw().
+// An Object's animation advances once per tick, after all Objects have been drawn, whether or not it is in a
+// view; that of an inactive or invisible Object waits. A game's own advances with each draw().
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace df {
 
-/// How a frame is turned over before it is drawn.
+/// Ways to mirror a frame before it is drawn.
 enum class Transform {
   NO_TRANSFORM,
-  HORIZONTAL,  ///< left and right change places
-  VERTICAL,    ///< top and bottom
+  HORIZONTAL,  ///< swaps left and right
+  VERTICAL,    ///< swaps top and bottom
   BOTH,
 };
 
@@ -28,7 +28,7 @@ class Animation {
 
   Animation() = default;
 
-  /// From the first frame on. Not owned; null for none.
+  /// Sprite, shown from its first frame on. Not owned; null for none.
   void setSprite(Sprite* p_new_sprite);
   Sprite* getSprite() const { return m_p_sprite; }
   /// The sprite's label.
@@ -43,22 +43,22 @@ class Animation {
   void setSlowdownCount(int new_slowdown_count) { m_slowdown_count = new_slowdown_count; }
   int getSlowdownCount() const { return m_slowdown_count; }
 
-  /// Turn the frames over as they are drawn; characters with a mirror image, as / and <, become it. The box
-  /// stays, and characters are not compared in collisions (Object::setPrecise) while it is on.
+  /// Mirrors the frames as they are drawn; characters with a mirror image, such as / and <, become that. The
+  /// box stays, and characters are not compared in collisions (Object::setPrecise) while this is on.
   void setTransform(Transform new_transform) { m_transform = new_transform; }
   Transform getTransform() const { return m_transform; }
 
-  /// The sprite's box; 1 by 1 around the position without one.
+  /// Returns the sprite's box; 1 by 1 around the position without a sprite.
   Box getBox() const;
 
-  /// Draw the frame around a position, then go on by a tick. Return 0, or -1 without a frame.
+  /// Draws the frame around a position, then advances by a tick. Returns 0, or -1 without a frame.
   int draw(Vector position);
-  /// Only draw it.
+  /// Draws the frame without advancing.
   int paint(Vector position) const;
-  /// One tick has passed. Return whether another frame shows now.
+  /// Advances by one tick. Returns whether another frame shows now.
   bool advance();
 
-  /// For log lines.
+  /// Returns a text for log lines.
   std::string toString() const;
   friend bool operator==(const Animation& a, const Animation& b) {
     return a.m_p_sprite == b.m_p_sprite && a.m_index == b.m_index &&

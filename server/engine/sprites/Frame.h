@@ -1,4 +1,4 @@
-// One picture of a sprite: rows of characters, all of the same length (book, Listing 4.138).
+// One picture of a sprite: rows of characters, all of equal length (book, Listing 4.138).
 #pragma once
 
 #include <string>
@@ -26,16 +26,16 @@ class Frame {
   void setString(std::string new_frame_str) { m_string = std::move(new_frame_str); }
   const std::string& getString() const { return m_string; }
 
-  /// The character in column x of row y; a blank where there is none.
+  /// Returns the character in column x of row y; a blank outside the frame.
   char at(int x, int y) const {
     if (x < 0 || y < 0 || x >= m_width || y >= m_height) return ' ';
     const std::size_t i =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) + static_cast<std::size_t>(x);
     return i < m_string.size() ? m_string[i] : ' ';
   }
-  /// Draw the frame around a world position: column x of row y at (position.x - (width - 1) / 2 + x,
-  /// position.y - (height - 1) / 2 + y), all in halves of cells. The character `transparency` is left out; 0:
-  /// none is. Return 0, or -1 for an empty frame, or if a character could not be drawn.
+  /// Draws the frame around a world position: column x of row y at (position.x - (width - 1) / 2 + x,
+  /// position.y - (height - 1) / 2 + y), exact to half cells. Skips the character `transparency`, unless it
+  /// is 0. Returns 0, or -1 for an empty frame, or if a character could not be drawn.
   int draw(Vector position, Color color, char transparency = 0) const;
 
  private:

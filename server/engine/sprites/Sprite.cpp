@@ -10,7 +10,7 @@ namespace df {
 
 namespace {
 
-/// What Frame::draw() puts on the screen, relative to the position.
+/// Returns what Frame::draw() puts on the screen, relative to the position.
 naiad::Appearance pictureOf(const Frame& frame, Color color, char transparency) {
   constexpr int kHalf = 1 << (naiad::kGlyphUnitBits - 1);
   naiad::Appearance picture;

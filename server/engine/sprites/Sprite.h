@@ -28,45 +28,45 @@ class Sprite {
   int getWidth() const { return m_width; }
   void setHeight(int new_height) { m_height = new_height; }
   int getHeight() const { return m_height; }
-  /// What it covers around a position: width by height cells, the position in the middle.
+  /// Returns the box around a position: width by height cells, the position in the middle.
   Box getBox() const { return {Vector(-m_width / 2.0, -m_height / 2.0), double(m_width), double(m_height)}; }
 
   /// The colour of all its frames.
   void setColor(Color new_color);
   Color getColor() const { return m_color; }
 
-  /// Return 0, or -1 if there are max_frames already.
+  /// Returns 0, or -1 if there are max_frames already.
   int addFrame(Frame new_frame);
-  int getFrameCount() const { return static_cast<int>(m_frames.size()); }  ///< Frames it has.
-  /// The empty frame for a number that is not in 0 … getFrameCount()-1.
+  int getFrameCount() const { return static_cast<int>(m_frames.size()); }  ///< Number of frames.
+  /// Returns a frame; the empty one for a number that is not in 0 … getFrameCount()-1.
   Frame getFrame(int frame_number) const;
 
-  /// The name under which it was loaded.
+  /// Label under which it was loaded.
   void setLabel(std::string new_label) { m_label = std::move(new_label); }
   const std::string& getLabel() const { return m_label; }
 
-  /// Ticks for which each frame is shown; 0: the first frame is shown for ever (compat: as 1).
+  /// Ticks for which each frame is shown; 0: the first frame always shows (compat: like 1).
   void setSlowdown(int new_sprite_slowdown) { m_slowdown = new_sprite_slowdown; }
   int getSlowdown() const { return m_slowdown; }
-  /// A slowdown of 0 or less shows each frame for one tick, as in the published engine. The engine sets it on
-  /// the sprites of a world with compat.
+  /// Makes a slowdown of 0 or less show each frame for one tick, as in the published engine. The engine sets
+  /// it on the sprites of a world with compat.
   void setNeverStill(bool never_still = true) { m_never_still = never_still; }
-  /// Ticks for which each frame is shown, as it counts; 0: the animation stands still.
+  /// Returns the ticks for which each frame is really shown; 0: the animation stands still.
   int getTicksPerFrame() const { return m_slowdown > 0 ? m_slowdown : m_never_still ? 1 : 0; }
 
-  /// The character that is not drawn; 0: all are, blanks included.
+  /// Character that is not drawn; 0: all are drawn, blanks included.
   void setTransparency(char new_transparency);
   char getTransparency() const { return m_transparency; }
 
-  /// Draw one frame around a position (Frame::draw). Return 0, or -1 for a number without a frame.
+  /// Draws one frame around a position (Frame::draw). Returns 0, or -1 for a number without a frame.
   int draw(int frame_number, Vector position, char transparency) const;
   int draw(int frame_number, Vector position) const { return draw(frame_number, position, m_transparency); }
 
-  /// Which characters of a frame are set, for precise collisions: neither blank nor transparent. Null for a
-  /// number without a frame.
+  /// Returns which characters of a frame are set, for precise collisions: neither blank nor transparent. Null
+  /// for a number without a frame.
   const Mask* mask(int frame_number) const;
 
-  /// For log lines.
+  /// Returns a text for log lines.
   std::string toString() const;
 
  private:
@@ -84,9 +84,9 @@ class Sprite {
   char m_transparency = 0;
   std::vector<Frame> m_frames;
   std::string m_label;
-  // By frame, made when they are first asked for; null: not yet, an empty one: the frame has no character.
+  // Masks by frame, made at first use. Null: not made yet. An empty one: the frame has no character.
   mutable std::vector<std::shared_ptr<const Mask>> m_masks;
-  mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // as clients get them; made likewise
+  mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // as clients get them; made at first use
 };
 
 }  // namespace df

@@ -12,7 +12,7 @@ namespace df {
 
 namespace {
 
-// What is wrong with the file; caught in parseSprite().
+// An error in the file; caught in parseSprite().
 struct Trouble {
   std::size_t line;
   std::string what;
@@ -43,12 +43,12 @@ class Lines {
     while (isBlank() && m_lines[m_next].size() != row) ++m_next;
   }
   bool isBlank() const { return !isDone() && trimmed(m_lines[m_next]).empty(); }
-  /// The line as it is.
+  /// Returns the next line as it is.
   const std::string& takeLine(const std::string& expected) {
     if (isDone()) throw Trouble{m_lines.size(), "the file ends where " + expected + " should be"};
     return m_lines[m_next++];
   }
-  /// The next line that is not blank, without blanks around it.
+  /// Returns the next line that is not blank, without blanks around it.
   std::string takeWord(const std::string& expected) {
     skipBlank();
     return trimmed(takeLine(expected));
@@ -61,9 +61,9 @@ class Lines {
     const std::string found = takeWord("\"" + word + "\"");
     if (found != word) fail("\"" + word + "\" should be here, not \"" + found + "\"");
   }
-  /// Trouble with the line taken last.
+  /// Reports an error in the line taken last.
   [[noreturn]] void fail(const std::string& what) const { throw Trouble{m_next, what}; }
-  /// The line taken last, and what is odd about it.
+  /// Returns the number of the line taken last, and what is odd about it.
   std::string describe(const std::string& what) const { return std::to_string(m_next) + ": " + what; }
 
  private:
@@ -75,7 +75,7 @@ struct Header {
   explicit Header(std::vector<std::string>* the_oddities)
       : p_oddities(the_oddities), slowdown(the_oddities != nullptr ? 0 : 1) {}
 
-  std::vector<std::string>* p_oddities;  // not null: what the published engine takes is taken, and noted here
+  std::vector<std::string>* p_oddities;  // not null: takes what the published engine takes, and lists it here
   std::optional<int> frames;
   std::optional<int> width;
   std::optional<int> height;
@@ -189,7 +189,7 @@ std::unique_ptr<Sprite> readWithHeader(Lines& lines, Header header) {
     lines.expect("end");
   }
   lines.expect("</BODY>");
-  if (lines.peekWord().empty()) return sprite;  // the footer says nothing that is of use
+  if (lines.peekWord().empty()) return sprite;  // the footer holds nothing useful
   lines.expect("<FOOTER>");
   while (lines.takeWord("\"</FOOTER>\"") != "</FOOTER>") {
   }
@@ -197,8 +197,8 @@ std::unique_ptr<Sprite> readWithHeader(Lines& lines, Header header) {
 }
 
 std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
-  // The fields end with the last one that a line begins with: rows may look like anything, so it is by their
-  // names alone that fields are known.
+  // Rows may look like anything, so fields are recognised only by their names: they end with the last line
+  // that begins with one.
   constexpr std::array<const char*, 5> kFields{"frames", "width", "height", "color", "slowdown"};
   const auto isField = [&](const std::string& line) {
     if (header.p_oddities != nullptr && line == "slowdown") return true;

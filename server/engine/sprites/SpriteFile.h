@@ -1,13 +1,13 @@
-// Reads sprite files, in the three formats that are about (docs/dragonfly-api.md shows one of each):
+// Reads sprite files in the three formats that are in use (docs/dragonfly-api.md shows one of each):
 //
 // - header: <HEADER> frames, width, height, optionally color, slowdown, transparency, in any order </HEADER>
 //   <BODY> the rows of each frame, then a line "end" </BODY> <FOOTER> version </FOOTER>;
 // - old: lines frames, width, height, color, perhaps slowdown; the rows of each frame, then "end"; at last
-// "eof";
+//   "eof";
 // - simple: five lines with the numbers of frames, width, height and slowdown and the colour; then all rows.
 //
-// Lines may end in LF or CR LF, the last one in nothing. A row has exactly `width` characters: blanks at its
-// end count.
+// Lines may end in LF or CR LF; the last one needs no end. A row has exactly `width` characters: blanks at
+// its end count.
 #pragma once
 
 #include <memory>
@@ -19,20 +19,20 @@
 
 namespace df {
 
-/// Largest number of frames, and of characters to a side.
+/// Limits: frames of a sprite, and characters per side.
 inline constexpr int kMaxSpriteFrames = 10'000;
 inline constexpr int kMaxSpriteSide = 1024;
 
-/// The sprite in `text`, with this label. If it is none: null, and in `error` the number of the line where
-/// the trouble is and what it is, as "12: the row has 5 characters instead of 6".
+/// Parses the sprite in `text` and gives it this label. On failure, returns null and sets `error` to the
+/// number of the line and the reason, as in "12: the row has 5 characters instead of 6".
 /// With `p_oddities` the published engine's rules hold: `slowdown -1`, a line `slowdown` with nothing behind
 /// it, `transparency " "` (its first character counts) and text after `</FOOTER>` or `eof` (ignored) are
-/// taken, and named there in the same form; a missing slowdown is 0, and the sprite never stands still
+/// accepted, and listed there like errors; a missing slowdown is 0, and the sprite never stands still
 /// (Sprite::setNeverStill).
 std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
                                     std::vector<std::string>* p_oddities = nullptr);
 
-/// The colour of this name, in small or capital letters; UNDEFINED_COLOR for none.
+/// Returns the colour of this name, in small or capital letters; UNDEFINED_COLOR for none.
 Color colorOfName(const std::string& name);
 
 }  // namespace df

@@ -36,11 +36,11 @@ namespace df {
 namespace {
 
 /// Runs a game's main() on a thread of its own, in turns with the thread that made it: one of the two always
-/// waits for the other. So a test can be written from top to bottom, though main() does not return before the
-/// game is over.
+/// waits for the other. So a test can be written from top to bottom, although main() does not return before
+/// the game is over.
 class GameThread : private Runner {
  public:
-  /// Run `game_main` with `world` as the current one, until it calls GM.run() or ends.
+  /// Runs `game_main` with `world` as the current one, until it calls GM.run() or ends.
   GameThread(World& world, std::function<int()> game_main) : m_world(world) {
     world.setRunner(this);
     m_thread = std::thread([this, game_main = std::move(game_main)] {
@@ -60,7 +60,7 @@ class GameThread : private Runner {
     std::unique_lock lock(m_mutex);
     m_turned.wait(lock, [this] { return !m_games_turn; });
   }
-  /// Have every run() return, and wait for the end of main().
+  /// Makes every run() return, and waits for the end of main().
   ~GameThread() override {
     m_ending = true;
     if (m_in_run) finishRun();
@@ -68,17 +68,17 @@ class GameThread : private Runner {
     m_world.setRunner(nullptr);
   }
 
-  /// Does main() wait in GM.run()?
+  /// True while main() waits in GM.run().
   bool isRunning() const { return m_in_run; }
-  /// Did it get there at all?
+  /// True if main() ever called GM.run().
   bool hasRun() const { return m_has_run; }
-  /// Let GM.run() return, and main() go on to its next GM.run() or its end.
+  /// Lets GM.run() return, and main() continue to its next GM.run() or its end.
   void finishRun() {
     std::unique_lock lock(m_mutex);
     m_in_run = false;
     handTo(true, lock);
   }
-  /// What main() threw; empty if nothing.
+  /// Returns what main() threw; empty if nothing.
   const std::string& fault() const { return m_fault; }
 
  private:
@@ -89,7 +89,7 @@ class GameThread : private Runner {
     m_in_run = m_has_run = true;
     handTo(false, lock);
   }
-  /// Let the other side go on, until it hands back.
+  /// Lets the other side run, until it hands back control.
   void handTo(bool game, std::unique_lock<std::mutex>& lock) {
     m_games_turn = game;
     m_turned.notify_all();
@@ -105,12 +105,12 @@ class GameThread : private Runner {
   bool m_main_ended = false;
   bool m_ending = false;
   std::string m_fault;
-  std::thread m_thread;  // last: it uses what stands above
+  std::thread m_thread;  // last: it uses the members above
 };
 
 namespace fs = std::filesystem;
 
-/// A copy that no other process uses, to be removed once it is loaded.
+/// Returns a copy that no other process uses. Remove it once it is loaded.
 fs::path copyOf(const fs::path& module) {
   std::string name = (fs::temp_directory_path() / (module.stem().string() + "-XXXXXX.so")).string();
   const int file = mkstemps(name.data(), 3);
@@ -133,8 +133,8 @@ void* load(const fs::path& module) {
 /// A game's module, loaded for one test.
 class TestedModule {
  public:
-  /// Load it: the first time in this process from where it is, later from a copy in the folder for temporary
-  /// files, for what is loaded twice from one file is the same, with the variables of the game before. Throws
+  /// Loads it: the first time in this process from its file, later from a copy in the folder for temporary
+  /// files, because loading one file twice gives one module, with the previous game's variables. Throws
   /// std::runtime_error.
   explicit TestedModule(const std::string& path) {
     const fs::path module = fs::absolute(path).lexically_normal();
@@ -149,14 +149,14 @@ class TestedModule {
     m_folders = {(folder / m_name).string(), folder.string(), folder.parent_path().string()};
   }
 
-  /// Run the game's main(). It stays loaded: destructors of its static Objects may still run.
+  /// Runs the game's main(). It stays loaded, because destructors of its static Objects may still run.
   int main() const {
     std::string name = m_name;
     char* arguments[] = {name.data(), nullptr};
     return m_main(1, arguments);
   }
-  /// Where its sprites and sounds are looked for: beside it in a folder of its name, in its folder, and above
-  /// that.
+  /// Folders of its sprites and sounds: the one of its name next to the module, the module's own, and the one
+  /// above that.
   const std::vector<std::string>& folders() const { return m_folders; }
 
  private:
@@ -169,11 +169,11 @@ class TestedModule {
 constexpr std::size_t kShownLogLines = 5;
 constexpr Color kColors[] = {RED, GREEN, YELLOW, CYAN, MAGENTA, WHITE, BLUE};
 
-int g_right = 0;  // expectations of all GameTests
+int g_right = 0;  // expectations of all GameTests that held
 int g_wrong = 0;
 int g_alive = 0;
 
-/// A game that calls exit() would end the test with the game's own exit code: 0, mostly.
+/// Fails the test if the game calls exit(), which would end it with the game's own exit code, mostly 0.
 void refuseExit() {
   if (g_alive == 0) return;
   std::fputs("GameTest: the game called exit() in the middle of the test\n", stderr);
@@ -225,7 +225,7 @@ class GameTest::Game {
     return player;
   }
 
-  /// One tick; false if the game is over.
+  /// Runs one tick; false if the game is over.
   bool tick() {
     if (!isRunning()) return false;
     m_world.tick();

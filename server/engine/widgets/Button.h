@@ -1,4 +1,4 @@
-// A text on the view to click at: it lights up under the mouse, and a click calls callback().
+// A text on the view that can be clicked: it changes colour under the mouse, and a click calls callback().
 #pragma once
 
 #include "EventMouse.h"
@@ -12,25 +12,25 @@ enum class ButtonAttribute : unsigned int {
   HIGHLIGHT_COLOR = APPEARANCE,
   DEFAULT_COLOR = APPEARANCE,
 };
-/// Attributes in all, with those of a ViewObject.
+/// Number of attributes, with those of a ViewObject.
 inline constexpr int ButtonAttributeMax = ViewObjectAttributeMax + 1;
 
 class Button : public ViewObject {
  public:
-  /// Without value, in the default colour, red under the mouse; interested in MSE_EVENT; at the top (compat:
-  /// in the middle of the view).
+  /// Makes a button without value, in the default colour, red under the mouse, interested in MSE_EVENT, at
+  /// the top (compat: in the middle of the view).
   Button();
 
-  /// It was clicked.
+  /// Called when the button is clicked.
   virtual void callback() = 0;
 
-  /// The colour while the pointer is on it.
+  /// Colour while the pointer is on it.
   void setHighlightColor(Color new_highlight_color) { m_highlight_color = new_highlight_color; }
   Color getHighlightColor() const { return m_highlight_color; }
-  /// The colour at other times.
+  /// Colour at other times.
   void setDefaultColor(Color new_default_color);
   Color getDefaultColor() const { return m_default_color; }
-  /// Is the mouse on it, border included?
+  /// True if the mouse is on it, border included.
   bool mouseOverButton(const EventMouse* p_e) const;
 
   int eventHandler(const Event* p_e) override;

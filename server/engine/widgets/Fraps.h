@@ -1,7 +1,7 @@
 // Shows how many frames the game makes in a second, at the top right in green, as "fps". F9 hides and shows
 // it.
 //
-// The time is the game's, so it is what `frame_time` asks for, however a server keeps up. Nothing is
+// The time is the game's, so the number is what `frame_time` asks for, even if a server is slower. Nothing is
 // recorded.
 #pragma once
 
@@ -11,17 +11,17 @@
 
 namespace df {
 
-/// What it shows before the number.
+/// Text before the number.
 const std::string FRAPS_STRING = "fps";
 
 class Fraps : public ViewObject {
  public:
-  /// Of colour green, at the top right. `do_record` has no effect.
+  /// Makes it green, at the top right. `do_record` has no effect.
   explicit Fraps(bool do_record = false);
 
   int eventHandler(const Event* p_e) override;
 
-  /// These have no effect.
+  /// Has no effect.
   void setRecord(bool /*new_record*/) {}
   void setLogFrameRate(bool /*new_do_frame_rate*/) {}
 };

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kVoteTicks = 300;
 
-/// The players whose keys count, so that can vote.
+/// Returns the players whose keys count, so that they can vote.
 std::vector<std::uint32_t> votersOf(const World& world) {
   const WorldExtras* p_extras = world.findExtras();
   const std::uint32_t only = p_extras != nullptr ? p_extras->heard_player : 0;
@@ -70,7 +70,7 @@ void Pause::vote(std::uint32_t player) {
   count(voters.size(), true);
 }
 
-// They are among the players still.
+// The leaving player is still among the players.
 void Pause::leave(std::uint32_t player) {
   World& world = *getWorld();
   std::erase(m_votes, player);
@@ -84,7 +84,7 @@ void Pause::leave(std::uint32_t player) {
   }
 }
 
-// `announce`: even if it is not enough.
+// `announce`: shows the count even if it is not enough.
 void Pause::count(std::size_t voters, bool announce) {
   World& world = *getWorld();
   const bool enough = 2 * m_votes.size() > voters;

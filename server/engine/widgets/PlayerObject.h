@@ -1,4 +1,4 @@
-// An Object that a player steers, of any kind of Object: it gets that player's input and no other's.
+// An Object that a player steers, derived from any kind of Object: it gets only that player's input.
 //
 //   class Ship : public df::PlayerObject<df::Body> {
 //    public:
@@ -29,7 +29,7 @@ namespace df {
 template <class Base = Object>
 class PlayerObject : public Base {
  public:
-  /// In the current world, in which the player must be.
+  /// Makes it in the current world, in which the player must be.
   explicit PlayerObject(Player& player) : m_player(player.getId()), m_color(player.getColor()) {
     for (const EventType& type : {STEP_EVENT, KEYBOARD_EVENT, MSE_EVENT, LEAVE_EVENT}) {
       this->registerInterest(type);
@@ -37,9 +37,9 @@ class PlayerObject : public Base {
     player.setObject(this);
   }
 
-  /// The player that steers it; null from the tick in which they leave.
+  /// Returns the player that steers it; null from the tick in which they leave.
   Player* getPlayer() const { return WM.getPlayer(m_player); }
-  /// The player's.
+  /// Returns the player's colour.
   Color getColor() const { return m_color; }
 
   int eventHandler(const Event* p_e) override {
@@ -61,13 +61,13 @@ class PlayerObject : public Base {
   }
 
  protected:
-  /// Each tick, while the player is there.
+  /// Called in each tick while the player is there.
   virtual void step() {}
-  /// A key of this player's.
+  /// Called with each key of this player.
   virtual void keyboard(const EventKeyboard& /*event*/) {}
-  /// The mouse of this player's.
+  /// Called with each mouse event of this player.
   virtual void mouse(const EventMouse& /*event*/) {}
-  /// Any other event, as Object::eventHandler().
+  /// Called with any other event, like Object::eventHandler().
   virtual int handle(const Event* p_e) { return Base::eventHandler(p_e); }
 
  private:
@@ -75,7 +75,7 @@ class PlayerObject : public Base {
   Color m_color;
 };
 
-/// Makes an Its(Player&) for each player that joins. It is invisible and collides with nothing.
+/// Makes an Its(Player&) for each player that joins. A Welcome is invisible and collides with nothing.
 template <class Its>
 class Welcome : public Object {
  public:

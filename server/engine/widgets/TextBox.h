@@ -1,4 +1,4 @@
-// Several lines of text in a box on the view; of a longer text the end is shown.
+// Several lines of text in a box on the view. If the text is longer, its end is shown.
 #pragma once
 
 #include <string>
@@ -14,32 +14,32 @@ enum class TextBoxAttribute : unsigned int {
   TEXT = 1 << (ViewObjectAttributeMax + 0),
   APPEARANCE = 1 << (ViewObjectAttributeMax + 1),
 };
-/// Attributes in all, with those of a ViewObject.
+/// Number of attributes, with those of a ViewObject.
 inline constexpr int TextBoxAttributeMax = ViewObjectAttributeMax + 2;
 
 class TextBox : public ViewObject {
  public:
-  /// Empty, 30 by 5 characters, with padding and word wrap.
+  /// Makes an empty box, 30 by 5 characters, with padding and word wrap.
   TextBox();
 
-  /// The text: all of it, or more behind it.
+  /// Text. addText() appends to it.
   void setText(std::string new_text) { m_text = std::move(new_text); }
   void addText(const std::string& new_text) { m_text += new_text; }
   const std::string& getText() const { return m_text; }
   void clearText() { m_text.clear(); }
-  /// Characters inside the border, 1 by 1 to 400 by 150.
+  /// Size inside the border, in characters: 1 by 1 to 400 by 150.
   void setSize(Vector new_size);
   Vector getSize() const { return m_size; }
-  /// A blank on either side of each row.
+  /// Whether there is a blank on either side of each row.
   void setPadding(bool new_padding) { m_padding = new_padding; }
   bool getPadding() const { return m_padding; }
-  /// Break lines at blanks.
+  /// Whether lines are broken at blanks.
   void setWordWrap(bool new_word_wrap) { m_word_wrap = new_word_wrap; }
   bool getWordWrap() const { return m_word_wrap; }
 
-  /// The box around its place, and in it the last lines.
+  /// Draws the box around its place, and in it the last lines.
   DF_DRAW draw() override;
-  /// The text in lines as they are shown, all of them.
+  /// Returns all lines of the text, broken as they are shown.
   std::vector<std::string> lines() const;
 
  private:

@@ -1,7 +1,7 @@
 // A line of text that the player types; RETURN calls callback().
 //
-// One that is made while a player's join, key or mouse is handled is that player's: it takes their keys and
-// no others. One that is made elsewhere takes all players' keys, unless setPlayer() names one.
+// An entry made while a player's join, key or mouse is handled is that player's: it takes only their keys.
+// Any other takes all players' keys, unless setPlayer() names one.
 #pragma once
 
 #include <cstdint>
@@ -25,43 +25,43 @@ enum class TextEntryAttribute : unsigned int {
   BLINK_RATE = APPEARANCE,
   NUMBERS_ONLY = APPEARANCE,
 };
-/// Attributes in all, with those of a ViewObject.
+/// Number of attributes, with those of a ViewObject.
 inline constexpr int TextEntryAttributeMax = ViewObjectAttributeMax + 2;
 
 class TextEntry : public ViewObject {
  public:
-  /// Empty, for up to 30 characters (compat: 1); interested in KEYBOARD_EVENT; of the player whose input is
-  /// handled. The cursor blinks every 15 ticks (compat: 10).
+  /// Makes an empty entry for up to 30 characters (compat: 1), interested in KEYBOARD_EVENT, for the player
+  /// whose input is handled. The cursor blinks every 15 ticks (compat: 10).
   TextEntry();
 
-  /// The player has finished.
+  /// Called when the player presses RETURN.
   virtual void callback() = 0;
 
-  /// Typed characters; the limit grows with a longer text.
+  /// Typed characters. A longer text raises the limit.
   void setText(std::string new_text);
   const std::string& getText() const { return m_text; }
   void clearText() { setText(""); }
-  /// Most characters that can be typed.
+  /// Limit of characters that can be typed.
   void setLimit(int new_limit);
   int getLimit() const { return m_limit; }
-  /// Where the next character goes, 0 … length of the text.
+  /// Position of the next character, 0 … length of the text.
   void setCursor(int new_cursor);
   int getCursor() const { return m_cursor; }
-  void setCursorChar(char new_cursor_char) { m_cursor_char = new_cursor_char; }  ///< First '_'.
+  void setCursorChar(char new_cursor_char) { m_cursor_char = new_cursor_char; }  ///< Default '_'.
   char getCursorChar() const { return m_cursor_char; }
-  /// Ticks for which the cursor shows, and then does not; 0: it always shows.
+  /// Ticks for which the cursor shows, and then is hidden; 0: it always shows.
   void setBlinkRate(int new_blink_rate) { m_blink_rate = new_blink_rate; }
   int getBlinkRate() const { return m_blink_rate; }
   void setNumbersOnly(bool new_numbers_only = true) { m_numbers_only = new_numbers_only; }  ///< Digits only.
   bool numbersOnly() const { return m_numbers_only; }
 
-  /// The player whose keys it takes; 0: all. When that player has left, it takes all players' keys, lest the
-  /// game wait for ever.
+  /// Player whose keys it takes; 0: all players. After that player has left it takes all players' keys, so
+  /// that the game does not wait in vain.
   void setPlayer(std::uint32_t new_player) { m_player = new_player; }
   std::uint32_t getPlayer() const { return m_player; }
 
   int eventHandler(const Event* p_e) override;
-  /// The view string, then the text with the cursor.
+  /// Draws the view string, then the text with the cursor.
   DF_DRAW draw() override;
 
  private:

@@ -17,7 +17,7 @@ ViewObject::ViewObject() {
   ViewObject::setLocation(TOP_CENTER);
 }
 
-// Rows and columns are counted from the location's number, 0 to 2 each.
+// Row and column follow from the location's number, 0 to 2 each.
 void ViewObject::setLocation(ViewObjectLocation new_location) {
   if (new_location < TOP_LEFT || new_location > BOTTOM_RIGHT) return;
   const double width = DM.getHorizontal();

@@ -1,7 +1,7 @@
 // Shows a text and a value at a fixed place of the view, such as points (book, Listing 4.175).
 //
-// Its position is in cells of the view, not of the world, and it is drawn wherever that is: at the same cell
-// of every player's view. It collides with nothing.
+// Its position is in cells of the view, not of the world: it is always drawn, at this cell of every player's
+// view. It collides with nothing.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ enum ViewObjectLocation {
   BOTTOM_RIGHT,
 };
 
-/// Attributes beyond an Object's; those after the second are older names of it.
+/// Attributes beyond an Object's. Those after APPEARANCE are older names of it.
 DF_ENUM ViewObjectAttribute : unsigned int{
                                   VALUE = 1 << (ObjectAttributeMax + 0),
                                   APPEARANCE = 1 << (ObjectAttributeMax + 1),
@@ -37,28 +37,28 @@ DF_ENUM ViewObjectAttribute : unsigned int{
                                   LOCATION = APPEARANCE,
                                   DRAW_VALUE = APPEARANCE,
                               };
-/// Attributes in all, with those of an Object.
+/// Number of attributes, with those of an Object.
 inline constexpr int ViewObjectAttributeMax = ObjectAttributeMax + 2;
 
 class ViewObject : public Object {
  public:
-  /// SPECTRAL, altitude MAX_ALTITUDE, type "ViewObject", interested in VIEW_EVENT; at the top, in the middle,
-  /// with a border, the default colour and its value, 0.
+  /// Makes a SPECTRAL Object of type "ViewObject" at MAX_ALTITUDE, interested in VIEW_EVENT, at the top in
+  /// the middle, with a border, the default colour and the value 0.
   ViewObject();
 
-  /// " text value " around its place, with a border around it if there is to be one. Return 0, else -1.
+  /// Draws " text value " around its place, with a border if set. Returns 0, else -1.
   DF_DRAW draw() override;
-  /// Take a VIEW_EVENT whose tag is the text. Return 1 if it did, else 0.
+  /// Handles a VIEW_EVENT whose tag is the text. Returns 1 if it did, else 0.
   int eventHandler(const Event* p_e) override;
 
-  /// Place it at 1/6, 1/2 or 5/6 of the view's width, on the upper rows, the middle one or the lowest ones.
+  /// Places it at 1/6, 1/2 or 5/6 of the view's width, on the upper rows, the middle one or the lowest ones.
   virtual void setLocation(ViewObjectLocation new_location);
-  /// UNDEFINED after setPosition().
+  /// Returns the location; UNDEFINED after setPosition().
   ViewObjectLocation getLocation() const { return m_location; }
-  /// Place it at a cell of the view. Return 0, else -1.
+  /// Places it at a cell of the view. Returns 0, else -1.
   int setPosition(Vector new_pos) override;
 
-  /// The number behind the text.
+  /// Number behind the text.
   virtual void setValue(int new_value) { m_value = new_value; }
   int getValue() const { return m_value; }
   /// Whether to show the value behind the text.
@@ -66,9 +66,9 @@ class ViewObject : public Object {
   bool getDrawValue() const { return m_draw_value; }
   virtual void setBorder(bool new_border);  ///< Whether it is framed.
   bool getBorder() const { return m_border; }
-  virtual void setColor(Color new_color) { m_color = new_color; }  ///< Of all of it.
+  virtual void setColor(Color new_color) { m_color = new_color; }  ///< Colour of all of it.
   Color getColor() const { return m_color; }
-  /// The text before the value, and the tag of events that are for it.
+  /// Text before the value, and tag of the events for it.
   virtual void setViewString(std::string new_view_string) { m_view_string = std::move(new_view_string); }
   const std::string& getViewString() const { return m_view_string; }
 
@@ -77,12 +77,12 @@ class ViewObject : public Object {
   using Object::serialize;
   std::string serialize(std::string attr = "") override;
   int deserialize(std::string s) override;
-  /// They are written whenever the ViewObject is, so they always count as modified.
+  /// Always true: they are written whenever the ViewObject is.
   virtual bool isModified(ViewObjectAttribute /*attribute*/) const { return true; }
   std::string toString() const { return m_view_string + " " + std::to_string(m_value); }
 
  protected:
-  /// Draw any text around its place, with its border.
+  /// Draws any text around its place, with its border.
   int drawText(const std::string& text) const;
 
  private:

@@ -1,8 +1,8 @@
-// What a world's game is doing: written before each handler, read by others after a crash or a hang.
+// Records which handler of a world's game is running, for reports after a crash or a hang.
 //
-// Plain data of a fixed size, without pointers that a reader follows: a world in a process of its own has it
-// in memory that it shares with its host, which reads it when that process was killed. A reader takes every
-// byte for a stranger's: the game can write anything here.
+// Plain data of fixed size, without pointers that a reader follows. A world in a process of its own has it in
+// memory shared with its host, which reads it after that process was killed. A reader must not trust any
+// byte, because the game can write anything here.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace df {
 
-/// Which class a polymorphic object is of: the address of its vtable, by the Itanium C++ ABI, which GCC and
-/// Clang follow. It reads one word, and calls nothing.
+/// Identifies the class of a polymorphic object by the address of its vtable (Itanium C++ ABI, which GCC and
+/// Clang follow). Reads one word and calls nothing.
 template <class T>
 inline std::uintptr_t classOf(const T& object) {
   std::uintptr_t table = 0;
@@ -21,16 +21,16 @@ inline std::uintptr_t classOf(const T& object) {
   return table;
 }
 
-/// The handler that is running. Written by the thread that ticks; any thread or process may read it.
+/// The running handler. Written by the thread that ticks; any thread or process may read it.
 struct alignas(16) Activity {
   static constexpr std::uintptr_t kNothing = 0;
-  static constexpr std::uintptr_t kDraw = 1;  ///< in place of an event: draw()
+  static constexpr std::uintptr_t kDraw = 1;  ///< value of event_class while draw() runs
 
   std::atomic<std::uintptr_t> object_class{kNothing};
   std::atomic<std::uintptr_t> event_class{kNothing};
 };
 
-/// While it lives, this handler is running; then the one that was before. Two loads and four stores.
+/// Marks a handler as running while this lives, then restores the previous one. Two loads and four stores.
 class ActivityScope {
  public:
   ActivityScope(Activity& activity, std::uintptr_t object_class, std::uintptr_t event_class)
@@ -54,30 +54,30 @@ class ActivityScope {
   std::uintptr_t m_event_class;
 };
 
-/// The same with what a reader needs: names of classes, and the last lines of the log. Fresh memory is all
-/// zeros, which is an empty page.
+/// The running handler, the names of classes, and the last lines of the log. Zeroed memory is a valid empty
+/// page.
 struct ActivityPage {
   static constexpr std::size_t kNames = 256;
   static constexpr std::size_t kLines = 8;
 
   struct Name {
     std::atomic<std::uintptr_t> id;
-    char text[56];  ///< as of std::type_info::name(); ends with a zero if it is shorter
+    char text[56];  ///< std::type_info::name(), truncated to this size; ends with a zero if it is shorter
   };
   struct Line {
     char text[160];
   };
 
   Activity now;
-  std::atomic<std::uint32_t> lines_written;  ///< so far; the next is at this modulo kLines
-  Name names[kNames];                        ///< hashed by id
+  std::atomic<std::uint32_t> lines_written;  ///< lines so far; the next goes to this modulo kLines
+  Name names[kNames];                        ///< hash table by id
   Line lines[kLines];
 
-  // By the world's thread.
+  // Called by the world's thread.
 
-  /// Classes beyond kNames have no name here.
+  /// Stores the name of a class; does nothing if kNames classes are stored.
   void addName(std::uintptr_t id, const char* p_mangled);
-  /// What does not fit is cut off.
+  /// Stores a line, truncated to the size of Line::text.
   void addLine(std::string_view line);
 };
 

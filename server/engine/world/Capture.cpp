@@ -172,7 +172,7 @@ void Capture::finishView() {
   }
 }
 
-// Shift every view and let it follow none meanwhile: a client would undo the shift by following.
+// Shifts every view and lets it follow nothing in this tick: a client would undo the shift by following.
 void Capture::shake() {
   if (m_view.shake_x == 0 && m_view.shake_y == 0) return;
   const FixedVector off{fromCells(m_view.shake_x), fromCells(m_view.shake_y)};

@@ -1,7 +1,7 @@
-// Runs the draw() of everything in view, and keeps what it put on the screen.
+// Runs the draw() of every Object in view and keeps the characters that it draws.
 //
-// The list of characters is kept in any case: it is the picture of the tick (render()). The rest
-// of the WorldView is filled only while the world is watched.
+// The list of characters is always kept, because it is the picture of the tick (render()). The rest of the
+// WorldView is filled only while the world is watched.
 #pragma once
 
 #include <array>
@@ -22,29 +22,29 @@ struct WorldState;
 
 class Capture {
  public:
-  /// All live longer than this.
+  /// The arguments must outlive this object.
   Capture(WorldStore& store, Views& views, EventDispatch& events, const LazyExtras& extras,
           const WorldState& state);
 
-  /// Forget the last picture.
+  /// Clears the picture of the last tick.
   void clearPicture();
-  /// Draw the active visible Objects whose box intersects a view: by altitude, then creation order, as they
-  /// were when this began. Objects of type Object itself draw nothing and are left out; of static looks the
-  /// first drawing is repeated.
+  /// Draws the active visible Objects whose box intersects a view, by altitude, then creation order, as these
+  /// were when the call began. Objects of type Object itself draw only sprites, shapes and frames. A static
+  /// look is drawn once and then repeated.
   void drawAll();
-  /// One character, on behalf of the Object whose draw() is running.
+  /// Adds one character, as drawn by the Object whose draw() is running.
   void add(FixedVector position, char32_t ch, Color color);
-  /// The frame that shows now, on its behalf.
+  /// Adds the frame that shows now, as drawn by that Object.
   void addFrame(std::uint32_t slot);
-  /// Complete view(), if the world is watched.
+  /// Completes view() if the world is watched.
   void finishView();
 
-  /// What the last tick changed. Valid until the next tick begins.
+  /// Returns the changes of the last tick. Valid until the next tick begins.
   const WorldView& view() const { return m_view; }
-  /// The picture in a view with this corner: cell(position) - cell(corner), shaken if the window is, but view
-  /// objects where they are in every view.
+  /// Returns the picture in a view with this corner: cell(position) - cell(corner), shaken if the window is.
+  /// View objects keep their cells.
   Canvas render(FixedVector corner) const;
-  /// What this player sees: the view, their texts on top. Without such a player, the world's own view.
+  /// Returns the picture that this player sees, with their texts on top. Without a player, the world's view.
   Canvas renderPlayer(std::uint32_t player) const;
 
  private:
@@ -60,9 +60,9 @@ class Capture {
   const LazyExtras& m_extras;
   const WorldState& m_state;
   WorldView m_view;
-  ObjectKey m_drawing;  // its draw() is running; generation 0: none is
+  ObjectKey m_drawing;  // the Object whose draw() is running; generation 0: none
   std::array<std::vector<ObjectKey>, MAX_ALTITUDE + 1> m_by_altitude;  // scratch of drawAll()
-  std::vector<std::vector<DrawCommand>> m_looks;  // static ones, relative, by slot; see WorldStore::kLookKept
+  std::vector<std::vector<DrawCommand>> m_looks;  // static looks, by slot; see WorldStore::kLookKept
 };
 
 }  // namespace df

@@ -1,4 +1,4 @@
-// A circle, in world coordinates: a place to look for Objects in (WM.objectsInCircle).
+// A circle in world coordinates, in which to look for Objects (WM.objectsInCircle).
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@ namespace df {
 
 class Circle {
  public:
-  /// At (0,0), of radius 0.
+  /// A circle at (0,0) with radius 0.
   Circle() = default;
   Circle(Vector init_center, float init_radius) : m_center(init_center), m_radius(init_radius) {}
 
-  /// In cells.
+  /// Centre, in cells.
   void setCenter(Vector new_center) { m_center = new_center; }
   Vector getCenter() const { return m_center; }
-  /// In cells, of either axis.
+  /// Radius, in cells on both axes.
   void setRadius(float new_radius) { m_radius = new_radius; }
   float getRadius() const { return m_radius; }
 
-  /// For log lines.
+  /// Returns a text for log lines.
   std::string toString() const { return m_center.toString() + ", radius " + std::to_string(m_radius); }
 
  private:

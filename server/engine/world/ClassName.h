@@ -6,12 +6,12 @@
 
 namespace df {
 
-/// "Saucer", "game::Saucer"; anonymous namespaces are left out.
+/// Returns a class's name, such as "Saucer" or "game::Saucer", without anonymous namespaces.
 std::string classNameOf(const std::type_info& type);
 
-/// `type`, or where setType() was forgotten the name of the class.
+/// Returns `type`, or the name of the class if setType() was not called.
 std::string nameOf(const std::string& type, const std::type_info& dynamic);
-/// The name of an Object. Not in constructors, where an Object is not yet of its class.
+/// Returns the name of an Object. Do not call it in constructors, where an Object is not yet of its class.
 template <class T>
 std::string nameOf(const T& object) {
   return nameOf(object.getType(), typeid(object));

@@ -9,28 +9,28 @@
 
 namespace df {
 
-/// A moving Object and another that it may touch, as they are in the store now. Both are in the world.
+/// A moving Object and another that it may touch, in their present state in the store. Both are in the world.
 class CollisionRule {
  public:
   CollisionRule(const WorldStore& store, WorldStore::Slot mover, WorldStore::Slot other)
       : m_store(store), m_mover(mover), m_other(other) {}
 
-  /// Would they block each other? HARD and HARD do, and a mover that is no-soft and a SOFT one.
+  /// True if they would block each other: both are HARD, or the mover is no-soft and the other SOFT.
   bool blocks() const {
     const Solidness own = m_store.solidness(m_mover);
     const Solidness its = m_store.solidness(m_other);
     return (own == HARD && its == HARD) || (its == SOFT && m_store.has(m_mover, WorldStore::kNoSoft));
   }
-  /// The same on this path: what the mover may move out of does not block it.
+  /// Like blocks(), but false if the mover moves out of the other on this path (Object::setMayMoveOut).
   bool blocks(FixedVector from, FixedVector to) const { return blocks() && !movesOut(from, to); }
-  /// When they first collide on this path, by the boxes or, if one of the two is precise, by the characters.
+  /// Returns when they first collide on this path: by boxes or, if one of them is precise, by characters.
   std::optional<Moment> firstMeeting(const Sweep& sweep) const { return firstMeeting(sweep, otherBox()); }
-  /// The same, with the other's box in world coordinates.
+  /// Like firstMeeting(sweep), given the other's box in world coordinates.
   std::optional<Moment> firstMeeting(const Sweep& sweep, const FixedBox& box) const {
     if (!m_store.hasPrecise() || !isPrecise()) return sweep.firstTouch(box);
     return sweep.firstShare(m_store.mask(m_mover), box, m_store.mask(m_other));
   }
-  /// Their boxes touch if the mover's is `box`: do they collide there, by the characters as well?
+  /// True if they collide with the mover at `box`, where their boxes touch: a precise pair must share a cell.
   bool collidesIn(const FixedBox& box) const {
     return !isPrecise() || shareCell(m_store.mask(m_mover), box, m_store.mask(m_other), otherBox());
   }
@@ -49,7 +49,7 @@ class CollisionRule {
   WorldStore::Slot m_other;
 };
 
-/// Of the Objects whose boxes touch `box`, where the mover would be, keep those that it collides with there.
+/// Removes from `others`, whose boxes touch `box`, the Objects that the mover does not collide with there.
 inline void keepCollisions(const WorldStore& store, WorldStore::Slot mover, const FixedBox& box,
                            std::vector<ObjectKey>& others) {
   if (!store.hasPrecise()) return;

@@ -24,7 +24,7 @@ void colorToRGB(Color color, unsigned char& r, unsigned char& g, unsigned char& 
   b = mix.b;
 }
 
-// By hue: what is strong in the mix counts as on, so that a dim yellow is yellow.
+// Compares hues: parts above half of the strongest one count as on, so that a dim yellow is yellow.
 Color nearestColor(unsigned char r, unsigned char g, unsigned char b) {
   const int strongest = std::max({r, g, b});
   if (strongest == 0) return BLACK;

@@ -1,14 +1,14 @@
-// Mixes of red, green and blue, and the eight colours that terminals have.
+// Converts between the eight colours of terminals and mixes of red, green and blue.
 #pragma once
 
 #include "Color.h"
 
 namespace df {
 
-/// Red, green and blue of a colour, 0 to 255 each.
+/// Splits a colour into red, green and blue, 0 to 255 each.
 void colorToRGB(Color color, unsigned char& r, unsigned char& g, unsigned char& b);
-/// The one of the eight colours that is nearest to this mix. Black only for black itself: on a black ground
-/// a dark thing is to be seen.
+/// Returns the nearest of the eight colours. Only black itself becomes BLACK, so that dark things stay
+/// visible on a black background.
 Color nearestColor(unsigned char r, unsigned char g, unsigned char b);
 
 }  // namespace df

@@ -1,4 +1,4 @@
-// Text of the form "key:value,key:value," in which blanks and newlines mean nothing.
+// Reads and writes text of the form "key:value,key:value,". Blanks and newlines in it mean nothing.
 #pragma once
 
 #include <optional>
@@ -8,15 +8,15 @@
 
 namespace df {
 
-/// The value of the first such key; empty if there is none.
+/// Returns the value of the first such key; empty if not found.
 std::string valueOf(const std::string& text, const std::string& key);
 
-/// The value as a number; nullopt if there is no such key or the value is not a number.
+/// Returns the value as a number; nullopt if there is no such key or the value is not a number.
 std::optional<double> numberOf(const std::string& text, const std::string& key);
-/// The numbers under key-x and key-y.
+/// Returns the numbers under key-x and key-y; nullopt if one is missing.
 std::optional<Vector> vectorOf(const std::string& text, const std::string& key);
 
-/// "key:value,"; of a vector "key-x:…,key-y:…,".
+/// Returns "key:value,"; for a vector "key-x:…,key-y:…,".
 std::string keyValue(const std::string& key, const std::string& value);
 std::string keyValue(const std::string& key, double value);
 std::string keyValue(const std::string& key, Vector v);

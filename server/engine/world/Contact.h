@@ -8,9 +8,9 @@ namespace df {
 class Object;
 
 struct Contact {
-  Object* p_object = nullptr;  ///< null: none
+  Object* p_object = nullptr;  ///< null if nothing is hit
   double time = 1;             ///< 0 at the start of the move, 1 at its end
-  Vector position;             ///< of the mover just before the contact; the target if there is none
+  Vector position;             ///< mover's position just before the contact; its target if nothing is hit
 };
 
 }  // namespace df

@@ -1,4 +1,4 @@
-// Players' declared controls at work on their Objects; what the tables mean is in shared/replica/Steering.h.
+// Applies players' declared controls to their Objects. shared/replica/Steering.h documents the tables.
 #pragma once
 
 #include "engine/world/Player.h"
@@ -10,9 +10,9 @@ class Mover;
 
 class ControlApplier {
  public:
-  /// The tick's part for all players with controls, between the step event and the first input.
+  /// Starts the tick for all players with controls, between the step event and the first input.
   static void beginTick(Mover& mover);
-  /// The part of one key, just before its event. Return whether the player's table handled it.
+  /// Applies one key, just before its event. Returns whether the player's table handled it.
   static bool handleKey(Mover& mover, Player& player, Keyboard::Key key, EventKeyboardAction action);
 
  private:

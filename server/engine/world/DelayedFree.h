@@ -1,8 +1,8 @@
-// The memory of Objects that were deleted lately.
+// Delays the freeing of deleted Objects' memory.
 //
-// Games written for the published engine go on asking Objects that they have deleted, which mostly works
-// there for a while, because the memory is not used again yet. So a world with `compat` keeps it for some
-// deletions more: getters of such an Object return what it was, or what its slot is now, and a handler called
+// Games written for the published engine keep calling Objects that they have deleted. That mostly works there
+// for a while, because the memory is not reused yet. So a world with `compat` keeps it for some more
+// deletions: getters of such an Object return its old values or those now in its slot, and a handler called
 // on it does nothing.
 #pragma once
 
@@ -13,15 +13,14 @@
 
 namespace df {
 
-/// The blocks of memory that Object's operator new has handed out and in which no Object has been constructed
-/// yet. The constructor finds itself in one of them, or was not made with `new`. There is more than one at a
-/// time in `new A(new B)`.
+/// Memory blocks from Object's operator new in which no Object has been constructed yet. Object's constructor
+/// looks for its address here, to learn whether it was made with `new`. `new A(new B)` has several at a time.
 class PendingBlocks {
  public:
   void push(const void* p, std::size_t size) {
     if (m_count < m_blocks.size()) m_blocks[m_count++] = {static_cast<const std::byte*>(p), size};
   }
-  /// Takes out the newest block that contains this address. False if there is none.
+  /// Removes the newest block that contains this address. False if not found.
   bool claim(const void* p) {
     const auto* address = static_cast<const std::byte*>(p);
     for (std::size_t i = m_count; i-- > 0;) {
@@ -29,7 +28,7 @@ class PendingBlocks {
     }
     return false;
   }
-  /// Takes out the block that begins here: the constructor threw before it got to Object.
+  /// Removes the block that begins here, because a constructor threw before Object's ran.
   void cancel(const void* p) {
     for (std::size_t i = m_count; i-- > 0;) {
       if (m_blocks[i].begin == p) erase(i);
@@ -53,7 +52,7 @@ class PendingBlocks {
 
 class DelayedFree {
  public:
-  /// Deletions for which a block is kept.
+  /// Number of freed blocks that are kept.
   static constexpr std::size_t kKept = 4096;
 
   DelayedFree() = default;
@@ -63,7 +62,7 @@ class DelayedFree {
     for (std::size_t i = 0; i < m_count; ++i) ::operator delete(m_blocks[i].p, m_blocks[i].align);
   }
 
-  /// Free this one later, and the one that has been waiting for longest now.
+  /// Keeps this block, and frees the oldest one if kKept are kept already.
   void free(void* p, std::align_val_t align) noexcept {
     if (m_count < kKept) {
       m_blocks[m_count++] = {p, align};
@@ -73,7 +72,7 @@ class DelayedFree {
     m_oldest = (m_oldest + 1) % kKept;
     ::operator delete(gone.p, gone.align);
   }
-  /// How many are waiting.
+  /// Returns the number of blocks kept.
   std::size_t size() const { return m_count; }
 
  private:

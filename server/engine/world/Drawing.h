@@ -1,5 +1,4 @@
-// One character of the 8-bit kind in the calling thread's current world: what shapes, lines, paths and frames
-// draw.
+// Draws one 8-bit character in the calling thread's current world, for shapes, lines, paths and frames.
 #pragma once
 
 #include "shared/values/Color.h"
@@ -7,8 +6,8 @@
 
 namespace df {
 
-/// As DM.drawCh(): a char beyond ASCII is a piece of some encoding, not a character, and becomes '?'; CUSTOM
-/// is the default colour. Return 0, or -1 for a position or colour out of range.
+/// Like DM.drawCh(). A char beyond ASCII is only part of an encoded character and becomes '?'; CUSTOM means
+/// the default colour. Returns 0, or -1 for a position or colour out of range.
 int drawCharacter(Vector world_pos, char ch, Color color);
 
 }  // namespace df

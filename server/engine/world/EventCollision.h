@@ -1,8 +1,7 @@
 // Sent to both Objects when a solid one moves onto another solid one (book, Listing 4.105).
 //
-// It goes to the mover first, then to the other; no interest needs to be registered. Either handler may
-// delete either Object by hand: then the other gets no event, so the pointers are valid in every handler that
-// gets them.
+// The mover gets it first, then the other; no interest needs to be registered. If the first handler deletes
+// either Object by hand, the second one is not called, so the pointers are valid in every handler.
 //
 // Bodies (physics) get it once when a contact begins, after all of them have moved.
 #pragma once
@@ -13,15 +12,15 @@
 
 namespace df {
 
-/// Comes without being registered for.
+/// Type of EventCollision, which is sent without registration.
 inline const EventType COLLISION_EVENT("df-collision");
 
 class EventCollision : public Event {
  public:
   /// A collision at (0,0) without Objects.
   EventCollision() : EventCollision(nullptr, nullptr, Vector()) {}
-  /// `p_o1` caused the collision by moving onto `p_o2`; `p` is the position p_o1 wanted to move to (swept:
-  /// just before the contact).
+  /// A collision that `p_o1` caused by moving onto `p_o2`; `p` is the position that p_o1 wanted to move to
+  /// (swept: just before the contact).
   EventCollision(Object* p_o1, Object* p_o2, Vector p)
       : Event(&COLLISION_EVENT), m_pos(p), m_p_obj1(p_o1), m_p_obj2(p_o2) {}
 
@@ -31,12 +30,12 @@ class EventCollision : public Event {
   /// The Object that was collided with.
   void setObject2(Object* p_new_o2) { m_p_obj2 = p_new_o2; }
   Object* getObject2() const { return m_p_obj2; }
-  /// Where: the target of the move, not a point of contact; of a swept move the mover's position just before
-  /// the contact.
+  /// Target of the move, not a point of contact. For a swept move, the mover's position just before the
+  /// contact.
   void setPosition(Vector new_pos) { m_pos = new_pos; }
   Vector getPosition() const { return m_pos; }
-  /// How hard bodies hit each other: mass · widths of a cell per tick, along the line of the impact. 0 for
-  /// all others, and where nothing pushes (a SOFT one).
+  /// Strength of the impact of bodies: mass · cell widths per tick, along the line of the impact. 0 for all
+  /// other Objects, and if one of the two is SOFT and so does not push.
   void setImpulse(double new_impulse) { m_impulse = new_impulse; }
   double getImpulse() const { return m_impulse; }
 

@@ -29,7 +29,7 @@ int EventDispatch::onEvent(const Event* p_event) {
   if (&type == &UNDEFINED_EVENT)
     m_log.writeOnce("WM.onEvent() of a " + classNameOf(typeid(*p_event)) +
                     " without a type: setType() was forgotten");
-  // Joins and leaves during a pause count when the game goes on.
+  // Joins and leaves are sent even during a pause: they count when the game continues.
   return send(*p_event, m_state.paused && type != JOIN_EVENT && type != LEAVE_EVENT);
 }
 
@@ -89,7 +89,7 @@ void EventDispatch::setPage(ActivityPage* p_page) {
   for (std::size_t i = 0; i < walk.size(); ++i) {
     if (walk[i] != WorldStore::kNoSlot && m_store.has(walk[i], WorldStore::kTyped)) nameClass(walk[i]);
   }
-  // Those that are sent without onEvent().
+  // Events that are sent without onEvent().
   nameEvent(EventCollision());
   nameEvent(EventOut());
 }

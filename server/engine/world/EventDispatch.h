@@ -1,5 +1,5 @@
 // Sends events to the eventHandler()s of a world's Objects. The path of one event is inline, because a
-// crowded world does little else.
+// crowded world spends most of its time there.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct WorldState;
 
 class EventDispatch {
  public:
-  /// `shut_down` is called after each handler while a shutdown is pending. The others live longer than this.
+  /// `shut_down` is called after each handler while a shutdown is pending. The others must outlive this.
   EventDispatch(ObjectRegistry& objects, Interests& interests, const WorldState& state,
                 std::function<void()> shut_down);
 
@@ -31,7 +31,7 @@ class EventDispatch {
   /// inactive during the call is skipped. While the world is paused, only Pause objects get the event, unless
   /// a player joins or leaves. Returns the number of Objects it was sent to.
   int onEvent(const Event* p_event);
-  /// Like onEvent(), to all of them, paused or not.
+  /// Like onEvent(), but to all Objects even while the world is paused.
   int sendToAll(const Event& event) { return send(event, false); }
   /// Sends the event to one Object, if it is alive and active. If its handler throws, the Object is made
   /// inactive, marked for deletion and logged. Returns whether it was sent.
@@ -51,7 +51,7 @@ class EventDispatch {
     if (m_shutdown_pending) m_shut_down();
   }
   /// Sends a collision to the mover, then to the other, except to an Object that is gone, inactive or without
-  /// a handler. Both must be in the world. Returns whether the mover still is.
+  /// a handler. Both must be in the world. Returns whether the mover still is in the world.
   [[gnu::always_inline]] bool sendToBoth(ObjectKey mover, ObjectKey other, const EventCollision& event) {
     const WorldStore& store = m_store;
     if (store.hears(mover.slot)) {
@@ -75,13 +75,13 @@ class EventDispatch {
   /// Returns whether a shutdown was pending, and cancels it.
   bool takeShutDown() { return std::exchange(m_shutdown_pending, false); }
 
-  /// Notes what the classes of new Objects override, which their constructors could not know.
+  /// Records what the classes of new Objects override, which their constructors cannot know.
   void learnNewcomers();
   void learnType(std::uint32_t slot);
 
-  /// Notes further events and handlers on this page (ActivityPage.h). Not owned; null for none.
+  /// Records further events and handlers on this page (ActivityPage.h). Not owned; null for none.
   void setPage(ActivityPage* p_page);
-  /// The note of the running handler, with or without a page.
+  /// Returns the record of the running handler, with or without a page.
   Activity& activity() { return *m_p_activity; }
   /// Names the event's class on the page. Call it before the event is sent.
   void nameClassOf(const Event& event) {
@@ -98,12 +98,12 @@ class EventDispatch {
   Interests& m_interests;
   WorldLog& m_log;
   const WorldState& m_state;
-  int m_handlers = 0;  // that are running, one inside the other
+  int m_handlers = 0;  // number of running handlers, nested
   bool m_shutdown_pending = false;
   std::function<void()> m_shut_down;
   Activity m_own_activity;
-  Activity* m_p_activity = &m_own_activity;  // that, or the page's
-  ActivityPage* m_p_page = nullptr;          // null: what the game does is not noted
+  Activity* m_p_activity = &m_own_activity;  // m_own_activity, or the page's
+  ActivityPage* m_p_page = nullptr;          // null: no page
   std::uintptr_t m_named_event = 0;          // class of the event that was named last
 };
 

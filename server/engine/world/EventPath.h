@@ -1,5 +1,5 @@
-// Sent to an Object that called pathTo(): how the search ended. It comes at once, before pathTo()
-// returns; no interest needs to be registered.
+// Tells an Object that called pathTo() how the search ended. It is sent before pathTo() returns; no interest
+// needs to be registered.
 #pragma once
 
 #include <utility>
@@ -9,10 +9,10 @@
 
 namespace df {
 
-/// Comes without being registered for, to the Object that asked for a path.
+/// Type of EventPath, which is sent without registration to the Object that asked for a path.
 inline const EventType PATH_EVENT("df-path");
 
-/// How a search ended.
+/// Result of a search.
 enum SearchResult {
   NOT_FOUND,
   INCOMPLETE,
@@ -22,13 +22,13 @@ enum SearchResult {
 class EventPath : public Event {
  public:
   EventPath() : Event(&PATH_EVENT) {}
-  /// With the path that was found; empty for none.
+  /// An event with result FOUND and this path.
   explicit EventPath(Path path) : Event(&PATH_EVENT), m_result(FOUND), m_path(std::move(path)) {}
 
-  /// How the search ended.
+  /// Result of the search.
   void setResult(SearchResult new_result) { m_result = new_result; }
   SearchResult getResult() const { return m_result; }
-  /// What it found.
+  /// Path that was found; empty if none.
   void setPath(Path new_path) { m_path = std::move(new_path); }
   const Path& getPath() const { return m_path; }
 

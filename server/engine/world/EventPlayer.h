@@ -1,6 +1,6 @@
-// A player joined, or is about to leave. Sent to Objects that registered interest in JOIN_EVENT or
-// LEAVE_EVENT, in the input stage of a tick. A game that registers neither still has players: they watch, and
-// their keys are sent to it.
+// Events of players that join or leave, sent to Objects that registered interest in JOIN_EVENT or
+// LEAVE_EVENT, in the input stage of a tick. A game that registers for neither still has players: they watch,
+// and their keys are sent to it.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace df {
 inline const EventType JOIN_EVENT("df-join");
 inline const EventType LEAVE_EVENT("df-leave");
 
-/// `WM.getPlayer(getPlayer())` exists from this event on.
+/// Sent when a player has joined: `WM.getPlayer(getPlayer())` exists from this event on.
 class EventJoin : public Event {
  public:
   explicit EventJoin(std::uint32_t player = 0) : m_player(player) { setType(JOIN_EVENT); }
@@ -26,9 +26,9 @@ class EventJoin : public Event {
   std::uint32_t m_player;
 };
 
-/// The last event in which `WM.getPlayer(getPlayer())` exists. The player's Object is the game's to
-/// delete. Marked for deletion, it still gets events later in the same tick, when the Player is gone:
-/// keep the id in it, not the pointer.
+/// Sent when a player leaves: the last event in which `WM.getPlayer(getPlayer())` exists. The game has to
+/// delete the player's Object. An Object marked for deletion still gets events later in the tick, when the
+/// Player is gone: keep the id in it, not the pointer.
 class EventLeave : public Event {
  public:
   explicit EventLeave(std::uint32_t player = 0) : m_player(player) { setType(LEAVE_EVENT); }

@@ -1,4 +1,4 @@
-// Where the world is known: what an EventView begins with depends on it.
+// The default constructor of EventView, which needs the current world.
 
 #include "engine/events/EventView.h"
 

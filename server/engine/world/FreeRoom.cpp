@@ -23,12 +23,12 @@ FreeRoom::Range FreeRoom::Range::within(const Range& other) const {
   return {std::max(first, other.first), std::min(last, other.last)};
 }
 
-// By how many cells the box may move and be in the boundary.
+// Returns the numbers of cells by which the box may move and be in the boundary.
 FreeRoom::Range FreeRoom::inside(Fixed low, Fixed size, Fixed boundary_low, Fixed boundary_size) {
   return {ceilCells(boundary_low - low), floorCells(boundary_low + boundary_size - size - low)};
 }
 
-// By how many cells it may move and touch another.
+// Returns the numbers of cells by which it may move and touch another box.
 FreeRoom::Range FreeRoom::taken(Fixed low, Fixed size, Fixed other_low, Fixed other_size) {
   return {ceilCells(other_low - size - low), floorCells(other_low + other_size - low)};
 }
@@ -39,7 +39,7 @@ std::optional<FixedVector> FreeRoom::nearest() {
   for (std::int64_t reach = kFirstReach;; reach = std::min(2 * reach, kReach)) {
     mark(xs.within({-reach, reach}), ys.within({-reach, reach}));
     const std::optional<Offset> found = nearestInTable();
-    // In a corner of the square it is further than some outside.
+    // An offset in a corner of the square is further away than some outside it.
     if (found && (found->square() <= reach * reach || reach == kReach)) {
       return FixedVector{found->x * kFixedOne, found->y * kFixedOne};
     }
@@ -47,7 +47,7 @@ std::optional<FixedVector> FreeRoom::nearest() {
   }
 }
 
-// Make the table for these offsets.
+// Makes the table for these offsets.
 void FreeRoom::mark(const Range& xs, const Range& ys) {
   m_xs = xs;
   m_ys = ys;
@@ -84,7 +84,7 @@ void FreeRoom::markTaken(const Range& xs, const Range& ys) {
   }
 }
 
-// The free offset of this row that is nearest to 0; of two the lesser.
+// Returns the free offset of this row that is nearest to 0; of two the smaller.
 std::optional<std::int64_t> FreeRoom::nearestInRow(std::int64_t y) const {
   const std::uint64_t* p_row = &m_free[static_cast<std::size_t>((y - m_ys.first) * m_words)];
   const std::int64_t width = m_xs.last - m_xs.first + 1;

@@ -1,7 +1,7 @@
-// Finds room for a box: the nearest whole number of cells by which to move it so that it touches no other.
+// Finds the nearest free position for a box: the smallest move by whole cells to where it touches no other.
 //
-// A square of such offsets is a table with a bit for each; every solid Object in reach takes a rectangle of
-// them. The squares double until the nearest free offset is nearer than anything outside.
+// The offsets form a square, stored as a table with one bit each. Every solid Object in reach takes a
+// rectangle of them. The square doubles until the nearest free offset is nearer than any outside it.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ class FreeRoom {
   /// Largest offset on each axis, in cells.
   static constexpr std::int64_t kReach = 1000;
 
-  /// Room for `box`, in world coordinates, inside `boundary`.
+  /// Searches for `box`, in world coordinates, inside `boundary`.
   FreeRoom(const WorldStore& store, const FixedBox& boundary, const FixedBox& box)
       : m_store(store), m_boundary(boundary), m_box(box) {}
 
-  /// The least (distance, y, x) in cells at which the box touches no solid Object and lies in the boundary.
+  /// The least (distance, y, x) where the box is in the boundary and touches nothing solid; nullopt for none.
   std::optional<FixedVector> nearest();
 
  private:
@@ -50,7 +50,7 @@ class FreeRoom {
   const WorldStore& m_store;
   const FixedBox m_boundary;
   const FixedBox m_box;
-  Range m_xs{0, -1};  // what the table covers
+  Range m_xs{0, -1};  // offsets that the table covers
   Range m_ys{0, -1};
   std::int64_t m_words = 0;           // per row
   std::vector<std::uint64_t> m_free;  // row by row, offset x in bit x - m_xs.first

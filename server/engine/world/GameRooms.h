@@ -1,15 +1,15 @@
-// The rooms of the server, for games that lead players from one to another: a lobby, the end of a level.
+// The rooms of the server, for games that move players from one to another: a lobby, the end of a level.
 //
 //   df::GameRooms rooms;
 //   for (const df::GameRoom& room : rooms.getRooms()) show(room.name, room.players);
 //   if (rooms.send(p_player->getId(), "arcade") != 0) ...  // no such room
 //
-// What the server says of its rooms is an input of the world, as a key press is, and comes again when it has
-// changed; where a player is sent is part of its output. The player leaves this world a tick or two later, by
-// an EventLeave, and joins the other as a new one. The server may refuse: the room is full, or the player's
-// client is too old to be led. It says so to the player, who stays.
+// The server's report on a room is an input of the world, like a key press, and is repeated when it has
+// changed. The order to move a player is part of the world's output. The player leaves this world a tick or
+// two later, with an EventLeave, and joins the other as a new player. The server may refuse because the room
+// is full or the player's client is too old. It then tells the player, who stays.
 //
-// Without rooms (dfserver --room), and in tests, there are none until a test says so.
+// Without dfserver's --room the list is empty. In tests it is empty until the test adds rooms.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@
 
 namespace df {
 
-/// A name for what the current world knows of rooms. On the thread that runs the tick.
+/// Gives access to the rooms that the current world knows. Call it on the thread that runs the tick.
 class GameRooms : public GameRoomLimits {
  public:
-  /// In the order of the server's options: players begin in the first. Empty: the server has none.
+  /// Returns the rooms in the order of the server's options: players begin in the first. May be empty.
   const std::vector<GameRoom>& getRooms() const;
-  /// Ask the server to lead the player there. Return 0; or −1, and nothing happens: for a room that is not
-  /// there, the one that this world is in, a player that is not in this world, more than kMaxSentInTick.
+  /// Asks the server to move the player to the room. Returns 0, or −1 without effect if there is no such
+  /// room, it is this world's own, the player is not in this world, or kMaxSentInTick were sent in this tick.
   int send(std::uint32_t player, const std::string& room) const;
 };
 

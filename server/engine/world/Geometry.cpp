@@ -79,7 +79,7 @@ bool lineIntersectsLine(Line line1, Line line2) {
   return part1 >= 0 && part1 <= 1 && part2 >= 0 && part2 <= 1;
 }
 
-// The part of the segment, from 0 to 1, that lies between the box's sides, axis by axis.
+// Computes the part of the segment, from 0 to 1, that lies between the box's sides, axis by axis.
 bool lineIntersectsBox(Line line, Box b) {
   const Vector displacement = line.getP2() - line.getP1();
   const Vector low = b.getCorner() - line.getP1();

@@ -1,15 +1,15 @@
-// Tables of best scores that outlive the game: dfserver keeps them in a file, and passes them to each round.
+// Tables of best scores that outlive the game: dfserver stores them in a file and passes them to each round.
 //
 //   df::HighScores scores("arcade");
 //   scores.add(p_player->getName(), p_player->getScore());
 //   for (const df::HighScore& best : scores.best(3)) show(best.name, best.points);
 //
-// A HighScores is a name for a table of the current world; the table has no more than that to do with it, so
-// make one where it is needed. What the server has kept is there from the first tick on, not before GM.run().
-// Without a server, and in tests, the tables begin empty and end with the world.
+// A HighScores only names a table of the current world, so make one wherever it is needed. Stored rows are
+// there from the first tick on, not before GM.run(). Without a server, and in tests, the tables begin empty
+// and end with the world.
 //
-// What is kept is an input of the world, as a key press is, and what is added is part of its output. So a
-// round that is played again from its inputs shows the same tables.
+// Stored rows are inputs of the world, like key presses, and added rows are part of its output. So a round
+// that is replayed from its inputs shows the same tables.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +21,17 @@
 
 namespace df {
 
-/// On the thread that runs the tick.
+/// Names a table. Call it on the thread that runs the tick.
 class HighScores : public HighScoreLimits {
  public:
-  /// The game's table of this name: 1 to 32 letters, digits, '-' and '_'.
+  /// `table` has 1 to 32 letters, digits, '-' and '_'.
   explicit HighScores(std::string table = "scores") : m_table(std::move(table)) {}
   const std::string& getTable() const { return m_table; }
 
-  /// Add a row. Where less is better, as of times, add it negated. Return 0; or −1, and nothing is added: for
-  /// a name of the table that is none, more tables, rows in a tick or points than above, an empty `name`.
+  /// Adds a row. If less is better, as for times, add it negated. Returns 0, or −1 without effect for an
+  /// invalid table name, an empty `name`, or more tables, points or rows in this tick than the limits allow.
   int add(const std::string& name, std::int64_t points);
-  /// The best rows, best first; of rows with as many points, the older first. At most kMaxRows.
+  /// Returns the best rows, best first; of equal points, the older row first. At most kMaxRows.
   std::vector<HighScore> best(int count = 10) const;
 
  private:

@@ -17,12 +17,12 @@ namespace df {
 
 namespace {
 
-/// A quick bound, in doubles, on when a move touches a box: without a branch, from a little too early to a
-/// little too late. Sweep tests what this leaves exactly.
+/// Quick bounds on when a move touches a box, in doubles and without a branch. They are a little too wide on
+/// both sides; Sweep then tests the remaining boxes exactly.
 class SweepBounds {
  public:
-  /// Times of the move at which a box is touched, also before its start and after its end; enter > leave if
-  /// it never is.
+  /// Times of the move at which a box is touched, also before its start and after its end. enter > leave if
+  /// it is never touched.
   struct Stay {
     double enter;
     double leave;
@@ -39,13 +39,13 @@ class SweepBounds {
     const Stay y = m_y.at(other.corner.y, other.size.y);
     return {std::max(x.enter, y.enter), std::min(x.leave, y.leave)};
   }
-  /// No hit at or before `moment` has a later enter.
+  /// Returns a bound: no hit at or before `moment` has a later enter.
   static double latest(Moment moment) { return moment.toDouble() * (1 + 1e-12); }
 
  private:
-  // On this side and that, in units: doubles of coordinates are some thousand off.
+  // Margin on either side, in units: doubles of coordinates are some thousand units off.
   static constexpr double kSlack = 1 << 16;
-  // For an axis at rest, where each unit is worth for ever.
+  // Time per unit of an axis at rest, practically infinite.
   static constexpr double kForEver = 1e100;
 
   struct Axis {
@@ -69,10 +69,10 @@ class SweepBounds {
   Axis m_y;
 };
 
-/// A path cut into pieces, so that what lies along it is searched in the order of travel.
+/// A path cut into pieces, so that Objects along it are searched in the order of travel.
 ///
-/// It is as many steps long as its longer axis has units. Where the shorter axis is after so many steps is
-/// rounded, and a piece is a little wider for it: only the sweep says what is hit, and when.
+/// It has as many steps as its longer axis has units. The position of the shorter axis after a step is
+/// rounded, so pieces are a little wider: only the sweep decides what is hit, and when.
 class SweepSegments {
  public:
   /// The path must not be of length 0.
@@ -82,20 +82,20 @@ class SweepSegments {
         m_across(axis(path, !m_horizontal)),
         m_slope(halfOf(m_across.length) / std::max(halfOf(m_along.length), 1.0)) {}
 
-  /// Is the longer axis x?
+  /// True if the longer axis is x.
   bool isHorizontal() const { return m_horizontal; }
   std::uint64_t length() const { return m_along.length; }
-  /// How far the shorter axis goes at each step.
+  /// Returns how far the shorter axis goes at each step.
   double slope() const { return m_slope; }
-  /// The time at which so many steps are done.
+  /// Returns the time at which this many steps are done.
   Moment at(std::uint64_t steps) const { return {steps, m_along.length}; }
-  /// Not more than the steps done at `moment`, and hardly less.
+  /// Returns a lower bound (relative error 1e-12) of the steps done at `moment`.
   std::uint64_t stepsBefore(Moment moment) const {
     if (moment.numerator == 0) return 0;
     constexpr double kLess = 1 - 1e-12;
     return static_cast<std::uint64_t>(moment.toDouble() * kLess * static_cast<double>(m_along.length));
   }
-  /// From step `begin` to step `end`.
+  /// Returns the piece from step `begin` to step `end`.
   SweepPath::Piece piece(std::uint64_t begin, std::uint64_t end) const {
     const auto [along_low, along_high] = std::minmax({m_along.after(begin), m_along.after(end)});
     const auto [across_low, across_high] =
@@ -105,7 +105,7 @@ class SweepSegments {
   }
 
  private:
-  // In units of two: doubles have 53 bits, steps 64; some thousand units are lost, this many are not.
+  // Margin in units of two. Doubles have 53 bits, steps 64: some thousand units are lost, never this many.
   static constexpr double kSlack = 1 << 20;
 
   struct Axis {
@@ -123,11 +123,11 @@ class SweepSegments {
     if (is_x) return {corner.x, path.lengthX(), path.to().x < path.from().x ? ~std::uint64_t{0} : 0};
     return {corner.y, path.lengthY(), path.to().y < path.from().y ? ~std::uint64_t{0} : 0};
   }
-  // Signed numbers become doubles faster.
+  // Signed numbers are converted to doubles faster.
   static double halfOf(std::uint64_t steps) {
     return static_cast<double>(static_cast<std::int64_t>(steps >> 1));
   }
-  // Where the shorter axis is by then, or beyond.
+  // Returns the steps of the shorter axis at that time, plus 2 * slack, within its length.
   std::uint64_t across(std::uint64_t steps, double slack) const {
     const double half = m_slope * halfOf(steps) + slack;
     if (half <= 0) return 0;
@@ -142,16 +142,16 @@ class SweepSegments {
 };
 
 // Among many Objects a hit is near, and among few an empty piece costs little. So the first piece is short,
-// and after each empty piece the next one is longer: in cells of the level.
+// and after each empty piece the next one is longer. Lengths in cells of the level.
 constexpr Fixed kFirstPiece = 4;
 constexpr Fixed kLongestPiece = 16;
-constexpr Fixed kLongestFlatPiece = 64;  // of a path that hardly changes its row
+constexpr Fixed kLongestFlatPiece = 64;  // for a path that hardly changes its row
 constexpr double kFlat = 0.25;
 
-// Up to so many pieces are cheaper than to test all Objects, even where there are very few.
+// Up to this many pieces are cheaper than testing all Objects, even if there are very few.
 constexpr int kFewPieces = 32;
 
-// How far the path has been searched in one level of the grid, and in pieces of which length.
+// Progress of the search in one level of the grid, and the length of its pieces.
 struct Front {
   std::uint64_t reached;
   std::uint64_t stride;
@@ -191,7 +191,7 @@ class HitList::Search {
     Slot slot;
   };
 
-  // Level by level, always the one that is behind.
+  // Searches the levels piece by piece, always the level that is furthest behind.
   void runAlong(const SweepSegments& pieces) {
     const std::uint64_t begin = pieces.stepsBefore(m_since);
     std::array<Front, Grid::kLevels> fronts;
@@ -205,7 +205,7 @@ class HitList::Search {
         if (fronts[i].reached < front.reached) std::swap(front, fronts[i]);
       }
       const std::uint64_t from = front.reached;
-      // What lies ahead of all fronts is hit later.
+      // Objects ahead of all fronts are hit later.
       if (m_list.m_end && from != begin && *m_list.m_end <= pieces.at(from)) return;
       const bool is_last = pieces.length() - from <= front.stride || !isWorthMore(number);
       front.reached = is_last ? pieces.length() : from + front.stride;
@@ -219,7 +219,7 @@ class HitList::Search {
     const bool horizontal = pieces.isHorizontal();
     const Fixed cell = horizontal ? Grid::largest(level).x : Grid::largest(level).y;
     const Fixed first = level == 0 ? kFirstPiece * cell : cell;
-    // Neighbouring pieces both see what is within the mover's size: not to look at that many times.
+    // Neighbouring pieces both contain what is within the mover's size: shorter ones would only repeat tests.
     const Fixed least = horizontal ? m_path.box().size.x : m_path.box().size.y;
     const bool flat = horizontal && pieces.slope() < kFlat;
     const Fixed longest = (flat ? kLongestFlatPiece : kLongestPiece) * cell;
@@ -227,12 +227,12 @@ class HitList::Search {
             level};
   }
 
-  // A piece costs about as much as to test a few Objects: no more pieces than to test all Objects is worth.
+  // A piece costs about as much as testing a few Objects, so the count of Objects limits that of pieces.
   bool isWorthMore(int number) const {
     return number < kFewPieces || number < kFewPieces + m_store.grid().size() / 4;
   }
 
-  // Return whether any candidate was near.
+  // Returns whether there was any candidate.
   bool searchPiece(int level, const SweepPath::Piece& piece) {
     bool is_empty = true;
     const FixedVector low = piece.low - Grid::largest(level);
@@ -250,7 +250,7 @@ class HitList::Search {
     return true;
   }
 
-  // Test the collected candidates, the nearest first, until the rest is beyond the end of the list.
+  // Tests the collected candidates, the nearest first, until the rest is beyond the end of the list.
   void lookAtNear(int level) {
     std::size_t count = std::exchange(m_count, 0);
     if (count == 1) return lookAt(m_near[0], level);
@@ -295,7 +295,7 @@ class HitList::Search {
   const End m_end;
   const Moment m_since;
   const KeySet* const m_p_met;
-  std::optional<SweepBounds> m_bounds;  // made when there are several to look at
+  std::optional<SweepBounds> m_bounds;  // made when there are several candidates
   std::size_t m_count = 0;
   std::array<Slot, kBatch> m_near;
 };
@@ -310,7 +310,7 @@ void HitList::fill(const WorldStore& store, WorldStore::Slot mover, const SweepP
     const auto earlier = a.moment <=> b.moment;
     return std::is_eq(earlier) ? a.order < b.order : std::is_lt(earlier);
   });
-  // Some were found twice, some before it was known where the list ends.
+  // Some were found twice, some before the end of the list was known.
   const auto rest = std::unique(m_hits.begin(), m_hits.end(),
                                 [](const Hit& a, const Hit& b) { return a.order == b.order; });
   m_hits.erase(rest, m_hits.end());

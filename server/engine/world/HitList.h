@@ -1,6 +1,6 @@
-// The solid Objects that a move hits on its path, in the order of (time, creation).
+// Lists the solid Objects that a move hits on its path, in the order of (time, creation).
 //
-// The grid is queried piece by piece in the order of travel, and no further than to where the list ends. The
+// The grid is queried piece by piece in the order of travel, and no further than the end of the list. The
 // levels of the grid take turns, so that none is searched far ahead of the others.
 #pragma once
 
@@ -17,21 +17,21 @@ namespace df {
 
 struct Hit {
   Moment moment;
-  std::uint64_t order;  ///< in the world's creation order
+  std::uint64_t order;  ///< place in the world's creation order
   ObjectKey key;
 };
 
 class HitList {
  public:
-  /// Where the list ends: at the first time at which a pair would block, or at the first hit.
+  /// Kinds of ends: the first time at which a pair would block, or the first hit.
   enum End { kBlock, kFirst };
 
-  /// List what `mover`, in the world and solid, hits on `path` at `since` or later, except Objects in `met`.
+  /// Lists what `mover`, in the world and solid, hits on `path` at `since` or later, except Objects in `met`.
   void fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
             Moment since = {}, const KeySet* p_met = nullptr);
 
   const std::vector<Hit>& hits() const { return m_hits; }
-  /// When the list was ended; nothing if it goes to the end of the path.
+  /// Returns when the list ends; nullopt if it goes to the end of the path.
   std::optional<Moment> end() const { return m_end; }
 
  private:

@@ -77,7 +77,7 @@ bool InputQueue::isPossible(const Input& input) const {
          input.y >= 0 && input.x < m_views.width() && input.y < m_views.height();
 }
 
-// The filter may set another one, or none.
+// The filter is copied, because it may replace or remove itself.
 bool InputQueue::isFiltered(const Event* p_event) {
   const WorldExtras* p_extras = m_extras.find();
   if (p_extras == nullptr || p_extras->input_filter == nullptr) return false;
@@ -152,7 +152,7 @@ void InputQueue::sendMouse(const Input& input) {
   if (!isFiltered(&event)) m_events.onEvent(&event);
 }
 
-// The cells that a box of an Object at `position` is drawn in; what is smaller than a cell is drawn in one.
+// True if a box of an Object at `position` is drawn in this cell. One smaller than a cell is drawn in one.
 static bool coversCell(Fixed position, Fixed corner, Fixed extent, std::int32_t cell) {
   if (extent < kFixedOne) return cellOf(position + corner + extent / 2) == cell;
   return cellOf(position + corner + kFixedOne / 2) <= cell &&

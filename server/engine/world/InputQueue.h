@@ -1,5 +1,5 @@
-// The input of a world: what players did since the last tick, in the order it came, and which of it is being
-// handled. An input waits here for the next tick only: a host decides which tick that is (ReceivedInputs.h).
+// Input of a world: what players did since the last tick, in the order it came, and the input being handled.
+// An input waits here only for the next tick: the host decides which tick that is (ReceivedInputs.h).
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ struct WorldState;
 
 class InputQueue {
  public:
-  /// kScore and kRoom are the host's own: a row that was kept of an earlier round (HighScores.h), and what is
-  /// so of a room of the server (GameRooms.h). They are there at once, and send no event.
+  /// kScore and kRoom come from the host itself: a stored row of a score table (HighScores.h), and the state
+  /// of a room of the server (GameRooms.h). They take effect at once and send no event.
   enum Kind { kJoin, kLeave, kKey, kMouse, kScore, kRoom };
-  /// One input; of the fields below `player`, those of its kind.
+  /// One input. The fields below `player` are used according to its kind.
   struct Input {
     Kind kind;
     std::uint32_t player;
@@ -42,58 +42,58 @@ class InputQueue {
     EventMouseAction mouse_action = UNDEFINED_MOUSE_ACTION;
     int x = 0;  ///< cell of the player's view
     int y = 0;
-    std::string table = {};  ///< of kScore, with `name` and `points`
+    std::string table = {};  ///< used by kScore, with `name` and `points`
     std::int64_t points = 0;
     GameRoom room = {};
   };
 
-  /// All live longer than this.
+  /// The arguments must outlive this object.
   InputQueue(ObjectRegistry& objects, Views& views, EventDispatch& events, Mover& mover, LazyExtras& extras,
              const WorldState& state);
 
   // Functions for hosts. An input is handled in the next tick.
 
-  /// A player joins. Return the new player's id at once; the Player and its EventJoin come in the next
-  /// tick. Ids count up from 1 and are not used again; `id`: leave out those before this one.
+  /// Lets a player join. Returns the new id at once; the Player and its EventJoin come in the next tick. Ids
+  /// count up from 1 and are not reused; those below `id` are skipped.
   std::uint32_t join(const std::string& name, Color color, std::uint32_t id = 0);
-  /// A player goes, in the next tick. An unknown id is ignored then.
+  /// Lets a player leave in the next tick. An unknown id is ignored then.
   void leave(std::uint32_t player);
-  /// A key. Unknown keys, actions and players are ignored. `seen`: what was on the player's screen then.
+  /// Adds a key. Unknown keys, actions and players are ignored. `seen`: what was on the player's screen then.
   void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const ViewedTick& seen = {});
-  /// The mouse, at cell (x,y) of the player's view; ignored outside it. The event's position is in world
-  /// coordinates, by the view as the player saw it if the host says so (setLagCompensation()), else as it is
-  /// when the event is handled.
+  /// Adds a mouse action at cell (x,y) of the player's view; ignored outside it. The event's position is in
+  /// world coordinates. It is computed from the view that the player saw, if the host knows it
+  /// (setLagCompensation()), else from the view when the event is handled.
   void mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
              const ViewedTick& seen = {});
-  /// Queue it, unless no player can have sent it: unknown keys, buttons and actions, clicks outside the view.
-  /// Return the player's id; for a join, that is the first free one that is not before `input.player`.
+  /// Adds an input, unless no player can have sent it: unknown keys, buttons and actions, clicks outside the
+  /// view. Returns the player's id; for a join, that is the first free one not below `input.player`.
   std::uint32_t push(Input input);
   /// Returns the highest player id used so far; 0 before the first.
   std::uint32_t newestPlayer() const { return m_next_player - 1; }
 
-  /// Send the events of all that waits. What is pushed meanwhile waits for the next time.
+  /// Sends the events of all waiting inputs. Inputs added during the call wait for the next one.
   void drain();
-  /// Forgets the waiting inputs, the leavers, and setLookingBack().
+  /// Removes the waiting inputs and the leavers, and resets setLookingBack().
   void clear();
 
-  /// The player whose join, leave, key or mouse is being handled; 0 outside that.
+  /// Returns the player whose join, leave, key or mouse is being handled; 0 outside that.
   std::uint32_t player() const { return m_player; }
-  /// If set, a game over while a player's input is handled does not end the game: that player wants to leave,
-  /// which is up to the host. It stays through clear().
+  /// If set, a game over while a player's input is handled does not end the game: it means that this player
+  /// wants to leave, and the host decides. clear() keeps the setting.
   void setGameOverLeaves(bool leaves) { m_game_over_leaves = leaves; }
-  /// Takes a game over. Returns true if it only means that the player whose input is handled wants to leave.
+  /// Handles a game over. True if it only means that the player whose input is handled wants to leave.
   bool takeGameOver();
-  /// The players that wanted to leave since the last call.
+  /// Returns the players that wanted to leave since the last call.
   std::vector<std::uint32_t> takeLeavers() { return std::exchange(m_leavers, {}); }
 
-  /// Does the game use lag compensation? Then the host should set it; otherwise it need not keep any history.
+  /// Whether the game uses lag compensation. If so, the host should provide it; else it needs no history.
   void setLookingBack(bool looking_back) { m_looking_back = looking_back; }
   bool isLookingBack() const { return m_looking_back; }
-  /// Says what players saw. Not owned; null for none.
+  /// Sets the source of what players saw. Not owned; null for none.
   void setLagCompensation(const LagCompensation* p_lag_compensation) {
     m_p_lag_compensation = p_lag_compensation;
   }
-  /// WM.objectsSeenAt().
+  /// See WM.objectsSeenAt().
   ObjectList objectsSeenAt(Vector cell) const;
 
  private:
@@ -111,8 +111,8 @@ class InputQueue {
   const WorldState& m_state;
   std::vector<Input> m_inputs;
   std::uint32_t m_next_player = 1;
-  std::uint32_t m_player = 0;  // whose input is being handled
-  ViewedTick m_seen;           // by that player
+  std::uint32_t m_player = 0;  // the one whose input is being handled; 0: none
+  ViewedTick m_seen;           // what that player saw
   const LagCompensation* m_p_lag_compensation = nullptr;
   std::vector<std::uint32_t> m_leavers;
   bool m_game_over_leaves = false;

@@ -19,15 +19,15 @@ class Interests {
  public:
   explicit Interests(const WorldStore& store) : m_store(store) {}
 
-  /// Return 0, or -1 if the Object is not in the world.
+  /// Registers an interest. Returns 0, or -1 if the Object is not in the world.
   int add(ObjectKey key, ObjectProfile& profile, const std::string& type);
-  /// Return 0, or -1 if it was not registered.
+  /// Removes an interest. Returns 0, or -1 if it was not registered.
   int remove(ObjectKey key, ObjectProfile& profile, const std::string& type);
-  /// The Object leaves the world and gets no events any more.
+  /// Removes all interests of an Object that leaves the world.
   void dropAll(ObjectProfile& profile);
 
-  /// Calls visit(key) for the Objects that were registered for the type when it began, in that order.
-  /// Meanwhile others may come and go; the key of one that went names no Object.
+  /// Calls visit(key) for the Objects that were registered for the type when the call began, in that order.
+  /// Objects may register and leave during the call; the key of one that left names no Object.
   template <class Visit>
   void visit(const std::string& type, Visit visit) {
     const auto it = m_numbers.find(type);
@@ -44,7 +44,7 @@ class Interests {
   struct Table {
     std::vector<ObjectKey> entries;
     std::size_t gone = 0;  // entries of Objects that unregistered or left
-    int walks = 0;         // under way, during which no entry moves
+    int walks = 0;         // in progress, during which no entry moves
   };
 
   void tidy(Table& table);

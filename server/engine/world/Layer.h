@@ -1,7 +1,7 @@
-// The seam through which something beyond the book's moves takes part in a world's update(): physics is one.
+// The interface through which parts beyond the book, such as physics, take part in a world's update().
 //
-// A world without layers spends nothing on them. A layer moves Objects that carry the store's flag kBody,
-// which the book's moves skip.
+// A world without layers spends nothing on them. A layer moves Objects that have the store's flag kBody; the
+// book's moves skip these.
 #pragma once
 
 namespace df {
@@ -11,8 +11,8 @@ class World;
 class Layer {
  public:
   virtual ~Layer() = default;
-  /// Once in each update(), after all Objects have moved and before the marked ones are deleted. Handlers
-  /// that are called from here may do what those of collisions may.
+  /// Called once in each update(), after all Objects have moved and before the marked ones are deleted.
+  /// Handlers called from here may do what collision handlers may.
   virtual void step(World& world) = 0;
 };
 

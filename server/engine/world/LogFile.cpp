@@ -17,12 +17,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kRetry{1};  ///< after an open that failed
+constexpr std::chrono::seconds kRetry{1};  ///< interval after a failed open
 
 constinit std::atomic<bool> g_kept = false;
 
-/// Without waiting: a pipe whose other end is not read, or not there, must not hold up the game. Neither
-/// takes lines then. Null if it cannot be opened.
+/// Opens without waiting: a pipe whose other end is not read, or missing, must not hold up the game. Such a
+/// pipe takes no lines. Null if the file cannot be opened.
 std::FILE* openToWrite(const std::string& filename, int how) {
   constexpr int kAlways = O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
   const int file = ::open(filename.c_str(), kAlways | how, 0640);
@@ -39,9 +39,9 @@ struct OpenFile {
 
 }  // namespace
 
-// Empty at first, and every line goes to its end, wherever that is then.
+// Each line goes to the end of the file as it is then, because other processes may append to it too.
 void writeToLogFile(const std::string& filename, const std::string& line, bool flush) {
-  static std::mutex* p_mutex = new std::mutex;  // for ever, like the default world
+  static std::mutex* p_mutex = new std::mutex;  // never destroyed, like the default world
   static auto* p_files = new std::map<std::string, OpenFile>;
   const std::lock_guard lock(*p_mutex);
   OpenFile& entry = (*p_files)[filename];

@@ -108,8 +108,8 @@ void Mover::moveAll() {
   }
 }
 
-// Move all walkers up to the next turn of another kind, or up to a walker that touches another, whose turn is
-// finished, too. Return the bit after that of the last one.
+// Moves all walkers up to the next turn of another kind, or up to a walker that touches another, whose turn
+// it finishes too. Returns the bit after that of the last one.
 int Mover::walkOn(std::size_t word, std::uint64_t turns) {
   WorldStore& store = m_store;
   const std::uint64_t others = turns & ~store.turnBits().walkers[word];
@@ -135,7 +135,7 @@ int Mover::walkOn(std::size_t word, std::uint64_t turns) {
   return bit + 1;
 }
 
-// A walker's turn, given what it touches at its target.
+// Finishes a walker's turn, given what it touches at its target.
 void Mover::finishWalk(ObjectKey key, std::vector<ObjectKey>& others) {
   WorldStore& store = m_store;
   const FixedVector velocity = store.velocity(key.slot);
@@ -147,7 +147,7 @@ void Mover::finishWalk(ObjectKey key, std::vector<ObjectKey>& others) {
   if (store.isCurrent(key)) endTurn(key, velocity, !free);
 }
 
-// As many fliers as lie side by side. Return how many turns were taken.
+// Moves a run of fliers in consecutive slots. Returns how many turns were taken.
 int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t sequels, int bit) {
   const std::uint64_t run = (fliers >> bit) & (sequels >> bit | 1);
   const int count = std::countr_one(run);
@@ -221,7 +221,7 @@ int Mover::move(ObjectKey mover, FixedVector where) {
   return end == End::kTarget ? 0 : -1;
 }
 
-// Return whether the mover may move. Only the target is tested.
+// Returns whether the mover may move. Only the target is tested.
 bool Mover::collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others) {
   const WorldStore& store = m_store;
   const FixedBox box = store.worldBox(mover.slot, where);
@@ -254,13 +254,13 @@ void Mover::place(ObjectKey mover, FixedVector where) {
   if (leaves) m_events.deliver(mover, EventOut());
 }
 
-// Would an Object at `where` be inside the world, as out events define it?
+// True if an Object at `where` would be inside the world, as out events define it.
 bool Mover::isInWorld(std::uint32_t slot, FixedVector where) const {
   return m_state.compat ? touchesAsFloats(m_store.worldBox(slot, where), m_views.boundary())
                         : m_views.isInside(where);
 }
 
-// A move that ends in here does not leave the world.
+// Returns bounds such that a move that ends inside them does not leave the world.
 FixedBox Mover::roomToFly() const {
   const FixedBox& boundary = m_views.boundary();
   const bool anywhere = !m_state.compat || !m_store.hasBoxesOffPosition();

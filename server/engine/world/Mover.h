@@ -1,23 +1,23 @@
-// How Objects move: the book's update() and moveObject() (Listings 4.101, 4.109, 4.111, 4.113), made whole.
+// Moves Objects, as in the book's update() and moveObject() (Listings 4.101, 4.109, 4.111, 4.113).
 //
 // One move of a solid, active Object: the solid Objects touched at the target are listed once, in creation
 // order, before the first event. For each that is still in the world, the collision event goes to the mover,
-// then to the other. After both handlers have run, the pair is judged by what the two are then: it blocks
-// if both are HARD, or if the mover is no-soft and the other SOFT. All pairs get their events, even when
-// an earlier one blocks; then a blocked mover stays where it is (or where a handler put it), and another
-// is set to the target (wherever a handler put it). At last, if that set took it from inside the
-// boundary to outside, it gets an out event: its position, or, if the world is compatible with the published
-// engine, its box, which then has no point in common with the boundary any more.
+// then to the other. After both handlers have run, the present state of the two decides: the pair blocks if
+// both are HARD, or if the mover is no-soft and the other SOFT. All pairs get their events, even if an
+// earlier one blocks. Then a blocked mover stays where it is (or where a handler put it); any other mover is
+// set to the target (wherever a handler put it). Last, if that took it from inside the boundary to outside,
+// it gets an out event. Inside means its position or, in a world with compat, that its box shares a point
+// with the boundary.
 //
-// What handlers may do meanwhile:
-//  - delete or remove the other: the other gets no more events, the pair blocks nothing;
-//  - delete or remove the mover: the move ends at once, -1, and the rest of the list gets no events;
-//  - make either inactive: it gets no events from then on, the move goes on;
+// During the move, handlers may:
+//  - delete or remove the other: the other gets no more events, the pair does not block;
+//  - delete or remove the mover: the move ends at once with -1, the rest of the list gets no events;
+//  - make either inactive: it gets no more events, the move continues;
 //  - make either SPECTRAL: it still gets the events of the listed pairs, which then do not block;
-//  - mark for deletion, move, create, resize: the list stays as it is, the move goes on.
+//  - mark for deletion, move, create, resize: the list stays as it is, the move continues.
 //
-// That is the book's move. Beyond it there are moves that are tested along the path (SweptMove) and pairs
-// whose characters are tested, or that do not block (CollisionRule.h).
+// Beyond the book's move there are moves tested along the path (SweptMove), and pairs whose characters are
+// tested or that do not block (CollisionRule.h).
 #pragma once
 
 #include <array>
@@ -42,21 +42,20 @@ struct WorldState;
 
 /// One move that is tested along its whole path (docs/collisions.md, "Swept").
 ///
-/// It goes in stages. Each lists what the mover hits, up to the first time at which a pair would block as
-/// things stand, sends the event to both of each pair and judges the pair afterwards. If it does not block
-/// after all (a handler has deleted the glass), the next stage searches the rest of the path, in the world as
-/// it is then.
-/// Its memory is kept for the next move.
+/// It goes in stages. Each lists what the mover hits, up to the first time at which a pair would block in the
+/// present state, sends the event to both of each pair, and then judges the pair. If no pair blocks after all
+/// (a handler has deleted the glass), the next stage searches the rest of the path, in the world as it is
+/// then. Memory is kept for the next move.
 class SweptMove {
  public:
-  /// A handler may make a new obstacle for each that it deletes: a move with so many stages is blocked.
+  /// Stages after which a move is blocked, because a handler may make a new obstacle for each it deletes.
   static constexpr int kMaxStages = 1000;
 
-  /// Where a move ended: at its target, just before a contact, or where the mover is already, because a
-  /// handler put it there or it cannot move.
+  /// End of a move: at its target, just before a contact, or where the mover is already, because a handler
+  /// put it there or it cannot move.
   enum class End { kTarget, kContact, kNone };
   /// Sends the events of what `mover`, in the world and solid, hits on its path to `where`. If a pair blocks
-  /// it and no handler has moved it, sets `where` to its place just before the contact. The caller places
+  /// it and no handler has moved it, sets `where` to its position just before the contact. The caller places
   /// the mover.
   End run(EventDispatch& events, WorldStore& store, ObjectKey mover, FixedVector& where);
 
@@ -64,36 +63,36 @@ class SweptMove {
   enum class Outcome { kFree, kBlocked, kGone };
   struct Verdict {
     Outcome outcome;
-    Moment moment;  // of the block
+    Moment moment;  // when the pair blocks
   };
 
   Verdict sendHits(EventDispatch& events, const WorldStore& store, ObjectKey mover, const SweepPath& path);
 
   HitList m_list;
-  KeySet m_met;  // in the stages before this one
+  KeySet m_met;  // Objects hit in earlier stages
 };
 
 class Mover {
  public:
-  /// Moves inside handlers of moves inside handlers … deeper than this are refused.
+  /// Limit of moves nested inside handlers of moves; deeper ones are refused.
   static constexpr int kMaxDepth = 32;
 
-  /// All live longer than this.
+  /// The arguments must outlive this object.
   Mover(ObjectRegistry& objects, Views& views, EventDispatch& events, const WorldState& state);
   WorldStore& store() const { return m_store; }
   Views& views() const { return m_views; }
 
-  /// Every active Object that was in the world when this began, in creation order: move it by its velocity,
-  /// then add its acceleration to the velocity. Activity is read at the Object's turn.
+  /// Moves every active Object that was in the world when the call began, in creation order: by its velocity,
+  /// then adds its acceleration to the velocity. Whether it is active is read at its turn.
   void moveAll();
-  /// WM.moveObject().
+  /// See WM.moveObject().
   int moveObject(Object* p_o, Vector where);
-  /// Move one Object. Return 0 if it moved, else -1.
+  /// Moves one Object. Returns 0 if it reaches `where`, else -1.
   int move(ObjectKey mover, FixedVector where);
 
   // Parts of a move.
 
-  /// Put the mover there, with the views that follow it, and send it an out event if it leaves the world.
+  /// Sets the mover's position, moves the views that follow it, sends an out event if it leaves the world.
   void place(ObjectKey mover, FixedVector where);
 
  private:
@@ -113,8 +112,8 @@ class Mover {
   EventDispatch& m_events;
   const WorldState& m_state;
   int m_depth = 0;
-  std::array<std::vector<ObjectKey>, kMaxDepth> m_lists;  // one per depth, kept for their memory
-  std::array<SweptMove, kMaxDepth> m_swept;               // likewise
+  std::array<std::vector<ObjectKey>, kMaxDepth> m_lists;  // one per depth, reused
+  std::array<SweptMove, kMaxDepth> m_swept;               // one per depth, reused
 };
 
 }  // namespace df

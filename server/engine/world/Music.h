@@ -1,4 +1,4 @@
-// A piece of music: as a Sound, but by default it repeats.
+// A piece of music: like a Sound, but by default it repeats.
 #pragma once
 
 #include "Sound.h"
@@ -11,7 +11,7 @@ class Music : private Sound {
   Music(const Music&) = delete;
   Music& operator=(const Music&) = delete;
 
-  /// Return 0 if there is such a file, else -1, with a line in the log. What is in it is not looked at.
+  /// Returns 0 if the file can be read, else logs a line and returns -1. Its contents are not checked.
   int loadMusic(const std::string& filename) { return loadSound(filename); }
 
   using Sound::endLoop;
@@ -20,10 +20,10 @@ class Music : private Sound {
   using Sound::setLabel;
   using Sound::silence;
   using Sound::stop;
-  /// From its beginning, or from where it paused; again and again, unless `loop` is false.
+  /// Plays from the beginning, or from where it paused; repeats unless `loop` is false.
   void play(bool loop = true) { Sound::play(loop); }
 
-  /// What stands in for the published engine's member of a graphics library: it takes calls and does nothing.
+  /// Returns a stand-in for the published engine's SFML object: calls on it do nothing.
   sf::Music* getMusic() { return &m_stub; }
 
  private:

@@ -25,10 +25,10 @@ namespace {
 
 thread_local PendingBlocks t_pending;
 
-// The function that eventHandler() of this Object is, to find out whether its class has one of its own. By
+// Returns the function that this Object's eventHandler() is, to find out whether its class overrides it. Uses
 // the Itanium C++ ABI, which GCC and Clang follow: an Object begins with the address of its vtable, and on
-// x86-64 a pointer to a virtual member function begins with 1 + the function's offset there. Null where that
-// does not hold.
+// x86-64 a pointer to a virtual member function begins with 1 + the function's offset there. Null on other
+// platforms.
 const void* handlerOf(const Object& object) {
 #if defined(__x86_64__) && defined(__GXX_ABI_VERSION)
   int (Object::*const p_member)(const Event*) = &Object::eventHandler;
@@ -47,19 +47,19 @@ const void* handlerOf(const Object& object) {
 
 const void* g_p_base_handler = nullptr;
 
-// An Object begins with a cache line: what every event needs is in it.
+// An Object begins with a cache line, which has what every event needs.
 constexpr std::align_val_t kLine{64};
 
-// What an Object without a sprite collides with in the published engine: characters one apart do not touch.
+// The box of an Object without a sprite in the published engine: characters one apart do not touch.
 const FixedBox kCompatBox{{-kFixedOne / 2, -kFixedOne / 2}, {*toFixed(0.99), *toFixed(0.99)}};
 const FixedVector kCompatPlace{kFixedOne, kFixedOne};
 
-// Games of the published engine live on memory that happens to be zero there.
+// Clears the memory in compat: games of the published engine rely on memory that happens to be zero there.
 void* cleared(void* p, std::size_t size) {
   return World::current().compat() ? std::memset(p, 0, size) : p;
 }
 
-/// The constant that was meant by a name that lacks the engine's "df-"; null for all others.
+/// Returns the constant that was meant by a name without the engine's "df-"; null for all others.
 const char* engineEventFor(std::string_view name) {
   if (name.starts_with("df-") || name.size() > 9) return nullptr;
   for (const auto& [word, constant] :
@@ -81,7 +81,7 @@ bool isFiniteFloat(double x) {
 
 }  // namespace
 
-// Life.
+// Construction and destruction.
 
 void* Object::operator new(std::size_t size) {
   void* p = cleared(::operator new(size, kLine), size);
@@ -111,7 +111,7 @@ void Object::operator delete(void* p, std::align_val_t align) noexcept {
     ::operator delete(p, align);
     return;
   }
-  // Never destroyed: static Objects may delete others when the thread's own have gone.
+  // Never destroyed: static Objects may delete others after the thread's own variables are gone.
   thread_local auto* t_p_freed = new (std::nothrow) DelayedFree;
   if (t_p_freed != nullptr) {
     t_p_freed->free(p, align);
@@ -130,7 +130,7 @@ Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
     m_p_store->setPosition(m_slot, kCompatPlace);
     m_p_profile->type = kUndefinedType;
   }
-  // Here it is still nothing but an Object.
+  // The derived class has not been constructed yet, so this is the base handler.
   if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);
   m_p_store->enter(m_slot);
 }
@@ -184,7 +184,7 @@ void Object::resemble(const Object& other) {
   to.setAcceleration(m_slot, from.acceleration(source));
   to.setDerived(m_slot, from.has(source, WorldStore::kDerive));
   to.setFrames(m_slot, from.frames(source));
-  // All but the interests, which belong to the Object that registered them.
+  // All attributes but the interests, which belong to the Object that registered them.
   const ObjectProfile& profile = *other.m_p_profile;
   m_p_profile->type = profile.type;
   m_p_profile->speed = profile.speed;
@@ -206,7 +206,7 @@ ObjectKey Object::key() const {
   return m_p_store->key(m_slot);
 }
 
-// Null for a deleted Object (DelayedFree.h): its setters must not reach the world's lists.
+// Returns null for a deleted Object (DelayedFree.h): its setters must not reach the world's lists.
 World* Object::getWorld() const {
   return m_p_store->object(m_slot) == this ? m_p_store->world() : nullptr;
 }
@@ -414,12 +414,12 @@ Vector Object::getDirection() const {
   return m_p_profile->direction;
 }
 
-// The product of length and normalised vector is the vector itself, so it is rounded as it is: that way
-// what was set is what getVelocity() returns, at any size.
+// Rounds the vector itself, not the product of length and normalised vector: so getVelocity() returns what
+// was set, at any size.
 int Object::setVelocity(Vector new_velocity) {
   const auto velocity = toFixed(new_velocity, kMaxVelocityCells);
   if (!velocity) return refuse("setVelocity");
-  // Speed and direction are derived from the velocity where it has them to the last bit (it has no -0).
+  // Speed and direction are derived from the velocity if it stores the vector to the last bit (it has no -0).
   const Vector derived = Vector::fromFixed(*velocity);
   const bool is_derived = sameBits(derived.x(), new_velocity.x()) && sameBits(derived.y(), new_velocity.y());
   m_p_store->setDerived(m_slot, is_derived);

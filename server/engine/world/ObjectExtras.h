@@ -1,4 +1,4 @@
-// What an Object has only if its game gave it that: made at first use, behind one pointer.
+// Attributes that an Object has only if its game sets them: made at first use, behind one pointer.
 #pragma once
 
 #include <cstddef>
@@ -21,18 +21,18 @@ struct ObjectExtras {
   static constexpr std::size_t kNowhere = SIZE_MAX;
 
   Animation animation;
-  std::shared_ptr<const naiad::Look> p_look;  ///< as last published
-  std::size_t animated = kNowhere;            ///< its place in the world's Animations
+  std::shared_ptr<const naiad::Look> p_look;  ///< last published look
+  std::size_t animated = kNowhere;            ///< index in the world's Animations
   std::optional<Shape> shape;
-  std::optional<int> id;  ///< that the game chose
+  std::optional<int> id;  ///< chosen by the game
   Path path;
   bool hears_while_paused = false;
   bool is_centered = true;
   bool follows_path = false;
-  double path_speed = 0;  ///< with which it set out; its last step to a node may be a short one
+  double path_speed = 0;  ///< speed at the start of the path; the last step to a node may be shorter
   bool avoids_collisions = false;
-  std::optional<ObjectAttributes> serialized;  ///< as they were when they were last written
-  unsigned modified = 0;                       ///< attributes that the game calls modified
+  std::optional<ObjectAttributes> serialized;  ///< values when they were last written
+  unsigned modified = 0;                       ///< attributes that the game marked as modified
 };
 
 }  // namespace df

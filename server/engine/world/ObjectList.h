@@ -1,8 +1,8 @@
 // A list of Objects that outlives them (book, Listing 4.39).
 //
-// The list holds handles, not pointers: an Object that was deleted, or removed from the world, reads as
-// null from then on, even if another one has taken its place in memory. Up to 16 entries live inside the
-// list without any allocation; there is no upper limit. All entries belong to one world.
+// The list holds handles, not pointers: an Object that was deleted, or removed from the world, then reads as
+// null, even if another one has taken its place in memory. Up to 16 entries need no allocation; there is no
+// upper limit. All entries belong to one world.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ class WorldStore;
 
 class ObjectList {
  public:
-  /// Entries that need no allocation.
+  /// Number of entries that need no allocation.
   static constexpr int kInline = 16;
 
   ObjectList() = default;
@@ -29,29 +29,29 @@ class ObjectList {
   ObjectList& operator=(ObjectList other) noexcept;
   ~ObjectList();
 
-  /// Append. An Object may be in the list more than once. Return 0, or -1 for null and for an Object of
-  /// another world than those already listed.
+  /// Appends an Object, which may be in the list more than once. Returns 0, or -1 for null and for an Object
+  /// of another world than the entries.
   int insert(Object* p_o);
-  /// Take out the first entry of this Object; the order of the others stays. Return 0, or -1 if it is
-  /// not in the list.
+  /// Removes the first entry of this Object; the others keep their order. Returns 0, or -1 if it is not in
+  /// the list.
   int remove(const Object* p_o);
-  /// Take out everything.
+  /// Removes all entries.
   void clear();
 
-  /// Entries, those of dead Objects included.
+  /// Returns the number of entries, including those of dead Objects.
   int getCount() const { return m_count; }
-  bool isEmpty() const { return m_count == 0; }  ///< No entries.
-  /// Never: the list grows. (The book's list has a fixed size.)
+  bool isEmpty() const { return m_count == 0; }  ///< True if there are no entries.
+  /// Always false, because the list grows. (The book's list has a fixed size.)
   bool isFull() const { return false; }
 
-  /// Entry `index`; null if the Object is gone or `index` is not in 0 … getCount()-1.
+  /// Returns entry `index`; null if the Object is gone or `index` is not in 0 … getCount()-1.
   Object* operator[](int index) const;
 
-  /// The same Objects in the same order?
+  /// True if both list the same Objects in the same order.
   friend bool operator==(const ObjectList& a, const ObjectList& b);
   friend bool operator!=(const ObjectList& a, const ObjectList& b) { return !(a == b); }
 
-  /// Append all entries of `other`; entries of another world are left out.
+  /// Appends all entries of `other`; does nothing if these belong to another world.
   ObjectList& operator+=(const ObjectList& other);
   friend ObjectList operator+(ObjectList a, const ObjectList& b) { return a += b; }
 
@@ -61,7 +61,7 @@ class ObjectList {
   ObjectKey* keys() { return m_count <= kInline ? m_few.data() : m_many.data(); }
   void append(WorldStore* p_store, ObjectKey key);
 
-  WorldStore* m_p_store = nullptr;  // counted; null while the list never had an entry
+  WorldStore* m_p_store = nullptr;  // reference-counted; null before the first entry
   int m_count = 0;
   std::array<ObjectKey, kInline> m_few;
   std::vector<ObjectKey> m_many;  // holds all entries once there are more than kInline
@@ -72,26 +72,26 @@ class ObjectList {
 ///     ObjectListIterator li(&list);
 ///     for (li.first(); !li.isDone(); li.next()) use(li.currentObject());
 ///
-/// The loop's body may delete any Object. Entries appended to the list meanwhile are visited too.
+/// The loop's body may delete any Object. Entries appended during the loop are visited too.
 class ObjectListIterator {
  public:
-  /// Start at the first entry. The list must outlive the iterator; null is an empty list.
+  /// Starts at the first entry. The list must outlive the iterator; null is an empty list.
   ObjectListIterator(const ObjectList* p_list) : m_p_list(p_list) {}
 
-  /// On to another list, from its first entry on.
+  /// Moves to the first entry of another list.
   void setList(const ObjectList* p_list) {
     m_p_list = p_list;
     m_index = 0;
   }
-  /// Back to the first entry.
+  /// Moves back to the first entry.
   void first() { m_index = 0; }
-  /// On to the last entry.
+  /// Moves to the last entry.
   void last() { m_index = m_p_list != nullptr && !m_p_list->isEmpty() ? m_p_list->getCount() - 1 : 0; }
-  /// On to the next entry.
+  /// Moves to the next entry.
   void next() { ++m_index; }
   /// True if no living Object is left at or after the current entry.
   bool isDone() const { return m_p_list == nullptr || firstLiving() >= m_p_list->getCount(); }
-  /// The current Object: the first living one at or after the current entry. Null if done.
+  /// Returns the current Object: the first living one at or after the current entry. Null if done.
   Object* currentObject() const { return isDone() ? nullptr : (*m_p_list)[m_index = firstLiving()]; }
 
  private:
@@ -102,7 +102,7 @@ class ObjectListIterator {
   }
 
   const ObjectList* m_p_list;
-  mutable int m_index = 0;  // currentObject() moves it over dead entries
+  mutable int m_index = 0;  // currentObject() skips dead entries
 };
 
 }  // namespace df

@@ -1,4 +1,4 @@
-// The name under which games include ObjectListIterator.
+// Includes ObjectListIterator under the name that games use.
 #pragma once
 
 #include "ObjectList.h"  // IWYU pragma: export

@@ -1,4 +1,4 @@
-// The part of Object that others see of it: looks, paths, and its attributes as text.
+// The part of Object for looks, paths, and attributes as text.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -24,8 +24,8 @@
 
 namespace df {
 
-/// Sprite's friend: all its frames. Empty if they cannot be described: there are none, too many (kMaxFrames)
-/// or too large ones, or only such as draw nothing.
+/// Sprite's friend: returns all its frames. Empty if they cannot be described: there are none, too many
+/// (kMaxFrames) or too large ones, or they draw nothing.
 class SpritePictures {
  public:
   static const naiad::Sequence& of(const Sprite& sprite) { return sprite.pictures(); }
@@ -39,22 +39,21 @@ naiad::Selector selectorOf(const Animation& animation, std::uint32_t tick) {
   const auto index = static_cast<std::size_t>(animation.getIndex());
   const bool still = slowdown < 1 || count < 0 || slowdown > int{naiad::kMaxTicksPerFrame};
   if (still) return naiad::Selector::fixed(index);
-  // A count set beyond the slowdown turns the page with the next tick, as the last count before it does.
+  // A count beyond the slowdown shows the next frame with the next tick, like the last count before it.
   const auto shown = static_cast<std::uint32_t>(std::min(count, slowdown - 1));
   return naiad::Selector::clock(tick - shown, static_cast<std::uint32_t>(slowdown), true, index);
 }
 
-// An animation as clients get it: the pictures of its sprite, and a clock that says which of them shows.
-// While only the clock decides, clients draw it without further messages.
+// An animation as clients get it: the pictures of its sprite, and a clock that selects the one to show. While
+// only the clock decides, clients draw it without further messages.
 
-/// What `animation` shows in `tick`, and will show after it unless it is stopped, set or hidden. Null if the
-/// pictures cannot be described, or are no more than one. `before`, what this returned an earlier time, is
-/// returned again if it still holds.
+/// Returns what `animation` shows in `tick`, and later until it is stopped, set or hidden. Null if the
+/// pictures cannot be described or there is only one. Returns `before`, an earlier result, if it still holds.
 std::shared_ptr<const naiad::Look> lookOf(const Animation& animation, std::uint32_t tick,
                                           const std::shared_ptr<const naiad::Look>& before) {
   const Sprite* p_sprite = animation.getSprite();
   if (p_sprite == nullptr || p_sprite->getFrameCount() < 2) return nullptr;
-  if (animation.getTransform() != Transform::NO_TRANSFORM) return nullptr;  // the pictures are others
+  if (animation.getTransform() != Transform::NO_TRANSFORM) return nullptr;  // the pictures differ
   if (animation.getIndex() < 0 || animation.getIndex() >= p_sprite->getFrameCount()) return nullptr;
   const naiad::Sequence& pictures = SpritePictures::of(*p_sprite);
   if (pictures.empty()) return nullptr;
@@ -66,7 +65,7 @@ std::shared_ptr<const naiad::Look> lookOf(const Animation& animation, std::uint3
 }
 
 constexpr unsigned kAll = (1u << ObjectAttributeMax) - 1;
-// What serialize() calls the attributes, by the number of their bits.
+// Names of the attributes in serialize(), by the number of their bits.
 constexpr const char* kNames[ObjectAttributeMax] = {
     "id",        "active",       "visible",  "events",    "box",         "pos",
     "type",      "animation",    "altitude", "solidness", "no_soft",     "speed",
@@ -99,7 +98,7 @@ bool Object::hearsWhilePaused() const {
   return m_p_extras != nullptr && m_p_extras->hears_while_paused;
 }
 
-// The world's lists must not go on with it.
+// Removes the Object from the world's lists.
 void Object::dropExtras() {
   World* p_world = getWorld();
   if (p_world == nullptr) return;
@@ -107,13 +106,13 @@ void Object::dropExtras() {
   if (m_p_extras->follows_path) p_world->setWalking(*this, false);
 }
 
-// The sprite or the shape is another one.
+// Updates the world's lists after the sprite or the shape has changed.
 void Object::animate() {
   Sprite* p_sprite = m_p_extras->animation.getSprite();
   m_p_store->set(m_slot, WorldStore::kPainted, p_sprite != nullptr || m_p_extras->shape.has_value());
   World* p_world = getWorld();
   if (p_world == nullptr) return;
-  if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // one that the game has made
+  if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // also for one made by the game
   forgetLook();
   if (p_sprite != nullptr && p_sprite->getFrameCount() > 1) {
     p_world->extras().animations.add(m_slot, *m_p_extras);
@@ -133,11 +132,11 @@ int Object::setSprite(const std::string& sprite_label, bool set_box) {
   if (Sprite* p_sprite = resources.sprite(sprite_label)) return setSprite(p_sprite, set_box);
   p_world->log().writeOnce("setSprite(\"" + sprite_label + "\") of " + nameOf(*this) +
                            ": no sprite is loaded under this label" + resources.spriteLabels());
-  // So that there is something to see, and getAnimation().getSprite() is no null pointer.
+  // Shows a placeholder, so that something is visible and getAnimation().getSprite() is not null.
   if (getSprite() == nullptr && !p_world->compat()) {
     Animation animation;
     animation.setSprite(&resources.missingSprite());
-    Object::setAnimation(std::move(animation), false);  // a game's own is for what it has asked for
+    Object::setAnimation(std::move(animation), false);  // not an override, which expects what was asked for
   }
   return -1;
 }
@@ -158,7 +157,7 @@ int Object::setAnimation(Animation new_animation, bool set_box) {
   return 0;
 }
 
-// The box of a single character around the position begins half a cell before it.
+// Sets the box to the sprite's. That of a single character around the position begins at -0.5.
 void Object::fitBox() {
   Box box = m_p_extras->animation.getBox();
   if (!m_p_extras->is_centered) box.setCorner(Vector(-0.5, -0.5));
@@ -241,14 +240,14 @@ int Object::draw() {
   return result;
 }
 
-// Null if nothing goes on by itself. What draw() really draws decides whether it counts.
+// Returns null if nothing changes by itself. What draw() really draws decides whether it counts.
 std::shared_ptr<const naiad::Look> Object::publishedLook(std::uint32_t tick) {
   if (m_p_store->has(m_slot, WorldStore::kFrames)) return m_p_store->frames(m_slot);
   if (m_p_extras == nullptr || m_p_extras->shape || !m_p_extras->is_centered) return nullptr;
   return m_p_extras->p_look = lookOf(m_p_extras->animation, tick, m_p_extras->p_look);
 }
 
-// In a box that is not the sprite's own, its characters would lie elsewhere than they are drawn.
+// Null in a box that is not the sprite's own: its characters would lie elsewhere than they are drawn.
 const Mask* spriteMaskOf(const Object& object) {
   const Sprite* p_sprite = object.getSprite();
   const bool as_drawn = p_sprite != nullptr && object.isCentered() && object.getBox() == p_sprite->getBox() &&
@@ -257,7 +256,7 @@ const Mask* spriteMaskOf(const Object& object) {
   return p_sprite->mask(object.m_p_extras->animation.getIndex());
 }
 
-// Draws a static look again.
+// Makes a static look be drawn again.
 void Object::forgetLook() {
   if (getWorld() != nullptr) m_p_store->set(m_slot, WorldStore::kLookKept, false);
 }
@@ -419,7 +418,7 @@ int Object::serialize(std::stringstream* p_ss, unsigned int attr) {
   const unsigned mask = attr != 0 ? attr : getModified();
   const ObjectAttributes now = attributes();
   ObjectExtras& mine = extras();
-  // What was never written remains modified.
+  // Attributes that were never written remain modified.
   if (!mine.serialized) mine.serialized.emplace();
   for (std::size_t i = 0; i < now.size(); ++i) {
     if ((mask >> i & 1) == 0) continue;

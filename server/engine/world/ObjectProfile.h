@@ -1,5 +1,4 @@
-// The rarely read attributes of an Object, beside its place in the arrays of the world. The store keeps it,
-// by slot.
+// Rarely read attributes of an Object, which the store keeps by slot apart from its arrays.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +9,13 @@
 
 namespace df {
 
-/// The type of Objects without one, in the published engine.
+/// Type of Objects without a type of their own, in the published engine.
 inline constexpr const char* kUndefinedType = "(Undefined)";
 
 struct ObjectProfile {
   std::string type = "Object";
-  // What setSpeed and setDirection said. After an acceleration (a flag in the store) or setVelocity, which
-  // leaves the vector it got in the direction, they are derived when they are read.
+  // Values of setSpeed() and setDirection(). After an acceleration (a flag in the store) or setVelocity(),
+  // which may leave its vector in the direction, they are derived when they are read.
   double speed = 0;
   Vector direction;
   bool direction_is_velocity = false;

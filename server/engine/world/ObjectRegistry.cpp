@@ -12,7 +12,7 @@
 namespace df {
 
 bool ObjectRegistry::owns(const Object* p_o) const {
-  // Its slot may be another one's by now, if the game holds a pointer to what it has deleted.
+  // The slot may belong to another Object now, if the game holds a pointer to a deleted one.
   return p_o != nullptr && p_o->m_p_store == &m_store && m_store.has(p_o->m_slot, WorldStore::kInWorld) &&
          m_store.object(p_o->m_slot) == p_o;
 }
@@ -43,7 +43,7 @@ int ObjectRegistry::markForDelete(Object* p_o) {
 }
 
 void ObjectRegistry::deleteMarked() {
-  // Destructors may mark more, which go in the same round.
+  // Destructors may mark more, which are deleted in this round too.
   for (std::size_t i = 0; i < m_deletions.size(); ++i) {
     Object* p_o = m_store.find(m_deletions[i]);
     if (p_o == nullptr) continue;
@@ -59,8 +59,8 @@ void ObjectRegistry::deleteMarked() {
   m_deletions.clear();
 }
 
-// Destructors may make new Objects, which are deleted in the next round; a game that always makes more is
-// not followed for ever.
+// Destructors may make new Objects, which are deleted in the next round. The rounds are limited, because a
+// game might always make more.
 void ObjectRegistry::clear() {
   constexpr int kRounds = 100;
   for (int round = 0; round < kRounds && m_store.countInWorld() > 0; ++round) {
@@ -93,7 +93,7 @@ ObjectList ObjectRegistry::objectsOfType(const std::string& type) {
   return found;
 }
 
-// Once for each type that was asked for in vain: the look at all Objects is not free.
+// Done once for each type that was not found, because it looks at all Objects.
 void ObjectRegistry::explainMissing(const std::string& type) {
   constexpr std::size_t kMaxMissing = 100;
   if (m_missing.size() >= kMaxMissing || !m_missing.insert(type).second) return;
@@ -132,7 +132,7 @@ Contact ObjectRegistry::firstContact(const Object* p_o, Vector where) const {
   const auto target = toFixed(where);
   if (!owns(p_o) || !target || !m_store.collides(p_o->m_slot)) return none;
   const SweepPath path(m_store.box(p_o->m_slot), m_store.position(p_o->m_slot), *target);
-  thread_local HitList list;  // for its memory
+  thread_local HitList list;  // reuses its memory
   list.fill(m_store, p_o->m_slot, path, HitList::kFirst);
   if (list.hits().empty()) return none;
   const Hit& first = list.hits().front();

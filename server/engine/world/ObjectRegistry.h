@@ -1,5 +1,5 @@
-// The registry of a world's Objects: it adds, removes, deletes and finds them. WorldManager.h documents the
-// functions that it has under the same names.
+// Adds, removes, deletes and finds a world's Objects. WorldManager.h documents the functions that have the
+// same names there.
 #pragma once
 
 #include <set>
@@ -18,7 +18,7 @@ class WorldLog;
 
 class ObjectRegistry {
  public:
-  /// All three live longer than this.
+  /// All three must outlive this object.
   ObjectRegistry(WorldStore& store, Interests& interests, WorldLog& log)
       : m_store(store), m_interests(interests), m_log(log) {}
 
@@ -36,7 +36,7 @@ class ObjectRegistry {
   Object* objectWithId(int id) const;
   ObjectList getCollisions(const Object* p_o, Vector where) const;
   Contact firstContact(const Object* p_o, Vector where) const;
-  /// The Objects for which `wanted` is true, in creation order; it gets a slot (collect) or an Object (pick).
+  /// Returns the Objects that `wanted` accepts, in creation order. It gets a slot (collect) or Object (pick).
   template <class Wanted>
   ObjectList collect(Wanted wanted) const {
     ObjectList list;
@@ -52,7 +52,7 @@ class ObjectRegistry {
     return collect([&](auto s) { return wanted(*m_store.object(s)); });
   }
 
-  /// Deletes the marked Objects in order of their marks, those that destructors mark included.
+  /// Deletes the marked Objects in order of their marks, and those that destructors mark.
   void deleteMarked();
   /// Deletes the Objects made with `new`, removes the others, and forgets marks and lines that were logged
   /// once.
@@ -64,9 +64,9 @@ class ObjectRegistry {
   WorldStore& m_store;
   Interests& m_interests;
   WorldLog& m_log;
-  std::vector<ObjectKey> m_deletions;  // marked, in that order
-  std::set<std::string> m_missing;     // types that objectsOfType() was asked for in vain
-  std::set<std::string> m_unowned;     // types marked for deletion, but not made with new, that were logged
+  std::vector<ObjectKey> m_deletions;  // marked ones, in order of their marks
+  std::set<std::string> m_missing;     // types that objectsOfType() did not find
+  std::set<std::string> m_unowned;     // logged types that were marked for deletion but not made with new
 };
 
 }  // namespace df

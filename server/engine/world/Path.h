@@ -12,29 +12,29 @@ namespace df {
 
 class Path {
  public:
-  /// Without nodes.
+  /// A path without nodes.
   Path() = default;
 
-  /// The node to go to next; (-1,-1) if there is none.
+  /// Returns the node to go to next; (-1,-1) for a path without nodes.
   Vector nextNode() const;
-  /// The node before it; (-1,-1) if there is none.
+  /// Returns the node before it; (-1,-1) at the first one.
   Vector previousNode() const;
-  /// New nodes; the first one is next.
+  /// Nodes; after setPath() the first one is next.
   void setPath(std::vector<Vector> new_path);
   const std::vector<Vector>& getPath() const { return m_path; }
-  /// True at the last node, and without any.
+  /// True at the last node, and for a path without nodes.
   bool endOfPath() const { return m_index + 1 >= static_cast<int>(m_path.size()); }
-  /// The last node; (-1,-1) if there is none.
+  /// Returns the last node; (-1,-1) for a path without nodes.
   Vector getEnd() const;
-  /// Which node is next. Return 0, or -1 for a number without one.
+  /// Index of the next node. setIndex() returns 0, or -1 for an index without a node.
   int setIndex(int new_index);
   int getIndex() const { return m_index; }
-  /// On to the next node; at the last one it stays. Returns the path as it was.
+  /// Moves to the next node; stays at the last one. Returns the path as it was before.
   Path operator++(int);
-  /// Draw the nodes that are left. Return 0, else -1.
+  /// Draws the remaining nodes. Returns 0, else -1.
   int draw(Color color) const;
 
-  /// For log lines.
+  /// Returns a text for log lines.
   std::string toString() const;
   friend bool operator==(const Path& a, const Path& b) {
     return a.m_path == b.m_path && a.m_index == b.m_index;

@@ -17,7 +17,7 @@ namespace df {
 namespace {
 
 constexpr std::size_t kMaxCells = 20'000;
-// Lengths of a step in units of 1/5 cell, as integers: 5 along an axis, 7 (about 5√2) across.
+// Lengths of a step in units of 1/5 cell, as integers: 5 along an axis, 7 (about 5√2) diagonally.
 constexpr int kStraight = 5;
 constexpr int kDiagonal = 7;
 
@@ -90,7 +90,7 @@ class Search {
       const int longer = length + (diagonal ? kDiagonal : kStraight);
       const auto known = m_visits.find(next);
       if (known != m_visits.end() ? known->second.length <= longer : !isFree(next)) continue;
-      // Not across a corner.
+      // A diagonal step must not cut a corner.
       if (diagonal && !(isFree({next.first, node.second}) && isFree({node.first, next.second}))) continue;
       m_visits[next] = {longer, node};
       m_open.emplace(longer + estimate(next), longer, next);

@@ -8,9 +8,9 @@
 
 namespace df {
 
-/// The shortest path from where the Object is to `end`, inside the world boundary; the target itself may be
-/// taken, so that an Object can walk up to another. Of equally short ones always the same. The path is empty
-/// if there is none, or if the search would visit more than 20,000 cells.
+/// Returns the shortest path from the Object's position to `end`, inside the world boundary. The target
+/// itself may be occupied, so that an Object can walk up to another. It is always the same one of equally
+/// short paths. The path is empty if none exists, or if the search would visit more than 20,000 cells.
 Path findPath(const Object& object, Vector end);
 
 }  // namespace df

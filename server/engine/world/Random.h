@@ -1,4 +1,4 @@
-// The world's random numbers: the same sequence for the same seed on every machine.
+// The world's random numbers: a seed gives the same sequence on every machine.
 //
 // xoshiro256** (Blackman and Vigna, 2018), seeded through splitmix64.
 #pragma once
@@ -10,12 +10,12 @@ namespace df {
 
 class Random {
  public:
-  /// The sequence of this seed.
+  /// Starts the sequence of this seed.
   explicit Random(std::uint64_t seed = 1);
 
-  /// 64 random bits.
+  /// Returns 64 random bits.
   std::uint64_t next();
-  /// 0 to n-1, each equally likely; 0 if n < 1.
+  /// Returns 0 to n-1, each equally likely; 0 if n < 1.
   int below(int n);
 
  private:

@@ -7,8 +7,8 @@
 //   };
 //
 // It reads as null once the Object was deleted or removed from the world, even if another one has taken its
-// place in memory, and also when the world itself is gone. A removed Object that was inserted again is
-// another one for it. Like ObjectList it holds a handle, not only a pointer.
+// place in memory, and once the world itself is gone. A removed Object that is inserted again counts as
+// another one. Like ObjectList it holds a handle, not only a pointer.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace df {
 class Object;
 class WorldStore;
 
-/// What a Ref is without its type: whether the Object is still there.
+/// The part of a Ref that does not depend on its type: knows whether the Object is still there.
 class RefBase {
  public:
   RefBase() = default;
@@ -31,33 +31,33 @@ class RefBase {
   RefBase& operator=(RefBase other) noexcept;
   ~RefBase();
 
-  /// Is the Object still in its world?
+  /// True if the Object is still in its world.
   bool isInWorld() const;
 
  private:
-  WorldStore* m_p_store = nullptr;  // counted; null for none
+  WorldStore* m_p_store = nullptr;  // reference-counted; null for none
   ObjectKey m_key;
 };
 
 template <class T>
 class Ref {
  public:
-  /// Null.
+  /// A null reference.
   Ref() = default;
   Ref(std::nullptr_t) {}
-  /// To an Object that is in the world; one that is not reads as null until it is inserted.
+  /// Refers to an Object in the world; one that is not reads as null until it is inserted.
   Ref(T* p_o) : m_base(p_o), m_p_object(p_o) {}
-  /// To the same Object, as one of its base classes.
+  /// Converts a reference to one to a base class.
   template <class U, class = std::enable_if_t<std::is_convertible_v<U*, T*>>>
   Ref(const Ref<U>& other) : m_base(other.m_base), m_p_object(other.m_p_object) {}
 
-  /// Null if the Object is gone.
+  /// Returns the Object; null if it is gone.
   T* get() const { return m_base.isInWorld() ? m_p_object : nullptr; }
   T* operator->() const { return get(); }
   T& operator*() const { return *get(); }
   explicit operator bool() const { return m_base.isInWorld(); }
 
-  /// Two that are gone are equal: both are null.
+  /// True also if both Objects are gone, because both references are null.
   friend bool operator==(const Ref& a, const Ref& b) { return a.get() == b.get(); }
   friend bool operator==(const Ref& a, const Object* p_b) { return a.get() == p_b; }
   friend bool operator==(const Ref& a, std::nullptr_t) { return !a; }

@@ -1,4 +1,4 @@
-// What a world knows of the server's rooms, and which players its game sends there (GameRooms.h).
+// The server's rooms as a world knows them, and the players that its game sends there (GameRooms.h).
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,7 @@ struct SentPlayer {
 
 class RoomTable {
  public:
-  /// The room is so from now on; one that was not there before is behind the others. Nothing happens if it is
-  /// no room, or one too many.
+  /// Adds a room behind the others, or updates it. Ignores invalid and surplus rooms.
   void keep(GameRoom room) {
     if (room.name.empty() || room.name.size() > GameRoomLimits::kMaxName) return;
     if (GameRoom* p_room = find(room.name)) {
@@ -30,7 +29,7 @@ class RoomTable {
     }
   }
   const std::vector<GameRoom>& rooms() const { return m_rooms; }
-  /// False: there is no such room to send to, or too many were sent in this tick.
+  /// Sends a player to a room. False if there is no such room to send to, or too many were sent in this tick.
   bool send(std::uint32_t player, const std::string& room) {
     const GameRoom* p_room = find(room);
     const bool is_full = m_sent.size() >= GameRoomLimits::kMaxSentInTick;
@@ -38,7 +37,7 @@ class RoomTable {
     m_sent.push_back({player, room});
     return true;
   }
-  /// Those who were sent in the last tick. What is not taken before the next one begins is forgotten.
+  /// Returns the players sent in the last tick. Those not taken before the next one begins are forgotten.
   std::vector<SentPlayer> takeSent() { return std::exchange(m_sent, {}); }
   const std::vector<SentPlayer>& sent() const { return m_sent; }
   void beginTick() { m_sent.clear(); }

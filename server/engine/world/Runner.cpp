@@ -10,7 +10,7 @@ namespace running {
 
 namespace {
 
-// Set while programs and modules are loaded, in any order with what else is initialised then.
+// Set while programs and modules are loaded, in any order with other initialisers.
 constinit Program* g_p_program = nullptr;
 constinit std::optional<bool> g_declared;
 

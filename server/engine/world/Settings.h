@@ -14,9 +14,9 @@ inline constexpr int WINDOW_VERTICAL_CHARS_DEFAULT = 24;
 /// The file that log lines go to.
 const std::string LOGFILE_DEFAULT = "dragonfly.log";
 
-/// Plain data of one world.
+/// Settings of one world.
 struct ConfigSettings {
-  std::string text;  ///< as read: "key:value,key:value," without comments
+  std::string text;  ///< text that was read: "key:value,key:value," without comments
   int window_horizontal_pixels = 1024;
   int window_vertical_pixels = 768;
   int window_horizontal_chars = WINDOW_HORIZONTAL_CHARS_DEFAULT;
@@ -34,7 +34,7 @@ struct ConfigSettings {
   std::string logfile = LOGFILE_DEFAULT;
   int random_seed = -1;  ///< 0: from the time; -1: not set
   bool networking = false;
-  bool runs_empty = false;  ///< a host ticks the world without players, too (WorldManager::setRunsEmpty)
+  bool runs_empty = false;  ///< true: a host ticks it even without players (WorldManager::setRunsEmpty)
   int quadtree_threshold = 10;
   int quadtree_depth = 5;
   int grid_width = 1;

@@ -1,5 +1,5 @@
-// A circle, square or triangle that an Object shows in place of a sprite. The published engine draws it in
-// pixels; in a terminal it is the one character that comes nearest to it.
+// A circle, square or triangle that an Object shows. The published engine draws it in pixels; in a terminal
+// it is the one character that is most like it.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace df {
 
-/// What a shape can be.
+/// Kinds of shapes.
 enum ShapeType {
   UNDEFINED_SHAPE = -1,
   CIRCLE,
@@ -22,23 +22,23 @@ class Shape {
   /// A white circle of the size of a character.
   Shape() = default;
 
-  /// Radius in pixels; a character is about 13 by 32 of them.
+  /// Radius in pixels; a character is about 13 by 32 pixels.
   void setSize(float new_size) { m_size = new_size; }
   float getSize() const { return m_size; }
   void setType(ShapeType new_type) { m_type = new_type; }  ///< Circle, square or triangle.
   ShapeType getType() const { return m_type; }
-  void setColor(Color new_color);  ///< One of the eight.
-  /// Shown in the nearest of the eight colours; getColor() says CUSTOM.
+  void setColor(Color new_color);  ///< One of the eight colours.
+  /// Sets a mix, which is shown in the nearest of the eight colours; getColor() then returns CUSTOM.
   void setColor(unsigned char r, unsigned char g, unsigned char b);
   Color getColor() const { return m_color; }
-  /// 0: nothing shows, 255: opaque.
+  /// 0: invisible, 255: opaque.
   void setOpacity(unsigned char new_opacity) { m_opacity = new_opacity; }
   unsigned char getOpacity() const { return m_opacity; }
 
-  /// Draw it at a world position. Small ones and faint ones are points.
+  /// Draws the shape at a world position. Small ones are '.', faint ones ':' or not drawn at all.
   void draw(Vector world_pos) const;
 
-  /// For log lines.
+  /// Returns a text for log lines.
   std::string toString() const;
   friend bool operator==(const Shape& a, const Shape& b) {
     return a.m_color == b.m_color && a.m_r == b.m_r && a.m_g == b.m_g && a.m_b == b.m_b &&

@@ -1,6 +1,6 @@
-// A sound or a piece of music of a game. The engine makes no noise: that something was played is written into
-// the tick's WorldView, from which a host sends it to clients, which play it as their player has chosen.
-// Sounds that repeat are kept for players that join later. Without clients they have no effect.
+// A sound or a piece of music of a game. The engine makes no noise: it records in the tick's WorldView what
+// was played. A host sends that to clients, which play it as their player has chosen. Repeating sounds are
+// kept for players that join later. Without clients they have no effect.
 #pragma once
 
 #include <string>
@@ -16,31 +16,31 @@ class Sound {
   Sound() = default;
   virtual ~Sound() = default;
 
-  /// Return 0 if there is such a file, else -1, with a line in the log. What is in it is not looked at.
+  /// Returns 0 if the file can be read, else logs a line and returns -1. Its contents are not checked.
   int loadSound(const std::string& filename);
 
-  /// The name under which it was loaded.
+  /// Label under which it was loaded.
   void setLabel(std::string new_label) { m_label = std::move(new_label); }
   const std::string& getLabel() const { return m_label; }
 
-  /// From its beginning, or from where it paused; again and again, if `loop`.
+  /// Plays from the beginning, or from where it paused; repeats if `loop`.
   void play(bool loop = false) { notePlayed(SoundPlayed::kPlay, loop); }
-  /// The next play() is from its beginning.
+  /// Stops; the next play() starts from the beginning.
   void stop() { notePlayed(SoundPlayed::kStop, false); }
-  /// The next play() goes on here.
+  /// Pauses; the next play() continues here.
   void pause() { notePlayed(SoundPlayed::kPause, false); }
 
-  /// From now on it plays nothing: it stands in for one that is missing.
+  /// Makes it play nothing, because it stands in for one that is missing.
   void silence() { m_silent = true; }
 
-  /// Stop it if it goes on again and again: it is about to be unloaded.
+  /// Stops it if it repeats, before it is unloaded.
   void endLoop();
 
-  /// What stands in for the published engine's member of a graphics library: it takes calls and does nothing.
+  /// Returns a stand-in for the published engine's SFML object: calls on it do nothing.
   sf::Sound getSound() const { return {}; }
 
  protected:
-  /// For Music.
+  /// Makes a piece of music if `music`.
   explicit Sound(bool music) : m_music(music) {}
 
  private:

@@ -1,4 +1,4 @@
-// Which bit of World::isStarted belongs to which manager.
+// Bits of World::isStarted(), by manager.
 #pragma once
 
 namespace df {
@@ -10,7 +10,7 @@ enum Started : unsigned {
   kDisplayStarted = 8,
   kInputStarted = 16,
   kResourcesStarted = 32,
-  kGameHasRun = 64,  ///< GM.run() has been there since
+  kGameHasRun = 64,  ///< GM.run() was called after GM.startUp()
 };
 
 }  // namespace df

@@ -34,7 +34,7 @@ void addObject(FastHash& hash, const WorldStore& store, WorldStore::Slot s) {
   addVector(hash, store.acceleration(s));
   addVector(hash, store.box(s).corner);
   addVector(hash, store.box(s).size);
-  // What hosts see of the flags: others say how the engine keeps it, and may depend on who watches.
+  // Only flags that hosts see: others are internal and may depend on whether the world is watched.
   const bool active = store.has(s, WorldStore::kActive);
   const bool visible = store.has(s, WorldStore::kVisible);
   hash.word(static_cast<std::uint64_t>(store.solidness(s)) |

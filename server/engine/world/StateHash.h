@@ -1,5 +1,4 @@
-// A hash of a world's state, by which a world that is executed again from its inputs is held against the
-// first.
+// A hash of a world's state, to compare a world replayed from its inputs with the original.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +7,9 @@ namespace df {
 
 class World;
 
-/// Of all that decides how the world goes on, as far as the engine has it (Objects with their types, motions
-/// and boxes, and players), and of what the last tick drew, in which members of a game's own show. No pointer
-/// and no memory address counts. Between two ticks; costs a walk over all Objects.
+/// Hashes all that decides the future of the world, as far as the engine has it (Objects with their types,
+/// motions and boxes, and players), and what the last tick drew, in which a game's own members show. Pointers
+/// and memory addresses do not count. Call it between two ticks; it walks over all Objects.
 std::uint64_t hashState(const World& world);
 
 }  // namespace df

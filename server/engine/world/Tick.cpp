@@ -44,12 +44,12 @@ void Walkers::set(Object& object, bool walks) {
 }
 
 void Walkers::step() {
-  const std::vector<Object*> walkers = m_objects;  // those that arrive take themselves out
+  const std::vector<Object*> walkers = m_objects;  // a copy: Objects that arrive remove themselves
   for (Object* p_o : walkers) turn(*p_o);
 }
 
-// At a node when the next step would pass it; there the Object is put on it exactly, by a step of just that
-// length, so that it turns where the path does.
+// If the next step would pass a node, a shorter step puts the Object exactly on it, so that it turns where
+// the path does.
 void Walkers::turn(Object& object) {
   if (!object.m_p_store->has(object.m_slot, WorldStore::kInWorld) || !object.isActive()) return;
   ObjectExtras& extras = *object.m_p_extras;

@@ -22,12 +22,12 @@ class Walkers {
   Walkers() = default;
   Walkers(const Walkers&) = delete;
   Walkers& operator=(const Walkers&) = delete;
-  /// Objects may outlive their world.
+  /// Ends all walks, because Objects may outlive their world.
   ~Walkers();
 
   /// Adds or removes the Object.
   void set(Object& object, bool walks);
-  /// A tick begins: turn each towards its next node, by the order in which they set out.
+  /// Starts a tick: turns each Object towards its next node, in the order in which they set out.
   void step();
 
  private:
@@ -38,11 +38,11 @@ class Walkers {
 
 class Tick {
  public:
-  /// All live longer than this. The world is for layers only.
+  /// The arguments must outlive this object. The world is for layers only.
   Tick(World& world, ObjectRegistry& objects, EventDispatch& events, Capture& picture, Mover& mover,
        InputQueue& input, LazyExtras& extras, WorldState& state);
 
-  // World::tick(), update() and draw().
+  // See World::tick(), update() and draw().
 
   void run();
   void update();
@@ -51,7 +51,7 @@ class Tick {
   bool isRunning() const { return m_in_tick || m_in_update || m_in_draw; }
   /// True while a picture is being drawn.
   bool isDrawing() const { return m_in_draw; }
-  /// The Objects that are turned towards their next node after each step event.
+  /// Returns the Objects that are turned towards their next node after each step event.
   Walkers& walkers() { return m_walkers; }
 
  private:

@@ -54,7 +54,7 @@ World::~World() {
 World& World::current() {
   if (t_p_current != nullptr) return *t_p_current;
   static World* p_default = [] {
-    auto* p_world = new World;  // for ever: static Objects of games may die later than anything of ours
+    auto* p_world = new World;  // never destroyed: static Objects of games may die last
     p_world->m_state.is_default = true;
     return p_world;
   }();
@@ -116,7 +116,7 @@ bool World::isDrawing() const {
 }
 
 void World::run() {
-  // A handler that ran the game would wait for ticks that cannot begin before it returns.
+  // A handler that called it would wait for ticks that cannot begin before it returns.
   if (m_tick->isRunning()) {
     m_log->writeOnce("GM.run() inside a handler does nothing: the game is running");
     return;

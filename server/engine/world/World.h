@@ -44,27 +44,27 @@ struct WorldExtras;
 class World {
  public:
   World();
-  /// Objects that are still alive stay alive, in no world: their getters and setters go on working. (It is
+  /// Objects that are still alive stay alive without a world: their getters and setters still work. (It is
   /// shutDown() that deletes.)
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// The calling thread's current world; where none was set, one default world that all such threads share
-  /// and that is never destroyed, so that static Objects and cached references are safe.
+  /// Returns the calling thread's current world. All threads without one share a default world that is never
+  /// destroyed, so that static Objects and cached references are safe.
   static World& current();
 
   /// Makes a world the current one of this thread while it lives. Scopes nest.
   using Scope = WorldScope;
 
-  // Life.
+  // Lifetime.
 
-  /// Delete what is alive and was made with `new`, take the rest out, and forget players, inputs,
-  /// interests, boundary, views, ticks and game over. The world can be started again; seed, sink and runner
-  /// stay. Called inside a tick, update, draw or event handler, it happens at its end, and the game
-  /// is over until GM.startUp().
+  /// Deletes Objects made with `new`, removes the others, and forgets players, inputs, interests, boundary,
+  /// views, ticks and game over. The world can be started again; seed, sink and runner stay. Called inside a
+  /// tick, update, draw or event handler, it takes effect at its end, and the game is over until
+  /// GM.startUp().
   void shutDown();
-  /// Which managers are started: bits of their own choosing. (The world itself works without.)
+  /// Records which managers are started, as bits of Started.h. (The world itself works without them.)
   void setStarted(unsigned manager, bool started) {
     m_state.started = started ? m_state.started | manager : m_state.started & ~manager;
   }
@@ -72,38 +72,38 @@ class World {
 
   // Time. Tick.h has the steps of a tick.
 
-  /// One full tick: step event, input events, update(), draw(), then the WorldView is filled if the
-  /// world is watched. Nothing happens inside another tick, update or draw.
+  /// Runs one full tick: step event, input events, update(), draw(), then fills the WorldView if the world is
+  /// watched. Does nothing inside another tick, update or draw.
   void tick();
-  /// Move all Objects once, in creation order, let the layers step, then delete what is marked. Nothing
-  /// happens inside another update.
+  /// Moves all Objects once, in creation order, lets the layers step, then deletes what is marked. Does
+  /// nothing inside another update.
   void update();
-  /// Begin a new picture: run the draw() of all Objects in view, by altitude, then creation order. Nothing
-  /// happens inside a tick, which does it at its end.
+  /// Begins a new picture: runs the draw() of all Objects in view, by altitude, then creation order. Does
+  /// nothing inside a tick, which draws at its end.
   void draw();
   /// True while a picture is being drawn.
   bool isDrawing() const;
-  /// Run the game: through the Runner if one is set, else through program(), else tick() after tick() until
-  /// the game is over. Without a Runner it goes on after a run that has ended, if GM.startUp() was called; a
-  /// game that is over before the first one is over. Nothing happens inside a tick, update or draw.
+  /// Runs the game: through the Runner if one is set, else through program(), else tick by tick until the
+  /// game is over. Without a Runner a second call after GM.startUp() continues after the first run has ended,
+  /// but a game over before the first run ends it at once. Does nothing inside a tick, update or draw.
   void run();
-  /// Ticks begun since the world began.
+  /// Returns the number of ticks begun since the world began.
   int getStepCount() const { return m_state.step_count; }
-  /// Was run() or tick() called, ever?
+  /// True if run(), tick() or update() was ever called.
   bool hasBegun() const { return m_state.begun; }
-  /// While a player's input is handled, it may end the game for that player alone
+  /// Ends the game, or undoes that. While a player's input is handled, it may end for that player alone
   /// (InputQueue::setGameOverLeaves).
   void setGameOver(bool game_over = true);
   bool isGameOver() const { return m_state.game_over; }
-  /// Not owned; null for none.
+  /// Sets the Runner. Not owned; null for none.
   void setRunner(Runner* p_runner) { m_state.p_runner = p_runner; }
-  /// Runs this world if it has no Runner (Runner.h); null if it has one, was made by hand, or no Program is
-  /// set.
+  /// Returns what runs this world if it has no Runner (Runner.h). Null if it has one, was made by hand, or no
+  /// Program is set.
   running::Program* program() const;
-  /// From now on `layer` takes part in update(), after the layers added before it. It lives as long as the
-  /// world. Added by a layer's step(), or by a handler that it calls, it takes part in the same update().
+  /// Makes `layer` take part in update(), after the layers added before it. It lives as long as the world.
+  /// Added by a layer's step(), or by a handler that it calls, it takes part in that update() already.
   void addLayer(std::unique_ptr<Layer> layer) { m_state.layers.push_back(std::move(layer)); }
-  /// The first layer of this class; null if there is none.
+  /// Returns the first layer of this class; null if not found.
   template <class T>
   T* findLayer() const {
     for (const auto& layer : m_state.layers) {
@@ -111,40 +111,40 @@ class World {
     }
     return nullptr;
   }
-  /// Restart the random sequence.
+  /// Restarts the random sequence.
   void setSeed(std::uint64_t seed) {
     m_state.seed = seed;
     m_state.random = Random(seed);
   }
-  /// 0 to n-1, each equally likely; 0 if n < 1.
+  /// Returns 0 to n-1, each equally likely; 0 if n < 1.
   int randomInt(int n) { return m_state.random.below(n); }
 
   // The picture.
 
-  /// One character at a world position; one that no terminal draws in one cell becomes '?'. Return 0, or
-  /// -1 for a position or colour out of range.
+  /// Draws one character at a world position; one that no terminal draws in one cell becomes '?'. Returns 0,
+  /// or -1 for a position or colour out of range.
   int drawCh(Vector world_pos, char32_t ch, Color color);
-  /// The view of the player whose input is being handled, if they have one of their own, else the world's.
+  /// Returns the view of the player whose input is being handled, if they have their own, else the world's.
   Box getView() const;
 
-  // What only some games use.
+  // Features that only some games use.
 
-  /// Behave as the published engine where it differs from the book (docs/dragonfly-api.md lists it). For new
-  /// Objects, so before the first. Default: the book. It stays through shutDown().
+  /// Makes the world behave like the published engine where that differs from the book (docs/dragonfly-api.md
+  /// lists it). Affects new Objects, so call it before the first. Off by default. shutDown() keeps it.
   void setCompat(bool compat = true) { m_state.compat = compat; }
   bool compat() const { return m_state.compat; }
   /// While a game is paused, no step event is sent and nothing moves; only Pause objects get events, except
-  /// joins and leaves, which all get.
+  /// joins and leaves, which all Objects get.
   void setPaused(bool paused = true) { m_state.paused = paused; }
   bool isPaused() const { return m_state.paused; }
-  /// Sprites, sounds, settings and the like, made at first use.
+  /// Returns sprites, sounds, settings and the like, made at first use.
   WorldExtras& extras();
-  /// Null before the first extras().
+  /// Like extras(), but null before its first call.
   WorldExtras* findExtras() const;
   /// Lines about the game for the client's help screen.
   void setHelp(std::vector<std::string> lines) { m_state.help = std::move(lines); }
   const std::vector<std::string>& getHelp() const { return m_state.help; }
-  /// From now on note on this page what the game does (ActivityPage.h). Not owned; null for none.
+  /// Makes the world record on this page what the game does (ActivityPage.h). Not owned; null for none.
   void setActivityPage(ActivityPage* p_page);
 
   // The parts, for hosts and the engine. Each has a header of its own.
@@ -161,27 +161,27 @@ class World {
   Mover& mover() { return *m_mover; }
   InputQueue& input() const { return *m_input; }
 
-  // Access for Objects and sounds, which include no part above them.
+  // Access for Objects and sounds, which do not include these parts.
 
-  /// EventDispatch::deliver().
+  /// See EventDispatch::deliver().
   void deliver(ObjectKey key, const Event& event);
   /// Starts or stops turning this Object towards its next node in each tick.
   void setWalking(Object& object, bool walks);
-  /// Capture::addFrame().
+  /// See Capture::addFrame().
   void drawFrame(std::uint32_t slot);
-  /// A sound was played; see WorldView.
+  /// Records that a sound was played; see WorldView.
   void noteSound(SoundPlayed sound);
-  /// True if it was played in a loop and has not been stopped.
+  /// True if it was played in a loop and was neither stopped nor paused since.
   bool isPlaying(const std::string& label, bool music);
-  /// Whether the file of a sound or a piece of music can be read. If not, a line in the log says so.
+  /// True if the file of a sound or a piece of music can be read; logs a line if not.
   bool findFile(const std::string& kind, const std::string& filename);
 
  private:
   void finishShutDown();
-  /// True while code of an Object is running, which has to return first.
+  /// True while an Object's code is running, which has to return before a shutdown.
   bool isBusy() const;
 
-  WorldStore* m_p_store;  // counted: outlives the world if Objects or lists do
+  WorldStore* m_p_store;  // reference-counted: outlives the world if Objects or lists do
   WorldState m_state;
   std::unique_ptr<WorldLog> m_log;
   std::unique_ptr<LazyExtras> m_extras;

@@ -35,7 +35,7 @@ void Animations::remove(ObjectExtras& extras) {
   extras.animated = ObjectExtras::kNowhere;
 }
 
-// One Object's frame is no other one's business, so their order does not matter.
+// The order does not matter, because the frames of Objects are independent of each other.
 void Animations::advance() {
   constexpr std::uint32_t kShown = WorldStore::kInWorld | WorldStore::kActive | WorldStore::kVisible;
   for (const auto& [slot, p_extras] : m_entries) {

@@ -1,4 +1,4 @@
-// What a world has only if its game uses it. Made at first use (World::extras), so that a world without it
+// Parts of a world that only some games use. Made at first use (World::extras), so that a world without them
 // costs a null pointer and one test in a tick.
 #pragma once
 
@@ -25,12 +25,12 @@ class WorldStore;
 struct ObjectExtras;
 struct WorldState;
 
-/// The window shakes (DM.shake): by how many cells the picture is off its place in a tick.
+/// The shaking of the window (DM.shake): by how many cells the picture is displaced in a tick.
 struct Shaking {
-  int scale_x = 0;  ///< at most so many cells to either side
+  int scale_x = 0;  ///< limit to either side, in cells
   int scale_y = 0;
-  int ticks = 0;  ///< that are left
-  int x = 0;      ///< in this tick
+  int ticks = 0;  ///< remaining ticks
+  int x = 0;      ///< displacement in this tick, in cells
   int y = 0;
 
   void step(Random& random) {
@@ -42,22 +42,22 @@ struct Shaking {
   }
 };
 
-/// The players of a world as the connections of the published engine's NetworkManager: for games that were
-/// written as two programs, of which the server's half is played here (published/NetworkManager.cpp).
+/// The players of a world as the connections of the published engine's NetworkManager, for games written as
+/// two programs, of which only the server half runs here (published/NetworkManager.cpp).
 struct Connections {
   bool is_server = false;
-  /// At most so many players are connected; the others watch.
+  /// Limit of connected players; the others watch.
   int limit = 16;
-  /// Is the game's server a player itself (server_plays)?
+  /// True if the game's server is a player itself (server_plays).
   bool has_host = false;
   /// The player that sits at the server then; 0 for none.
   std::uint32_t host = 0;
   /// Players whose connection the game has closed.
   std::vector<std::uint32_t> closed;
-  /// By socket, which is an index here: the player, or 0 for none.
+  /// Players by socket, which is the index; 0 for none.
   std::vector<std::uint32_t> players;
 
-  /// The socket of a player; -1 for none.
+  /// Returns the socket of a player; -1 for none.
   int socketOf(std::uint32_t player) const {
     const auto found = std::find(players.begin(), players.end(), player);
     return player == 0 || found == players.end() ? -1 : static_cast<int>(found - players.begin());
@@ -78,72 +78,72 @@ class Animations {
   explicit Animations(WorldStore& store) : m_store(store) {}
   Animations(const Animations&) = delete;
   Animations& operator=(const Animations&) = delete;
-  /// Objects may outlive their world.
+  /// Clears the index of each Object, because Objects may outlive their world.
   ~Animations();
 
-  /// Runs the animation of the Object in this slot. Adding it twice is once.
+  /// Runs the animation of the Object in this slot. A second call has no effect.
   void add(std::uint32_t slot, ObjectExtras& extras);
   void remove(ObjectExtras& extras);
-  /// One tick has passed.
+  /// Advances all animations by one tick.
   void advance();
 
  private:
   struct Entry {
     std::uint32_t slot;
-    ObjectExtras* p_extras;  // it stores its place here (ObjectExtras::animated)
+    ObjectExtras* p_extras;  // has its index here (ObjectExtras::animated)
   };
 
   WorldStore& m_store;
   std::vector<Entry> m_entries;
 };
 
-/// The part that World::shutDown() sets back.
+/// The part that World::shutDown() resets.
 struct RoundExtras {
   ConfigSettings settings;
   Shaking shake;
-  std::vector<SoundPlayed> sounds;  ///< of this tick
+  std::vector<SoundPlayed> sounds;  ///< played in this tick
   std::uint32_t sounds_lost = 0;
-  std::vector<SoundPlayed> playing;  ///< again and again
-  std::vector<std::string> notes;    ///< of this tick
-  /// The only player whose input the host hands in; 0: all players'.
+  std::vector<SoundPlayed> playing;  ///< repeating sounds
+  std::vector<std::string> notes;    ///< lines of this tick
+  /// The only player whose input the host passes on; 0: it passes on all players' input.
   std::uint32_t heard_player = 0;
   Color background = BLACK;
-  Vector view_slack{1.0 / 3, 1.0 / 3};  ///< as asked for; it has no effect
-  bool network_said = false;            ///< that there are no sockets
+  Vector view_slack{1.0 / 3, 1.0 / 3};  ///< stored only; has no effect
+  bool network_said = false;            ///< true once the log says that there are no sockets
   Connections connections;
   /// Gets each key, mouse event and leave before the game does, and null before the inputs of a tick. Returns
-  /// true if the game is not to get it.
+  /// true to keep the event from the game.
   std::function<bool(const Event*)> input_filter;
   Random random{0xD6A60};
-  std::int64_t clock = 0;  ///< what a Clock read last, in microseconds of game time
+  std::int64_t clock = 0;  ///< last reading of a Clock, in microseconds of game time
 };
 
 struct WorldExtras : RoundExtras {
   WorldExtras(WorldStore& store, WorldLog& log, const WorldState& state)
       : resources(log, state), animations(store) {}
 
-  /// The world has begun this tick.
+  /// Starts a tick.
   void beginTick(int step_count);
-  /// A sound or music began, paused or stopped.
+  /// Records that a sound or music began, paused or stopped.
   void noteSound(SoundPlayed sound);
-  /// A line for all players to read.
+  /// Adds a line for all players to read.
   void addNote(std::string line);
-  /// Does it go on again and again?
+  /// True if this is repeating.
   bool isPlaying(const std::string& label, bool music) const;
-  /// The tick is over, drawn and all.
+  /// Ends a tick, after it was drawn.
   void endTick(bool paused);
-  /// As at the beginning, but for scores and rooms. Sprites live on as long as the world, for Objects may
-  /// still show them.
+  /// Restores the initial state, except scores and rooms. Sprites live as long as the world, because Objects
+  /// may still show them.
   void reset() {
     resources.clear();
     static_cast<RoundExtras&>(*this) = RoundExtras();
   }
-  /// Numbers for what is only seen, so that WM.randomInt() gives the same with it and without.
+  /// Returns random numbers for what is only seen, so that these do not change WM.randomInt().
   Random& decoration() { return random; }
 
-  static constexpr std::size_t kMaxSounds = 256;  ///< in a tick; more are only counted
-  static constexpr std::size_t kMaxNotes = 4;     ///< in a tick
-  static constexpr std::size_t kMaxPlaying = 16;  ///< repeating; the oldest makes room
+  static constexpr std::size_t kMaxSounds = 256;  ///< per tick; further ones are only counted
+  static constexpr std::size_t kMaxNotes = 4;     ///< per tick
+  static constexpr std::size_t kMaxPlaying = 16;  ///< repeating ones; a further one replaces the oldest
 
   Resources resources;
   Animations animations;
@@ -157,7 +157,7 @@ class LazyExtras {
   LazyExtras(WorldStore& store, WorldLog& log, const WorldState& state)
       : m_store(store), m_log(log), m_state(state) {}
   WorldExtras& get();
-  /// Null before the first get().
+  /// Like get(), but null before its first call.
   WorldExtras* find() const { return m_p_extras.get(); }
 
  private:

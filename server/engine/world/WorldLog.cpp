@@ -10,10 +10,10 @@ namespace df {
 
 namespace {
 
-/// Different lines of writeOnce(). A game that makes up names by the thousand fills no memory.
+/// Limit of different lines of writeOnce(): a game that makes up names by the thousand must not fill memory.
 constexpr std::size_t kMaxLogged = 500;
 
-/// What a setter would have taken.
+/// Returns which values a setter would have accepted.
 const char* rightFor(const char* what) {
   struct Rule {
     const char* what;

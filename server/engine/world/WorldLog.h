@@ -29,12 +29,12 @@ class WorldLog {
 
   /// Writes one line, without a newline at its end.
   void write(const std::string& line) const;
-  /// Writes the line, unless this has written it before. After 500 different lines it writes no more.
+  /// Writes the line, unless it was written like this before. After 500 different lines it writes no more.
   void writeOnce(const std::string& line);
-  /// Like writeOnce(), but only the report of a crash shows the line: if it is a fault, a crash follows.
+  /// Like writeOnce(), but only crash reports show the line.
   void noteOnce(const std::string& line);
-  /// Counts a refused call. Writes the first one of its name for this type of Object, with the values that
-  /// are accepted. Returns -1.
+  /// Counts a refused call. Writes the first one of its name for this type of Object, and which values are
+  /// valid. Returns -1.
   int refuse(const std::string& type, const char* what);
   /// The number of refused calls.
   std::uint64_t refusals() const { return m_refusals; }

@@ -12,7 +12,7 @@
 
 namespace df {
 
-/// The part that World::shutDown() sets back.
+/// The part that World::shutDown() resets.
 struct RoundState {
   bool paused = false;     ///< World::setPaused()
   bool game_over = false;  ///< World::isGameOver()

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kWhileInWorld = WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kLookKept |
                                         WorldStore::kReported | WorldStore::kFollowed;
-// A turn with one of these has more to it than position += velocity.
+// With one of these flags, a turn is more than position += velocity.
 constexpr std::uint32_t kOptions =
     WorldStore::kSwept | WorldStore::kPrecise | WorldStore::kRestContacts | WorldStore::kMayMoveOut;
 constexpr std::uint32_t kSpecial = WorldStore::kFollowed | (WorldStore::kLayers ? kOptions : 0);
@@ -34,7 +34,7 @@ WorldStore::Slot WorldStore::takeSlot(Object* p_o, bool heap) {
   m_positions[s] = {};
   m_velocities[s] = {};
   m_accelerations[s] = {};
-  // A slot that changed hands within a tick is in the list of changes already.
+  // A slot that was reused within a tick is in the list of changes already.
   m_cards[s].flags =
       static_cast<std::uint32_t>((m_cards[s].flags & kDirty) | kActive | kVisible | (heap ? kHeap : 0u));
   m_cards[s].solidness = HARD;
@@ -92,7 +92,7 @@ void WorldStore::closeGaps() {
   std::erase(m_order_list, kNoSlot);
   assert(m_order_list.size() == static_cast<std::size_t>(m_in_world));
   for (std::size_t i = 0; i < m_order_list.size(); ++i) {
-    // Entries move towards the front only, so that what is read here has not been written yet.
+    // Entries only move towards the front, so what is read here has not been overwritten yet.
     const Slot s = m_order_list[i];
     const bool blocked = isBlocked(s);
     m_cards[s].index = static_cast<std::uint32_t>(i);
@@ -109,7 +109,7 @@ void WorldStore::closeGaps() {
   m_gaps = 0;
 }
 
-// What kind of turn the Object takes, from all that decides it.
+// Derives the kind of turn that the Object takes in update().
 void WorldStore::classify(Slot s) {
   const std::uint32_t flags = m_cards[s].flags;
   if ((flags & kInWorld) == 0) return;
@@ -122,7 +122,7 @@ void WorldStore::classify(Slot s) {
   const std::size_t i = m_cards[s].index;
   mark(m_bits.hearers, m_hearers, i, hears(s) && !spectral);
   TurnBits::set(m_bits.turns, i, turns);
-  // Its next turn has to take the mark of a blocked move back.
+  // A flier that was blocked is left out: its next turn has to clear that mark.
   TurnBits::set(m_bits.fliers, i, plain && spectral && !isBlocked(s));
   TurnBits::set(m_bits.walkers, i, plain && !spectral && !(kLayers && m_all_swept));
 }
@@ -133,7 +133,7 @@ void WorldStore::mark(TurnBits::Words& row, int& count, std::size_t index, bool 
   count += on ? 1 : -1;
 }
 
-// What others may touch it as.
+// Updates the sets of solid Objects.
 void WorldStore::markSolid(Slot s) {
   if (!has(s, kInWorld)) return;
   const bool is_solid = collides(s);
@@ -141,7 +141,7 @@ void WorldStore::markSolid(Slot s) {
   mark(m_bits.softs, m_softs, m_cards[s].index, is_solid && m_cards[s].solidness == SOFT);
 }
 
-// Of an entry that is a gap from now on.
+// Removes an entry that becomes a gap from the counted sets.
 void WorldStore::unmark(std::size_t index) {
   mark(m_bits.hearers, m_hearers, index, false);
   mark(m_bits.hards, m_hards, index, false);
@@ -239,7 +239,7 @@ const Mask* WorldStore::spriteMask(Slot s) const {
 
 void WorldStore::settleChanged(Slot s, FixedVector velocity, bool blocked) {
   const bool was_blocked = isBlocked(s);
-  // The velocity of a blocked Object shows nowhere: gravity on something that lies still is no change.
+  // The velocity of a blocked Object is not shown: gravity on something that lies still is not a change.
   const bool shows = was_blocked != blocked || (!blocked && m_velocities[s] != velocity);
   m_velocities[s] = velocity;
   if (was_blocked != blocked) {

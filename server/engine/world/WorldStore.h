@@ -1,14 +1,14 @@
-// The hot state of a world's Objects: arrays by slot, behind handles with generations.
+// The state of a world's Objects that every tick uses: arrays by slot, behind handles with generations.
 //
-// An Object owns one slot from construction to destruction. It is "in the world" in between; entering puts
-// it last in the creation order, leaving (or dying) ends its generation, so that old handles find none.
-// A freed slot rests before it is used again, so that clients know of the deletion before another Object has
-// the slot.
+// An Object owns one slot from construction to destruction. In between it may be "in the world": entering
+// puts it last in the creation order; leaving (or dying) ends its generation, so that old handles find no
+// Object. A freed slot rests before it is reused, so that clients know of the deletion before another Object
+// has the slot.
 //
-// All changes of an Object's state go through the setters here: they keep the grid of solid boxes
-// and the list of changes up to date. Arguments are in range; Object checks what games pass in.
+// All changes of an Object's state go through the setters here: they keep the grid of solid boxes and the
+// list of changes up to date. Arguments must be in range; Object checks what games pass in.
 //
-// The store is counted: by its world, by each Object and by each list. It outlives the world, if need be.
+// The store is reference-counted by its world, by each Object and by each list, so it may outlive the world.
 #pragma once
 
 #include <cassert>
@@ -37,8 +37,7 @@ class World;
 
 /// The flags of an Object in its world's store.
 struct ObjectFlags {
-  /// An engine that is built without the options beyond the book has their setters, but nothing of what they
-  /// do.
+  /// An engine built without the options beyond the book has their setters, but these have no effect.
 #if defined(NAIAD_WITHOUT_LAYERS)
   static constexpr bool kLayers = false;
 #else
@@ -49,15 +48,15 @@ struct ObjectFlags {
     kActive = 1 << 1,
     kVisible = 1 << 2,
     kNoSoft = 1 << 3,
-    kHeap = 1 << 4,      ///< made with `new`: the world's to delete
-    kMarked = 1 << 5,    ///< to be deleted after update
-    kLookKept = 1 << 6,  ///< its static look was drawn, and is repeated
-    kDirty = 1 << 7,     ///< in the list of changes
-    kReported = 1 << 8,  ///< the host has its state
+    kHeap = 1 << 4,      ///< made with `new`: the world deletes it
+    kMarked = 1 << 5,    ///< marked to be deleted after update
+    kLookKept = 1 << 6,  ///< its static look was drawn and is repeated
+    kDirty = 1 << 7,     ///< is in the list of changes
+    kReported = 1 << 8,  ///< the host knows its state
     kDerive = 1 << 9,    ///< speed and direction follow from the velocity
     kStaticLook = 1 << 10,
     kNeverDraws = 1 << 11,  ///< its dynamic type is Object itself
-    kTyped = 1 << 12,       ///< kNeverDraws and kDeaf have been found out
+    kTyped = 1 << 12,       ///< kNeverDraws and kDeaf are known
     kFollowed = 1 << 13,    ///< a view follows it
     kDeaf = 1 << 14,        ///< its class does not override eventHandler()
     kSwept = 1 << 15,
@@ -67,21 +66,21 @@ struct ObjectFlags {
     kBody = 1 << 19,     ///< moved by a layer, not by the book's rules
     kPainted = 1 << 24,  ///< has a sprite or a shape, which draw() shows unless its class overrides it
     kOnView = 1 << 25,   ///< a view object: drawn at every position
-    kFrames = 1 << 28,   ///< it has frames
+    kFrames = 1 << 28,   ///< has frames
   };
 };
 
-/// Which turns Objects take in update(), as bits by place in the creation order: entry i has bit i % 64 of
-/// word i / 64, so that 64 Objects are classified at a time.
+/// Kinds of turns that Objects take in update(), as bits by place in the creation order: entry i has bit i %
+/// 64 of word i / 64, so that 64 Objects are classified at a time.
 struct TurnBits {
   using Words = std::vector<std::uint64_t>;
 
   Words turns;    ///< moves in update(): active, with a velocity, an acceleration or contacts at rest
-  Words fliers;   ///< of these, SPECTRAL ones that only add their velocity
-  Words walkers;  ///< of these, solid ones that use nothing beyond the book's test of where a move ends
-  Words sequels;  ///< its slot is the one after that of the entry before
+  Words fliers;   ///< those of `turns` that are SPECTRAL and only add their velocity
+  Words walkers;  ///< those of `turns` that are solid and use only the book's test at the end of a move
+  Words sequels;  ///< its slot follows that of the entry before
   Words blocked;  ///< its last move in update did not happen
-  Words hearers;  ///< solid, active, and its class overrides eventHandler(): hears of collisions
+  Words hearers;  ///< solid, active, and its class overrides eventHandler(): gets collision events
   Words hards;    ///< active and HARD
   Words softs;    ///< active and SOFT
 
@@ -91,28 +90,28 @@ struct TurnBits {
     std::uint64_t& word = words[i / 64];
     word = on ? word | bit : word & ~bit;
   }
-  /// Make room for entry i, the last one.
+  /// Makes room for entry i, the last one.
   void grow(std::size_t i) {
     if (i % 64 != 0) return;
     for (Words* p_words : {&turns, &fliers, &walkers, &sequels, &blocked, &hearers, &hards, &softs})
       p_words->resize(i / 64 + 1);
   }
-  /// Entry i is a gap. Its sequel bit stays, and means nothing without a turn.
+  /// Clears the bits of entry i, now a gap. Its sequel bit stays, and means nothing without a turn.
   void clear(std::size_t i) {
     for (Words* p_words : {&turns, &fliers, &walkers, &blocked, &hearers, &hards, &softs})
       set(*p_words, i, false);
   }
 };
 
-/// The mask of the sprite's frame that shows, if it is drawn where the Object's box is; else null. Defined
-/// with Object, of which the store knows pointers only.
+/// Returns the mask of the sprite's present frame, if that is drawn where the Object's box is; else null.
+/// Defined with Object, because the store knows only pointers to Objects.
 const Mask* spriteMaskOf(const Object& object);
 
 class WorldStore : public ObjectFlags {
  public:
   using Slot = std::uint32_t;
   static constexpr Slot kNoSlot = UINT32_MAX;
-  /// Updates for which a freed slot rests: two seconds, longer than any playable round trip.
+  /// Number of updates for which a freed slot rests: two seconds, longer than any playable round trip.
   static constexpr std::uint64_t kRest = 64;
 
   explicit WorldStore(World* p_world) : m_p_world(p_world) {}
@@ -123,23 +122,23 @@ class WorldStore : public ObjectFlags {
     assert(m_references > 0);
     if (--m_references == 0) delete this;
   }
-  /// Null once the world is gone.
+  /// Returns the world; null once it is gone.
   World* world() const { return m_p_world; }
   void orphan() { m_p_world = nullptr; }
 
-  // Life.
+  // Slots.
 
-  /// A slot with an Object's default state, not in the world yet.
+  /// Allocates a slot with an Object's default state, not in the world yet.
   Slot takeSlot(Object* p_o, bool heap);
-  /// Give the slot of a destroyed Object back. It must have left the world. It rests for kRest updates.
+  /// Frees the slot of a destroyed Object, which must have left the world. It rests for kRest updates.
   void giveBackSlot(Slot s);
-  /// An update has passed.
+  /// Counts an update.
   void age() { ++m_updates; }
-  /// Into the world, last in order.
+  /// Adds the slot to the world, last in creation order.
   void enter(Slot s);
-  /// The Objects that have entered since the last call.
+  /// Returns the Objects that have entered since the last call.
   std::vector<ObjectKey> takeNewcomers() { return std::exchange(m_newcomers, {}); }
-  /// Out of it.
+  /// Removes the slot from the world.
   void leave(Slot s);
 
   // Reading.
@@ -148,14 +147,14 @@ class WorldStore : public ObjectFlags {
   bool isCurrent(ObjectKey k) const {
     return k.slot < m_cards.size() && m_cards[k.slot].generation == k.generation;
   }
-  /// The same for a key that was current in this store once.
+  /// Like isCurrent(), without the bounds check, for a key that was current in this store once.
   bool isStill(ObjectKey k) const { return m_cards[k.slot].generation == k.generation; }
   Object* find(ObjectKey k) const { return isCurrent(k) ? m_cards[k.slot].p_object : nullptr; }
   Object* object(Slot s) const { return m_cards[s].p_object; }
-  /// Stays where it is until the slot is given back.
+  /// The reference stays valid until the slot is freed.
   ObjectProfile& profile(Slot s) { return m_profiles[s]; }
   FixedVector position(Slot s) const { return m_positions[s]; }
-  /// Its position will be read, and perhaps the rest.
+  /// Prefetches the slot's position and card.
   void prefetch(Slot s) const {
     __builtin_prefetch(&m_positions[s]);
     __builtin_prefetch(&m_cards[s]);
@@ -165,17 +164,17 @@ class WorldStore : public ObjectFlags {
   FixedBox box(Slot s) const { return m_boxes[s]; }
   FixedBox worldBox(Slot s, FixedVector at) const { return translate(m_boxes[s], at); }
   Solidness solidness(Slot s) const { return m_cards[s].solidness; }
-  /// Null for the whole box. Without one of its own that of the sprite's frame counts.
+  /// Returns the Object's mask, else that of its sprite's frame; null for the whole box.
   const Mask* mask(Slot s) const {
     const auto it = m_masks.find(s);
     if (it != m_masks.end()) return &it->second;
     return has(s, kPainted) ? spriteMask(s) : nullptr;
   }
-  /// Its frames and how their turn comes; null if it has none.
+  /// Returns the frames and their selector; null without frames.
   const std::shared_ptr<const naiad::Look>& frames(Slot s) const;
   int altitude(Slot s) const { return m_cards[s].altitude; }
   std::uint64_t order(Slot s) const { return m_cards[s].order; }
-  /// The one given last; 0: none yet.
+  /// Returns the order given last; 0 before the first.
   std::uint64_t lastOrder() const { return m_next_order - 1; }
   std::uint32_t flags(Slot s) const { return m_cards[s].flags; }
   bool has(Slot s, Flag flag) const { return (m_cards[s].flags & flag) != 0; }
@@ -183,9 +182,9 @@ class WorldStore : public ObjectFlags {
     return (m_cards[s].flags & (kInWorld | kActive)) == (kInWorld | kActive) &&
            m_cards[s].solidness != SPECTRAL;
   }
-  /// Did its last move in update not happen?
+  /// True if its last move in update() did not happen.
   bool isBlocked(Slot s) const { return TurnBits::get(m_bits.blocked, m_cards[s].index); }
-  /// Does it get events: in the world, active, and of a class that overrides eventHandler()?
+  /// True if it gets events: it is in the world, active, and of a class that overrides eventHandler().
   bool hears(Slot s) const {
     return (m_cards[s].flags & (kInWorld | kActive | kDeaf)) == (kInWorld | kActive);
   }
@@ -197,37 +196,37 @@ class WorldStore : public ObjectFlags {
   void setVelocity(Slot s, FixedVector velocity);
   void setAcceleration(Slot s, FixedVector acceleration);
   void setBox(Slot s, FixedBox box);
-  /// Was there ever a box that does not contain its Object's position? If not, an Object whose position is
-  /// inside something has its box there, too.
+  /// True if there ever was a box that does not contain its Object's position. If not, an Object whose
+  /// position is inside something has its box there too.
   bool hasBoxesOffPosition() const { return m_boxes_off; }
   void setSolidness(Slot s, Solidness solidness);
-  /// Has any Object been SOFT since the world was made?
+  /// True if any Object was SOFT since the world was made.
   bool hasHadSoft() const { return m_has_had_soft; }
   void setAltitude(Slot s, int altitude);
-  /// Nothing: the whole box.
+  /// Sets the mask; nullopt: the whole box.
   void setMask(Slot s, std::optional<Mask> mask);
-  /// Null: none.
+  /// Sets the frames; null: none.
   void setFrames(Slot s, std::shared_ptr<const naiad::Look> p_look);
-  /// The end of an Object's turn in update: its velocity from now on, and whether its move was blocked.
+  /// Ends an Object's turn in update(): sets its velocity and whether its move was blocked.
   void settle(Slot s, FixedVector velocity, bool blocked) {
     if (velocity != m_velocities[s] || blocked != isBlocked(s)) settleChanged(s, velocity, blocked);
   }
-  /// kDerive, which is no change for hosts.
+  /// Sets kDerive, which is not a change for hosts.
   void setDerived(Slot s, bool on) {
     const std::uint32_t others = m_cards[s].flags & ~static_cast<std::uint32_t>(kDerive);
     m_cards[s].flags = others | (on ? kDerive : 0u);
   }
-  /// Flags that hosts see (active, visible, no-soft) are noted as changes.
+  /// Sets a flag. Flags that hosts see (active, visible, no-soft) are reported as changes.
   void set(Slot s, Flag flag, bool on);
 
-  /// Is this a legal position, a legal velocity?
+  /// True if this is a legal position, or a legal velocity.
   static bool isPosition(FixedVector p) { return within(p, kMaxCells); }
   static bool isVelocity(FixedVector v) { return within(v, kMaxVelocityCells); }
 
   // Walking.
 
-  /// The creation order as it is now: entries [0, size()), which a walk may read while Objects come and
-  /// go. An Object that enters is appended behind the end; one that leaves leaves a gap, kNoSlot.
+  /// The creation order as it is now: entries [0, size()), which a walk may read while Objects come and go.
+  /// An Object that enters is appended behind the end; one that leaves becomes a gap, kNoSlot.
   class Walk {
    public:
     explicit Walk(const WorldStore& store) : m_store(store), m_size(store.m_order_list.size()) {
@@ -244,51 +243,51 @@ class WorldStore : public ObjectFlags {
     std::size_t m_size;
   };
 
-  /// Entry i of the creation order; kNoSlot for a gap.
+  /// Returns entry i of the creation order; kNoSlot for a gap.
   Slot entry(std::size_t i) const { return m_order_list[i]; }
   const TurnBits& turnBits() const { return m_bits; }
-  /// Sweep the moves of all, or only of those that ask for it.
+  /// Sweeps the moves of all Objects, or only of those that ask for it.
   void setAllSwept(bool all_swept);
   bool isAllSwept() const { return m_all_swept; }
 
-  // The options beyond the book, as they count (kLayers).
+  // The options beyond the book; false in an engine built without them (kLayers).
 
   bool isSwept(Slot s) const { return kLayers && (m_all_swept || has(s, kSwept)); }
   bool testsAtRest(Slot s) const { return kLayers && has(s, kRestContacts); }
   bool mayMoveOut(Slot s) const { return kLayers && has(s, kMayMoveOut); }
-  /// Are any Objects precise?
+  /// True if any Object is precise.
   bool hasPrecise() const { return kLayers && m_precise > 0; }
 
-  /// Move up to `count` fliers, from slot `first` on, by their velocities; stop at the first that would
-  /// leave `boundary`. Return how many were moved.
+  /// Moves up to `count` fliers, from slot `first` on, by their velocities. Stops at the first that would
+  /// leave `boundary`. Returns how many were moved.
   std::size_t fly(Slot first, std::size_t count, const FixedBox& boundary);
-  /// Let walkers take their steps, as long as they stay inside `boundary` and touch nothing: entry
-  /// 64 * word + i of the order for each bit i of `walkers`, lowest first. Return the bits of those that have
-  /// not; `met` lists what the first of them would touch at its target, in creation order: nothing, if it
-  /// would leave the boundary.
+  /// Takes the turns of walkers as long as they stay in `boundary` and touch nothing, or only many Objects
+  /// without handlers: entry 64 * word + i of the order for each bit i of `walkers`, lowest first. Returns
+  /// the bits of the rest. `met` lists what the first of these would touch, in order; nothing if it would
+  /// leave.
   std::uint64_t walk(std::size_t word, std::uint64_t walkers, const FixedBox& boundary,
                      std::vector<ObjectKey>& met);
 
-  /// Drop the gaps from the order, if they are many and no walk is under way. leave() does it when it may;
-  /// call it when a walk has ended.
+  /// Removes the gaps from the order, if they are many and no walk is in progress. leave() calls it; call it
+  /// when a walk has ended.
   void closeGaps();
 
-  /// The Objects that collide with `box`, except `self`, in creation order, appended to `out`.
+  /// Appends the Objects that collide with `box`, except `self`, to `out` in creation order.
   void touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const;
-  /// The same for the target of a move. But where they are many, and neither the mover nor any of them hears
-  /// of it, none is listed, and it returns whether the move happens.
+  /// Like touching(), for the target of a move. But if they are many, and neither the mover nor any of them
+  /// has a handler, lists none and returns whether the move happens.
   std::optional<bool> touchingTarget(Slot mover, const FixedBox& target, std::vector<ObjectKey>& out) const;
   const Grid& grid() const { return m_grid; }
-  /// What has been done so far.
+  /// Returns the counters of moves so far.
   MoverStats& moverStats() { return m_grid.moverStats(); }
 
   // Changes, for hosts.
 
-  /// Note changes from now on, beginning with all Objects, and fill the WorldView in every tick. Unwatched,
-  /// only what was drawn is kept.
+  /// Starts or stops recording changes, beginning with all Objects, and filling the WorldView in every tick.
+  /// Unwatched, only what was drawn is kept.
   void setWatched(bool watched);
   bool isWatched() const { return m_watched; }
-  /// Move what has changed since the last call into `view`.
+  /// Moves the changes since the last call into `view`.
   void report(WorldView& view);
   ObjectFacts facts(Slot s) const;
 
@@ -298,13 +297,13 @@ class WorldStore : public ObjectFlags {
     std::uint64_t since;  ///< m_updates when it was freed
   };
 
-  // What a collision reads of the other Object, in half a cache line.
+  // State of the other Object that a collision reads, in half a cache line.
   struct alignas(32) Card {
     Object* p_object = nullptr;
     std::uint64_t order = 0;  ///< place in creation order, never reused
     std::uint32_t generation = 1;
     std::uint32_t flags = 0;
-    std::uint32_t index = 0;  ///< in m_order_list
+    std::uint32_t index = 0;  ///< index in m_order_list
     Solidness solidness : 8 = HARD;
     std::uint8_t altitude = 0;
   };
@@ -343,13 +342,13 @@ class WorldStore : public ObjectFlags {
   std::vector<Card> m_cards;
   std::deque<ObjectProfile> m_profiles;
 
-  Grid m_grid{m_positions, m_boxes};  // all that collide
+  Grid m_grid{m_positions, m_boxes};  // all boxes that collide
   std::deque<Freed> m_free;           // longest free first
   std::uint64_t m_updates = 0;
-  std::vector<Slot> m_order_list;  // those in the world by creation order, with gaps
+  std::vector<Slot> m_order_list;  // slots in the world by creation order, with gaps
   TurnBits m_bits;
   std::size_t m_gaps = 0;
-  mutable int m_walks = 0;  // under way; no gap is closed meanwhile
+  mutable int m_walks = 0;  // in progress; gaps stay then
   int m_in_world = 0;
   std::uint64_t m_next_order = 1;
   std::vector<ObjectKey> m_newcomers;
@@ -357,12 +356,12 @@ class WorldStore : public ObjectFlags {
   bool m_watched = false;
   std::vector<Slot> m_dirty;
   std::vector<ObjectKey> m_vanished;
-  std::unordered_map<Slot, Mask> m_masks;  // of the few that have one
+  std::unordered_map<Slot, Mask> m_masks;  // of the few Objects that have one
   std::unordered_map<Slot, std::shared_ptr<const naiad::Look>> m_frames;
   bool m_all_swept = false;
   bool m_boxes_off = false;  // see hasBoxesOffPosition()
-  int m_precise = 0;         // Objects that are
-  int m_hearers = 0;         // TurnBits::hearers, and so on
+  int m_precise = 0;         // number of precise Objects
+  int m_hearers = 0;         // number of bits in TurnBits::hearers, and so on
   int m_hards = 0;
   int m_softs = 0;
   mutable std::vector<Slot> m_candidates;  // scratch of touching()

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kManyFound = 12;  // too many to sort them one by one
 
-// Both coordinates at once, in a register of any processor that has such (GCC and Clang know the notation).
+// Both coordinates in one register, if the processor has such (GCC and Clang know the notation).
 using Two = Fixed __attribute__((vector_size(16)));
 
 Two load(FixedVector v) {
@@ -28,7 +28,7 @@ std::size_t WorldStore::fly(Slot first, std::size_t count, const FixedBox& bound
   const Two high = load(boundary.corner + boundary.size - FixedVector{1, 1});
   FixedVector* p_positions = &m_positions[first];
   const FixedVector* p_velocities = &m_velocities[first];
-  // A sign in `outside` is a coordinate that would leave the boundary.
+  // A negative number in `outside` means that a coordinate would leave the boundary.
   const auto move = [&](std::size_t i, Two& outside) {
     const Two p = load(p_positions[i]) + load(p_velocities[i]);
     outside |= (p - low) | (high - p);
@@ -101,13 +101,13 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
   return left;
 }
 
-// So many that it pays to ask first whether anybody hears of a move among them.
+// Number of touched Objects from which it pays to ask first whether any of them has a handler.
 std::size_t WorldStore::crowd() const {
-  constexpr int kHearersPerOther = 16;  // a box beside another takes a fraction of a place in a sorted list
+  constexpr int kHearersPerOther = 16;  // hearers tested in the time that listing one Object takes
   return static_cast<std::size_t>(std::max(32, m_hearers / kHearersPerOther));
 }
 
-// Does one of this row touch the box, except `self`?
+// True if an Object of this set, except `self`, touches the box.
 bool WorldStore::isAnyAt(const TurnBits::Words& row, const FixedBox& box, Slot self) const {
   for (std::size_t word = 0; word < row.size(); ++word) {
     for (std::uint64_t left = row[word]; left != 0; left &= left - 1) {
@@ -118,8 +118,8 @@ bool WorldStore::isAnyAt(const TurnBits::Words& row, const FixedBox& box, Slot s
   return false;
 }
 
-// Is anything there that blocks, beside some that are known to be there? The shorter list decides: of what is
-// there, or of all in the world that could block.
+// True if something at `target` blocks; `some` are known to be there. Searches the shorter list: all that are
+// there, or all in the world that could block.
 bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const Slot> some) const {
   const bool hard = m_cards[mover].solidness == HARD;
   const bool no_soft = has(mover, kNoSoft);
@@ -131,15 +131,15 @@ bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const
   if (!hard && !no_soft) return false;
   const int blockers = (hard ? m_hards : 0) + (no_soft ? m_softs : 0);
   const auto most = static_cast<std::size_t>(blockers);
-  m_candidates.clear();  // `some` may lie there, and is not read any more
+  m_candidates.clear();  // `some` may lie there; it is not read again
   m_grid.touching(target, mover, m_candidates, most);
   if (std::any_of(m_candidates.begin(), m_candidates.end(), blocks)) return true;
   if (m_candidates.size() <= most) return false;  // these are all
   return (hard && isAnyAt(m_bits.hards, target, mover)) || (no_soft && isAnyAt(m_bits.softs, target, mover));
 }
 
-// Does a move happen, given some of those that it touches? Nothing if one of them may hear of it. Who hears
-// of nothing changes nothing, so that any one that blocks decides.
+// Returns whether a move happens, given some of those that it touches; nullopt if one may have a handler.
+// Without handlers nothing changes, so any one that blocks decides.
 std::optional<bool> WorldStore::moveUnheard(Slot mover, const FixedBox& target,
                                             std::span<const Slot> some) const {
   if (hears(mover) || hasPrecise() || mayMoveOut(mover)) return std::nullopt;
@@ -167,7 +167,7 @@ void WorldStore::touching(const FixedBox& box, Slot self, std::vector<ObjectKey>
   list(m_candidates, out);
 }
 
-// In creation order, each once. They are few, mostly one or two, and get events next.
+// Lists the slots in creation order, each once. They are few, mostly one or two, and get events next.
 void WorldStore::list(std::span<const Slot> found, std::vector<ObjectKey>& out) const {
   const Card* p_cards = m_cards.data();
   if (found.size() == 1) {

@@ -1,6 +1,6 @@
-// What a tick changed, as plain data: all that a host reads of a world.
+// The changes of a tick, as plain data: all that a host reads of a world.
 //
-// The engine fills a WorldView at the end of every tick while the world is watched (WorldStore::setWatched)
+// The engine fills a WorldView at the end of every tick while the world is watched (WorldStore::setWatched),
 // and spends nothing on it otherwise. It holds no pointers into the world, so it could cross a process
 // boundary. The engine does not depend on its readers.
 #pragma once
@@ -26,8 +26,8 @@ namespace df {
 struct ObjectFacts {
   ObjectKey key;
   std::uint64_t order = 0;   ///< creation order in the world: a total order, never reused
-  FixedVector position;      ///< at the end of the tick
-  FixedVector velocity;      ///< what update() will add next tick; zero if the last move was blocked
+  FixedVector position;      ///< position at the end of the tick
+  FixedVector velocity;      ///< added to the position next tick; zero if the last move was blocked
   FixedVector acceleration;  ///< added to the velocity after each move; zero if blocked
   FixedBox box;              ///< relative to the position
   Solidness solidness = HARD;
@@ -37,7 +37,7 @@ struct ObjectFacts {
   int altitude = 2;
 };
 
-/// One character put on the screen, in world coordinates.
+/// One character on the screen, in world coordinates.
 struct DrawCommand {
   FixedVector position;
   char32_t ch = U' ';
@@ -47,12 +47,11 @@ struct DrawCommand {
 /// A sound or a piece of music that the game began, paused or stopped.
 struct SoundPlayed {
   enum What : std::uint8_t { kPlay, kPause, kStop };
-  std::string label;  ///< as loaded
+  std::string label;  ///< label under which it was loaded
   What what = kPlay;
-  bool music = false;  ///< else a sound
-  bool loop = false;   ///< again and again
-  std::uint32_t player =
-      0;  ///< in the handler of this player's input, as a hint for which client it is; 0: none
+  bool music = false;        ///< false: a sound
+  bool loop = false;         ///< repeats
+  std::uint32_t player = 0;  ///< player whose input was being handled, a hint for the client; 0: none
   friend bool operator==(const SoundPlayed& a, const SoundPlayed& b) {
     return a.label == b.label && a.what == b.what && a.music == b.music && a.loop == b.loop &&
            a.player == b.player;
@@ -60,17 +59,16 @@ struct SoundPlayed {
   friend bool operator!=(const SoundPlayed& a, const SoundPlayed& b) { return !(a == b); }
 };
 
-/// The characters one object's draw() put on the screen this tick: commands[first, first + count).
+/// The characters that one object's draw() put on the screen this tick: commands[first, first + count).
 struct DrawnObject {
   ObjectKey key;  ///< key.generation 0: drawn outside any object's draw()
   std::uint32_t first = 0;
   std::uint32_t count = 0;
-  bool on_view =
-      false;  ///< a view object: its characters keep their places in every view (WorldView::corner)
+  bool on_view = false;  ///< view object: its characters keep their cells in every view
 };
 
-/// The look of one of those drawn as frames and a selector (ObjectLookAccess::setFrames). Its draw() may have
-/// drawn something else.
+/// The frames and selector of a drawn object (ObjectLookAccess::setFrames). Its draw() may have drawn
+/// something else.
 struct PublishedLook {
   std::uint32_t drawn = 0;  ///< index in WorldView::drawn
   std::shared_ptr<const naiad::Look> p_look;
@@ -90,13 +88,13 @@ struct PlayerText {
   friend bool operator!=(const PlayerText& a, const PlayerText& b) { return !(a == b); }
 };
 
-/// What a player steers by declared controls, exactly, at the end of the tick.
+/// Exact state of an Object that a player steers by declared controls, at the end of the tick.
 struct SteeringFacts {
   std::shared_ptr<const ControlTable> p_table;  ///< null: no controls declared, and nothing below is set
-  ObjectKey object;  ///< generation 0: no Object is steered, nothing but `state` is set below
+  ObjectKey object;  ///< generation 0: no Object is steered, and only `state` is set below
   ControlState state;
   FixedVector position;
-  FixedVector velocity;  ///< what update() will try to add next tick, even if the last move was blocked
+  FixedVector velocity;  ///< next tick's attempted move, even if the last move was blocked
   FixedVector acceleration;
 };
 
@@ -106,7 +104,7 @@ struct PlayerFacts {
   std::string name;
   Color color = COLOR_DEFAULT;
   int score = 0;
-  ObjectKey followed;             ///< generation 0: the view follows none
+  ObjectKey followed;             ///< Object that the view follows; generation 0: none
   FixedVector view_corner;        ///< upper left corner of the view, world coordinates; shaken
   std::vector<PlayerText> texts;  ///< non-empty ones, by id
   SteeringFacts steering;
@@ -114,22 +112,22 @@ struct PlayerFacts {
 
 struct WorldView {
   std::uint32_t tick = 0;  ///< ticks done since the world began
-  FixedBox boundary;       ///< of the world
+  FixedBox boundary;       ///< boundary of the world
   int view_width = 80;     ///< size of every view, in cells
   int view_height = 24;
-  std::vector<ObjectFacts> changed;  ///< appeared or changed, by creation order
-  std::vector<ObjectKey> vanished;   ///< deleted or removed; never in `changed` of the same tick
-  std::vector<DrawnObject> drawn;    ///< what was drawn, in drawing order; the Object may have vanished since
-  std::vector<DrawCommand> commands;  ///< what they drew, in drawing order
-  std::vector<PublishedLook> looks;   ///< of those drawn that have frames, in that order
-  std::vector<PlayerFacts> players;   ///< by id
-  FixedVector corner;                 ///< of the world's own view, in which view objects were drawn
-  std::vector<SoundPlayed> sounds;    ///< in the order they were played
-  std::uint32_t sounds_lost = 0;      ///< more of this tick, beyond what is noted
-  std::vector<SoundPlayed> playing;   ///< what goes on again and again, as it was begun, oldest first
-  std::vector<std::string> notes;     ///< lines of the engine's own for all players to read
-  Color background = BLACK;           ///< of the window
-  int shake_x = 0;                    ///< cells by which views are off their places in this tick
+  std::vector<ObjectFacts> changed;   ///< appeared or changed, by creation order
+  std::vector<ObjectKey> vanished;    ///< deleted or removed; never in `changed` of the same tick
+  std::vector<DrawnObject> drawn;     ///< drawn Objects in drawing order; they may have vanished since
+  std::vector<DrawCommand> commands;  ///< drawn characters, in drawing order
+  std::vector<PublishedLook> looks;   ///< looks of drawn objects that have frames, in that order
+  std::vector<PlayerFacts> players;   ///< all players, by id
+  FixedVector corner;                 ///< corner of the world's own view, in which view objects were drawn
+  std::vector<SoundPlayed> sounds;    ///< sounds in the order they were played
+  std::uint32_t sounds_lost = 0;      ///< further sounds of this tick, not recorded
+  std::vector<SoundPlayed> playing;   ///< repeating sounds, as they were begun, oldest first
+  std::vector<std::string> notes;     ///< lines of the engine for all players to read
+  Color background = BLACK;           ///< colour of the window
+  int shake_x = 0;                    ///< cells by which views are displaced in this tick
   int shake_y = 0;
 };
 
