@@ -1,14 +1,14 @@
-// libdragonfly-repeat.so: clocks and entropy of a world that can be executed again.
+// libdragonfly-repeat.so: clocks and entropy of a world that can be replayed.
 //
 // It is loaded before all other libraries (LD_PRELOAD) of a world's process, whose game needs no change for
-// it. With NAIAD_REPEAT="SEED START FRAME AGAIN" in the environment, each clock shows START and the world's
-// ticks of FRAME nanoseconds, and goes on by a microsecond each time it is read, so that a game which waits
-// for it comes to an end. Random devices give numbers from the seed, in the order in which they are asked
-// for. Files that are opened for reading before the first tick are noted. Without that variable every
-// function is the system's.
+// it. With NAIAD_REPEAT="SEED START FRAME AGAIN" in the environment, each clock shows START plus the world's
+// ticks of FRAME nanoseconds, and advances by a microsecond each time it is read, so that a game that waits
+// for it does not hang. Random devices give numbers from the seed, in the order of the calls. Files that are
+// opened for reading before the first tick are recorded. Without that variable every function is the
+// system's.
 //
-// What it does not reach: instructions (rdtsc, rdrand), system calls that a game makes without the C library,
-// threads. A game that uses those is found when its round is executed again.
+// It does not cover instructions (rdtsc, rdrand), system calls that a game makes without the C library, and
+// threads. A game that uses those is noticed when its round is replayed.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>
@@ -27,8 +27,8 @@
 namespace {
 
 constexpr std::uint64_t kSecond = 1'000'000'000;
-constexpr std::uint64_t kStep = 1'000;            ///< nanoseconds that each reading takes
-constexpr std::uint64_t kBoot = 1'000 * kSecond;  ///< since the machine's start, as monotonic clocks count
+constexpr std::uint64_t kStep = 1'000;            ///< nanoseconds that each reading of a clock takes
+constexpr std::uint64_t kBoot = 1'000 * kSecond;  ///< start of monotonic clocks
 constexpr std::size_t kMaxPaths = std::size_t{64} << 10;
 
 struct Repeat {
@@ -36,7 +36,7 @@ struct Repeat {
   bool again = false;
   std::uint64_t start = 0;
   std::uint64_t frame = 0;
-  std::atomic<std::uint64_t> now{0};  ///< since the start
+  std::atomic<std::uint64_t> now{0};  ///< ns since the start
   std::atomic<std::uint64_t> random{0};
   std::atomic<bool> notes{true};
   std::atomic<std::size_t> noted{0};
@@ -50,7 +50,7 @@ std::uint64_t readNumber(const char*& p) {
   return number;
 }
 
-// Programs that the game starts are no worlds.
+// Programs that the game starts are not worlds, so the variables are removed.
 Repeat* makeRepeat() {
   static Repeat repeat;
   const char* p = getenv("NAIAD_REPEAT");
@@ -65,7 +65,7 @@ Repeat* makeRepeat() {
   return &repeat;
 }
 
-// At the first call: constructors of other libraries may come before this one's.
+// Created at the first call, because constructors of other libraries may run before this one's.
 Repeat& repeat() {
   static Repeat* const p_repeat = makeRepeat();
   return *p_repeat;
@@ -117,7 +117,7 @@ void fill(void* p_to, std::size_t count) {
   }
 }
 
-/// Time passes for the world at once, and for who plays as well, unless it is executed again.
+/// Advances the world's clock at once. Sleeps in real time, too, unless the world is a replay (AGAIN).
 template <class Sleep>
 int sleepFor(std::uint64_t nanos, Sleep sleep) {
   repeat().now.fetch_add(nanos, std::memory_order_relaxed);
@@ -229,7 +229,7 @@ int clock_nanosleep(clockid_t clock, int flags, const timespec* p_time, timespec
   if (!repeat().on) return p_next(clock, flags, p_time, p_left);
   if ((flags & TIMER_ABSTIME) == 0)
     return sleepFor(nanosOf(*p_time), [&] { return p_next(clock, flags, p_time, p_left); });
-  // By a clock that is not the machine's: for as long as it shows.
+  // The clock is not the machine's, so the absolute time becomes a duration.
   const std::uint64_t until = nanosOf(*p_time);
   const std::uint64_t now = clockNanos(clock);
   if (until <= now) return 0;
@@ -280,7 +280,7 @@ std::uint32_t arc4random_uniform(std::uint32_t bound) {
   return bound < 2 ? 0 : static_cast<std::uint32_t>(nextRandom() % bound);
 }
 
-/// std::random_device::_M_getval(), however it was opened.
+/// Replaces std::random_device::_M_getval(), however it was opened.
 unsigned _ZNSt13random_device9_M_getvalEv(void* p_device) {
   static auto* const p_next = next(&_ZNSt13random_device9_M_getvalEv, "_ZNSt13random_device9_M_getvalEv");
   return repeat().on ? static_cast<unsigned>(nextRandom()) : p_next(p_device);

@@ -24,13 +24,13 @@ namespace naiad {
 namespace {
 
 constexpr const char* kDebugger = "gdb";
-/// Or its first `continue` would report the signal that has stopped the world, and go no further.
+/// Makes the first `continue` run the tick, and not only report the signal that has stopped the world.
 constexpr const char* kNoStop = "handle SIGSTOP nostop noprint nopass";
 
-/// A process that is not our child says nothing when it stops.
+/// Time limit of stopping the world, which is polled: only a child would report that it stopped.
 constexpr std::chrono::seconds kStopPatience{10};
 
-/// The letter of its state in /proc; 0: it has ended. The name before it may have any characters.
+/// Returns the state letter in /proc; 0: it has ended. The name before it may have any characters.
 char stateOf(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -62,7 +62,7 @@ class WaitedFor {
   int m_number;
 };
 
-/// gdb, in this terminal. Ctrl-C is for it alone. 0: it is not there.
+/// Starts gdb in this terminal. Ctrl-C is for gdb alone. Returns 0 if gdb is not installed.
 pid_t startDebugger(pid_t world) {
   const std::string number = std::to_string(world);
   const char* words[] = {kDebugger, "-q", "-p", number.c_str(), "-ex", kNoStop, nullptr};
@@ -81,7 +81,7 @@ pid_t startDebugger(pid_t world) {
   return error == 0 ? debugger : 0;
 }
 
-/// Readable when it has ended. glibc 2.36 has no C++ declaration of pidfd_open().
+/// Returns a descriptor that is readable at its end. glibc 2.36 declares pidfd_open() for C only.
 int watchProcess(pid_t process) {
   return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
 }
@@ -93,7 +93,7 @@ void waitForDebugger(pid_t debugger) {
   throw RoundError(std::string(kDebugger) + " ended with code " + std::to_string(WEXITSTATUS(status)) + ".");
 }
 
-/// Readable when the user wants to end it.
+/// Returns a descriptor that is readable when the user asks for the end.
 int watchSignals() {
   sigset_t ends;
   sigemptyset(&ends);
@@ -105,7 +105,7 @@ int watchSignals() {
   return signalfd(-1, &ends, SFD_CLOEXEC);
 }
 
-/// Turn `until` and those behind it, until the world, the file or the wait for `ended` is at its end.
+/// Executes the remaining turns, until the world or the file ends, or `ended` is readable.
 void goOn(Replay& replay, int ended, std::ostream& out) {
   replay.world().waitAlsoFor(ended);
   while (replay.step()) continue;

@@ -1,9 +1,9 @@
 // dfreplay --until T --debug: the round up to tick T, and then a debugger.
 //
-// The world is a process with the addresses, clock and random numbers that it had. It has executed the turns
-// before T and is stopped (SIGSTOP); turn T waits in its socket. gdb is attached to it, and from `continue`
-// on it executes turn T as it did then: with the keys and clicks that were left out of the round afterwards,
-// because the world died by them. If it lives, it gets the turns after T, too.
+// The world is a process with its recorded addresses, clock and random numbers. It has executed the turns
+// before T and is stopped (SIGSTOP); turn T waits in its socket. gdb is attached to it. After `continue` it
+// executes turn T as it did in the round, including the keys and clicks that were dropped afterwards because
+// the world crashed or hung. If it survives, it gets the turns after T, too.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace naiad {
 
-/// Until the debugger ends; without gdb, until the world or the user (SIGINT, SIGTERM) ends it. `out` gets
-/// sentences for the user. Throws RoundError if the round has no tick `until`, or its world does not come so
-/// far or cannot be stopped; std::system_error.
+/// Debugs a round until the debugger ends; without gdb, until the world or the user (SIGINT, SIGTERM) ends
+/// it. `out` gets messages for the user. Throws RoundError if the round has no tick `until`, or if its world
+/// ends before it or cannot be stopped; std::system_error.
 void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32_t until, std::ostream& out);
 
 }  // namespace naiad

@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Days of a busy server.
+/// Maximum bytes of a file: days of a busy server.
 constexpr std::uintmax_t kMaxRound = std::uintmax_t{1} << 30;
 
-/// A name of an installed game, and no path: a file may come from a stranger.
+/// True for a name of an installed game. A path is refused, because a file may come from a stranger.
 bool isGameName(const std::string& name) {
   return !name.empty() && name.size() <= 100 && name[0] != '.' && isPlainName(name);
 }
@@ -36,7 +36,7 @@ fs::path ownFolder() {
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
-/// One of these; else the first.
+/// Returns `value` if it is among the choices; otherwise the first choice.
 std::string choiceOf(const std::string& value, std::initializer_list<const char*> choices) {
   const bool known =
       std::any_of(choices.begin(), choices.end(), [&](const char* one) { return value == one; });

@@ -1,4 +1,4 @@
-// The file of a round, and the game that executes it again.
+// The file of a round, and the game that replays it.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace naiad {
 
-/// A round that cannot be read or executed. what() is a sentence.
+/// Error of a round that cannot be read or replayed. what() is a sentence.
 class RoundError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,11 +26,11 @@ class RecordedRound {
 
   const DfrHeader& header() const { return m_header; }
   const DfrFacts& facts() const { return m_facts; }
-  /// A fact; empty if the file does not have it.
+  /// Returns a fact; empty if the file does not have it.
   std::string fact(const std::string& name) const;
-  /// Reads it from the beginning. This outlives it.
+  /// Returns a reader at the beginning of the file. This must outlive it.
   std::unique_ptr<DfrReader> read() const;
-  /// What cannot be promised of it, as sentences: that its clocks were real, say.
+  /// Returns warnings about the recording, as sentences, for example that its clocks were real.
   std::vector<std::string> doubts() const;
 
  private:
@@ -39,11 +39,11 @@ class RecordedRound {
   DfrFacts m_facts;
 };
 
-/// Executes the worlds of a round in a folder of their own, which is removed at the end.
+/// Replays the worlds of a round in a folder of their own, which is removed at the end.
 class RoundStage {
  public:
-  /// `game`: a name or path that the user gives; empty: the installed game that the file names, if it is the
-  /// same. Throws RoundError or std::system_error.
+  /// `game`: a name or path from the user; empty: the installed game that the file names, if its module is
+  /// unchanged. Throws RoundError or std::system_error.
   RoundStage(const RecordedRound& round, const std::string& game);
   ~RoundStage();
   RoundStage(const RoundStage&) = delete;
@@ -51,7 +51,7 @@ class RoundStage {
 
   const WorldLauncher& launcher() const { return *m_launcher; }
   WorldOrder order() const;
-  /// That the game or the machine is another one than it was, as sentences.
+  /// Returns the differences of game and machine to the recorded ones, as sentences.
   const std::vector<std::string>& doubts() const { return m_doubts; }
 
  private:

@@ -21,7 +21,7 @@ constexpr std::size_t kMaxPrinted = 4096;
 
 constexpr const char* kEnded = "ended";
 
-/// For a keeper's word of its world's end, which ends all that the world has started first.
+/// Time limit for the keeper's report of the world's end; it first ends what the world has started.
 constexpr int kEndMillis = 2000;
 
 }  // namespace
@@ -29,7 +29,7 @@ constexpr int kEndMillis = 2000;
 ReplayWorld::ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order)
     : m_started(launcher.start(order)) {
   if (receiveFrame()) m_ready = readReady(m_answer);
-  // The keeper has sent it before the world's program was executed.
+  // The keeper sends this before the world's program is executed.
   KeeperStart begun;
   if (m_ready && recv(m_started.keeper, &begun, sizeof begun, MSG_WAITALL) == sizeof begun)
     m_process = begun.process;
@@ -44,13 +44,13 @@ std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {
   if (!m_failure.empty()) return std::nullopt;
   std::string record;
   std::string message;
-  m_turns.write(turn, record);  // one of a file, which is not too long
+  m_turns.write(turn, record);  // a turn of a file is never too long
   appendTurnMessage(record, false, message);
   if (!send(message) || !receiveFrame()) return std::nullopt;
   return m_answer;
 }
 
-// What it prints is read meanwhile, or it would wait for us.
+// Also reads the world's output, because the world blocks when the pipe is full.
 bool ReplayWorld::wait(short events) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (true) {
@@ -149,7 +149,7 @@ void Replay::compareFiles(const RecordedRound& round) {
   }
 }
 
-// Sessions are for servers that go on with the round.
+// Skips sessions, which only a server that resumes the round needs.
 void Replay::readAhead() {
   do m_next = m_reader->next();
   while (m_next && std::holds_alternative<KeptSession>(*m_next));
@@ -182,7 +182,7 @@ bool Replay::step(bool pictures) {
   }
   const auto answer = m_world.step(turn);
   if (!answer) {
-    // The round ended so, too, if nothing came of this turn.
+    // The recorded world ended here, too, if the file has no result of this turn.
     if (m_next) {
       noteDifference("the world's end");
       m_failure = m_world.failure();
@@ -199,7 +199,7 @@ bool Replay::step(bool pictures) {
   return true;
 }
 
-/// What the file has of this tick beside its turn.
+/// Handles the other records of this tick: result and picture.
 void Replay::takeRest(std::string_view answer, bool exact) {
   for (; m_next && !std::holds_alternative<WorldTurn>(*m_next); readAhead()) {
     if (const auto* p_result = std::get_if<TickResult>(&*m_next)) compare(*p_result, answer, exact);

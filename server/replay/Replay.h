@@ -1,4 +1,4 @@
-// A round that is executed again, tick by tick, and held against what its file says.
+// Replays a round tick by tick, and compares it with its file.
 #pragma once
 
 #include <chrono>
@@ -14,36 +14,34 @@
 
 namespace naiad {
 
-/// A world that is executed again: a process of its own, which gets one turn after the other as fast as it
-/// answers.
-/// On one thread, which waits for the world.
+/// A world that is replayed: a process of its own, which gets one turn after the other as fast as it answers.
+/// Single-threaded: the calling thread waits for the world.
 class ReplayWorld {
  public:
-  /// For an answer; then the world hangs.
+  /// Time limit for an answer; after it the world counts as hung.
   static constexpr std::chrono::seconds kPatience{30};
 
-  /// Starts it, and waits until the game runs. Throws std::system_error.
+  /// Starts the world, and waits until the game runs. Throws std::system_error.
   ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order);
-  /// It ends.
+  /// Ends the world.
   ~ReplayWorld();
   ReplayWorld(const ReplayWorld&) = delete;
   ReplayWorld& operator=(const ReplayWorld&) = delete;
 
-  /// What the game has set up; nothing if it ended before.
+  /// Returns the game's settings; nullopt if it ended before GM.run().
   const std::optional<WorldReady>& ready() const { return m_ready; }
-  /// What the world answers to this turn, valid until the next one: the fields of its frame. Nothing: it has
-  /// ended, and failure() says how.
+  /// Executes a turn. Returns the answer, the fields of its frame, valid until the next turn; nullopt if the
+  /// world has ended, and failure() says how.
   std::optional<std::string_view> step(const WorldTurn& turn);
-  /// "did not answer any more"; empty while it answers.
+  /// Returns how the world failed, like "did not answer any more"; empty while it answers.
   const std::string& failure() const { return m_failure; }
-  /// The number of its process; -1: it was never one.
+  /// Returns the id of its process; -1: it never started.
   int process() const { return m_process; }
-  /// From now on wait for answers for as long as it takes, or until this descriptor is readable; then the
-  /// world does not answer any more.
+  /// Removes the time limit of answers. Instead, when this descriptor is readable, the world counts as hung.
   void waitAlsoFor(int descriptor) { m_also = descriptor; }
-  /// After a failure: how its process ended, as of waitpid(); nothing: it has not.
+  /// Returns the status of its process after a failure, as of waitpid(); nullopt if it has not ended.
   std::optional<int> takeEnd();
-  /// What it printed last.
+  /// Returns the end of what it printed.
   const std::string& printed() const { return m_printed; }
 
  private:
@@ -68,40 +66,40 @@ class Replay {
   /// Starts the world. Throws RoundError if the game does not run, or std::system_error.
   Replay(const RecordedRound& round, const RoundStage& stage);
 
-  /// Execute the next recorded turn. `pictures`: of all players, where the turn does not ask for them; then
-  /// the answer is not the recorded one, and only the state is compared. False: there are no more, or the
-  /// world has ended.
+  /// Executes the next recorded turn. `pictures`: requests the pictures of all players; if the turn did not
+  /// ask for them, only the state is compared, because the answer is not the recorded one. Returns false if
+  /// there are no more turns, or the world has ended.
   bool step(bool pictures = false);
-  /// Does the file have a turn behind those that were executed?
+  /// True if the file has a turn after those that were executed.
   bool hasNextTurn() const { return m_next && std::holds_alternative<WorldTurn>(*m_next); }
-  /// In this tick the world gets the keys and clicks that were left out later, because it died by them.
+  /// Makes the world get the keys and clicks of this tick that were dropped after its crash.
   void keepDroppedKeys(std::uint32_t tick) { m_kept_tick = tick; }
-  /// Read the scores of each tick's answer, too.
+  /// Makes step() read the scores of each answer, too.
   void readScores() { m_reads_scores = true; }
-  /// Ticks executed so far.
+  /// Returns the number of ticks executed so far.
   std::uint32_t tick() const { return m_tick; }
 
-  // Of the last tick.
+  // Results of the last tick.
 
   const WorldTurn& turn() const { return m_turn; }
-  /// What the players saw, as far as it was asked for.
+  /// Returns the players' pictures that were requested.
   const std::vector<WorldPicture>& pictures() const { return m_pictures; }
-  /// What the game added, after readScores().
+  /// Returns the scores that the game added; needs readScores().
   const std::vector<df::AddedScore>& scores() const { return m_scores; }
-  /// What the file has of it.
+  /// Returns the picture that the file has of this tick.
   const std::optional<RecordedPicture>& recordedPicture() const { return m_recorded; }
-  /// Was it other than the file says?
+  /// True if the tick differed from the file.
   bool differs() const { return m_differs; }
 
-  /// The first tick that was; 0: none so far.
+  /// Returns the first tick that differed; 0: none so far.
   std::uint32_t firstDifference() const { return m_first_difference; }
-  /// What of it was: "the world's answer", "the state".
+  /// Returns what differed in it: "the world's answer", "the state".
   const std::string& whatDiffers() const { return m_what_differs; }
-  /// How the world ended before its recorded end; empty: it did not.
+  /// Returns how the world ended before its recorded end; empty if it did not.
   const std::string& failure() const { return m_failure; }
-  /// Files that the game reads and that are other ones than they were.
+  /// Returns the files that the game reads and that have changed since the recording.
   const std::vector<std::string>& otherFiles() const { return m_other_files; }
-  /// Does it have the addresses that it had?
+  /// True if the world has its recorded addresses.
   bool hasFixedAddresses() const { return m_world.ready()->fixed_addresses; }
   ReplayWorld& world() { return m_world; }
   DfrEnd end() const { return m_reader->end(); }

@@ -35,7 +35,7 @@ std::uint32_t countTurns(const RecordedRound& round) {
   return count;
 }
 
-/// Pictures a second, at most: faster rounds leave some out.
+/// Minimum interval of pictures: faster rounds skip some.
 constexpr std::chrono::milliseconds kBetweenFrames{16};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Plays a round in the terminal: forwards at any speed, 5 s to and fro, with the eyes of any player.
+// Plays a round in the terminal: at any speed, with jumps of 5 s, as seen by any player.
 #pragma once
 
 #include <chrono>
@@ -14,27 +14,27 @@
 
 namespace naiad {
 
-/// The pictures of a round by tick, forwards and back: those of the last minute are kept, earlier ones made
-/// again.
+/// The pictures of a round by tick, in any order: those of about the last minute are kept, earlier ones are
+/// made again by replaying.
 class PictureReel {
  public:
-  /// Cells of all pictures that are kept: of one player in 80 by 24 for a minute and more.
+  /// Maximum cells of all kept pictures: a minute and more of one player in 80 by 24.
   static constexpr std::size_t kMaxCells = std::size_t{4} << 20;
-  /// Ticks before a wanted one whose pictures are made as well, to go back to.
+  /// Ticks before a requested one whose pictures are made as well, for going back.
   static constexpr std::uint32_t kLead = 150;
 
-  /// Both outlive it. Throws as Replay.
+  /// Both must outlive this. Throws like Replay.
   PictureReel(const RecordedRound& round, const RoundStage& stage);
 
-  /// Go to this tick, from 1; to the last one that there is if the round ends before. Return where it is; 0:
-  /// it has no tick. Far back it executes the round from its beginning.
+  /// Goes to this tick (from 1), or to the last one if the round ends before. Returns the tick reached; 0:
+  /// the round has none. Going far back replays the round from its beginning.
   std::uint32_t seek(std::uint32_t tick);
   std::uint32_t tick() const { return m_tick; }
-  /// What players see after that tick, by player. Those of a tick without players: none.
+  /// Returns the players' pictures after that tick, by player; empty without players.
   const std::vector<WorldPicture>& pictures() const;
-  /// Ticks of the whole round.
+  /// Returns the number of ticks of the whole round.
   std::uint32_t count() const { return m_count; }
-  /// The first tick so far that was other than recorded; 0: none.
+  /// Returns the first tick so far that differed from the recording; 0: none.
   std::uint32_t firstDifference() const { return m_replay->firstDifference(); }
 
  private:
@@ -55,30 +55,31 @@ class PictureReel {
   std::uint32_t m_count = 0;
 };
 
-/// What the keys do, without a terminal: time is passed in.
+/// The effects of keys, without a terminal. Time is passed in.
 class RoundControls {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr int kSlowest = -2;  ///< a quarter, as a power of two
+  static constexpr int kSlowest = -2;  ///< a quarter of the speed, as a power of two
   static constexpr int kFastest = 6;   ///< 64 times
   static constexpr std::uint64_t kJumpNanos = 5'000'000'000;
 
-  /// `player`: whose eyes; 0: the first there is. Begins with tick `from`, or the last one before it.
+  /// `player`: whose picture is shown; 0: the first one's. Begins with tick `from`, or the last one before
+  /// it.
   RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now,
                 std::uint32_t from = 1);
 
-  /// False: the player wants to end it.
+  /// Handles a key. Returns false if the user ends the player.
   bool takeKey(const KeyEvent& key, Time now);
-  /// Go on to where the round is at this time. True: the picture is another one.
+  /// Advances the round to this time. Returns true if the picture has changed.
   bool update(Time now);
-  /// When update() will next have something to do.
+  /// Returns when update() will next have something to do.
   Time deadline(Time now) const;
 
   bool isPaused() const { return m_paused; }
   int speed() const { return m_speed; }
   std::uint32_t player() const { return m_player; }
-  /// A picture of this size: the game, and a line that says where it is.
+  /// Returns a picture of this size: the game, and a status line.
   Picture compose(int columns, int rows) const;
 
  private:
@@ -95,17 +96,17 @@ class RoundControls {
   std::uint32_t m_player;
   bool m_paused = false;
   int m_speed = 0;
-  Time m_since;  ///< when the round was at m_from
+  Time m_since;  ///< time at which the round was at m_from
   std::uint32_t m_from = 1;
 };
 
 class RoundPlayer {
  public:
-  /// As RoundControls.
+  /// Takes the parameters of RoundControls.
   RoundPlayer(const RecordedRound& round, const RoundStage& stage, std::uint32_t player, std::uint32_t from)
       : m_round(round), m_stage(stage), m_player(player), m_from(from) {}
-  /// Until a key or a signal ends it. Throws std::runtime_error with a sentence if the terminal cannot show
-  /// it.
+  /// Plays until a key or a signal ends it. Throws std::runtime_error with a sentence if the terminal cannot
+  /// show it.
   void run();
 
   static bool hasTerminal();

@@ -50,7 +50,7 @@ void printRows(const df::Canvas& recorded, const df::Canvas& again, std::ostream
   out << "  " << same << " of " << height << " rows are the same\n";
 }
 
-/// The next picture that the file has, and what the world shows then.
+/// Prints the differences between the next picture of the file and the world's picture then.
 void showDifference(Replay& replay, std::ostream& out) {
   do {
     if (!replay.recordedPicture()) continue;

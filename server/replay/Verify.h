@@ -1,4 +1,4 @@
-// dfreplay --verify: is the round the same when it is executed again?
+// dfreplay --verify, --inputs, --scores and --text: checks and prints recorded rounds.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@ namespace naiad {
 class RecordedRound;
 class RoundStage;
 
-/// Print it; true: it is, to the last whole turn of the file.
+/// Replays the round, and prints the result. Returns true if it matches to the last whole turn of the file.
 bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostream& out);
 
-/// One line for each input and each tick's end that is worth one.
+/// Prints one line for each input, and one for each end of the game by the host.
 void printInputs(const RecordedRound& round, std::ostream& out);
 
-/// Execute it, and print one line for each score that the game adds: "tick=N number=N table=… name="…"
-/// points=N", which name its row in the server's file of scores. False: the round is not the same any more,
-/// and the last line says from which tick on.
+/// Replays the round, and prints one line for each score that the game adds: "tick=N number=N table=…
+/// name="…" points=N", which identify its row in the server's file of scores. Returns false if the round
+/// differs; then the last line says from which tick on.
 bool printScores(const RecordedRound& round, const RoundStage& stage, std::ostream& out);
 
-/// What a player sees after this tick; 0: the first of them. False: the round has no such tick, or no player
-/// to see it.
+/// Prints a player's picture after this tick; player 0: the first one. Returns false if the round has no such
+/// tick, or there is no such player.
 bool printPicture(const RecordedRound& round, const RoundStage& stage, std::uint32_t tick,
                   std::uint32_t player, std::ostream& out);
 

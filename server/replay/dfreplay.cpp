@@ -1,4 +1,4 @@
-// dfreplay: plays rounds that dfserver has written down (--journal), and executes them again to the same end.
+// dfreplay: plays and checks rounds recorded by dfserver (--journal), by executing them again.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -18,7 +18,7 @@ namespace {
 
 enum ExitCode { kOk = 0, kDiffers = 1, kUsage = 2, kNoRound = 3, kNoTerminal = 4 };
 
-/// Of --for-server.
+/// Nice value with --for-server.
 constexpr int kNice = 10;
 
 constexpr const char* kHelp =
@@ -91,7 +91,7 @@ int fail(ExitCode code, const std::string& sentence) {
   return code;
 }
 
-/// Its game comes first. Before this process starts another one.
+/// Lets the server's game go first, and ends with the server. Call before this process starts another one.
 void serveParent() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpriority(PRIO_PROCESS, 0, kNice);

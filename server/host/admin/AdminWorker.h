@@ -1,4 +1,4 @@
-// A thread for what takes long in looking after a server: hashing a password, writing a ban to disk.
+// A thread for slow administrative jobs: hashing a password, writing a ban to disk.
 #pragma once
 
 #include <condition_variable>
@@ -10,18 +10,18 @@
 
 namespace naiad {
 
-/// Jobs run one after the other, in the order in which they were given.
+/// Runs jobs one after the other, in the order in which they were given.
 class AdminWorker {
  public:
   static constexpr std::size_t kMaxWaiting = 1024;
 
-  /// As finish().
+  /// Calls finish().
   ~AdminWorker();
 
-  /// False, and the job is dropped: too many wait. Any thread; never waits for a job. `job` must not throw.
+  /// Queues a job, which must not throw. Drops it and returns false if too many wait, or after finish(). Any
+  /// thread; does not block.
   bool give(std::function<void()> job);
-  /// Wait for the jobs that are left: a ban that was promised is written. None is taken after this. Not from
-  /// a job.
+  /// Waits until all queued jobs have run, so that accepted changes are written. Do not call it from a job.
   void finish();
 
  private:
@@ -31,7 +31,7 @@ class AdminWorker {
   std::condition_variable m_wake;
   std::deque<std::function<void()>> m_jobs;
   bool m_stopping = false;
-  std::thread m_thread;  ///< begins with the first job
+  std::thread m_thread;  ///< starts with the first job
 };
 
 }  // namespace naiad

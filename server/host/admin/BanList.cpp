@@ -14,7 +14,7 @@ namespace naiad {
 
 namespace {
 
-constexpr const char* kKinds[] = {"name", "range", "exception"};  ///< by Ban::Kind
+constexpr const char* kKinds[] = {"name", "range", "exception"};  ///< index: Ban::Kind
 
 constexpr StateFile::Kind kFileOfBans{
     "file of bans", 0x4e616942,  // "NaiB"
@@ -40,7 +40,7 @@ std::string storedTarget(const Ban& ban) {
   return ban.kind == Ban::Kind::kName ? ban.name : ban.range->text();
 }
 
-/// Nothing: no ban that this program writes.
+/// Reads the ban in the current row. Returns nullopt if the row is not valid.
 std::optional<Ban> banAt(const StateStatement& statement) {
   Ban ban;
   const std::string kind = statement.text(0);
@@ -68,7 +68,7 @@ Ban::Time wholeSeconds() {
   return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
 }
 
-/// Does this text, typed by an admin, name the ban?
+/// True if this text, typed by an admin, names the ban.
 bool names(const std::string& text, const Ban& ban) {
   if (text == "#" + std::to_string(ban.number) || text == ban.target()) return true;
   if (ban.kind == Ban::Kind::kName) return text == ban.name;
@@ -157,7 +157,7 @@ const Ban* BanSet::findIn(const Index& index, const asio::ip::address& address, 
                                           return std::tie(a.length, a.bytes) < std::tie(b.length, b.bytes);
                                         });
     if (found == index.places.end() || found->length != length || found->bytes != wanted.bytes) continue;
-    const Ban& ban = m_bans[found->ban];  // one for each range, so a longer one is what may hold instead
+    const Ban& ban = m_bans[found->ban];  // the only one of this range; longer prefixes may still match
     if (!ban.isOver(now) && ban.range->contains(address)) return &ban;
   }
   return nullptr;
@@ -183,7 +183,7 @@ const Ban* BanSet::findName(const std::vector<std::string>& shapes, Ban::Time no
 
 struct BanList::File {
   BanStore store;
-  std::vector<Ban> unwritten;  ///< those whose writing failed
+  std::vector<Ban> unwritten;  ///< bans that could not be written
 
   explicit File(const std::filesystem::path& path) : store(path) {}
 
@@ -247,8 +247,8 @@ void BanList::replace(std::vector<Ban> bans) {
   m_set.swap(set);
 }
 
-// The ban that is over stays in the file until another one of the same target takes its place or the file is
-// read again: a change of it costs a write.
+// Expired bans are removed from memory only. In the file they stay until a new ban of their target replaces
+// them, which saves writes.
 bool BanList::add(Ban ban, Saved saved) {
   std::vector<Ban> bans = now()->all();
   std::erase_if(bans, [&ban, present = m_clock()](const Ban& other) {

@@ -1,4 +1,4 @@
-// The bans of a server: in memory, where they hold at once, and in a file, where they last.
+// The bans of a server: in memory, where they take effect at once, and in a file, where they persist.
 #pragma once
 
 #include <asio/ip/address.hpp>
@@ -25,68 +25,69 @@ namespace naiad {
 struct Ban {
   using Time = std::chrono::system_clock::time_point;
   enum class Kind {
-    kName,       ///< those who come with this name, or one that looks like it
-    kRange,      ///< connections from these addresses
-    kException,  ///< no ban of a range holds for these
+    kName,       ///< bans players with this name or one that looks like it
+    kRange,      ///< bans connections from these addresses
+    kException,  ///< exempts these addresses from all bans of ranges
   };
 
-  std::uint64_t number = 0;  ///< as long as the server runs
+  std::uint64_t number = 0;  ///< unique while the server runs; not saved
   Kind kind = Kind::kName;
-  std::string name{};                   ///< of kName
-  std::optional<AddressRange> range{};  ///< of the others
+  std::string name{};                   ///< only for kName
+  std::optional<AddressRange> range{};  ///< set for the other kinds
   std::string reason{};
-  std::string by{};             ///< who gave the command
+  std::string by{};             ///< caller of the command
   Time made{};                  ///< whole seconds
-  std::optional<Time> until{};  ///< nothing: for ever
-  bool lasting = true;          ///< kept on disk
+  std::optional<Time> until{};  ///< nullopt: permanent
+  bool lasting = true;          ///< saved on disk
 
   bool isOver(Time now) const { return until && *until <= now; }
-  /// "name:Ann" or "192.0.2.0/24": bans of the same are one.
+  /// Returns "name:Ann" or "192.0.2.0/24". A new ban replaces an old one of its target.
   std::string target() const { return kind == Kind::kName ? "name:" + name : range->text(); }
   bool isSameTarget(const Ban& other) const {
     return (kind == Kind::kException) == (other.kind == Kind::kException) && target() == other.target();
   }
 };
 
-/// For the banned: 'You are banned from this server until 2026-11-25 19:01 UTC: "spam".'
+/// Returns the message for the banned player: "You are banned from this server until 2026-11-25 19:01 UTC:
+/// spam".
 std::string banSentence(const Ban& ban);
 
-/// The file is there and cannot be used. what() is one sentence for people.
+/// Thrown if the file exists and cannot be used. what() is a one-sentence message.
 using BanFileError = StateFileError;
 
-/// The file of bans: an SQLite database in the server's state folder. One thread at a time. Servers with the
-/// same folder share the file; each reads what others wrote when it loads.
+/// The ban file: an SQLite database in the server's state folder. For one thread at a time. Servers with a
+/// common folder share the file; each sees the others' changes when it loads.
 class BanStore {
  public:
-  /// Nothing is opened or made yet.
+  /// Does not open or create the file yet.
   explicit BanStore(std::filesystem::path file);
 
-  /// All bans, without numbers. None if there is no file. Throws BanFileError for one that cannot be read, is
-  /// damaged, or is no file of bans: it is left as it is, and whoever is banned must not come in meanwhile.
+  /// Returns all bans, without numbers; none if the file does not exist. Throws BanFileError, and leaves the
+  /// file unchanged, if it is damaged or unreadable. The server must not start then, or banned players could
+  /// join.
   std::vector<Ban> load();
-  /// Add the ban, in place of one of the same target. The file and its folder are made if need be (0600).
-  /// Waits for the disk. Throws BanFileError.
+  /// Writes the ban, replacing one of its target. Creates the file (0600) and its folder if necessary. Waits
+  /// for the disk. Throws BanFileError.
   void save(const Ban& ban);
-  /// Take it out, if it is there. Throws BanFileError.
+  /// Removes the ban, if it is there. Throws BanFileError.
   void erase(const Ban& ban);
 
  private:
   StateFile m_file;
 };
 
-/// All bans at one moment, sorted to be looked up, and never changed.
-/// Safe to read from any thread. A look-up takes a binary search for each length of prefix that there is.
+/// An immutable set of bans, indexed for look-ups: one binary search for each prefix length in use.
+/// Any thread may read it.
 class BanSet {
  public:
   BanSet() = default;
   explicit BanSet(std::vector<Ban> bans);
 
-  /// The ban that holds for this address now; null if none does. None ever holds for a loopback address:
-  /// there the server's own doors and admins are.
+  /// Returns the ban that applies to this address now; null if none does. Loopback addresses are never
+  /// banned, because the server's own doors and admins use them.
   const Ban* find(const asio::ip::address& address, Ban::Time now) const;
-  /// The same for a name (Names.h). `shapes` are of shapesOf().
+  /// Returns the ban that applies to a name now; null if none does. `shapes`: shapesOf(name) (Names.h).
   const Ban* findName(const std::vector<std::string>& shapes, Ban::Time now) const;
-  /// By number.
   const std::vector<Ban>& all() const { return m_bans; }
 
  private:
@@ -95,7 +96,7 @@ class BanSet {
     AddressRange::Bytes bytes;
     std::size_t ban;
   };
-  /// Ranges by length and first address.
+  /// Ranges, sorted by length and first address.
   struct Index {
     std::vector<Place> places;
     std::vector<int> lengths;
@@ -107,51 +108,49 @@ class BanSet {
   std::vector<Ban> m_bans;
   Index m_ranges;
   Index m_exceptions;
-  std::vector<std::pair<std::string, std::size_t>> m_shapes;  ///< of banned names, sorted
+  std::vector<std::pair<std::string, std::size_t>> m_shapes;  ///< shapes of banned names, sorted
 };
 
-/// Readers take a set that never changes (BanSet). All but isBanned(), now() and count() is for the host's
-/// thread. The disk is the worker's.
+/// The bans in force. isBanned(), now() and count() may be called from any thread, the rest from the host's
+/// thread. Only the worker accesses the disk.
 class BanList {
  public:
-  /// What became of it on disk: empty, or one sentence on why it holds only until the server ends. On the
-  /// worker's thread.
+  /// Called on the worker's thread when a change was written: `problem` is empty, or one sentence that says
+  /// why the change lasts only until the server ends. Without a file, called at once by the caller.
   using Saved = std::function<void(const std::string& problem)>;
-  /// A wall clock; tests have their own. Any thread.
+  /// A wall clock; tests pass their own. Any thread.
   using Clock = std::function<Ban::Time()>;
 
   static constexpr std::size_t kMaxBans = 20'000;
 
-  /// `folder`: of the file bans.sqlite3; empty: there is none, and bans end with the server. Throws
-  /// BanFileError.
+  /// Uses the file bans.sqlite3 in `folder`; empty: no file, bans end with the server. Throws BanFileError.
   BanList(AdminWorker& worker, const std::filesystem::path& folder, Clock clock);
   BanList(AdminWorker& worker, const std::filesystem::path& folder);
   ~BanList();
 
-  /// Does one hold for this address now? Any thread; takes a microsecond.
+  /// True if a ban applies to this address now. Any thread; takes a microsecond.
   bool isBanned(const asio::ip::address& address) const;
-  /// All of them. Any thread.
+  /// Returns the current bans. Any thread.
   std::shared_ptr<const BanSet> now() const;
   Ban::Time time() const { return m_clock(); }
-  /// Why a client with this address and name may not play: a sentence; empty if it may.
+  /// Returns why a client with this address and name may not play; empty if it may.
   std::string refusal(const asio::ip::address& address, const std::string& name) const;
-  /// Connections that isBanned() was true for.
+  /// Number of calls for which isBanned() returned true.
   std::uint64_t count() const { return m_hits; }
 
-  /// Add it, in place of one of the same target; bans that are over go. False: there are kMaxBans.
+  /// Adds a ban, replacing one of its target, and removes expired ones. False if there are kMaxBans.
   bool add(Ban ban, Saved saved);
-  /// Lift those that this text names: #NUMBER, name:NAME, an address or a range. How many.
+  /// Removes the bans named by this text: #NUMBER, name:NAME, an address or a range. Returns their number.
   std::size_t remove(const std::string& text, Saved saved);
-  /// What the file has now, with bans whose writing failed and was tried again; or why it cannot be read. On
-  /// the worker's thread.
+  /// Called on the worker's thread with the bans in the file, or with the reason why it cannot be read.
   using Loaded = std::function<void(std::vector<Ban> bans, const std::string& problem)>;
-  /// Read the file again. False: there is none, or too much waits for the disk.
+  /// Retries failed writes and reads the file. False if there is no file or too many jobs wait for the disk.
   bool reload(Loaded loaded);
-  /// Go on with these, and with those of the present that are in memory alone.
+  /// Replaces the bans, keeping those held only in memory.
   void take(std::vector<Ban> bans);
 
  private:
-  /// The worker's.
+  /// Used by the worker's jobs.
   struct File;
 
   void replace(std::vector<Ban> bans);
@@ -159,8 +158,8 @@ class BanList {
 
   AdminWorker& m_worker;
   Clock m_clock;
-  std::shared_ptr<File> m_file;  ///< the worker's jobs', too; null: none
-  mutable std::mutex m_mutex;    ///< of m_set
+  std::shared_ptr<File> m_file;  ///< shared with the worker's jobs; null: no file
+  mutable std::mutex m_mutex;    ///< guards m_set
   std::shared_ptr<const BanSet> m_set = std::make_shared<BanSet>();
   mutable std::atomic<std::uint64_t> m_hits = 0;
   std::uint64_t m_newest = 0;

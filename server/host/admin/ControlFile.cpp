@@ -34,7 +34,7 @@ constexpr int kBacklog = 16;
   failControl(path, code.message(), code);
 }
 
-/// Held while it lives; where the folder cannot be locked, it is not.
+/// Locks a folder during its lifetime. If the folder cannot be locked, continues without a lock.
 class FolderLock {
  public:
   explicit FolderLock(const fs::path& folder)
@@ -55,7 +55,7 @@ int openSocket() {
   return ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
 }
 
-/// The path fits (checked).
+/// Precondition: the path fits in a sockaddr_un.
 sockaddr_un addressOf(const fs::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -63,7 +63,7 @@ sockaddr_un addressOf(const fs::path& path) {
   return address;
 }
 
-/// Nobody listens there. Does not wait: a server whose backlog is full is alive.
+/// True if no process listens on the socket. Does not wait: a server with a full backlog is alive.
 bool isDead(const fs::path& path) {
   const int descriptor = openSocket();
   if (descriptor < 0) return false;

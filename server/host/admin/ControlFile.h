@@ -8,21 +8,20 @@
 
 namespace naiad {
 
-/// A socket that listens at a path of the file system (AF_UNIX), mode 0660. The file comes into its place
-/// when it is complete, and under a lock on the folder: of several servers that begin at once one gets the
-/// path.
+/// A listening socket in the file system (AF_UNIX), mode 0660. It is moved to its path when it is ready,
+/// under a lock on the folder, so only one of several servers that start at once gets the path.
 class ControlFile {
  public:
-  /// Makes the folder, with mode 0750, if it is not there. A socket on which nobody listens any more is
-  /// replaced; one that is in use, and anything else, is not. Throws ListenError (TcpListener.h).
+  /// Creates the folder (0750) if necessary. Replaces a socket on which no process listens any more. Throws
+  /// ListenError (TcpListener.h) if the path is in use or is another kind of file.
   explicit ControlFile(std::filesystem::path path);
-  /// Removes the file, unless it is no longer this one. Closes the descriptor unless it was taken.
+  /// Removes the file if it is still this one. Closes the descriptor unless it was taken.
   ~ControlFile();
   ControlFile(const ControlFile&) = delete;
   ControlFile& operator=(const ControlFile&) = delete;
 
   const std::filesystem::path& path() const { return m_path; }
-  /// The listening socket; the caller closes it.
+  /// Returns the listening socket, which the caller must close.
   int takeDescriptor() { return std::exchange(m_descriptor, -1); }
 
  private:
@@ -34,8 +33,8 @@ class ControlFile {
   std::pair<dev_t, ino_t> m_identity;
 };
 
-/// Remove the sockets in this folder that are named as by controlPath() and on which nobody listens: their
-/// servers were killed.
+/// Removes sockets of killed servers in this folder: those that are named as by controlPath() and on which no
+/// process listens.
 void removeStaleControls(const std::filesystem::path& folder);
 
 }  // namespace naiad

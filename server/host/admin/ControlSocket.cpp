@@ -31,19 +31,18 @@ namespace naiad {
 
 namespace {
 
-/// One connection to the control socket.
-/// Reads a line, has it carried out, writes the answer, and only then reads on: a program that sends much and
-/// reads nothing waits. On the socket's thread. Keeps itself alive while something is under way.
+/// A connection to the control socket. Reads a line, has the command executed, writes the answer, and only
+/// then reads the next one, so a client that does not read answers has to wait. Runs on the socket's thread.
+/// Pending operations keep it alive.
 class ControlConnection : public std::enable_shared_from_this<ControlConnection> {
  public:
   using Socket = asio::local::stream_protocol::socket;
 
   struct Events {
-    /// A command; `done` on this thread.
+    /// Executes a command. `done` must be called on this thread.
     std::function<void(AdminRequest, AdminCaller, std::function<void(AdminAnswer)>)> execute;
     std::function<void()> on_watch;
-    /// Called once.
-    std::function<void(ControlConnection&)> on_closed;
+    std::function<void(ControlConnection&)> on_closed;  ///< called once
   };
 
   ControlConnection(Socket socket, AdminCaller caller, bool is_short, Events events)
@@ -61,12 +60,12 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     }
     read();
   }
-  /// Write one error, and hang up.
+  /// Writes an error and closes the connection.
   void turnAway(const std::string& sentence) {
     send(answerLines(AdminAnswer::refused(sentence)));
     finish();
   }
-  /// For a watcher: written, or counted if too much waits.
+  /// Sends an event if this is a watcher. If too much is unsent, drops and counts it.
   void sendEvent(const WatchEvent& event) {
     if (!m_watching || m_closed) return;
     if (m_out.size() + m_writing.size() > ControlSocket::kMaxUnread) {
@@ -78,7 +77,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   }
   void noteDropped(std::uint64_t count) { m_dropped += m_watching ? count : 0; }
   bool isWatching() const { return m_watching; }
-  /// Hang up once what waits is written.
+  /// Closes the connection when all output is written.
   void finish() {
     m_finishing = true;
     if (!isWriting()) close();
@@ -88,7 +87,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     std::error_code ignored;
     m_timer.cancel();
     m_socket.close(ignored);
-    const auto self = shared_from_this();  // the callback forgets this
+    const auto self = shared_from_this();  // the callback releases this connection
     m_events.on_closed(*this);
   }
 
@@ -110,7 +109,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     serveLines();
   }
   void serveLines() {
-    // One line at a time; the next when its answer is written, so that what is read from here is bounded.
+    // Serves a line only when the answer to the one before is written, so the input buffer stays bounded.
     while (!m_busy && !m_finishing && !m_closed && !isWriting()) {
       const std::size_t end = m_in.find('\n');
       if (end == std::string::npos) break;
@@ -184,13 +183,13 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   bool m_short;
   Events m_events;
   std::array<char, kMaxControlLine> m_piece{};
-  std::string m_in;         ///< read, not served
-  bool m_too_long = false;  ///< the rest of a line is skipped
-  std::string m_out;        ///< to be written
+  std::string m_in;         ///< input that is not served yet
+  bool m_too_long = false;  ///< skipping the rest of a line that is too long
+  std::string m_out;        ///< output that is not being written yet
   std::string m_writing;
-  bool m_busy = false;  ///< a command is being carried out
+  bool m_busy = false;  ///< a command is being executed
   bool m_reading = false;
-  bool m_ended = false;  ///< nothing more comes from there
+  bool m_ended = false;  ///< the client has closed its side, or reading failed
   bool m_finishing = false;
   bool m_closed = false;
   bool m_watching = false;
@@ -199,9 +198,9 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
 
 using asio::local::stream_protocol;
 
-/// For answers that are still to be written at the end.
+/// Time limit for writing the remaining answers at the end.
 constexpr std::chrono::milliseconds kFarewell{300};
-/// As long as descriptors are short.
+/// Pause after a failed accept, for example when no descriptors are free.
 constexpr std::chrono::milliseconds kRetry{100};
 
 ucred peerOf(stream_protocol::socket& socket) {
@@ -290,7 +289,7 @@ void ControlSocket::State::meet(stream_protocol::socket socket) {
   connection->start(options.short_time);
 }
 
-// An answer may come when the socket is gone, and its connection with it: neither is held meanwhile.
+// An answer may come after the socket and its connection are gone, so callbacks hold only weak pointers.
 ControlConnection::Events ControlSocket::State::eventsOf() {
   return {[this](AdminRequest request, AdminCaller caller, std::function<void(AdminAnswer)> done) {
             if (request.command->name == "watch") return done(AdminAnswer::done("The log follows."));
@@ -326,7 +325,7 @@ void ControlSocket::State::forget(ControlConnection& connection) {
     feed.end();
     feeding = false;
   }
-  if (connections.empty() && !acceptor.is_open()) context.stop();  // the last answer is written
+  if (connections.empty() && !acceptor.is_open()) context.stop();  // finish() has nothing more to wait for
 }
 
 void ControlSocket::State::finish() {

@@ -1,5 +1,5 @@
-// Takes commands from programs of this machine (dfctl): a socket of the file system, one JSON object a line
-// (AdminJson.h). Who may write to its file is an admin.
+// Accepts commands from local programs (dfctl) on a Unix socket, one JSON object per line (AdminJson.h). All
+// users with write permission for the socket's file are admins.
 #pragma once
 
 #include <sys/types.h>
@@ -19,33 +19,33 @@
 namespace naiad {
 
 struct ControlListening {
-  std::filesystem::path path;  ///< of the file, 103 bytes at most
-  /// Connections at once. The last place is kept for short commands: a connection there cannot watch, and
-  /// ends after `short_time`.
+  std::filesystem::path path;  ///< path of the socket, at most 103 bytes
+  /// Maximum number of connections. The last one is reserved for short commands: it cannot watch, and is
+  /// closed after `short_time`.
   std::size_t max_connections = 8;
   std::chrono::milliseconds short_time{2000};
-  /// Programs that may give no commands, by their process: what the server has started itself. May be empty.
-  /// On the socket's thread, once for each connection.
+  /// Returns true for processes that may not give commands: those started by the server. May be empty.
+  /// Called on the socket's thread, once for each connection.
   std::function<bool(pid_t process)> is_refused = nullptr;
 };
 
-/// It has a thread of its own, which does all that waits for a reader: one that stalls costs the tick
-/// nothing. Of a watcher that stalls events are dropped, and their number is sent once it reads on.
+/// Has a thread of its own, so a client that stalls does not delay the tick. For a watcher that stalls,
+/// events are dropped; their number is sent when it reads again.
 class ControlSocket {
  public:
-  /// Carries out a command. On the socket's thread; `done` may be called from any thread, once, also after
-  /// the socket is gone.
+  /// Executes a command. Called on the socket's thread. `done` must be called once, from any thread, even
+  /// after the socket is gone.
   using Execute =
       std::function<void(AdminRequest request, AdminCaller caller, std::function<void(AdminAnswer)> done)>;
 
-  /// Listens from now on. Throws ListenError (ControlFile.h). `feed`: what watchers see; outlives this.
+  /// Begins to listen. Throws ListenError (ControlFile.h). `feed`: events for watchers; must outlive this.
   ControlSocket(ControlListening options, Execute execute, WatchFeed& feed, LogLine log);
-  /// Removes the file. Answers that were given are written first, unless that takes longer than a moment.
+  /// Writes the remaining answers (for 300 ms at most) and removes the file.
   ~ControlSocket();
   ControlSocket(const ControlSocket&) = delete;
   ControlSocket& operator=(const ControlSocket&) = delete;
 
-  /// Bytes that may wait for one watcher, at most.
+  /// Maximum unsent bytes of a watcher; further events are dropped.
   static constexpr std::size_t kMaxUnread = std::size_t{64} << 10;
 
  private:

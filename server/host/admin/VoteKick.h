@@ -1,4 +1,4 @@
-// A vote among players to throw one out.
+// A vote among players to kick one of them.
 #pragma once
 
 #include <algorithm>
@@ -16,30 +16,30 @@
 
 namespace naiad {
 
-/// One vote at a time. An IPv4 address or IPv6 /64 is one voter, however many play there: more than half of
-/// the voters with a connection, and two at least, have to agree within kTime. Not thread-safe; time is
-/// passed in.
+/// Runs one vote at a time. All players of an IPv4 address or IPv6 /64 are one voter. A vote passes if more
+/// than half of the connected voters, and at least two, agree within kTime. Not thread-safe; time is passed
+/// in.
 class VoteKick {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::seconds kTime{30};
-  /// Between two votes that the same voter begins.
+  /// Minimum time between votes begun by one voter.
   static constexpr std::chrono::seconds kBetween{120};
-  /// How long whoever is thrown out stays out.
+  /// Ban time after a vote that passed.
   static constexpr std::chrono::minutes kOut{5};
 
   enum class Outcome {
-    kBegun,    ///< this is the first voice
-    kAgreed,   ///< one more voice, and not enough
-    kPassed,   ///< the player goes now; the vote is over
-    kAlready,  ///< this voter has agreed before
-    kOther,    ///< a vote on another player is on
-    kTooSoon,  ///< this voter began one a moment ago
-    kSelf,     ///< of oneself, or somebody at the same address
+    kBegun,    ///< the vote has begun
+    kAgreed,   ///< one more voter agrees, not enough yet
+    kPassed,   ///< enough voters agree; the vote is over
+    kAlready,  ///< this voter has already agreed
+    kOther,    ///< a vote on another player is running
+    kTooSoon,  ///< this voter began a vote less than kBetween ago
+    kSelf,     ///< the target is at the voter's own address, or a player is gone
   };
 
-  /// The player with the session `voter` wants the one with the session `target` out.
+  /// Begins a vote to kick a player, or agrees to the running one. `voter` and `target` are session ids.
   Outcome vote(const std::vector<AdminPlayer>& players, std::uint64_t voter, std::uint64_t target, Time now) {
     const AdminPlayer* const p_voter = findSession(players, voter);
     const AdminPlayer* const p_target = findSession(players, target);
@@ -65,14 +65,14 @@ class VoteKick {
     }
     return begins ? Outcome::kBegun : is_new ? Outcome::kAgreed : Outcome::kAlready;
   }
-  /// A vote has found too few voices: on this session. Once.
+  /// Returns, once, the target's session id if the vote has failed because its time is over.
   std::optional<std::uint64_t> takeFailed(Time now) {
     if (!m_target || now < m_ends) return std::nullopt;
     const std::uint64_t target = *m_target;
     m_target.reset();
     return target;
   }
-  /// Voices so far, and how many it takes; of the vote that is on, or has just passed.
+  /// Number of voters that agree, and the number needed, in the current vote or the one that just passed.
   std::size_t voices() const { return m_voices.size(); }
   std::size_t needed() const { return m_needed; }
 
@@ -87,7 +87,7 @@ class VoteKick {
     return found != players.end() ? &*found : nullptr;
   }
   void count(const std::vector<AdminPlayer>& players) {
-    // Voters may have left since they agreed: their voices go, too.
+    // Voters that have left since they agreed do not count.
     std::set<AddressPrefix> voters;
     for (const AdminPlayer& player : players) {
       if (!player.detached) voters.insert(voterAt(player));

@@ -18,7 +18,7 @@ namespace naiad {
 
 namespace {
 
-/// How to seal datagrams for `channel`, if there is one.
+/// Describes how to seal datagrams for `channel`, which may be null.
 void describe(const SealedChannel* channel, wire::Welcome& welcome) {
   if (channel == nullptr) return;
   welcome.set_connection_id(channel->id());
@@ -26,8 +26,7 @@ void describe(const SealedChannel* channel, wire::Welcome& welcome) {
   welcome.set_epoch(channel->epoch());
 }
 
-/// The colours that players get, in turn. Blue is the darkest on a black background, so it is the last; black
-/// would not be seen.
+/// Colours of players, in turn. Blue is dark on a black background, so it is last; black is invisible.
 constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW,
                                        df::RED,  df::WHITE, df::BLUE};
 
@@ -54,7 +53,7 @@ KeptSession keptOf(const wire::Welcome& welcome, const ResumeTokens::Hashed& tok
           .redeemed = tokens.redeemed};
 }
 
-/// `"NAME" HAPPENED`, a line of the log with the name among its facts.
+/// Returns the log line `"NAME" HAPPENED`, with the name among its fields.
 LogEvent newsOf(const char* what, const std::string& name, const std::string& happened,
                 LogEvent::Fields facts = {}) {
   facts.insert(facts.begin(), {"player", name});
@@ -78,7 +77,7 @@ void Admission::log(const Session& session, LogEvent event) const {
   m_setup.context.client_log.logNews(session.address(), std::move(event), session.now());
 }
 
-// Guesses that wait are compared with the new one, or admitted where none is needed any more.
+// Waiting guesses are compared with the new hash, or admitted if no password is needed any more.
 void Admission::changePassword(std::optional<PasswordHash> hash) {
   m_needs_password = hash.has_value();
   if (!hash) return;
@@ -98,15 +97,15 @@ void Admission::judgeHello(Session& session, const wire::Hello& hello) {
   admitPlayer(session, hello);
 }
 
-// In rooms that have names, only a client that looks for its session does: it may be in one that is not there
-// yet. A room that is not there yet lets others in later (RoomDoor.h).
+// All hellos wait, but with named rooms only those that resume a session: it may be in a room still in
+// recovery. Such a room admits new players later (RoomDoor.h).
 bool Admission::waitsForRound(const wire::Hello& hello) const {
   if (!m_setup.rooms.recovering()) return false;
   return !m_setup.rooms.isNamed() ||
          (!hello.resume_token().empty() && !m_tokens.find(hello.resume_token()).has_value());
 }
 
-// The address was asked for before TLS; a ban may have come meanwhile.
+// The address was checked before TLS, but a ban may have been added since.
 bool Admission::isBanned(Session& session, const std::string& name) {
   const auto address = endpointAddress(session.address());
   const std::string sentence =
@@ -179,9 +178,9 @@ void Admission::forgetSession(const Session& session) {
   m_setup.prefixes.forget(session.id());
 }
 
-// ---- sessions that go on ----------------------------------------------------------------------------------
+// ---- resumed sessions -------------------------------------------------------------------------------------
 
-// False: the token is of no session that could go on.
+// False if the token belongs to no session that can be resumed.
 bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
   if (m_tokens.isElsewhere(hello.resume_token())) {
     ++m_counters.refused_elsewhere;
@@ -195,7 +194,7 @@ bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
     return false;
   }
   if (isBanned(session, p_before->name())) return true;
-  if (!p_before->admitResume()) {  // the token stays good for the next attempt
+  if (!p_before->admitResume()) {  // the token stays valid for the next attempt
     session.refuse(wire::Refused::BUSY,
                    "Your connection breaks too often. The server lets you back in a moment.");
     return true;
@@ -239,8 +238,8 @@ void Admission::continueSession(Session& before, Session& session, const wire::H
   log(before, newsOf("resumed", before.name(), "is back"));
 }
 
-// The token is that of a session that has its stream. Without one the client is refused: it asked for a
-// second stream, so it is not a new player.
+// Adds a second stream to a session that has its first one. Without such a session the client is refused: it
+// asked for a second stream, so it is not a new player.
 void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
   const auto id = m_tokens.holderOf(hello.resume_token());
   Session* p_first = id ? m_setup.sessions.find(*id) : nullptr;
@@ -249,7 +248,7 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
     return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
   }
   if (isBanned(session, p_first->name())) return;
-  if (!p_first->admitSecond()) {  // the token and the streams that there are stay good
+  if (!p_first->admitSecond()) {  // the token and the existing streams stay valid
     return session.refuse(wire::Refused::BUSY,
                           "Your second stream comes again too often. Try again in a moment.");
   }
@@ -257,10 +256,9 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
   p_first->accompany(session);
 }
 
-// ---- sessions of a server that was killed
-// ------------------------------------------------------------------
+// ---- sessions of a killed server --------------------------------------------------------------------------
 
-// Clients that look for a lost server ask again in a moment, and show the sentence.
+// Clients that reconnect retry after a moment, and show the sentence.
 void Admission::judgeWaiting() {
   const int percent = m_setup.rooms.recovering().value_or(100);
   const std::chrono::milliseconds patience = percent > 50 ? kNearEndWait : kRecoveryWait;
@@ -291,9 +289,8 @@ void Admission::restoreSessions(Room& room, const std::vector<KeptSession>& sess
   }
 }
 
-// The client's new stream is a session of its own, which knows as little as the client: the world is sent
-// from the beginning. Its welcome may be lost, so the token before stays good until the client proves that it
-// has read it.
+// The client's new stream belongs to a new session without state, like the client: the world is sent from the
+// beginning. The welcome may be lost, so the previous token stays valid until the client has read it.
 void Admission::takeOverSession(Session& before, Session& session, const wire::Hello& hello) {
   Room* p_room = m_setup.rooms.roomOf(before);
   wire::Welcome welcome = before.welcomed();
@@ -368,7 +365,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   log(session, newsOf("joined", name, "joined with " + inQuotes(program), {{"program", program}}));
 }
 
-// False: the session was refused.
+// False if the session was refused.
 bool Admission::checkLimits(Session& session) {
   if (!m_setup.context.ending.isOpen()) {
     ++m_counters.refused_closing;
@@ -382,7 +379,7 @@ bool Admission::checkLimits(Session& session) {
     refuseFull(session, "The server is full (" + std::to_string(max_players) + " players). Try again later.");
     return false;
   }
-  // A player whose connection broke counts: their place is kept, and an address must not collect such places.
+  // Players without a connection count too: an address must not collect the places kept for them.
   if (m_setup.prefixes.count(prefixOf(session)) >= static_cast<std::size_t>(max_per_address)) {
     ++m_counters.refused_address;
     session.refuse(wire::Refused::FULL, "There are " + std::to_string(max_per_address) +
@@ -392,7 +389,7 @@ bool Admission::checkLimits(Session& session) {
   return true;
 }
 
-// Another server of the fleet may have a place.
+// Adds a link if another server of the fleet has a free place.
 void Admission::refuseFull(Session& session, const std::string& sentence) {
   const auto link = m_find_other ? m_find_other() : std::nullopt;
   if (!link) return session.refuse(wire::Refused::FULL, sentence);
@@ -401,8 +398,7 @@ void Admission::refuseFull(Session& session, const std::string& sentence) {
   session.refuse(wire::Refused::FULL, said, JoinLink{link->where, "", link->key}.text(), link->room);
 }
 
-// Null: the session was refused. A client that leaves and joins again has fresh allowances each time, so how
-// often it joins is limited for its address.
+// Null if the session was refused. Joins are limited per address, because rejoining resets other limits.
 Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
   const AddressPrefix prefix = prefixOf(session);
   const Session::Clock::time_point now = session.now();
@@ -452,7 +448,7 @@ void Admission::refuseRoom(Session& session, const RoomDoor::Refusal& refusal) {
   }
 }
 
-// The player is another one there: an id is used once in a world.
+// The player gets a new id, because a world uses an id only once.
 std::string Admission::moveSession(Session& session, const std::string& room, bool led) {
   if (!m_setup.rooms.isNamed()) return "This server has no rooms.";
   if (room.empty()) return "A room has a name.";
@@ -492,7 +488,7 @@ std::string Admission::freeName(const std::string& wanted) const {
   return uniqueName(wanted, taken);
 }
 
-// A player of this name joins the room's world.
+// Adds a player of this name to the room's world, and returns their welcome.
 wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
   const df::Color color = colorOf(m_counters.joined++);
   const std::uint32_t player = m_next_player++;
@@ -505,7 +501,7 @@ std::chrono::milliseconds Admission::graceTime() const {
       std::chrono::duration<double>(m_options.grace));
 }
 
-// What it says of the room and its game.
+// Sets the fields that depend on the room and its game.
 void Admission::describeRoom(const Room& room, wire::Welcome& welcome) const {
   const RoomPlan* const p_plan = room.plan();
   welcome.set_tick(room.tick());
@@ -538,7 +534,7 @@ wire::Welcome Admission::welcomeOf(const Room& room, std::uint32_t player, const
   return welcome;
 }
 
-// With the first cipher of the client's list that there is.
+// Uses the first supported cipher of the client's list.
 std::unique_ptr<SealedChannel> Admission::openDatagrams(const Session& session,
                                                         const wire::Hello& hello) const {
   for (const std::uint32_t wanted : hello.aeads()) {

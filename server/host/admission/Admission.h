@@ -1,4 +1,4 @@
-// Judges hellos: which client plays, which one goes on with its session, which one is refused and why.
+// Evaluates hellos: which clients join, which resume their session, and which are refused and why.
 #pragma once
 
 #include <algorithm>
@@ -25,65 +25,64 @@
 
 namespace naiad {
 
-/// A hello passes in this order: protocol version and game; bans of its name and address; then the token of a
-/// session, which needs no password; then the password; then the limits on players, and the name. Every
-/// refusal has a counter. Not thread-safe.
+/// Checks a hello in this order: protocol version and game; bans; the resume token, which needs no password;
+/// the password; the limits on players; the name. Every refusal has a counter. Not thread-safe.
 class Admission {
  public:
-  /// What it works with; all of it outlives the Admission.
+  /// The objects it works with. All of them must outlive the Admission.
   struct Setup {
     HostContext& context;
     SessionTable& sessions;
     Rooms& rooms;
     PlayerNews& news;
     PlayerPrefixes& prefixes;
-    /// A channel for datagrams, with keys from this stream; null if there are none.
+    /// Opens a datagram channel with keys from this stream; null if the server has no datagrams.
     std::function<std::unique_ptr<SealedChannel>(const ReliableChannel& stream, AeadId aead)> open_datagrams;
-    /// A session without a stream, waiting for its client. Null: there are none.
+    /// Creates a session without a stream, which waits for its client. Null: sessions are not restored.
     std::function<Session&(const wire::Welcome& welcome)> restore_session = {};
   };
   explicit Admission(Setup setup);
 
-  /// Why a client with this address and name may not play: a sentence; empty if it may.
+  /// Returns why a client with this address and name is banned, as a sentence; empty if it is not.
   using FindBan = std::function<std::string(const asio::ip::address& address, const std::string& name)>;
   void setBans(FindBan find_ban) { m_find_ban = std::move(find_ban); }
-  /// A link to another server that has places, or to a room of it; nothing: none is known.
+  /// Returns a link to another server with free places, or to a room of it; nullopt if none is known.
   using FindOther = std::function<std::optional<JoinLink>()>;
   void setOthers(FindOther find_other) { m_find_other = std::move(find_other); }
 
-  /// The world whose window and help go into welcomes. Before the first hello.
+  /// Sets the world whose window and help go into welcomes. Call before the first hello.
   void setWorld(const df::World& world) { m_p_world = &world; }
 
-  /// While a round is executed again, a hello waits for so long before the client hears how far that is, …
+  /// Time that a hello waits for a round in recovery before its client is told the progress.
   static constexpr std::chrono::milliseconds kRecoveryWait{1000};
-  /// … or for so long if more than half is done by then: who was sent away would look again only after the
-  /// end. Less than Session::kJudgeTimeout.
+  /// Longer wait once more than half of the round is replayed, because a refused client might retry only
+  /// after its end. Less than Session::kJudgeTimeout.
   static constexpr std::chrono::milliseconds kNearEndWait{3000};
 
-  /// Refuse or welcome the session that heard this hello: now, or once its password has been checked, or the
-  /// round of a server that was killed has been executed again.
+  /// Refuses or welcomes the session that received this hello: at once, after its password check, or after
+  /// the recovery of a killed server's round.
   void judgeHello(Session& session, const wire::Hello& hello);
-  /// New players have higher ids than this one.
+  /// Makes new players get higher ids than this one.
   void reservePlayers(std::uint32_t highest) { m_next_player = std::max(m_next_player, highest + 1); }
-  /// Once a tick: judge the hellos that wait for a round.
+  /// Call once a tick: evaluates the hellos that wait for a round.
   void judgeWaiting();
-  /// The client has the token that it was sent last (Session::takeProof).
+  /// Call when the client has received its newest token (Session::takeProof).
   void confirmToken(Session& session);
-  /// The players of a server that was killed are in this room, and may come back.
+  /// Creates sessions for the players of a killed server, who were in this room and may return.
   void restoreSessions(Room& room, const std::vector<KeptSession>& sessions);
-  /// The room's world is a new one: its journal is to have the sessions of those who play.
+  /// Records the sessions of all players in the journal of the room's world. Call when that world is new.
   void noteSessions(const Room& room) const;
-  /// The session has changed: its world's journal is to have it, before the client knows.
+  /// Records a changed session in the journal of its world. Call before the client is told.
   void noteSession(const Session& session) const;
-  /// The session, which plays, goes on in the room of this name, if it can; else return why not, for its
-  /// player. `led`: by the server, so that it does not count.
+  /// Moves a playing session to the room of this name. Returns a refusal for its player, or "" on success.
+  /// `led`: moved by the server, so it does not count for the rate limit.
   std::string moveSession(Session& session, const std::string& room, bool led);
-  /// The session is over: its token is void.
+  /// Call when the session is over: its token becomes void.
   void forgetSession(const Session& session);
-  /// Whoever joins from now on needs this password; nothing: none.
+  /// Sets the password of new players; nullopt: none.
   void changePassword(std::optional<PasswordHash> hash);
   bool needsPassword() const { return m_needs_password; }
-  /// What became of passwords; all zero if none is needed.
+  /// Results of password checks; all zero if no password was ever needed.
   PasswordCheck::Counters passwordCounters() const;
 
  private:
@@ -123,17 +122,17 @@ class Admission {
   Setup m_setup;
   const HostOptions& m_options;
   Counters& m_counters;
-  FindBan m_find_ban;      ///< null: nobody is banned
-  FindOther m_find_other;  ///< null: there are no others
+  FindBan m_find_ban;      ///< null: no bans
+  FindOther m_find_other;  ///< null: no other servers
   const df::World* m_p_world = nullptr;
   ResumeTokens m_tokens;
   PrefixAllowance m_joins;
   PrefixAllowance m_new_worlds;
   RoomDoor m_door;
-  std::unique_ptr<PasswordCheck> m_password;  ///< null: none was needed yet
+  std::unique_ptr<PasswordCheck> m_password;  ///< null: no password was needed yet
   bool m_needs_password = false;
   std::uint32_t m_next_player = 1;
-  std::vector<WaitingHello> m_waiting;  ///< for a round; one of a session at most
+  std::vector<WaitingHello> m_waiting;  ///< for a round; at most one per session
 };
 
 }  // namespace naiad

@@ -9,17 +9,17 @@ namespace naiad {
 
 namespace {
 
-/// Half-open connections: of a class behind one address, and of as many from there as the host lets in; of a
-/// few such crowds; of all players, if they come back at once. Each takes up to 192 KiB.
+/// Limits of half-open connections. Per prefix: a class behind one address, or the host's limit per address.
+/// In all: a few such groups, or all players when they reconnect at once. Each takes up to 192 KiB.
 constexpr std::size_t kMinHalfOpenPerPrefix = 64;
 constexpr std::size_t kMinHalfOpen = 256;
 constexpr std::size_t kMaxHalfOpen = 2048;
 
-/// Beside connections: libraries, logs.
+/// Files other than connections: libraries, logs.
 constexpr std::size_t kOtherFiles = 256;
 
-/// A private world has its socket and that of its keeper; a room's its output, too, twice where one follows
-/// another.
+/// A private world needs its socket and its keeper's. A room's world also needs one for its output; all of
+/// this twice while one world follows another.
 std::size_t worldFiles(const HostOptions& options) {
   if (!options.rooms.empty()) return 6 * kMaxRooms;
   return options.players == "private" ? 2 * Rooms::mostWorlds(options) : 0;

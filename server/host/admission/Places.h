@@ -1,4 +1,4 @@
-// How many connections, and how many open files, a server has room for by its options.
+// Numbers of connections and open files that a server allows, from its options.
 #pragma once
 
 #include <cstddef>
@@ -7,19 +7,19 @@
 
 namespace naiad {
 
-/// Of clients: players, their next connections when they come back, and some that have not said hello.
+/// Maximum number of client connections: players, their reconnections, and some without a hello yet.
 std::size_t maxConnections(const HostOptions& options);
 
-/// Connections that have not finished TLS. Those from prefixes that have players have places of their own, so
-/// that a crowd of others does not keep players from coming back.
+/// Limits of connections that have not finished TLS. Prefixes with players have their own places, so that a
+/// flood from others does not stop players from reconnecting.
 struct HalfOpenPlaces {
   std::size_t in_all = 0;
-  std::size_t known = 0;  ///< of prefixes that have players
+  std::size_t known = 0;  ///< from prefixes with players
   std::size_t of_a_prefix = 0;
 };
 HalfOpenPlaces halfOpenPlaces(const HostOptions& options);
 
-/// Files that may be open at once, of all kinds.
+/// Number of files of all kinds that may have to be open at once.
 std::size_t wantedFiles(const HostOptions& options);
 
 }  // namespace naiad

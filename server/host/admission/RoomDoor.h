@@ -1,4 +1,4 @@
-// May a player enter a room that has a name? Wakes it if it sleeps.
+// Decides whether a player may enter a named room, and wakes the room if it sleeps.
 #pragma once
 
 #include <chrono>
@@ -19,25 +19,25 @@ class RoomDoor {
   enum class Why { kUnknown, kGame, kFull, kForNow };
   struct Refusal {
     Why why = Why::kUnknown;
-    std::string sentence;  ///< for the player
-    std::string log;       ///< what the server's log is to have beside it; empty: nothing
+    std::string sentence;  ///< message for the player
+    std::string log;       ///< additional text for the server's log; may be empty
   };
 
   RoomDoor(Rooms& rooms, int max_per_address)
       : m_rooms(rooms), m_wakes(PrefixRates::wakes()), m_moves(PrefixRates::moves(max_per_address)) {}
 
-  /// The room that is asked for: by name; else by game, one that has a place, a room that is awake before one
-  /// that sleeps; else the first. Null: there is none, and `refusal` says why.
+  /// Finds a room by name; otherwise by game, preferring rooms with a free place and awake ones; otherwise
+  /// the first. Null if none matches; `refusal` then says why.
   Room* findRoom(const std::string& name, const std::string& game, Refusal& refusal) const;
-  /// The room is awake now, or begins, and has a place; else why a player from there may not enter it.
+  /// Wakes the room if it sleeps. Returns why a player from `prefix` may not enter it; nullopt if they may.
   std::optional<Refusal> open(Room& room, const AddressPrefix& prefix, Time now);
-  /// May one from there change rooms once more?
+  /// Counts a room change by a player from `prefix`. False if it is over the limit.
   bool takeMove(const AddressPrefix& prefix, Time now) { return m_moves.take(prefix, now); }
 
  private:
   Rooms& m_rooms;
-  PrefixAllowance m_wakes;  ///< each starts a process
-  PrefixAllowance m_moves;  ///< each sends a world from the beginning
+  PrefixAllowance m_wakes;  ///< rate limit, because each wake starts a process
+  PrefixAllowance m_moves;  ///< rate limit, because each move sends a world from the beginning
 };
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// Players who go from one room to another: by their client's wish, a game's, or since their room was closed.
+// Moves players between rooms: on request of their client or game, or because their room was closed.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,26 @@ namespace naiad {
 /// Not thread-safe.
 class RoomMoves {
  public:
-  /// All of these outlive it.
+  /// All arguments must outlive this.
   RoomMoves(HostContext& context, SessionTable& sessions, Rooms& rooms, Admission& admission)
       : m_context(context), m_sessions(sessions), m_rooms(rooms), m_admission(admission) {}
 
-  /// In the next update(). Of several for a session, the last one holds.
+  /// Requests a move for the next update(). The last request of a session wins.
   void ask(const Session& session, const std::string& room);
-  /// The same, by its game, which may ask as often as it likes.
+  /// Like ask(), on request of the game. Rate-limited, because games may ask as often as they like.
   void askByGame(Session& session, const std::string& room);
-  /// This room has no world any more: its players go to the first room, or out.
+  /// Call when this room was closed. Moves its players to the first room; ends sessions that cannot move.
   void leadAway(const Room& room, const std::string& sentence);
-  /// Once a tick, outside of any session's callback.
+  /// Call once a tick, outside of session callbacks.
   void update();
-  /// Send the session the list of rooms, if that can arrive at once.
+  /// Sends the room list to the session, if it can arrive at once.
   void sendList(Session& session) const;
 
  private:
   struct Wish {
     std::uint64_t session = 0;
     std::string room;
-    std::string or_goodbye = {};  ///< if it cannot be; empty: the player stays
+    std::string or_goodbye = {};  ///< sentence if the move fails; empty: the player stays
   };
   void grant(const Wish& wish);
   void refuse(Session& session, const Wish& wish, const std::string& sentence);
@@ -42,7 +42,7 @@ class RoomMoves {
   SessionTable& m_sessions;
   Rooms& m_rooms;
   Admission& m_admission;
-  std::vector<Wish> m_wishes;  ///< one of a session at most
+  std::vector<Wish> m_wishes;  ///< at most one per session
 };
 
 }  // namespace naiad

@@ -9,8 +9,8 @@
 
 namespace naiad {
 
-/// Not a token bucket: only the outcome of a try says whether it counts, and a window is what the player is
-/// promised. A try under way counts as wrong until it is known; else many at once would evade the limit.
+/// Not a token bucket, because a try counts only if it fails, and messages promise players a time window.
+/// Until its result is known, a try counts as wrong; otherwise many at once would evade the limit.
 class LoginRateLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -19,8 +19,8 @@ class LoginRateLimit {
   LoginRateLimit(int wrong_per_window, std::chrono::seconds window, std::size_t prefixes)
       : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes), given_up_(prefixes) {}
 
-  /// kAllowed: finishTry() must follow. kTooMany: too many wrong tries. kWait: there may be too many,
-  /// counting those under way.
+  /// kAllowed: finishTry() must follow. kTooMany: too many wrong tries. kWait: too many if those
+  /// in progress are wrong.
   Answer beginTry(const AddressPrefix& from, Time now) {
     Entry& entry = table_.use(from);
     if (!entry.since || now - *entry.since >= window_) {
@@ -34,24 +34,24 @@ class LoginRateLimit {
   }
   void finishTry(const AddressPrefix& from, bool right) {
     Entry* const entry = table_.find(from);
-    if (entry == nullptr) return;  // evicted meanwhile
+    if (entry == nullptr) return;  // evicted in the meantime
     if (entry->under_way > 0) --entry->under_way;
     if (!right) ++entry->wrong;
     if (entry->under_way == 0 && entry->wrong == 0) table_.erase(from);
   }
-  /// The same if nothing was compared, since others came first.
+  /// Ends and counts a try that was not compared, because other guesses had priority.
   void giveUpTry(const AddressPrefix& from, Time now) {
     finishTry(from, true);
     GivenUp& tries = given_up_.use(from);
     if (!tries.since || now - *tries.since >= window_) tries = {now, 0};
     ++tries.count;
   }
-  /// Tries of its window that were wrong; 0 for prefixes that are not remembered.
+  /// Number of wrong tries in the present window; 0 for unknown prefixes.
   int wrong(const AddressPrefix& from) {
     const Entry* const entry = table_.find(from);
     return entry != nullptr ? entry->wrong : 0;
   }
-  /// The same for tries that were given up.
+  /// Number of given-up tries in the present window; 0 for unknown prefixes.
   int givenUp(const AddressPrefix& from, Time now) {
     const GivenUp* const tries = given_up_.find(from);
     return tries != nullptr && now - *tries->since < window_ ? tries->count : 0;
@@ -60,7 +60,7 @@ class LoginRateLimit {
 
  private:
   struct Entry {
-    std::optional<Time> since;  ///< the first try of the window
+    std::optional<Time> since;  ///< first try of the window
     int wrong = 0;
     int under_way = 0;
   };
@@ -73,7 +73,7 @@ class LoginRateLimit {
   int wrong_per_window_;
   std::chrono::seconds window_;
   PerAddress<Entry> table_;
-  PerAddress<GivenUp> given_up_;  ///< a table of its own: giving up is free, and must evict no wrong tries
+  PerAddress<GivenUp> given_up_;  ///< a separate table: giving up is free, and must not evict wrong tries
 };
 
 }  // namespace naiad

@@ -19,7 +19,7 @@
 namespace naiad {
 namespace {
 
-/// A secret that is wiped when it is done with.
+/// A secret that is wiped on destruction.
 struct Secret {
   explicit Secret(std::string secret) : text(std::move(secret)) {}
   ~Secret() { OPENSSL_cleanse(text.data(), text.size()); }
@@ -30,12 +30,12 @@ struct Secret {
 
 }  // namespace
 
-/// The thread, and what it was given.
+/// The thread and its jobs.
 class PasswordCheck::Worker {
  public:
   struct Job {
     std::unique_ptr<Secret> password;
-    /// Called on the worker's thread; nothing: no memory to compare.
+    /// Called on the worker's thread; nullopt: not enough memory to compare.
     std::function<void(std::optional<bool> right)> report;
   };
 
@@ -90,11 +90,11 @@ class PasswordCheck::Worker {
   std::condition_variable wake_;
   std::deque<Job> jobs_;
   bool stopping_ = false;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // last, because it uses the others
 };
 
-/// The owner's side, with all callbacks: none is touched, copied or destroyed by the worker. What the worker
-/// posts has a weak pointer to it, and does nothing after the end.
+/// The owner's side, with all callbacks, which the worker never touches, copies or destroys. Jobs posted by
+/// the worker hold a weak pointer to it, so they do nothing after its end.
 struct PasswordCheck::State : std::enable_shared_from_this<State> {
   State(asio::any_io_executor executor, const Limits& with_limits, Worker& with_worker)
       : owner(std::move(executor)),
@@ -113,10 +113,10 @@ struct PasswordCheck::State : std::enable_shared_from_this<State> {
   Counters counters;
   struct Guess {
     AddressPrefix from;
-    std::unique_ptr<Secret> password;  // null: the worker has it
+    std::unique_ptr<Secret> password;  // null while the worker has it
     std::function<void(Answer)> done;
   };
-  std::map<PasswordQueue::Id, Guess> guesses;  // not answered
+  std::map<PasswordQueue::Id, Guess> guesses;  // not answered yet
   bool comparing = false;
   PasswordQueue::Id newest = 0;
 
@@ -126,7 +126,7 @@ struct PasswordCheck::State : std::enable_shared_from_this<State> {
   void onCompared(PasswordQueue::Id id, std::optional<bool> right);
 };
 
-// `done` is destroyed here, too, if there is nothing to answer any more.
+// After the end of State, `done` is only destroyed.
 void PasswordCheck::State::answerLater(Answer answer, std::function<void(Answer)> done) {
   asio::post(owner, [weak = weak_from_this(), answer, call = std::move(done)] {
     if (!weak.expired()) call(answer);
@@ -138,7 +138,7 @@ void PasswordCheck::State::add(bool known, Guess guess, Time now) {
   const AddressPrefix from = guess.from;
   guesses.emplace(id, std::move(guess));
   const auto loser = queue.add({id, from, known, tries.wrong(from), tries.givenUp(from, now)});
-  if (!comparing) return compareNext();  // then there was a place
+  if (!comparing) return compareNext();  // there was a free place
   if (!loser) return;
   Guess lost = std::move(guesses.extract(*loser).mapped());
   tries.giveUpTry(lost.from, now);
@@ -150,7 +150,7 @@ void PasswordCheck::State::compareNext() {
   const auto id = queue.takeNext();
   comparing = id.has_value();
   if (!comparing) return;
-  // The owner's loop is not out of work while an answer is still to come.
+  // Keeps the owner's loop running while an answer is still to come.
   auto executor = asio::prefer(owner, asio::execution::outstanding_work.tracked);
   worker.give({std::move(guesses.at(*id).password),
                [weak = weak_from_this(), id = *id, executor](std::optional<bool> right) {
@@ -165,7 +165,7 @@ void PasswordCheck::State::onCompared(PasswordQueue::Id id, std::optional<bool> 
   const auto& [from, password, done] = guess.mapped();
   tries.finishTry(from, right.value_or(true));
   ++(!right ? counters.busy : *right ? counters.right : counters.wrong);
-  compareNext();  // before the callback, which may be the end of this
+  compareNext();  // before the callback, which may destroy this
   done(!right ? Answer::kBusy : *right ? Answer::kRight : Answer::kWrong);
 }
 

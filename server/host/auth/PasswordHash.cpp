@@ -39,7 +39,7 @@ PasswordHash PasswordHash::fromText(std::string_view text) {
   if (!text.starts_with(kPrefix)) return of(text);
   PasswordHash hash{std::string(text)};
   if (text.size() >= kMaxText) fail(ARGON2_DECODING_FAIL);
-  hash.matches("");  // throws if it is damaged
+  hash.matches("");  // throws if the hash is invalid
   return hash;
 }
 

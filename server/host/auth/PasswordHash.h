@@ -1,4 +1,4 @@
-// A server's password, as it is kept in memory: an Argon2id hash (RFC 9106) in its usual text form.
+// A server's password as stored in memory: an Argon2id hash (RFC 9106) in its usual text form.
 #pragma once
 
 #include <cstddef>
@@ -9,35 +9,33 @@
 
 namespace naiad {
 
-/// No memory for a hash, or a text that is none. what() is one sentence for people.
+/// Not enough memory for a hash, or an invalid hash. what() is one sentence for people.
 class PasswordError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Longer ones match nothing, in bytes.
+/// Bytes. Longer passwords match nothing.
 inline constexpr std::size_t kMaxPassword = 128;
 
 class PasswordHash {
  public:
-  /// What guessing costs. The defaults take about 0.1 s and 64 MiB for each guess.
+  /// The cost of a guess. The defaults take about 0.1 s and 64 MiB per guess.
   struct Cost {
     std::uint32_t memory_kib = 64 * 1024;
     std::uint32_t passes = 3;
   };
 
-  /// Of a password (1 … kMaxPassword bytes), with a fresh salt. Takes the time of a guess. Throws
-  /// PasswordError.
+  /// Hashes a password of 1 … kMaxPassword bytes with a fresh salt. As slow as a guess. Throws PasswordError.
   static PasswordHash of(std::string_view password, Cost cost);
   static PasswordHash of(std::string_view password) { return of(password, Cost{}); }
-  /// What a host wrote into an option or a file: a hash ("$argon2id$…"), or the password itself; line ends at
-  /// its end are ignored. Throws PasswordError.
+  /// Parses the text of an option or file: a hash ("$argon2id$…"), or the password itself. Ignores line
+  /// breaks at the end. Throws PasswordError.
   static PasswordHash fromText(std::string_view text);
 
-  /// Takes as long for a wrong password as for the right one. Throws PasswordError without memory. Any
-  /// thread.
+  /// Takes equally long for wrong and right passwords. Throws PasswordError if memory is short. Any thread.
   bool matches(std::string_view password) const;
-  /// "$argon2id$v=19$m=65536,t=3,p=1$…"
+  /// The hash as text: "$argon2id$v=19$m=65536,t=3,p=1$…"
   const std::string& text() const { return text_; }
 
  private:

@@ -1,10 +1,9 @@
-// The guesses that wait for the one thread that compares passwords, fair by address prefix.
+// The guesses that wait for the thread that compares passwords, fair by address prefix.
 //
-// The best guess goes next, and when there is no place for all, the worst goes away. Better is, in this
-// order: one from a prefix that has players; one from a prefix with fewer guesses here (by /24, or /48 and
-// /56, then by address); one from a prefix that was wrong less often lately; one from a prefix that was sent
-// away less often lately; the one that came first. So prefixes that guess, or ask again and again, make room
-// for those that do neither.
+// The best guess is next; if the queue is full, the worst is dropped. In this order, a guess is better if its
+// prefix has players, has fewer guesses in the queue (by /24, or /48 and /56, then by address), was wrong
+// less often lately, was dropped less often lately, or if it came first. So prefixes that guess or retry a
+// lot make room for others.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +18,7 @@
 
 namespace naiad {
 
-/// Not thread-safe. Uses no clock: older is what was added earlier. Work is bounded by the square of the
-/// places.
+/// Not thread-safe. Uses no clock: older means added earlier. Work is at most quadratic in `places`.
 class PasswordQueue {
  public:
   using Id = std::uint64_t;
@@ -29,27 +27,27 @@ class PasswordQueue {
     Id id = 0;
     AddressPrefix from;
     bool known = false;  ///< the prefix has players
-    int wrong = 0;       ///< guesses of the prefix, lately
-    int busy = 0;        ///< times that the prefix was sent away, lately
+    int wrong = 0;       ///< recent wrong guesses of the prefix
+    int busy = 0;        ///< recent dropped guesses of the prefix
   };
 
-  /// `places`: guesses that may wait; one or more.
+  /// `places`: maximum number of waiting guesses; at least one.
   explicit PasswordQueue(std::size_t places) : m_places(places) {}
 
-  /// The guess that goes away, if one has to: this one or another one.
+  /// Adds a guess. Returns the guess that was dropped, if any; it may be the new one.
   std::optional<Id> add(const Guess& guess) {
     m_waiting.push_back(guess);
     if (m_waiting.size() <= m_places) return std::nullopt;
-    // The newest of the worst.
+    // The newest of the worst guesses.
     const auto worst = std::min_element(m_waiting.rbegin(), m_waiting.rend(),
                                         [this](const Guess& a, const Guess& b) { return isBetter(b, a); });
     const Id id = worst->id;
     m_waiting.erase(std::next(worst).base());
     return id;
   }
-  /// The guess whose turn it is; nothing if none waits.
+  /// Removes and returns the next guess; nullopt if none waits.
   std::optional<Id> takeNext() {
-    // The oldest of the best.
+    // The oldest of the best guesses.
     const auto best = std::min_element(m_waiting.begin(), m_waiting.end(),
                                        [this](const Guess& a, const Guess& b) { return isBetter(a, b); });
     if (best == m_waiting.end()) return std::nullopt;
@@ -74,7 +72,7 @@ class PasswordQueue {
   }
 
   std::size_t m_places;
-  std::vector<Guess> m_waiting;  ///< in the order in which they came
+  std::vector<Guess> m_waiting;  ///< in order of arrival
 };
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// Tickets with which a client goes on with its session on another stream.
+// Tokens with which a client resumes its session on another stream.
 #pragma once
 
 #include <cstdint>
@@ -10,59 +10,58 @@
 
 namespace naiad {
 
-/// 128 unpredictable bits, good for one return: until the client has proved that it got the next one. (Were
-/// they void at once, an answer lost on a bad line would cost the session.) Only their SHA-256 is kept, so
-/// that what a server remembers is of no use to a reader.
+/// A token is 128 unpredictable bits, valid until the client has proved that it received the next one. (If it
+/// were void once used, an answer lost on a bad line would cost the session.) Only the SHA-256 is stored, so
+/// that a reader of the server's memory cannot use it.
 class ResumeTokens {
  public:
   static constexpr std::size_t kBytes = 16;
 
-  /// A new token for a session. The one redeemed last stays good until confirm(), any other is void.
+  /// Issues a token for a session. The one redeemed last stays valid until confirm(); others become void.
   std::string issue(std::uint64_t session);
-  /// The session a token was issued for; nothing if it never was or is void. Nothing changes.
+  /// Returns the session of a token; nullopt if it was never issued or is void.
   std::optional<std::uint64_t> find(const std::string& token) const;
-  /// The same, and the token is used.
+  /// Like find(), and marks the token as redeemed.
   std::optional<std::uint64_t> redeem(const std::string& token);
-  /// As find(), for the newest one only.
+  /// Like find(), but only for the session's newest token.
   std::optional<std::uint64_t> holderOf(const std::string& token) const;
-  /// The client has got the newest token: the one before is void.
+  /// Call when the client has received the newest token: the previous one becomes void.
   void confirm(std::uint64_t session);
-  /// Another process has redeemed the token: the one before it is to hear of that when it comes with the
-  /// same, though not before confirm().
+  /// Call when another process has redeemed the token. After confirm(), isElsewhere() is true for this token,
+  /// so the previous process learns why it is refused.
   void noteRestart(std::uint64_t session);
-  /// Does the session of this token, void by now, go on in another process?
+  /// True if this token is void and its session continues in another process.
   bool isElsewhere(const std::string& token) const;
-  /// SHA-256 of the tokens of a session that are good: of the newest, and of the one redeemed last. Empty:
-  /// there is no such.
+  /// SHA-256 of a session's valid tokens: the newest, and the one redeemed last. Empty: no such token.
   struct Hashed {
     std::string newest;
     std::string redeemed;
   };
   Hashed hashed(std::uint64_t session) const;
-  /// A session of a server that was killed has these.
+  /// Restores the tokens of a session of a killed server.
   void restore(std::uint64_t session, const Hashed& hashed);
-  /// A session goes on as another one, with its tokens.
+  /// Moves the tokens of one session to another, which replaces it.
   void move(std::uint64_t from, std::uint64_t to);
-  /// The session is over.
+  /// Call when the session is over.
   void forget(std::uint64_t session);
 
  private:
   struct Hashes {
     std::string newest;
     std::string redeemed;    ///< empty: none, or void
-    std::string elsewhere;   ///< the last one void that another process redeemed
-    bool restarted = false;  ///< `redeemed` was, by another process
+    std::string elsewhere;   ///< newest void token that another process had redeemed
+    bool restarted = false;  ///< another process redeemed `redeemed`
   };
   std::optional<std::uint64_t> sessionOf(const std::string& hash) const;
   void drop(std::string& hash);
   void dropRedeemed(Hashes& hashes);
 
-  std::unordered_map<std::string, std::uint64_t> m_sessions;  ///< by hash
-  std::unordered_map<std::uint64_t, Hashes> m_hashes;         ///< by session
-  std::unordered_set<std::string> m_elsewhere;                ///< hashes, one for each session at most
+  std::unordered_map<std::string, std::uint64_t> m_sessions;  ///< keyed by hash
+  std::unordered_map<std::uint64_t, Hashes> m_hashes;         ///< keyed by session
+  std::unordered_set<std::string> m_elsewhere;                ///< hashes, at most one per session
 };
 
-/// Unpredictable bits, from the system.
+/// Returns unpredictable bits from the system.
 std::uint64_t randomBits();
 
 }  // namespace naiad

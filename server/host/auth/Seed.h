@@ -6,7 +6,7 @@
 
 namespace naiad {
 
-/// 1 to 9e15, as --seed takes them.
+/// Returns 1 … 9e15, the range of --seed.
 inline std::uint64_t newSeed() {
   std::random_device device;
   return 1 + ((static_cast<std::uint64_t>(device()) << 21) ^ device()) % 9'000'000'000'000'000;

@@ -55,7 +55,7 @@ bool setNames(X509* certificate) {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxPem = 65'536;  // bytes of a key or a chain
+constexpr std::size_t kMaxPem = 65'536;  // maximum size of a key or certificate chain, in bytes
 
 std::string readKey(const fs::path& path) {
   const auto pem = readSmallFile(path, kMaxPem);
@@ -73,7 +73,7 @@ std::string readCertificate(const fs::path& path) {
   return *pem;
 }
 
-/// What the system refused, as a sentence.
+/// Converts a system error to a TlsError with a sentence.
 template <class Action>
 auto inWords(Action action) {
   try {
@@ -83,10 +83,10 @@ auto inWords(Action action) {
   }
 }
 
-/// Who can write in the key's folder can put another key there. Return a warning, or nothing.
+/// Returns a warning, or "", because whatever can write to the key's folder can replace the key.
 std::string checkDirectory(const fs::path& directory) {
   struct stat facts {};
-  if (::stat(directory.c_str(), &facts) != 0) return {};  // the next one to look says why
+  if (::stat(directory.c_str(), &facts) != 0) return {};  // the next access reports the reason
   const std::string cure = " Run: chmod go-w " + directory.string();
   if ((facts.st_mode & S_IWOTH) != 0) {
     throw TlsError("The folder " + directory.string() +
@@ -146,7 +146,7 @@ ServerIdentity ServerIdentity::loadOrMake(const fs::path& directory,
     std::string warning = checkDirectory(directory);
     const fs::path key = directory / "key.pem";
     const fs::path certificate = directory / "certificate.pem";
-    // Checked before the key: another process that starts at the same time makes the certificate last.
+    // Checked before the key, because another process that starts now makes the certificate last.
     const bool had_certificate = fs::exists(certificate);
     if (!fs::exists(key)) {
       if (had_certificate) {

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::chrono::seconds kWatchAgain{1};
 
-/// The variable is set by the cluster for its own sidecar.
+/// Returns the given port, else that of AGONES_SDK_HTTP_PORT, which the cluster sets, else the default.
 std::uint16_t portOf(std::uint16_t given) {
   if (given != 0) return given;
   const char* p_text = std::getenv("AGONES_SDK_HTTP_PORT");
@@ -40,13 +40,13 @@ HttpRequest asHttp(const SidecarRequest& request) {
   return http;
 }
 
-/// Takes lines out of an answer that does not end.
+/// Splits an endless response into lines.
 class LineReader {
  public:
   using Handler = std::function<void(const std::string& line)>;
   explicit LineReader(Handler on_line) : m_on_line(std::move(on_line)) {}
 
-  /// False: no sidecar sends a line that long.
+  /// Adds received bytes. Returns false if a line is too long for a sidecar.
   bool take(std::string_view piece) {
     m_text.append(piece);
     for (std::size_t end = m_text.find('\n'); end != std::string::npos; end = m_text.find('\n')) {
@@ -63,7 +63,7 @@ class LineReader {
 
 }  // namespace
 
-/// All but what has a mutex or is atomic is the thread's.
+/// Only `thread` uses the members, except those that are atomic or guarded by `mutex`.
 struct AgonesPlatform::Loop {
   explicit Loop(std::uint16_t port);
   ~Loop();
@@ -85,7 +85,7 @@ struct AgonesPlatform::Loop {
   bool failing = false;
 
   std::atomic<bool> wants_end = false;
-  std::atomic<Clock::rep> ticked = 0;  ///< when the last tick ended; 0: none has
+  std::atomic<Clock::rep> ticked = 0;  ///< end of the newest tick; 0: none yet
   std::mutex mutex;
   std::condition_variable over;
   PlatformCounters counters;
@@ -115,7 +115,7 @@ void AgonesPlatform::Loop::post(std::function<void(SidecarDuties&)> change) {
   });
 }
 
-// Ask for what is due, and come again when something may be.
+// Sends the request that is due, or sets the timer for the next one.
 void AgonesPlatform::Loop::work() {
   if (const Clock::rep last = ticked) duties.noteTick(Clock::time_point(Clock::duration(last)));
   if (const auto request = duties.next(Clock::now())) {
@@ -150,7 +150,7 @@ void AgonesPlatform::Loop::work() {
   });
 }
 
-/// GET /watch/gameserver: an answer that does not end, a line for each change.
+/// Sends GET /watch/gameserver. The response is endless and has a line for each change.
 void AgonesPlatform::Loop::watch() {
   const auto lines = std::make_shared<LineReader>([this](const std::string& text) {
     if (const auto facts = GameServerFacts::parse(text, true)) takeFacts(*facts);
@@ -194,7 +194,7 @@ void AgonesPlatform::notifyPlayers(const PlatformPlayers& players) {
   m_loop->post([players](SidecarDuties& duties) { duties.setPlayers(players); });
 }
 
-// On the tick path, so no more than this.
+// Called in every tick, so it only stores the time.
 void AgonesPlatform::notifyTick(Clock::time_point now) {
   m_loop->ticked = now.time_since_epoch().count();
 }

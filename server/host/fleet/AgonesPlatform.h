@@ -1,6 +1,6 @@
-// Agones as a platform: talks to the sidecar that stands beside the server, over HTTP on loopback, on a
-// thread of its own (SidecarDuties.h says what). A sidecar that is not there yet, is gone, or answers
-// nonsense is tried again, and costs players nothing.
+// The Agones platform: talks to the server's sidecar over HTTP on loopback, on a thread of its own. The
+// requests are in SidecarDuties.h. If the sidecar is missing or answers nonsense, requests are retried;
+// players are not affected.
 #pragma once
 
 #include <chrono>
@@ -17,20 +17,20 @@ namespace naiad {
 class AgonesPlatform : public HostPlatform {
  public:
   static constexpr std::uint16_t kDefaultPort = 9358;
-  /// For an answer, and for the line that ends a watch that has begun none.
+  /// Timeout of a request with its response. For the watch, only of connecting and sending the request.
   static constexpr std::chrono::seconds kPatience{2};
 
-  /// The sidecar's port on 127.0.0.1; 0: as AGONES_SDK_HTTP_PORT says, else kDefaultPort.
+  /// `port`: the sidecar's port on 127.0.0.1; 0: that of AGONES_SDK_HTTP_PORT, else kDefaultPort.
   explicit AgonesPlatform(std::uint16_t port);
   ~AgonesPlatform() override;
 
   void notifyReady() override;
   void notifyTick(Clock::time_point now) override;
   void notifyPlayers(const PlatformPlayers& players) override;
-  /// Says that the server ends.
+  /// Tells the sidecar to shut the server down.
   void finish(std::chrono::milliseconds patience) override;
   std::optional<PlatformAddress> address() const override;
-  /// The watch said that the server is being shut down.
+  /// Returns true, once, if the watch reported that the server is being shut down.
   bool takeEnd() override;
   std::string takeNews() override;
   PlatformCounters counters() const override;

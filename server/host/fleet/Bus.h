@@ -1,4 +1,4 @@
-// What servers of a fleet say to each other: presence, and results of games. Losing it costs players nothing.
+// The message bus of a fleet, for presence and game results. Losing it does not affect players.
 #pragma once
 
 #include <chrono>
@@ -15,39 +15,39 @@ namespace naiad {
 struct BusMessage {
   std::string subject;
   std::string payload;
-  std::string id = {};  ///< it is kept until it has arrived, and there is one of each; empty: it may be lost
+  std::string id = {};  ///< makes delivery reliable, with duplicates removed; empty: the message may be lost
 };
 
 struct BusCounters {
-  std::uint64_t published = 0;    ///< given to the bus
-  std::uint64_t dropped = 0;      ///< the oldest of too many that waited
-  std::uint64_t failures = 0;     ///< tried again
-  std::uint64_t connections = 0;  ///< more than one: the bus was lost and came back
-  std::uint64_t received = 0;     ///< of the subjects asked for
-  std::uint64_t ignored = 0;      ///< of these: too long, or of too many subjects
+  std::uint64_t published = 0;    ///< messages passed to the bus
+  std::uint64_t dropped = 0;      ///< oldest messages dropped because too many waited
+  std::uint64_t failures = 0;     ///< failed attempts to connect or publish
+  std::uint64_t connections = 0;  ///< successful connects; above 1, the bus was lost and came back
+  std::uint64_t received = 0;     ///< messages of the subscribed subjects
+  std::uint64_t ignored = 0;      ///< received messages that were too long or had too many subjects
 };
 
 class Bus {
  public:
-  /// Waiting for the bus, at most.
+  /// Maximum numbers of reliable and of other messages waiting for the bus; then the oldest is dropped.
   static constexpr std::size_t kMaxKept = 4096;
   static constexpr std::size_t kMaxFleeting = 1024;
 
   virtual ~Bus() = default;
 
-  /// Never waits. Any thread.
+  /// Queues a message. Never blocks. Any thread.
   virtual void publish(BusMessage message) = 0;
   virtual bool isConnected() const = 0;
-  /// What came since the last call, of each subject the newest (BusQueue.h). It is as others wrote it.
+  /// Returns the newest message of each subject since the last call (BusQueue.h). The contents are untrusted.
   virtual std::vector<BusMessage> takeMessages() = 0;
-  /// Wait until what is kept has arrived, at most so long.
+  /// Waits until all queued messages are sent or the bus is lost, for `patience` at most.
   virtual void finish(std::chrono::milliseconds patience) = 0;
   virtual BusCounters counters() const = 0;
-  /// A line for the log, if there is news.
+  /// Returns a new log line, or "".
   virtual std::string takeNews() = 0;
 };
 
-/// NATS, by libnats. The settings have no complaint.
+/// Connects to a NATS server with libnats. The settings must be valid (busComplaint()).
 std::unique_ptr<Bus> connectBus(const BusSettings& settings);
 
 }  // namespace naiad

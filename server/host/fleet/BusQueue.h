@@ -14,12 +14,11 @@
 
 namespace naiad {
 
-/// What came from a bus: bounded, and of each subject the newest, so that a server that says much crowds out
-/// no other.
-/// Not thread-safe.
+/// Received messages. Bounded; holds only the newest of each subject, so a server that sends much cannot
+/// displace the others. Not thread-safe.
 class BusInbox {
  public:
-  static constexpr std::size_t kMaxSubjects = 4096;  ///< that wait to be taken
+  static constexpr std::size_t kMaxSubjects = 4096;  ///< waiting subjects; further ones are ignored
   static constexpr std::size_t kMaxSubject = 128;    ///< bytes
 
   void put(std::string subject, std::string payload) {
@@ -31,7 +30,7 @@ class BusInbox {
     }
     m_newest.insert_or_assign(std::move(subject), std::move(payload));
   }
-  /// In the order of their subjects.
+  /// Removes and returns the messages, sorted by subject.
   std::vector<BusMessage> takeAll() {
     std::vector<BusMessage> taken;
     taken.reserve(m_newest.size());
@@ -52,7 +51,7 @@ class BusInbox {
 /// Not thread-safe.
 class BusQueue {
  public:
-  /// Of messages that may be lost, one of a subject is enough: the newest.
+  /// Adds a message. One that may be lost replaces an older one of its subject.
   void push(BusMessage message) {
     if (!message.id.empty()) {
       m_kept.push_back(std::move(message));
@@ -74,9 +73,9 @@ class BusQueue {
     m_fleeting.pop_front();
     return message;
   }
-  /// The oldest; it stays until dropKept().
+  /// Returns the oldest reliable message. It stays until dropKept().
   const BusMessage& firstKept() const { return m_kept.front(); }
-  /// It has arrived. Another may be the oldest meanwhile.
+  /// Removes the oldest reliable message if it has this id. It may have been dropped already.
   void dropKept(const std::string& id) {
     if (hasKept() && m_kept.front().id == id) m_kept.pop_front();
   }

@@ -8,11 +8,11 @@ namespace naiad {
 
 namespace {
 
-constexpr std::size_t kMaxDepth = 32;  ///< deeper than any that a sidecar sends
-constexpr std::size_t kMaxText = 253;  ///< of a name in a cluster, and of a host's
+constexpr std::size_t kMaxDepth = 32;  ///< more than the JSON of any sidecar needs
+constexpr std::size_t kMaxText = 253;  ///< limit of Kubernetes names and of host names
 constexpr int kMaxHealthSeconds = 3600;
 
-/// Empty for other kinds, and for texts that are too long or are not printable.
+/// Returns a JSON string; empty if it is another type, too long or not printable.
 std::string textOf(const Json& value) {
   std::string text = value.textOrEmpty();
   const bool good = text.size() <= kMaxText &&
@@ -20,7 +20,7 @@ std::string textOf(const Json& value) {
   return good ? text : "";
 }
 
-/// 0 for what is no number from 1 to `most`.
+/// Returns a JSON number; 0 if it is not an integer from 1 to `most`.
 int numberOf(const Json& value, int most) {
   const std::int64_t number = value.integer().value_or(0);
   return number >= 1 && number <= most ? static_cast<int>(number) : 0;

@@ -1,5 +1,5 @@
-// What the sidecar of Agones says of the server that it stands beside: the JSON of GET /gameserver and of
-// each line of GET /watch/gameserver.
+// Parses what the Agones sidecar reports about its server: the JSON of GET /gameserver and of each line of
+// GET /watch/gameserver.
 //
 // Source: the interface's published description (sdk.swagger.json of Agones): object_meta, spec, status.
 #pragma once
@@ -13,17 +13,17 @@
 namespace naiad {
 
 struct GameServerFacts {
-  /// Longest text that is read.
+  /// Maximum length of the JSON text in bytes.
   static constexpr std::size_t kMaxBytes = std::size_t{256} << 10;
 
-  std::string name;        ///< of the resource
-  std::string state;       ///< "Ready", "Allocated", "Shutdown" …
-  std::string address;     ///< by which players reach it
-  std::uint16_t port = 0;  ///< the first of its ports; 0: none is known
-  int health_seconds = 0;  ///< within which it wants to hear that the server is well; 0: not said
+  std::string name;        ///< name of the GameServer resource
+  std::string state;       ///< "Ready", "Allocated", "Shutdown" and others
+  std::string address;     ///< public address of the server
+  std::uint16_t port = 0;  ///< its first public port; 0: unknown
+  int health_seconds = 0;  ///< maximum time between health requests; 0: unknown
 
-  /// Nothing for what is no such text. Fields that are missing or of another kind are left empty; those that
-  /// are not known are left out. `is_line`: of a watch, the facts are its "result".
+  /// Returns nullopt for invalid text. Fields that are missing or of another type stay empty; unknown ones
+  /// are ignored. `is_line`: the text is a line of a watch, with the facts in its "result".
   static std::optional<GameServerFacts> parse(std::string_view text, bool is_line);
 };
 

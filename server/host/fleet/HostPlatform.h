@@ -1,5 +1,5 @@
-// What runs a server, as the server sees it: a service manager, a cluster, or none that wants to know. It is
-// sent that the server is ready, that it ticks, who plays, and that it ends.
+// The interface to the platform that runs a server: a service manager, a cluster, or none. The server reports
+// that it is ready, that it ticks, its players, and its end.
 #pragma once
 
 #include <chrono>
@@ -12,53 +12,54 @@
 namespace naiad {
 
 struct PlatformPlayers {
-  std::string address;             ///< that the server listens on
-  std::vector<std::uint32_t> ids;  ///< of those who play, cut-off ones among them; each once while it runs
-  std::size_t most = 0;            ///< places
+  std::string address;             ///< address on which the server listens
+  std::vector<std::uint32_t> ids;  ///< player ids, including detached players; never reused by a server
+  std::size_t most = 0;            ///< maximum number of players
 };
 
-/// By which players reach the server.
+/// The public address of the server.
 struct PlatformAddress {
   std::string host;
   std::uint16_t port = 0;
 };
 
 struct PlatformCounters {
-  std::uint64_t requests = 0;  ///< answered well
-  std::uint64_t failures = 0;  ///< not, or not in time; tried again
-  std::uint64_t health = 0;    ///< of the good ones: that said that the server ticks
+  std::uint64_t requests = 0;  ///< successful requests
+  std::uint64_t failures = 0;  ///< failed or timed-out requests; they are retried
+  std::uint64_t health = 0;    ///< successful requests that reported health
 };
 
-/// The host's thread calls all of it; no call waits, but finish(). Losing the platform costs players nothing.
+/// Thread: the host's, except for finish(). Only finish() blocks. Losing the platform does not affect
+/// players.
 class HostPlatform {
  public:
   using Clock = std::chrono::steady_clock;
 
   virtual ~HostPlatform() = default;
 
-  /// The server listens, or goes on after notifyReloading().
+  /// Reports that the server listens, or that a reload is done.
   virtual void notifyReady() = 0;
-  /// The settings are read again.
+  /// Reports that the settings are being reloaded.
   virtual void notifyReloading(Clock::time_point /*now*/) {}
-  /// A tick has ended. A server that hangs does not come here, and is ended for it.
+  /// Reports the end of a tick. The platform may end a server that stops reporting ticks, because it hangs.
   virtual void notifyTick(Clock::time_point now) = 0;
-  /// Once a second.
+  /// Reports the players. Called once a second.
   virtual void notifyPlayers(const PlatformPlayers& players) = 0;
-  /// The server takes no more players, and is about to end.
+  /// Reports that the server accepts no more players and is about to end.
   virtual void notifyStopping() {}
-  /// The last word, after the players' goodbyes: wait until it is said, at most so long. From any thread.
+  /// Reports the end after the players' goodbyes. Waits for `patience` at most until it is sent. Any thread.
   virtual void finish(std::chrono::milliseconds /*patience*/) {}
 
-  /// Nothing where the platform does not know.
+  /// Returns nullopt if the platform does not know the address.
   virtual std::optional<PlatformAddress> address() const { return std::nullopt; }
-  /// Does the platform want the server to end? Once true.
+  /// Returns true, once, if the platform asks the server to end.
   virtual bool takeEnd() { return false; }
-  /// A line for the log, if there is news.
+  /// Returns a new log line, or "".
   virtual std::string takeNews() { return ""; }
   virtual PlatformCounters counters() const { return {}; }
 };
 
-/// None that wants to know.
+/// No platform: ignores all reports.
 class NoPlatform : public HostPlatform {
  public:
   void notifyReady() override {}

@@ -22,14 +22,14 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::seconds kConnectAgain{1};
-constexpr std::chrono::milliseconds kLook{250};  ///< whether the connection still stands
-constexpr int kTimeoutMillis = 2000;             ///< to connect, and for an answer
+constexpr std::chrono::milliseconds kLook{250};  ///< interval of checks for messages and a lost connection
+constexpr int kTimeoutMillis = 2000;             ///< timeout of connecting and of acknowledgements
 constexpr int kPingMillis = 2000;
 constexpr int kMaxPings = 2;
-/// Of a subscription, in the library; it drops what is more.
+/// Limits of the library's queue for a subscription; it drops further messages.
 constexpr int kMaxPending = 8192;
 constexpr int kMaxPendingBytes = 8 << 20;
-constexpr int kReceivedAtOnce = 512;  ///< before something is sent
+constexpr int kReceivedAtOnce = 512;  ///< messages received from a subscription before sending again
 
 template <class T, void (*Destroy)(T*)>
 struct NatsDeleter {
@@ -42,7 +42,7 @@ using Subscription =
     std::unique_ptr<natsSubscription, NatsDeleter<natsSubscription, natsSubscription_Destroy>>;
 using Message = std::unique_ptr<natsMsg, NatsDeleter<natsMsg, natsMsg_Destroy>>;
 
-/// The library would keep what it could not send, and try again by itself: this does so, in bounded memory.
+/// Turns off the library's reconnects, which would buffer unsent messages: NatsBus has bounded queues.
 Options optionsOf(const BusSettings& settings) {
   natsOptions* p_made = nullptr;
   if (natsOptions_Create(&p_made) != NATS_OK) return nullptr;
@@ -62,7 +62,7 @@ Options optionsOf(const BusSettings& settings) {
   return good ? std::move(options) : nullptr;
 }
 
-/// Connects, and publishes, on a thread of its own.
+/// A bus that connects, publishes and receives on a thread of its own.
 class NatsBus : public Bus {
  public:
   explicit NatsBus(BusSettings settings) : m_settings(std::move(settings)) {
@@ -135,7 +135,7 @@ class NatsBus : public Bus {
     return Connection(status == NATS_OK ? p_made : nullptr);
   }
 
-  /// The same news is no news. An address may have a password in it, so it is not said.
+  /// Repeated messages are suppressed. The address is not logged, because it may contain a password.
   void noteConnection(bool connected, natsStatus status) {
     m_connected = connected;
     m_counters.connections += connected ? 1 : 0;
@@ -146,7 +146,7 @@ class NatsBus : public Bus {
     if (std::exchange(m_last_news, news) != news) m_news = news;
   }
 
-  /// Until the connection is lost.
+  /// Sends and receives until the connection is lost or the bus stops.
   void serve(natsConnection& connection, Lock& lock) {
     jsCtx* p_made = nullptr;
     natsConnection_JetStream(&p_made, &connection, nullptr);
@@ -178,7 +178,7 @@ class NatsBus : public Bus {
     }
   }
 
-  /// One that is refused by the bus's permissions shows in the log of the bus.
+  /// Subscribes to all subjects. If the bus refuses one (permissions), only the log of the bus shows it.
   std::vector<Subscription> subscribe(natsConnection& connection) const {
     std::vector<Subscription> made;
     for (const std::string& subject : m_settings.subjects) {
@@ -190,14 +190,14 @@ class NatsBus : public Bus {
     return made;
   }
 
-  /// What is there. Called with the lock.
+  /// Moves received messages to the inbox. Called with the lock held.
   void receive(const std::vector<Subscription>& subscriptions) {
     for (const Subscription& subscription : subscriptions) {
       for (int i = 0; i < kReceivedAtOnce; ++i) {
         natsMsg* p_taken = nullptr;
         const natsStatus status = natsSubscription_NextMsg(&p_taken, subscription.get(), 0);
         const Message message(p_taken);
-        if (status == NATS_SLOW_CONSUMER) continue;  // some were dropped: said once, before the next
+        if (status == NATS_SLOW_CONSUMER) continue;  // reported once after drops, before the next message
         if (status != NATS_OK) break;
         m_inbox.put(
             natsMsg_GetSubject(p_taken),
@@ -206,7 +206,7 @@ class NatsBus : public Bus {
     }
   }
 
-  /// JetStream has stored it, or had it already.
+  /// Returns true if JetStream has stored the message, now or before.
   static bool keep(jsCtx& stream, const BusMessage& message) {
     jsPubOptions options;
     jsPubOptions_Init(&options);

@@ -17,7 +17,7 @@ namespace naiad {
 
 namespace {
 
-/// A datagram socket connected to a path, or to a name where the text begins with '@'; -1 if that cannot be.
+/// Returns a datagram socket connected to a path, or, if it begins with '@', to an abstract name; -1: failed.
 int connectedTo(std::string_view path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;

@@ -1,5 +1,5 @@
-// What a service manager is told of a server (systemd's protocol of sd_notify(3), Type=notify): that it
-// listens, how it is, and that it still ticks. One datagram each, without libsystemd.
+// Notifies a service manager that the server is ready, of its status, and that it still ticks. Implements
+// systemd's sd_notify(3) protocol (Type=notify), one datagram per message, without libsystemd.
 #pragma once
 
 #include <chrono>
@@ -9,16 +9,16 @@
 
 namespace naiad {
 
-/// Not thread-safe. Sending never waits: what a manager that does not read has no room for is lost, but for
-/// status and keep-alive, which the next tick sends again.
+/// Not thread-safe. Sending never blocks: if the manager's socket is full, the message is lost, except status
+/// and keep-alive, which are sent again at the next tick.
 class ServiceNotify {
  public:
   using Clock = std::chrono::steady_clock;
-  /// The value of a variable of the environment, or null.
+  /// Returns the value of an environment variable, or null.
   using Variable = std::function<const char*(const char* name)>;
 
-  /// Where NOTIFY_SOCKET says; without it nothing is ever sent. WATCHDOG_USEC says how often keep-alives are
-  /// expected, if WATCHDOG_PID is absent or this process.
+  /// Connects to NOTIFY_SOCKET; if it is not set, nothing is ever sent. The manager's keep-alive timeout is
+  /// WATCHDOG_USEC, if WATCHDOG_PID is absent or this process.
   explicit ServiceNotify(const Variable& variable);
   ServiceNotify();
   ~ServiceNotify();
@@ -26,26 +26,25 @@ class ServiceNotify {
   ServiceNotify& operator=(const ServiceNotify&) = delete;
 
   bool isActive() const { return m_socket >= 0; }
-  /// The server listens, or goes on after notifyReloading().
+  /// Reports that the server listens, or that a reload is done.
   void notifyReady() { send("READY=1"); }
-  /// One line for people (`systemctl status`); sent if it is not what was sent last.
+  /// Sends one line for `systemctl status` if it has changed.
   void notifyStatus(const std::string& line);
-  /// The settings are read again; notifyReady() ends it.
+  /// Reports that the settings are being reloaded, until notifyReady().
   void notifyReloading(Clock::time_point now);
-  /// The server is about to end.
+  /// Reports that the server is about to end.
   void notifyStopping() { send("STOPPING=1"); }
-  /// A start, reload or end that goes on takes up to so much longer.
+  /// Extends the manager's timeout for the current start, reload or stop.
   void extendTimeout(std::chrono::microseconds more);
-  /// The server ticks: sends a keep-alive if half of the time between two has passed since the last one. Once
-  /// a tick.
+  /// Sends a keep-alive if keepAliveTime() has passed since the last one. Call it once a tick.
   void keepAlive(Clock::time_point now);
-  /// Between two keep-alives; nothing if none are expected.
+  /// Interval of keep-alives, half of the manager's timeout; nullopt if none are expected.
   std::optional<std::chrono::microseconds> keepAliveTime() const { return m_keep_alive; }
 
  private:
   bool send(const std::string& text) const;
 
-  int m_socket = -1;  ///< connected
+  int m_socket = -1;  ///< connected; -1: none
   std::optional<std::chrono::microseconds> m_keep_alive;
   std::optional<Clock::time_point> m_kept_alive;
   std::string m_status;

@@ -9,7 +9,7 @@ namespace {
 
 using Kind = SidecarRequest::Kind;
 
-constexpr std::chrono::milliseconds kIdle{500};  ///< between two looks where nothing is due
+constexpr std::chrono::milliseconds kIdle{500};  ///< time until the next check if no request is due
 constexpr int kNotFound = 404;
 constexpr int kNotImplemented = 501;
 
@@ -21,7 +21,7 @@ SidecarRequest post(Kind kind, const char* p_path) {
   return {kind, "POST", p_path, "{}"};
 }
 
-/// Numbers of 64 bits are texts in the JSON of Protocol Buffers.
+/// Quotes a number, because 64-bit numbers are strings in the JSON of Protocol Buffers.
 std::string quoted(std::size_t number) {
   std::string text = "\"";
   text += std::to_string(number);
@@ -52,8 +52,8 @@ std::optional<SidecarRequest> SidecarDuties::next(Time now) {
   return m_asked;
 }
 
-// The end first. A cluster ends a server that is not ready or not healthy, so those come before what is only
-// shown. A server that does not tick any more is not healthy.
+// Shutdown has priority. Ready and health come before values that are only displayed, because the cluster
+// ends a server that is not ready or not healthy. A server that no longer ticks is not healthy.
 std::optional<SidecarRequest> SidecarDuties::choose(Time now) const {
   if (m_ending) return post(Kind::kShutdown, "/shutdown");
   if (!m_ready) return std::nullopt;
@@ -118,7 +118,7 @@ void SidecarDuties::onAnswer(int status, const std::string& body, Time now) {
   }
 }
 
-// Too long, cut, or no such JSON: it is asked for again, and hinders nothing meanwhile.
+// If the facts are invalid, they are requested again later. Other requests do not wait for that.
 void SidecarDuties::takeFacts(const std::string& body, Time now) {
   m_facts = GameServerFacts::parse(body, false);
   ++(m_facts ? m_counters.requests : m_counters.failures);

@@ -1,5 +1,5 @@
-// What a server has to say to the sidecar of Agones, and when: requests one after the other, each until it
-// was answered well. Time is passed in; AgonesPlatform.h makes the requests.
+// Decides which request the Agones sidecar gets next, and when: one at a time, each repeated until it
+// succeeds. Time is passed in; AgonesPlatform.h sends the requests.
 //
 // Source: the interface's published description (sdk.swagger.json, beta.swagger.json of Agones).
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace naiad {
 
-/// "POST /ready {}".
+/// A request like "POST /ready {}".
 struct SidecarRequest {
   enum class Kind { kReady, kAllocate, kHealth, kCounter, kList, kFacts, kShutdown } kind = Kind::kFacts;
   std::string method;
@@ -28,33 +28,33 @@ class SidecarDuties {
  public:
   using Time = HostPlatform::Clock::time_point;
 
-  /// Between two tries after a failure: the sidecar may start after the server.
+  /// Retry interval: the sidecar may start after the server.
   static constexpr std::chrono::milliseconds kRetry{500};
-  /// Between two words of health, if the sidecar does not say how often it wants one.
+  /// Default interval of health requests, if the sidecar does not give one.
   static constexpr std::chrono::milliseconds kHealth{2500};
-  /// Of the list of players: more are counted, and not listed.
+  /// Maximum length of the list of players; further players are only counted.
   static constexpr std::size_t kMaxListed = 1000;
 
-  // What is so now.
+  // The current state of the server.
 
   void setReady() { m_ready = true; }
   void noteTick(Time now) { m_ticked = now; }
   void setPlayers(const PlatformPlayers& players);
   void setEnding() { m_ending = true; }
 
-  /// What to say now; nothing if there is nothing, or the last one was not answered yet.
+  /// Returns the request to send now; nullopt if none is due or one is not answered yet.
   std::optional<SidecarRequest> next(Time now);
-  /// The answer to the last one: an HTTP status, or 0 if there was none.
+  /// Handles the response to the last request. `status`: HTTP status, or 0 without a response.
   void onAnswer(int status, const std::string& body, Time now);
-  /// When to ask next() again at the latest.
+  /// Latest time for the next call of next().
   Time wake() const { return m_wake; }
-  /// The last word was answered.
+  /// True if the shutdown request has succeeded.
   bool isOver() const { return m_over; }
 
   const PlatformCounters& counters() const { return m_counters; }
-  /// What the sidecar said of the server; nothing before.
+  /// The sidecar's facts about the server; nullopt if not known yet.
   const std::optional<GameServerFacts>& facts() const { return m_facts; }
-  /// Counters or lists that the server's resource does not have.
+  /// Paths of counters or lists that the server's resource does not have, separated by commas.
   const std::string& missing() const { return m_missing; }
 
  private:
@@ -71,14 +71,14 @@ class SidecarDuties {
   std::vector<std::uint32_t> m_players;
   std::size_t m_most = 0;
   Said m_said = Said::kNothing;
-  std::optional<Time> m_healthy;  ///< said last
-  std::string m_counter;          ///< body that was answered well last
-  std::string m_list;
+  std::optional<Time> m_healthy;  ///< last successful health request
+  std::string m_counter;          ///< body of the last successful request
+  std::string m_list;             ///< like m_counter
   std::string m_missing;
   std::optional<GameServerFacts> m_facts;
-  std::optional<SidecarRequest> m_asked;  ///< not answered yet
-  std::optional<Time> m_not_before;       ///< after a failure
-  Time m_facts_not_before{};              ///< after facts that could not be read
+  std::optional<SidecarRequest> m_asked;  ///< request that is not answered yet
+  std::optional<Time> m_not_before;       ///< time of the next attempt after a failure
+  Time m_facts_not_before{};              ///< time of the next attempt after invalid facts
   Time m_wake{};
   PlatformCounters m_counters;
 };

@@ -10,8 +10,8 @@ namespace naiad {
 
 namespace {
 
-/// Turns are some four times as long as in the file, and ten times without players. A file that promises more
-/// would cost more time than its size says.
+/// Limit of unpacked bytes per byte of the file. Turns unpack to about 4 times their size, without players to
+/// 10 times; a file that promises more would take more time than its size suggests.
 constexpr std::uint64_t kMaxRatio = 64;
 
 }  // namespace
@@ -23,7 +23,7 @@ DfrReader::DfrReader(std::string_view bytes) : m_bytes(bytes) {
     m_end = DfrEnd::kDamaged;
     return;
   }
-  // So that facts are there before the first turn is asked for.
+  // Reads the facts before the first turn.
   while (!m_ended && m_records.atEnd()) {
     m_whole_records = m_at;
     readChunk();
@@ -57,7 +57,7 @@ void DfrReader::readHeader() {
   m_at = kDfrHeaderSize;
 }
 
-// The first chunk of them may have been read already, for the facts before it.
+// The constructor may have read the first chunk of records, while it looked for facts.
 void DfrReader::copyRecordsTo(std::string& records) {
   m_p_copy = &records;
   if (m_offset > 0) records = m_unpacked;
@@ -75,7 +75,7 @@ std::optional<TurnRecord> DfrReader::next() {
   }
 }
 
-// Unpacking is what a file of some size takes its time for.
+// Unpacking takes most of the time that a long file needs, so it is skipped.
 void DfrReader::skipToEnd() {
   m_skips = true;
   m_records = {};
@@ -100,7 +100,7 @@ std::optional<DfrReader::Chunk> DfrReader::nextChunk() {
   if (rest.size() - kDfrChunkHead < size) return std::nullopt;
   const std::string_view payload = rest.substr(kDfrChunkHead, size);
   if (loadLittleEndian<std::uint32_t>(rest.data() + 8) != crc32c(payload, crc32c(rest.substr(0, 8)))) {
-    // Blocks of a file that were never written, before a power cut, read as zeros.
+    // Blocks that were not written before a power cut read as zeros.
     const bool zeros = rest.find_first_not_of('\0') == std::string_view::npos;
     m_end = zeros ? DfrEnd::kTorn : DfrEnd::kDamaged;
     return std::nullopt;

@@ -1,7 +1,7 @@
-// Reads a `.dfr` file (Dfr.h), chunk by chunk and record by record, as far as it is good.
+// Reads a `.dfr` file (Dfr.h), chunk by chunk and record by record, as far as it is valid.
 //
-// A file may come from a stranger: every number is checked, nothing costs more than the file's size and a
-// fixed amount of memory, and nothing in it names a file that is opened.
+// A file may come from a stranger. Every number is checked, the cost is bounded by the file's size and a
+// fixed amount of memory, and nothing in a file names another file to open.
 #pragma once
 
 #include <optional>
@@ -15,44 +15,45 @@
 
 namespace naiad {
 
-/// How far a file was read.
+/// State of the end of a file.
 enum class DfrEnd {
-  kDone,     ///< to the end of the round
-  kTorn,     ///< to its last whole chunk: the rest is missing, or the round goes on
-  kDamaged,  ///< to a chunk that is not what was written
+  kDone,     ///< the round is complete
+  kTorn,     ///< the rest is missing, or the round is still being played
+  kDamaged,  ///< a chunk is damaged
 };
 
 class DfrReader {
  public:
-  /// `bytes` of the whole file; they stay until this is gone.
+  /// Reads the header and the facts before the first turn. `bytes` is the whole file and must outlive this.
   explicit DfrReader(std::string_view bytes);
   DfrReader(const DfrReader&) = delete;
   DfrReader& operator=(const DfrReader&) = delete;
 
-  /// Why nothing can be read, as a sentence: not such a file, or of another version. Empty: it can.
+  /// Returns why the file cannot be read, in words: not a `.dfr` file, of another version, or damaged. Empty
+  /// if it can.
   const std::string& problem() const { return m_problem; }
   const DfrHeader& header() const { return m_header; }
-  /// Of the META chunks so far: those before the first turn have been read.
+  /// Returns the facts of the META chunks read so far; those before the first turn are always included.
   const DfrFacts& facts() const { return m_facts; }
 
-  /// The next record. Nothing: the end has come, and end() says which.
+  /// Returns the next record; nullopt at the end, and end() says how it was reached.
   std::optional<TurnRecord> next();
   DfrEnd end() const { return m_end; }
-  /// Go to the end without unpacking what is left: wholeBytes(), streamBytes() and end() are as if next() had
-  /// come there, if each record is good that the chunks say they have. Nothing can be read from then on.
+  /// Skips to the end without unpacking the remaining turns. wholeBytes(), streamBytes() and end() are then
+  /// as if next() had read everything, provided that all records are valid. Nothing can be read afterwards.
   void skipToEnd();
-  /// Bytes of the file that have been read: whole chunks.
+  /// Returns the bytes of the file read so far: whole chunks.
   std::size_t wholeBytes() const { return m_at; }
-  /// Bytes of the stream of records in them.
+  /// Returns the bytes of the record stream in these chunks.
   std::uint64_t streamBytes() const { return m_offset; }
-  /// Append the records, as they are unpacked, to `records`, which outlives this. Before next().
+  /// Appends all records, unpacked, to `records`, which must outlive this. Call before next().
   void copyRecordsTo(std::string& records);
-  /// Bytes of the file up to the last chunk that ends with a record: behind the others, one is cut off. After
-  /// next() has come to the end.
+  /// Returns the bytes of the file up to the last chunk that ends with a whole record; later chunks end in
+  /// the middle of one. Call after next() has reached the end.
   std::size_t bytesOfWholeRecords() const { return m_whole_records; }
-  /// For the chunks that come behind those that were read; nothing can be read from then on.
+  /// Returns the state for writing chunks after those read. Nothing can be read afterwards.
   JournalPlace takePlace() { return {DfrTurnPacker(m_unpacker.takeModel(), m_offset), m_offset}; }
-  /// How the round ended, of DfrEnd::kDone.
+  /// Returns how the round ended, if end() is DfrEnd::kDone.
   const std::string& why() const { return m_why; }
 
  private:
@@ -73,7 +74,7 @@ class DfrReader {
   DfrHeader m_header;
   DfrFacts m_facts;
   TurnRecordReader m_records;
-  std::uint64_t m_offset = 0;  ///< of the stream of records
+  std::uint64_t m_offset = 0;  ///< position in the record stream
   RecordUnpacker m_unpacker;
   std::string m_unpacked;
   std::string* m_p_copy = nullptr;

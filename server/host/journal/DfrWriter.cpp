@@ -10,7 +10,7 @@ namespace naiad {
 
 namespace {
 
-/// Bytes of records in one chunk: what grows fits in a payload, too.
+/// Maximum bytes of records in one chunk. Packed records that grow still fit in a payload.
 constexpr std::size_t kMaxPacked = kMaxDfrPayload / 2;
 
 template <class Number>

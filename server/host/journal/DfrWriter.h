@@ -1,4 +1,4 @@
-// Spells a `.dfr` file (Dfr.h): makes bytes, and writes none of them anywhere.
+// Encodes the parts of a `.dfr` file (Dfr.h) as bytes. Writes no files.
 #pragma once
 
 #include <string>
@@ -9,41 +9,41 @@
 
 namespace naiad {
 
-/// The 64 bytes of the header.
+/// Returns the 64 bytes of the header.
 std::string spellDfrHeader(const DfrHeader& header);
 
-/// One chunk. `payload`: kMaxDfrPayload bytes, at most.
+/// Returns one chunk. `payload` has at most kMaxDfrPayload bytes.
 std::string spellDfrChunk(std::uint32_t type, std::string_view payload);
 
-/// A META chunk. Names and values are cut off at their limits, and left out beyond kMaxDfrFacts.
+/// Returns a META chunk. Long names and values are truncated, facts beyond kMaxDfrFacts dropped.
 std::string spellDfrMeta(const DfrFacts& facts);
 
-/// A DONE chunk. `why`: how the round ended.
+/// Returns a DONE chunk. `why` says how the round ended.
 std::string spellDfrDone(std::string_view why);
 
-/// TURN chunks with these records as they are; `position`: of the first byte in the stream.
+/// Returns TURN chunks with these records, not packed, whose first byte in the stream is at `position`.
 std::string spellDfrTurns(std::string_view records, std::uint64_t position);
 
-/// Packs the records of turns (TurnRecord.h), so that each chunk is good without those that come later.
+/// Packs the records of turns (TurnRecord.h). Each chunk can be read without those after it.
 class DfrTurnPacker {
  public:
   DfrTurnPacker() = default;
-  /// Goes on behind chunks of so many bytes of the stream, all of which the model has seen.
+  /// Continues after chunks with `position` bytes of the stream, all of which `model` has seen.
   DfrTurnPacker(RecordModel model, std::uint64_t position)
       : m_packer(std::move(model)), m_position(position) {}
 
-  /// The chunk, or chunks if they are many, with the next bytes of the stream of records.
+  /// Returns the next bytes of the record stream as one chunk, or several if they are many.
   std::string pack(std::string_view records);
 
  private:
   RecordPacker m_packer;
-  std::uint64_t m_position = 0;  ///< in the stream
+  std::uint64_t m_position = 0;  ///< position in the record stream
 };
 
-/// Where a file goes on that another server began.
+/// State for appending to a file that another server began.
 struct JournalPlace {
   DfrTurnPacker packer;
-  std::uint64_t position = 0;  ///< in the stream of records
+  std::uint64_t position = 0;  ///< position in the record stream
 };
 
 }  // namespace naiad

@@ -7,7 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// Bytes of records that one turn of the writer takes: less than a chunk.
+/// Maximum bytes of records written at a time: less than a chunk.
 constexpr std::size_t kMaxTaken = kMaxDfrPayload / 2;
 
 constexpr const char* kOverflow = "the disk is too slow";
@@ -31,7 +31,7 @@ bool Journal::add(std::string_view record) {
   if (m_stopped.load(std::memory_order_relaxed) || m_overflowed.load(std::memory_order_relaxed)) return false;
   if (m_ring.store(record)) return true;
   const std::lock_guard lock(m_mutex);
-  m_overflowed = true;  // said now: the writer may wait for the disk for long
+  m_overflowed = true;  // reported now, because the writer may wait for the disk for a long time
   m_problem = kOverflow;
   return false;
 }
@@ -64,7 +64,7 @@ std::optional<std::string> Journal::takeProblem() {
 bool Journal::flush(bool at_once) {
   if (m_stopped) return false;
   if (!at_once && mayWait()) return true;
-  const bool last = m_finished;  // before what there is is taken
+  const bool last = m_finished;  // read before the ring, which has all records once this is set
   try {
     write();
     if (m_overflowed) {
@@ -94,7 +94,7 @@ bool Journal::mayWait() {
   return false;
 }
 
-// Facts that were added before a record are written before it: so records are looked for first.
+// The records are read first, so that facts added before a record are written before it.
 void Journal::write() {
   std::string records;
   while (true) {
@@ -116,14 +116,14 @@ void Journal::write() {
   }
 }
 
-// Nothing can go on from a round whose last turns are missing, and its header says so.
+// A round without its last turns cannot be resumed, so its header is marked.
 void Journal::stop(const std::string& problem) {
   m_stopped = true;
   try {
     m_sink->setFlags(m_header.flags | kDfrStopped);
     m_sink->sync();
   } catch (const std::system_error&) {
-    // The disk takes nothing; who reads the file finds that turns are missing.
+    // The mark cannot be written. Readers find that the end is missing.
   }
   const std::lock_guard lock(m_mutex);
   if (!m_overflowed) m_problem = problem;

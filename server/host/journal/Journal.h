@@ -1,4 +1,4 @@
-// The journal of one round: the tick thread adds records and never waits, a JournalWriter puts them on the
+// The journal of one round. The tick thread adds records and never waits; a JournalWriter writes them to
 // disk.
 #pragma once
 
@@ -18,10 +18,11 @@ namespace naiad {
 
 class Journal {
  public:
-  /// `facts`: what is known before the world begins. `ring`: bytes of records that may wait for the disk.
-  /// `goes_on`: the file has all that comes before. `folder`: of the file, for the ring (TurnRing.h). `name`:
-  /// of the file, so that a server that is killed before it is there has one; empty: no matter. Throws
-  /// std::system_error if there is no memory.
+  /// Creates the journal of a round that begins, or of one that is resumed (`goes_on`): then the file has all
+  /// earlier records. `facts`: known before the world begins. `ring`: bytes of records that may wait for the
+  /// disk, in memory that survives a crash if `shared`. `folder`: hash of the file's folder (TurnRing.h).
+  /// `name`: the file's name, so that the next server can create the file if this one is killed before the
+  /// first write; empty: not needed. Throws std::system_error if there is no memory.
   Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, const DfrFacts& facts, std::size_t ring,
           bool shared, std::optional<JournalPlace> goes_on = std::nullopt, std::uint64_t folder = 0,
           const std::string& name = {});
@@ -29,36 +30,35 @@ class Journal {
   const DfrHeader& header() const { return m_header; }
   const TurnRing& ring() const { return m_ring; }
 
-  // On the tick thread.
+  // The tick thread calls these.
 
-  /// Add a record. False: the journal has stopped, and takes no more.
+  /// Adds a record. Returns false if the journal has stopped or was left open.
   bool add(std::string_view record);
-  /// More facts. In the file they come before all records that are added after them.
+  /// Adds facts. In the file they come before all records that are added later.
   void addFacts(DfrFacts facts);
-  /// The round is over.
+  /// Ends the journal: the round is over. `why` says how it ended.
   void finish(const std::string& why);
-  /// No player is in the world: only every kCalmTurns-th turn of the writer goes to the disk, unless it was
-  /// asked for.
+  /// Sets whether the world has no players; then flush() may write only every kCalmTurns-th time.
   void setCalm(bool calm) { m_calm.store(calm, std::memory_order_relaxed); }
-  /// Another program goes on with the round: nothing more is added, and the file is not said to be at its
-  /// end. What was added is written.
+  /// Leaves the file to another program that resumes the round. Records added so far are still written, later
+  /// ones are refused, and the file does not get an end.
   void leaveOpen();
-  /// The round is not over, and all of it is written down.
+  /// True if the round is not over and all of it so far was recorded.
   bool isOpen() const { return !m_stopped && !m_finished && !m_overflowed && !m_left; }
-  /// It stopped before the round was over.
+  /// True if the journal stopped before the round was over.
   bool hasStopped() const { return (m_stopped && !m_finished) || m_overflowed; }
-  /// Is the writer wanted before its time?
+  /// True if more than half of the ring is full, so that the writer should be woken.
   bool isFilling() const { return m_ring.isFilling(); }
-  /// Why the journal stopped, once; nothing while it goes on.
+  /// Returns why the journal stopped, once; nullopt while it has not.
   std::optional<std::string> takeProblem();
 
-  // On the writer's thread.
+  // The writer's thread calls these.
 
-  /// Half a minute: a server that only waits for players would write and sync all day.
+  /// Calls of flush() per write without players: half a minute, so that an idle server does not write all
+  /// day.
   static constexpr int kCalmTurns = 33;
 
-  /// Put what there is on the disk; `at_once`: although no player is in the world. False: there will be no
-  /// more.
+  /// Writes all records to disk. `at_once`: even without players. Returns false if no more will come.
   bool flush(bool at_once = false);
 
  private:
@@ -73,18 +73,18 @@ class Journal {
   std::atomic<bool> m_overflowed{false};
   std::atomic<bool> m_calm{false};
 
-  std::mutex m_mutex;  ///< held while these are swapped, never while the disk is waited for
+  std::mutex m_mutex;  ///< held while these are swapped, never while waiting for the disk
   DfrFacts m_facts;    ///< not yet written
   std::string m_why;
   std::string m_problem;
 
-  // The writer's.
+  // Used by the writer's thread alone.
   std::unique_ptr<JournalSink> m_sink;
   DfrTurnPacker m_packer;
   bool m_begun = false;
-  int m_skipped = 0;  ///< turns since the last one that went to the disk
+  int m_skipped = 0;  ///< calls of flush() since the last one that wrote
 
-  bool m_left = false;  ///< the tick thread's
+  bool m_left = false;  ///< used by the tick thread alone
 };
 
 }  // namespace naiad

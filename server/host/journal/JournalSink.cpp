@@ -32,7 +32,7 @@ struct RoundFile {
   fs::path path;
 };
 
-/// Oldest first. Of others in the folder none is touched.
+/// Returns the `.dfr` files of a folder, oldest first.
 std::vector<RoundFile> filesByAge(const fs::path& folder) {
   std::vector<RoundFile> files;
   std::error_code error;
@@ -48,10 +48,10 @@ std::vector<RoundFile> filesByAge(const fs::path& folder) {
   return files;
 }
 
-/// By this server or another one.
+/// True if this or another server is writing the file.
 bool isBeingWritten(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-  if (file < 0) return true;  // it is not ours to remove
+  if (file < 0) return true;  // not ours to remove
   const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0;
   close(file);
   return locked;

@@ -1,4 +1,4 @@
-// Where a journal's bytes go: a file, or in tests a disk that stalls or is full.
+// The destination of a journal's bytes: a file, or in tests a disk that stalls or is full.
 #pragma once
 
 #include <cstdint>
@@ -7,31 +7,31 @@
 
 namespace naiad {
 
-/// Each call may wait for as long as the disk does, and throws std::system_error. On the writer's thread.
+/// Called on the writer's thread. Each call may block as long as the disk does, and throws std::system_error.
 class JournalSink {
  public:
   virtual ~JournalSink() = default;
-  /// Append.
+  /// Appends bytes.
   virtual void write(std::string_view bytes) = 0;
-  /// What was written survives a power cut.
+  /// Makes what was written survive a power cut.
   virtual void sync() = 0;
-  /// Replace the header's flags.
+  /// Overwrites the header's flags.
   virtual void setFlags(std::uint16_t flags) = 0;
 };
 
-/// A longer file is neither written nor read: some 270 hours of four players, a month of none.
+/// Maximum size of a file, written or read: about 270 hours with four players, a month without any.
 inline constexpr std::size_t kMaxRoundFile = std::size_t{128} << 20;
 
-/// Remove the oldest rounds of a folder until it has no more than these. One that a server is writing stays.
+/// Removes the oldest rounds of a folder until it is within both limits. Files that a server is writing stay.
 void removeOldRounds(const std::string& folder, std::size_t max_files, std::uintmax_t max_bytes);
 
-/// A new file, readable by this user alone. It is made by the first write; its folder, too, if its parent is
-/// there. The file is locked for as long as this is. More than kMaxRoundFile is an error, EFBIG.
+/// A new file, readable by this user only and locked until this is destroyed. The first write creates it, and
+/// its folder if the parent exists. A file longer than kMaxRoundFile is an error, EFBIG.
 class JournalFileSink : public JournalSink {
  public:
   explicit JournalFileSink(std::string path) : m_path(std::move(path)) {}
-  /// Goes on with a file that is there, behind its first `size` bytes; what is behind them is cut off. Throws
-  /// std::system_error, with EWOULDBLOCK if another server writes it.
+  /// Appends to an existing file after its first `size` bytes; the rest is truncated. Throws
+  /// std::system_error, with EWOULDBLOCK if another server is writing the file.
   JournalFileSink(std::string path, std::size_t size);
   ~JournalFileSink() override;
   JournalFileSink(const JournalFileSink&) = delete;
@@ -41,7 +41,7 @@ class JournalFileSink : public JournalSink {
   void sync() override;
   void setFlags(std::uint16_t flags) override;
 
-  /// Files of one folder, and bytes of all of them, at most: of more, the oldest go when another is made.
+  /// Limits of one folder, in files and bytes. Beyond them a new file replaces the oldest.
   static constexpr std::size_t kMaxFiles = 200;
   static constexpr std::uintmax_t kMaxFolder = std::uintmax_t{1} << 30;
 
@@ -49,7 +49,7 @@ class JournalFileSink : public JournalSink {
   void open();
 
   std::string m_path;
-  std::size_t m_size = 0;  ///< of the file
+  std::size_t m_size = 0;  ///< bytes of the file
   int m_file = -1;
 };
 

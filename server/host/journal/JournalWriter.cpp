@@ -10,7 +10,8 @@ namespace naiad {
 
 namespace {
 
-/// Of kBetween, for the sync itself: what comes after one has begun is safe when the next has ended.
+/// Part of kBetween that is left for the sync itself: records added after one sync has begun are safe when
+/// the next has ended.
 constexpr std::chrono::milliseconds kForSync{100};
 
 }  // namespace
@@ -20,8 +21,8 @@ struct JournalWriter::Shared {
   std::condition_variable wanted;
   std::condition_variable done;
   std::vector<std::shared_ptr<Journal>> journals;
-  std::uint64_t asked = 0;   ///< turns of the thread that were asked for
-  std::uint64_t served = 0;  ///< the newest of them that has been done
+  std::uint64_t asked = 0;   ///< writes that were requested
+  std::uint64_t served = 0;  ///< number of the newest request that was served
   bool ends = false;
 
   void run();

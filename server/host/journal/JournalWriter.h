@@ -1,5 +1,4 @@
-// The thread that puts journals on the disk, those of all worlds of a server. Whatever the disk does, no
-// other thread waits for it.
+// The thread that writes the journals of all worlds of a server to disk. No other thread waits for the disk.
 #pragma once
 
 #include <chrono>
@@ -11,22 +10,22 @@ namespace naiad {
 
 class JournalWriter {
  public:
-  /// Between two times that records are written and synced: what a power cut loses.
+  /// Interval of writes and syncs: a power cut loses at most this much.
   static constexpr std::chrono::milliseconds kBetween{1000};
-  /// For what is left at the end, if the disk stalls.
+  /// Time limit of the last write, if the disk stalls.
   static constexpr std::chrono::milliseconds kLastWait{2000};
 
   JournalWriter();
-  /// Puts what is left on the disk, waiting up to kLastWait.
+  /// Writes what is left, waiting at most kLastWait.
   ~JournalWriter();
   JournalWriter(const JournalWriter&) = delete;
   JournalWriter& operator=(const JournalWriter&) = delete;
 
-  /// Write it until it is finished or stops.
+  /// Adds a journal, which is written until it is finished or stops.
   void add(std::shared_ptr<Journal> journal);
-  /// Do not wait for the next turn.
+  /// Makes the thread write now.
   void wake();
-  /// Wait until everything that was added before is on the disk, or for so long. Return whether it is.
+  /// Waits until everything added before is on the disk, at most `most`. Returns true if it is.
   bool drain(std::chrono::milliseconds most);
 
  private:

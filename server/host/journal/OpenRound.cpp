@@ -41,8 +41,8 @@ std::string OpenRound::fact(const std::string& name) const {
   return found != m_facts.end() ? found->second : std::string();
 }
 
-// A file may end in the middle of a record, of which the next chunk had the rest: the journal goes on behind
-// the last chunk that ends with a record.
+// A file may end in the middle of a record, whose rest was in the next chunk. The journal then continues
+// after the last chunk that ends with a whole record.
 void OpenRound::readAll(std::string_view bytes) {
   DfrReader reader(bytes);
   if (!reader.problem().empty()) throw OpenRoundError(reader.problem());

@@ -1,4 +1,4 @@
-// The round of a server that was killed: what its file says, for the server that goes on with it.
+// The round of a killed server, read from its file by the server that resumes it.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace naiad {
 
-/// A round that nothing can go on from. what() says why, like "its format is version 2, …".
+/// Error of a round that cannot be resumed. what() says why, like "its format is version 2, …".
 class OpenRoundError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,43 +25,43 @@ class OpenRoundError : public std::runtime_error {
 
 class OpenRound {
  public:
-  /// Reads the whole file. Throws OpenRoundError. One that has come to its end is no error: isOver().
+  /// Reads the whole file. Throws OpenRoundError. A round that has ended is not an error: see isOver().
   explicit OpenRound(std::string path);
-  /// The same of a round that this process has in memory: its records from the beginning.
+  /// Reads a round that is in this process's memory. `records`: all of them, from the beginning.
   OpenRound(const DfrHeader& header, std::string_view records);
 
   const std::string& path() const { return m_path; }
   const DfrHeader& header() const { return m_header; }
   const DfrFacts& facts() const { return m_facts; }
-  /// A fact; empty if the file does not have it.
+  /// Returns a fact; empty if the file does not have it.
   std::string fact(const std::string& name) const;
   bool isOver() const { return m_over; }
 
-  /// Bytes of the file up to the end of its last whole record.
+  /// Returns the bytes of the file up to the last chunk that ends with a whole record.
   std::size_t wholeBytes() const { return m_whole_bytes; }
-  /// Its stream of records, unpacked (TurnRecordReader).
+  /// Returns the record stream, unpacked (TurnRecordReader).
   const std::string& records() const { return m_records; }
-  /// The file says what came of the last turn.
+  /// True if the file has the result of the last turn.
   bool hasLastResult() const { return m_has_last_result; }
-  /// Turns that the world got.
+  /// Returns the number of turns that the world got.
   std::uint32_t turns() const { return m_turns; }
-  /// The newest turn, without its inputs.
+  /// Returns the newest turn, without its inputs.
   const WorldTurn& lastTurn() const { return m_last_turn; }
-  /// Of the players who had not left, by player.
+  /// Returns the sessions of players that had not left, by player.
   const std::map<std::uint32_t, KeptSession>& sessions() const { return m_sessions; }
-  /// Of the players whom the world has, in the order in which they joined.
+  /// Returns the players in the world, in the order in which they joined.
   const std::vector<std::uint32_t>& players() const { return m_players; }
-  /// The highest id that any of its players ever had; 0 without players. The world does not use an id twice.
+  /// Returns the highest player id in the round; 0 without players. A world never uses an id twice.
   std::uint32_t highestPlayer() const { return m_highest_player; }
-  /// When the file was written last.
+  /// Returns when the file was last written.
   std::filesystem::file_time_type writtenAt() const { return m_written_at; }
-  /// Its players are not waited for any more.
+  /// Removes all sessions: their players are no longer waited for.
   void dropSessions() { m_sessions.clear(); }
-  /// Inputs that bring the world to where its players have just been cut off: keys that were down are
-  /// released; a player without a session leaves, and one of whom the world has not heard joins.
+  /// Returns inputs that bring the world to the state just after all players were disconnected: held keys are
+  /// released, players without a session leave, and players with a session who had not joined yet join.
   std::vector<df::InputQueue::Input> closingInputs() const;
 
-  /// Where its journal goes on. Once.
+  /// Returns the state for appending to the journal. May be called once.
   JournalPlace takePlace() { return std::move(*std::exchange(m_place, std::nullopt)); }
 
  private:
@@ -83,7 +83,7 @@ class OpenRound {
   std::map<std::uint32_t, KeptSession> m_sessions;
   std::vector<std::uint32_t> m_players;
   std::uint32_t m_highest_player = 0;
-  std::set<std::pair<std::uint32_t, int>> m_down;  ///< keys, by player
+  std::set<std::pair<std::uint32_t, int>> m_down;  ///< held keys, by player
   std::optional<JournalPlace> m_place;
 };
 

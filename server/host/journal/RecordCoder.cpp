@@ -6,7 +6,7 @@ namespace naiad {
 
 namespace {
 
-/// 4096 / (1 + e^(-x / 256)), from 33 points.
+/// Returns 4096 / (1 + e^(-x / 256)), interpolated between 33 points.
 int squash(int x) {
   static constexpr int kPoints[33] = {1,    2,    3,    6,    10,   16,   27,   45,   73,   120,  194,
                                       310,  488,  747,  1101, 1546, 2047, 2549, 2994, 3348, 3607, 3785,
@@ -18,7 +18,7 @@ int squash(int x) {
   return (kPoints[at] * (128 - weight) + kPoints[at + 1] * weight + 64) >> 7;
 }
 
-/// The inverse of squash().
+/// Returns the inverse of squash() as a table.
 const std::array<std::int16_t, 4096>& stretches() {
   static const auto table = [] {
     std::array<std::int16_t, 4096> all{};
@@ -34,12 +34,12 @@ const std::array<std::int16_t, 4096>& stretches() {
 }
 
 constexpr int kWeightBits = 16;
-constexpr int kRate = 10;  ///< of the mixer: the higher, the faster it learns
+constexpr int kRate = 10;  ///< learning rate of the mixer
 constexpr std::uint32_t kMaxPlace = 31;
-constexpr std::uint32_t kTurnKind = 1;  ///< a turn with the flags of the one before (TurnRecord.h), plus 1
-constexpr std::uint32_t kBeforeInputs = 1;  ///< bytes of it
+constexpr std::uint32_t kTurnKind = 1;      ///< m_kind of kRecordedTurn (TurnRecord.h)
+constexpr std::uint32_t kBeforeInputs = 1;  ///< bytes of such a record before its inputs
 
-/// Corrections of a probability until it is known, and 65,536 divided by what each is divided by.
+/// Updates until a probability's step size is constant, and the step size after each number of updates.
 constexpr std::uint16_t kMaxCount = 60;
 constexpr auto kReciprocals = [] {
   std::array<std::int32_t, kMaxCount + 1> all{};
@@ -54,13 +54,13 @@ std::uint32_t mix(std::uint32_t hash, std::uint32_t value) {
 }  // namespace
 
 struct RecordModel::Tables {
-  /// That a bit is 1, of 65,536, and how often that was corrected.
+  /// Probability that a bit is 1, in 65,536ths, and the number of its updates.
   struct Slot {
     std::uint16_t probability = 32'768;
     std::uint16_t count = 0;
   };
   std::array<std::array<Slot, std::size_t{1} << kSlotBits>, kContexts> slots{};
-  /// By kind of record and the bits of the byte so far.
+  /// Indexed by kind of record and the bits of the byte so far.
   std::array<std::array<std::int32_t, kContexts>, std::size_t{4} * 256> weights{};
 };
 
@@ -111,7 +111,7 @@ void RecordModel::update(bool bit) {
   for (std::size_t i = 0; i < kContexts; ++i) {
     weights[i] += (m_inputs[i] * error + 0x2000) >> 14;
     Tables::Slot& slot = m_tables->slots[i][m_slots[i]];
-    // Quickly at first, slowly once it is known.
+    // The probability adapts fast at first, and slowly after many updates.
     const std::int64_t step = (bit ? 65'535 : 0) - std::int64_t{slot.probability};
     slot.probability = static_cast<std::uint16_t>(slot.probability + (step * kReciprocals[slot.count] >> 16));
     if (slot.count < kMaxCount) ++slot.count;
@@ -125,7 +125,7 @@ void RecordModel::update(bool bit) {
   beginByte();
 }
 
-// A length of more than a byte is followed wrongly, which costs some bits.
+// Misreads a length of more than one byte, which costs only some bits because both ends do.
 void RecordModel::followRecord(std::uint8_t byte) {
   if (m_left == 0) {
     m_left = byte;
@@ -139,7 +139,7 @@ void RecordModel::followRecord(std::uint8_t byte) {
   --m_left;
 }
 
-// The first byte is how many there are. Numbers of more than a byte are followed wrongly, too.
+// The first byte is the number of inputs. Misreads numbers of more than one byte, too.
 void RecordModel::followInput(std::uint8_t byte) {
   static constexpr std::uint32_t kLengths[4] = {2, 2, 4, 9};
   if (m_place == kBeforeInputs) {
@@ -152,7 +152,7 @@ void RecordModel::followInput(std::uint8_t byte) {
   m_field = m_field + 1 >= kLengths[m_input] ? 0 : m_field + 1;
 }
 
-// The interval between low and high is split by the prediction; bytes that both have in common are out.
+// The prediction splits the interval from low to high. Leading bytes that both have in common are written.
 void RecordPacker::pack(std::string_view records, std::string& out) {
   std::uint32_t low = 0;
   std::uint32_t high = 0xffffffff;
@@ -168,7 +168,7 @@ void RecordPacker::pack(std::string_view records, std::string& out) {
         out.push_back(static_cast<char>(high >> 24));
     }
   }
-  // Behind it a reader finds zeros.
+  // The unpacker reads zeros after the last byte.
   if (low != 0) out.push_back(static_cast<char>((low >> 24) + 1));
 }
 

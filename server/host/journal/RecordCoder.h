@@ -1,11 +1,11 @@
-// Packs the records of turns by an adaptive model and an arithmetic coder.
+// Packs the records of turns with an adaptive model and an arithmetic coder.
 //
-// A second of a game is some 500 bytes, of which hardly 100 say anything. A general packer works in blocks
-// and by whole bytes: flushed each second, zstd (level 6) leaves 7.1 bytes of a tick in which four players
-// press keys at random, and 5.8 flushed each minute; this leaves 4.0, of which the checks are 1.3. Bits are
-// predicted from the bytes before and the place in the record, as lpaq does (Matt Mahoney, 2007): each
-// context has a probability, a mixer weighs them by how good they were. Integers alone, so the same
-// everywhere.
+// A second of a game has about 500 bytes, of which barely 100 carry information. A general packer works in
+// blocks and whole bytes: flushed each second, zstd (level 6) needs 7.1 bytes for a tick in which four
+// players press keys at random, and 5.8 when flushed each minute. This coder needs 4.0, of which the checks
+// are 1.3. It predicts bits from the bytes before and the place in the record, as lpaq does (Matt Mahoney,
+// 2007): each context has a probability, and a mixer weights them by their past success. All arithmetic is on
+// integers, so the result is equal on all machines.
 #pragma once
 
 #include <array>
@@ -17,16 +17,16 @@
 
 namespace naiad {
 
-/// What comes next in the stream of records, bit by bit. Both ends have one, and it sees the same bytes.
+/// Predicts the record stream bit by bit. Packer and unpacker have one each, and both see the same bytes.
 class RecordModel {
  public:
   RecordModel();
   ~RecordModel();
   RecordModel(RecordModel&& other) noexcept;
   RecordModel& operator=(RecordModel&&) = delete;
-  /// That the next bit is 1, of 65,536: 1 to 65,535.
+  /// Returns the probability that the next bit is 1, in 65,536ths; never 0 or 65,536.
   std::uint32_t predict();
-  /// It was this.
+  /// Learns the value of that bit.
   void update(bool bit);
 
  private:
@@ -39,25 +39,25 @@ class RecordModel {
   void followInput(std::uint8_t byte);
 
   std::unique_ptr<Tables> m_tables;
-  std::array<std::uint32_t, kContexts> m_hashes{};  ///< of the contexts of this byte
+  std::array<std::uint32_t, kContexts> m_hashes{};  ///< hashes of this byte's contexts
   std::array<std::uint32_t, kContexts> m_slots{};
   std::array<std::int32_t, kContexts> m_inputs{};
-  std::uint32_t m_partial = 1;  ///< the byte's bits so far, behind a 1
+  std::uint32_t m_partial = 1;  ///< bits of the byte so far, after a 1
   std::uint32_t m_history = 0;  ///< the last four bytes
-  std::uint32_t m_place = 0;    ///< in the record, its length not counted
-  std::uint64_t m_left = 0;     ///< bytes of the record
-  std::uint32_t m_kind = 0;     ///< of the record
-  std::uint32_t m_input = 0;    ///< kind of the input that the next byte is in, of a turn
-  std::uint32_t m_field = 0;    ///< the byte's place in it
-  std::uint32_t m_player = 0;   ///< whose it is, or was the one before
+  std::uint32_t m_place = 0;    ///< bytes of the record before this one, without its length
+  std::uint64_t m_left = 0;     ///< bytes of the record that are left
+  std::uint32_t m_kind = 0;     ///< kind of the record plus 1; 0: not read yet
+  std::uint32_t m_input = 0;    ///< in a turn: kind of the input that the next byte belongs to
+  std::uint32_t m_field = 0;    ///< position of the byte in that input
+  std::uint32_t m_player = 0;   ///< player of that input, or of the one before
   std::uint32_t m_predicted = 0;
 };
 
-/// The next bytes of the stream, packed so that a RecordUnpacker that has all before has these, too.
+/// Packs the next bytes of the stream. A RecordUnpacker that has unpacked all bytes before can unpack these.
 class RecordPacker {
  public:
   RecordPacker() = default;
-  /// Goes on where an unpacker is.
+  /// Continues with the model of an unpacker.
   explicit RecordPacker(RecordModel model) : m_model(std::move(model)) {}
   void pack(std::string_view records, std::string& out);
 
@@ -67,9 +67,9 @@ class RecordPacker {
 
 class RecordUnpacker {
  public:
-  /// `count` bytes. Any bytes are something.
+  /// Appends `count` unpacked bytes to `out`. Cannot fail: any input decodes to something.
   void unpack(std::string_view packed, std::size_t count, std::string& out);
-  /// For a packer that goes on; nothing can be unpacked from then on.
+  /// Returns the model, for a packer that continues. Nothing can be unpacked afterwards.
   RecordModel takeModel() { return std::move(m_model); }
 
  private:

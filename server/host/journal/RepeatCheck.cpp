@@ -69,7 +69,7 @@ bool RepeatCheck::update() {
     return !m_over;
   }
   m_world->checkProcess(1);
-  if (m_world->end()) m_over = true;  // with the round, perhaps; crashes are what recovery is for
+  if (m_world->end()) m_over = true;  // perhaps with the round; a crash is not this check's concern
   m_allowed = kTurnsPerTick;
   sendNext();
   return !m_over;

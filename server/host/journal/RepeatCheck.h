@@ -1,5 +1,5 @@
-// Is a game repeatable? A second world gets the same turns a little later, and its answers are held against
-// those of the first: for the beginning of a round, where games read clocks and seed themselves.
+// Checks whether a game is repeatable: a second world gets the turns of the first a little later, and their
+// answers are compared. Covers the beginning of a round, where games read clocks and seed themselves.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,26 @@
 
 namespace naiad {
 
-/// What of two views is other first, in words; empty if nothing is.
+/// Describes the first difference between two views; empty if they match.
 std::string describeDifference(const df::WorldView& first, const df::WorldView& again);
 
 class RepeatCheck {
  public:
-  /// Ticks that are compared, and ticks after which the second world starts: two seconds, so that clocks
-  /// differ.
+  /// Ticks that are compared, and ticks before the second world starts: two seconds, so that clocks differ.
   static constexpr std::uint32_t kTicks = 900;
   static constexpr std::uint32_t kDelay = 60;
-  /// Turns that the second world gets in a tick of the host, at most: it catches up, and takes little time.
+  /// Maximum turns per tick of the host for the second world: enough to catch up, in little time.
   static constexpr int kTurnsPerTick = 3;
 
   using NewWorld = std::function<std::unique_ptr<WorldPort>()>;
-  /// `new_world` starts one from the same order; it may throw std::system_error, and nothing is compared
-  /// then. `on_difference`: gets a sentence, once.
+  /// `new_world` starts a world from the order of the first; if it throws std::system_error, nothing is
+  /// compared. `on_difference` is called at most once, with a sentence.
   RepeatCheck(NewWorld new_world, std::function<void(const std::string&)> on_difference);
   ~RepeatCheck();
 
-  /// The first world has answered this turn.
+  /// Adds a turn that the first world has answered.
   void add(const SentTurn& turn, std::uint64_t answer_hash, const df::WorldView& view);
-  /// Once in each tick of the host. False: all has been compared.
+  /// Sends turns to the second world, once in each tick of the host. Returns false when the check is over.
   bool update();
 
  private:
@@ -51,7 +50,7 @@ class RepeatCheck {
   std::deque<Tick> m_waiting;
   std::uint32_t m_added = 0;
   std::uint32_t m_compared = 0;
-  int m_allowed = 0;  ///< turns in this tick of the host
+  int m_allowed = 0;  ///< turns left in this tick of the host
   bool m_over = false;
 };
 

@@ -1,5 +1,5 @@
-// The records of a round, for another world that takes over: all, or those since the oldest copy of its world
-// (WorldProcess::keepCopy). And where in them the copies are, and when the next one is due.
+// The records of a round, for the world that takes over after a crash: all of them, or those since the oldest
+// copy of the world (WorldProcess::keepCopy). Also the places of copies in them, and when the next is due.
 #pragma once
 
 #include <chrono>
@@ -14,31 +14,31 @@
 
 namespace naiad {
 
-/// The world after a tick of which a copy was kept.
+/// Place of a copy in the round.
 struct CopyMark {
-  std::uint32_t ticks = 0;             ///< that it has had
-  std::vector<std::uint32_t> players;  ///< that had joined and not left, in order
-  std::size_t records = 0;             ///< bytes of RoundHistory::records() up to there
+  std::uint32_t ticks = 0;             ///< ticks that the world had had
+  std::vector<std::uint32_t> players;  ///< players in the world, in the order in which they joined
+  std::size_t records = 0;             ///< bytes of RoundHistory::records() up to the copy
 };
 
 class RoundHistory {
  public:
-  /// Bytes that are kept: days. Of a longer round those since the oldest copy are.
+  /// Maximum bytes of records: days of play. Of a longer round only those since the oldest copy are kept.
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
   /// Ticks between two copies: ten seconds of a usual game. A copy takes 0.4 to 1.5 ms of the world's time.
   static constexpr std::uint32_t kTicks = 300;
-  /// Of the first one, by which most games have begun: until then a new world is as quick.
+  /// Ticks before the first copy: most games have started up then, and before that a new world is as fast.
   static constexpr std::uint32_t kFirst = 30;
-  /// Where ticks take long, so that the ticks since the newest copy are executed again in little time: then
-  /// it is looked every so many ticks, and due when they have taken so much of a processor.
+  /// If ticks are slow, copies are made more often, so that the ticks since the newest copy can be replayed
+  /// fast: every kFewestTicks ticks a copy is due if the world has used kLongest of processor time.
   static constexpr std::uint32_t kFewestTicks = 60;
   static constexpr std::chrono::milliseconds kLongest{100};
 
-  /// `records`: of a round that goes on.
+  /// `records`: those of a round that is resumed.
   explicit RoundHistory(std::string records = {}) : m_records(std::move(records)) {}
 
-  /// The next record. False: the round is too long, and nothing of it is kept.
+  /// Adds the next record. Returns false if the round is too long; then nothing of it is kept.
   bool add(std::string_view record) {
     if (m_records.size() + record.size() > kMaxBytes && !forgetBeginning()) {
       *this = RoundHistory();
@@ -48,22 +48,22 @@ class RoundHistory {
     return true;
   }
   const std::string& records() const { return m_records; }
-  /// records() begin with the round; otherwise no world can begin it again, but a copy can go on with it.
+  /// True if records() begins with the round. Otherwise only a copy can resume it, not a new world.
   bool hasBeginning() const { return m_has_beginning; }
 
-  /// In the tick that begins. `cpu_time` says how much of a processor the world's process has taken, and is
-  /// called once in a while.
+  /// True if a copy is due in the tick that begins. `cpu_time` returns the processor time that the world's
+  /// process has used; it is not called in every tick.
   template <class CpuTime>
   bool isCopyDue(std::uint32_t ticks, CpuTime cpu_time) {
     if (m_asked == 0 ? ticks < kFirst : (ticks - m_asked) % kFewestTicks != 0) return false;
     return isDueNow(ticks, cpu_time());
   }
-  /// A copy was asked for, for the tick that begins; `is_kept`: there will be one.
+  /// Call when a copy was ordered for the tick that begins. `is_kept`: false if the order failed.
   void beginCopy(std::uint32_t ticks, std::vector<std::uint32_t> players, bool is_kept) {
     m_asked = ticks;
     if (is_kept) m_under_way = CopyMark{ticks, std::move(players), 0};
   }
-  /// The tick has its result in records(). True: a copy was kept behind it.
+  /// Call when records() has the tick's result. Returns true if a copy was made after it.
   bool endTick() {
     if (!m_under_way) return false;
     m_under_way->records = m_records.size();
@@ -72,9 +72,9 @@ class RoundHistory {
     if (!m_has_beginning) forgetBeginning();
     return true;
   }
-  /// The copy behind so many ticks goes on: it and those that are newer have no mark any more.
+  /// Returns the mark of the copy after `ticks` ticks, which takes over. Removes its mark and newer ones.
   std::optional<CopyMark> takeCopy(std::uint32_t ticks) {
-    // The next one is due soon: what goes on has one copy fewer.
+    // The next copy is due soon, because one fewer is left.
     m_under_way.reset();
     m_asked = 0;
     while (!m_marks.empty() && m_marks.back().ticks > ticks) m_marks.pop_back();
@@ -83,7 +83,7 @@ class RoundHistory {
     m_marks.pop_back();
     return mark;
   }
-  /// There are no copies any more.
+  /// Removes all marks.
   void dropCopies() {
     m_marks.clear();
     m_under_way.reset();
@@ -106,14 +106,14 @@ class RoundHistory {
     return true;
   }
 
-  static constexpr std::size_t kMost = 8;  ///< more than a world keeps copies
+  static constexpr std::size_t kMost = 8;  ///< maximum marks; a world keeps fewer copies
 
   std::string m_records;
   bool m_has_beginning = true;
   std::deque<CopyMark> m_marks;            ///< newest last
-  std::optional<CopyMark> m_under_way;     ///< of the tick that has begun
-  std::uint32_t m_asked = 0;               ///< in which tick; 0: never
-  std::chrono::nanoseconds m_cpu_time{0};  ///< then
+  std::optional<CopyMark> m_under_way;     ///< the copy of the tick that has begun
+  std::uint32_t m_asked = 0;               ///< tick of the newest order; 0: none
+  std::chrono::nanoseconds m_cpu_time{0};  ///< at that order
 };
 
 static_assert(RoundHistory::kTicks % RoundHistory::kFewestTicks == 0, "that is when it is looked");

@@ -6,7 +6,7 @@ namespace naiad {
 
 RoundRecovery::RoundRecovery(std::shared_ptr<const OpenRound> round) : m_round(std::move(round)) {
   m_records.add(m_round->records());
-  m_writer.repeatFlags();  // a copy of a world has had other turns before
+  m_writer.repeatFlags();  // a copy of a world has seen other turns before
 }
 
 int RoundRecovery::percent() const {

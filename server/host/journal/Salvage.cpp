@@ -25,7 +25,7 @@ std::string readFile(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Which round it is, by the header alone.
+/// Returns the header of a file; nullopt if it does not begin with a valid one.
 std::optional<DfrHeader> headerOf(const fs::path& path) {
   std::string bytes(kDfrHeaderSize, '\0');
   std::ifstream file(path, std::ios::binary);
@@ -34,7 +34,7 @@ std::optional<DfrHeader> headerOf(const fs::path& path) {
   return reader.problem().empty() ? std::optional(reader.header()) : std::nullopt;
 }
 
-/// Bytes that were added; nothing if the file could not be written.
+/// Appends the missing records. Returns the bytes added; nullopt if the file could not be written.
 std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) {
   const std::string bytes = readFile(path);
   DfrReader reader(bytes);
@@ -49,37 +49,37 @@ std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) 
   std::ofstream file(path, std::ios::binary | std::ios::app);
   file << spellDfrTurns(*rest, reader.streamBytes());
   file.close();
-  fs::last_write_time(path, written_at, error);  // of the round, not of this
+  fs::last_write_time(path, written_at, error);  // keep the round's time
   return file.good() ? std::optional(rest->size()) : std::nullopt;
 }
 
-/// A name that no file but a round's in that folder has.
+/// True for a valid file name of a round, without a folder.
 bool isNameOfRound(const std::string& name) {
   return name.size() > std::size(".dfr") && name.ends_with(".dfr") && name.front() != '.' &&
          name.find('/') == std::string::npos;
 }
 
-/// The files that servers were killed too early to begin. One that is there is left alone.
+/// Creates the files of servers that were killed before they could. Existing rounds are left alone.
 void beginFiles(const fs::path& folder, const std::set<std::string>& rounds) {
   for (const LeftRing& ring : LeftRing::findWithoutFile(ringFolder(folder), rounds)) {
     const auto beginning = ring.beginning();
     if (!beginning || !isNameOfRound(beginning->name)) continue;
     const fs::path path = folder / beginning->name;
     std::error_code error;
-    if (fs::is_regular_file(path, error) && !headerOf(path)) fs::remove(path, error);  // it was just made
+    if (fs::is_regular_file(path, error) && !headerOf(path)) fs::remove(path, error);  // unfinished
     try {
       JournalFileSink file(path.string());
       file.write(beginning->bytes);
       file.sync();
     } catch (const std::system_error&) {
-      continue;  // the disk is full, or another server was first
+      continue;  // the disk is full, or another server created it
     }
     if (const auto time = fs::last_write_time(ring.path(), error); !error)
-      fs::last_write_time(path, time, error);  // of the round, not of this
+      fs::last_write_time(path, time, error);  // keep the round's time
   }
 }
 
-/// By uuid.
+/// Returns the uuids of the rounds in a folder.
 std::set<std::string> roundsIn(const fs::path& folder) {
   std::set<std::string> rounds;
   std::error_code error;
@@ -108,7 +108,7 @@ std::vector<std::string> salvageRounds(const std::string& folder, const std::set
     const auto ring = header ? LeftRing::find(header->uuid) : std::nullopt;
     if (!ring) continue;
     const auto added = complete(path, *ring);
-    if (!added) continue;  // the next start may do better
+    if (!added) continue;  // retried at the next start
     ring->remove();
     if (left.contains(uuidText(header->uuid))) continue;
     said.push_back("the server was killed in the round " + path.string() +

@@ -1,4 +1,4 @@
-// Rounds of a server that was killed: what waited for the disk in shared memory is put into their files.
+// Completes the rounds of a killed server: appends to their files the records that waited in shared memory.
 #pragma once
 
 #include <set>
@@ -7,9 +7,9 @@
 
 namespace naiad {
 
-/// Complete the files of this folder whose servers are gone, so that they have every turn that a world got.
-/// Other files, and rounds that are being played, are left alone. Return a sentence for the log for each but
-/// those of `left`, by uuid, which no server was killed in.
+/// Completes the files of this folder whose servers are gone, so that they have every turn that a world got.
+/// Other files, and rounds that are being played, are left alone. Returns a line for the log for each, except
+/// for rounds of `left`, by uuid, whose servers were not killed.
 std::vector<std::string> salvageRounds(const std::string& folder, const std::set<std::string>& left = {});
 
 }  // namespace naiad

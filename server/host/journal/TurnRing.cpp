@@ -69,7 +69,7 @@ TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uui
     *p_end++ = '\0';
     std::copy(beginning.bytes.begin(), beginning.bytes.end(), p_end);
   }
-  std::atomic_signal_fence(std::memory_order_release);  // last: a ring without it is not read
+  std::atomic_signal_fence(std::memory_order_release);  // written last: a ring without it is ignored
   std::memcpy(m_p_head->magic, kRingMagic, sizeof m_p_head->magic);
 }
 
@@ -79,7 +79,7 @@ TurnRing::~TurnRing() {
   if (m_file >= 0) close(m_file);
 }
 
-// All of it is there from the beginning: to write into a hole of a full file system would be a SIGBUS.
+// Allocates all of the file at once, because a write into a hole of a full file system raises SIGBUS.
 bool TurnRing::mapShared(const std::array<std::uint8_t, 16>& uuid) {
   const std::string path = ringPath(uuid);
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -181,7 +181,7 @@ std::uint64_t ringFolder(const std::string& folder) {
 
 namespace {
 
-/// All rings but those of these rounds.
+/// Returns the paths of all rings except those of these rounds.
 std::vector<std::string> ringsWithout(const std::set<std::string>& rounds) {
   std::vector<std::string> paths;
   std::error_code error;
@@ -199,7 +199,7 @@ int openRing(const std::string& path) {
 
 }  // namespace
 
-// One that is being made is not locked yet, and has no magic yet: it must not be locked here.
+// A ring that is being made has no lock and no magic yet; it must not be locked here.
 bool TurnRing::isRingOf(int file, std::uint64_t folder) {
   alignas(Head) char bytes[sizeof(Head)];
   struct stat facts {};

@@ -1,16 +1,16 @@
-// Where records wait for the disk: a ring of bytes in shared memory, which outlives this process.
+// A ring buffer of records that wait for the disk, in shared memory that outlives this process.
 //
-// The tick thread stores each record before the world gets it, and never waits. A worker takes what is there,
-// and releases it when it is on the disk. A process that is killed leaves the ring behind, under the round's
-// name: with the file it has everything.
+// The tick thread stores each record before the world gets it, and never waits. A worker writes the stored
+// records to disk and then releases them. A killed process leaves the ring behind, under the round's name:
+// file and ring together have every record.
 //
 //   ring   magic (8) | uuid (16) | folder (8) | capacity (8) | bytes stored (8) | bytes released (8)
 //          | length of the beginning (8) | bytes | beginning
 //
-// The folder is that of the round's file, as a hash. The two counts are positions in the stream of records,
-// as TURN chunks have them (Dfr.h). The beginning is the file's name, a zero, and what the file begins with:
-// a worker makes the file only after the round has begun. The next server there makes it from a ring without
-// a file, or removes the ring.
+// The folder is that of the round's file, as a hash. The two counts are positions in the record stream, like
+// those in TURN chunks (Dfr.h). The beginning is the file's name, a zero byte and the first bytes of the
+// file, because the worker creates the file only after the round has begun. From a ring without a file the
+// next server in that folder creates the file, or it removes the ring.
 #pragma once
 
 #include <array>
@@ -24,45 +24,45 @@
 
 namespace naiad {
 
-/// What a round's file begins with.
+/// The beginning of a round's file.
 struct FileBeginning {
-  std::string name;   ///< of the file, without its folder
+  std::string name;   ///< name of the file, without its folder
   std::string bytes;  ///< header and facts
 };
 
 class TurnRing {
  public:
-  /// In memory of this process alone, or, with a name, in /dev/shm. If that cannot be, in this process's
-  /// after all: isShared() says so.
-  /// `position`: of the first byte, in the stream of records. `folder`: ringFolder() of the file's; 0:
-  /// unknown. `beginning`: of a file that is not there yet.
+  /// Creates a ring of `capacity` bytes: in /dev/shm under the round's name if `shared` and if that works
+  /// (see isShared()), otherwise in memory of this process alone. `position`: that of the first byte, in the
+  /// record stream. `folder`: ringFolder() of the file's folder; 0: unknown. `beginning`: that of a file that
+  /// does not exist yet.
   TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
            std::uint64_t position = 0, std::uint64_t folder = 0, const FileBeginning& beginning = {});
-  /// The shared memory is removed, unless leave() was called.
+  /// Removes the shared memory, unless leave() was called.
   ~TurnRing();
   TurnRing(const TurnRing&) = delete;
   TurnRing& operator=(const TurnRing&) = delete;
 
   bool isShared() const { return !m_path.empty(); }
-  /// Of the shared memory; empty if it is not shared.
+  /// Returns the path of the shared memory; empty if it is not shared.
   const std::string& path() const { return m_path; }
 
-  /// Another process goes on with the round, and takes what is in the shared memory from there (LeftRing).
+  /// Leaves the shared memory to another process, which resumes the round from there (LeftRing).
   void leave() { m_left = true; }
 
-  /// Store bytes, for one thread. False, and none are stored: there is no room.
+  /// Stores bytes. For one thread. Returns false, and stores none, if there is not enough space.
   bool store(std::string_view bytes);
-  /// More than half of it is in use.
+  /// True if more than half of the ring is in use.
   bool isFilling() const;
 
-  /// Is this file one for that folder? `file`: opened for reading.
+  /// True if this file, opened for reading, is a ring for that folder.
   static bool isRingOf(int file, std::uint64_t folder);
 
-  // For one other thread.
+  // One other thread calls these.
 
-  /// Append up to `most` of what is stored and not released to `out`. Return how many bytes.
+  /// Appends up to `most` bytes that are stored and not released to `out`. Returns their number.
   std::size_t peek(std::string& out, std::size_t most) const;
-  /// These, the oldest, are not needed any more.
+  /// Releases the oldest `count` bytes, which are not needed any more.
   void release(std::size_t count);
 
  private:
@@ -84,31 +84,30 @@ class TurnRing {
   std::size_t size() const { return sizeof(Head) + m_capacity + m_beginning; }
 
   std::size_t m_capacity;
-  std::size_t m_beginning;  ///< its length
+  std::size_t m_beginning;  ///< its size in bytes
   std::string m_path;
   bool m_left = false;
-  int m_file = -1;  ///< of the shared memory, locked: as long as this process lives
+  int m_file = -1;  ///< the shared memory, locked as long as this process lives
   Head* m_p_head = nullptr;
 };
 
-/// The ring of a process that was killed.
+/// The ring of a killed process.
 class LeftRing {
  public:
-  /// Nothing if there is none for this round, it is malformed, or its process lives.
+  /// Opens the ring of a round. Returns nullopt if there is none, it is malformed, or its process lives.
   static std::optional<LeftRing> find(const std::array<std::uint8_t, 16>& uuid);
-  /// Those of a folder whose rounds, by uuid, are not among `known`: their servers were killed before the
-  /// file was there. None that has nothing to begin a file with.
+  /// Returns the rings of a folder whose rounds, by uuid, are not among `known`: their servers were killed
+  /// before the file existed. Rings without a beginning() are omitted.
   static std::vector<LeftRing> findWithoutFile(std::uint64_t folder, const std::set<std::string>& known);
   LeftRing(LeftRing&&) = default;
   LeftRing& operator=(LeftRing&&) = default;
 
-  /// What the round's file would have begun with, and turns that were to come behind it; nothing if it was
-  /// there, or no turn was.
+  /// Returns the beginning of the round's file; nullopt if the file existed, or if no turn was stored.
   std::optional<FileBeginning> beginning() const;
-  /// The bytes of the stream from this position on; nothing if some of them are gone.
+  /// Returns the bytes of the stream from this position on; nullopt if some of them were overwritten.
   std::optional<std::string> bytesFrom(std::uint64_t position) const;
   const std::string& path() const { return m_path; }
-  /// It is not needed any more.
+  /// Removes the shared memory.
   void remove() const;
 
  private:
@@ -116,17 +115,17 @@ class LeftRing {
   static std::optional<LeftRing> open(std::string path);
 
   std::string m_path;
-  std::string m_bytes;  ///< head and all
+  std::string m_bytes;  ///< the whole ring, including its head
 };
 
-/// By what a ring names the folder of its file.
+/// Returns the hash by which a ring names the folder of its file.
 std::uint64_t ringFolder(const std::string& folder);
 
-/// Remove the rings of this folder whose processes have ended and whose rounds, by uuid, are not among
-/// `kept`: a server was killed before its file was there, or the file was removed. Return how many.
+/// Removes the rings of this folder whose processes have ended and whose rounds, by uuid, are not among
+/// `kept`: the server was killed before its file existed, or the file was removed. Returns their number.
 std::size_t removeStrayRings(std::uint64_t folder, const std::set<std::string>& kept);
 
-/// "0123…": 32 hexadecimal digits.
+/// Returns the uuid as 32 hexadecimal digits.
 std::string uuidText(const std::array<std::uint8_t, 16>& uuid);
 
 }  // namespace naiad

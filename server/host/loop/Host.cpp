@@ -31,17 +31,17 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::milliseconds kLate{5};
-constexpr std::chrono::milliseconds kMinService{5};  ///< for sockets, however late the tick is
-constexpr int kMinHandlers = 16;                     ///< the same; one handler may serve many messages
+constexpr std::chrono::milliseconds kMinService{5};  ///< minimum time for sockets, however late the tick is
+constexpr int kMinHandlers = 16;                     ///< one may serve many messages
 constexpr std::chrono::seconds kDrainTime{1};
-constexpr std::chrono::milliseconds kDrainStep{10};  ///< between two looks at worlds that end
+constexpr std::chrono::milliseconds kDrainStep{10};  ///< interval of checks for worlds that end
 constexpr double kFirstPlayerSeconds = 60;           ///< --exit-when-empty before the first player joins
 constexpr std::chrono::milliseconds kRestTime{400};  ///< between two ticks while no world ticks
-constexpr int kLongestFrameMillis = 1000;            ///< as --frame-time
-constexpr int kExitHung = 1;                         ///< as for a game that fails
-constexpr const char* kShuttingDown = "The server is shutting down.";  // as Ending says it
+constexpr int kLongestFrameMillis = 1000;            ///< limit of --frame-time
+constexpr int kExitHung = 1;                         ///< like a game that fails
+constexpr const char* kShuttingDown = "The server is shutting down.";  // like Ending's sentence
 
-// As if the signal had not been handled: its sender sees that it was.
+// Ends the process by the signal, with its default action, so the sender sees that it worked.
 void endBySignal(int signal) {
   ::signal(signal, SIG_DFL);
   sigset_t none;
@@ -65,12 +65,12 @@ Host::Host(HostOptions options, std::string game, Log log)
   m_parts = makeOperatorParts({*m_context, *m_endpoint, *m_clients, *m_controls});
 }
 
-// What the network's thread asks parts is destroyed here, and a game that throws leaves it running.
+// The network thread calls the parts, which are destroyed here; after a game throws, it is still running.
 Host::~Host() {
   m_endpoint->network().stop();
 }
 
-// The server's loop: serve sockets until the next tick is due, then tick.
+// Serves sockets until the next tick is due, then ticks, in a loop.
 void Host::run(df::World& world) {
   beginGame(world);
   StopSignals signals;
@@ -79,7 +79,7 @@ void Host::run(df::World& world) {
       signals, [&side_log](const std::string& line) { side_log(line); },
       [this, &side_log](const ForcedEnd& end) { endProcess(end, side_log); });
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_context->options.frame_micros));
-  const auto work = asio::make_work_guard(m_context->home);  // or waiting for a deadline would end at once
+  const auto work = asio::make_work_guard(m_context->home);  // or run_until() would return at once
   m_endpoint->network().start();
   for (const auto& part : m_parts) part->begin();
   while (!isOver()) {
@@ -92,8 +92,8 @@ void Host::run(df::World& world) {
   endGame(world);
 }
 
-// On the watchdog's thread. The game may hold any lock of the process, that of the log too, so nothing is
-// destroyed, and the log is not waited for without end.
+// Runs on the watchdog's thread. The game may hold any lock of the process, including the log's. So nothing
+// is destroyed, and waiting for the log has a time limit.
 void Host::endProcess(const ForcedEnd& end, SideLog& log) {
   log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick) +
                      crash::activity("handles")
@@ -125,11 +125,11 @@ void Host::endGame(df::World& world) {
   m_p_world = nullptr;
 }
 
-// Takes over what the game asks for, unless an option says otherwise.
+// Applies the game's settings, unless an option overrides them.
 void Host::adoptSettings(df::World& world) {
   HostOptions& options = m_context->options;
   if (const df::WorldExtras* p_extras = world.findExtras()) {
-    // 33 ms is how the published engine writes 1/30 s.
+    // The published engine uses 33 ms for 1/30 s.
     const int millis = std::min(p_extras->settings.frame_time, kLongestFrameMillis);
     if (options.frame_micros == 0 && millis != df::FRAME_TIME_DEFAULT) options.frame_micros = millis * 1000;
   }
@@ -138,8 +138,8 @@ void Host::adoptSettings(df::World& world) {
     m_context->log("compat is on: the published engine's rules where they differ from the book's");
 }
 
-// Even when the deadline has passed, a least number of handlers runs: an overloaded server must go on hearing
-// its clients. It does not run all that are ready, though: one client that floods would stop the world.
+// A minimum number of handlers runs even after the deadline, because an overloaded server must still receive.
+// But not all that are ready run: then one flooding client could stop the world.
 void Host::serveUntil(Clock::time_point deadline) {
   asio::io_context& home = m_context->home;
   home.restart();
@@ -155,7 +155,7 @@ bool Host::rests() const {
   return m_clients->sessions().isEmpty() && m_clients->rooms().rest();
 }
 
-// Ticks only serve the heartbeat, which a fleet expects at its interval. A connection makes the next one due.
+// While resting, ticks only serve the heartbeat, at its interval. A connection ends the rest.
 TickClock Host::rest() {
   const auto heartbeat = std::chrono::milliseconds(m_context->options.bus_interval_ms);
   const auto end = Clock::now() + std::min(kRestTime, heartbeat);
@@ -175,13 +175,13 @@ bool Host::isDue(TickClock& schedule) {
   return true;
 }
 
-// One tick: input -> world (step, input events, update, draw) -> published models -> snapshots. A world in a
-// process of its own ends its tick later, and what it publishes is flushed then.
+// One tick: input -> world (step, input events, update, draw) -> published models -> snapshots. A world
+// process ends its tick later, and its results are flushed then.
 void Host::tick(Watchdog& watchdog) {
   StageClock& stages = m_context->stages;
   m_tick_began = Clock::now();
   stages.enter(Stage::kReceive);
-  m_endpoint->network().serve(m_tick_began + kMinService);  // the datagrams since the last one
+  m_endpoint->network().serve(m_tick_began + kMinService);  // datagrams since the last tick
   stages.enter(Stage::kSessions);
   ++m_context->counters.ticks;
   m_clients->update(Clock::now());
@@ -195,7 +195,7 @@ void Host::tick(Watchdog& watchdog) {
   if (m_observer) m_observer(*m_p_world);
 }
 
-// The game's code runs in here alone, unless it is in processes of its own.
+// Only this function runs the game's code, unless it is in other processes.
 void Host::tickWorlds(Watchdog& watchdog) {
   const std::uint64_t number = m_p_world->picture().view().tick + 1;
   watchdog.beginTick(number);
@@ -222,7 +222,7 @@ void Host::sweep() {
   if (m_clients->sessions().connected() > 0) m_empty_since = Clock::now();
 }
 
-// ---- the end ----------------------------------------------------------------------------------------------
+// ---- end --------------------------------------------------------------------------------------------------
 
 bool Host::isDeserted(Clock::time_point now) const {
   const double exit_when_empty = m_context->options.exit_when_empty;
@@ -235,12 +235,12 @@ bool Host::isOver() const {
   const int ticks = m_context->options.ticks;
   const bool counted_out = ticks > 0 && m_context->counters.ticks >= static_cast<std::uint64_t>(ticks);
   const Ending& ending = m_context->ending;
-  // A player whose connection broke may come back, so they are waited for, too.
+  // A player whose connection broke may return, so they count as playing.
   const bool is_due = ending.plan() && ending.isDue(Clock::now(), m_clients->sessions().playing() == 0);
   return m_clients->rooms().isOver() || is_due || counted_out || isDeserted(Clock::now());
 }
 
-// Players of a round that is kept lose the server, as if it had been killed.
+// Players of a kept round just lose the connection, as if the server had been killed.
 void Host::sayGoodbye() {
   if (m_controls->keepsRound()) return;
   const Ending& ending = m_context->ending;

@@ -1,9 +1,8 @@
 // Hosts a game: the Runner behind GM.run() in dfserver.
 //
-// The thread that runs `run` owns worlds and sessions; the sockets have a thread of their own
-// (NetworkThread.h). Between two ticks it serves streams, at the deadline it runs the tick. `run` is the
-// loop, `tick` one turn of it. HostEndpoint.h is where it listens, HostClients.h who plays, HostControls.h
-// what can be asked of it, HostPart.h what else it may have.
+// The thread that calls run() owns worlds and sessions; the sockets have their own thread (NetworkThread.h).
+// Between two ticks it serves streams; at the deadline it runs the tick. HostEndpoint.h has the listening
+// sockets, HostClients.h the players, HostControls.h commands to the host, HostPart.h optional parts.
 #pragma once
 
 #include <chrono>
@@ -33,9 +32,9 @@ class Host : public df::Runner {
  public:
   using Log = std::function<void(const LogEvent& event)>;
 
-  /// Listens from now on (clients wait until run()). Throws ListenError (with HostOptions::lan "on" for the
-  /// socket of the local network's queries, too), TlsError for keys that cannot be used, or
-  /// std::runtime_error for a truth or status file that cannot be written.
+  /// Starts to listen; clients wait until run(). Throws ListenError (with HostOptions::lan "on" also for the
+  /// socket of LAN queries), TlsError for unusable keys, or std::runtime_error for a truth or status file
+  /// that cannot be written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 
@@ -44,17 +43,15 @@ class Host : public df::Runner {
   HostClients& clients() const { return *m_clients; }
   HostControls& controls() const { return *m_controls; }
 
-  /// Tick the world 30 times a second until the game is over, a signal comes or an option says so; then send
-  /// the players a goodbye and let what is queued drain. If the game does not return from a tick, and a
-  /// signal comes, or if a second one does, the process ends from here, with a goodbye: with code 1, or by
-  /// the signal.
+  /// Ticks the world 30 times a second until the game is over, or a signal or option ends it. Then sends the
+  /// players a goodbye and waits until queued data is sent. If a signal comes while the game hangs in a tick,
+  /// the process exits with code 1; a second signal ends it by that signal. Both send a goodbye first.
   void run(df::World& world) override;
-  /// End run() after the present tick, with this sentence to the players. Callable from another thread.
+  /// Ends run() after the present tick, with this sentence to the players. Any thread.
   void stop(const std::string& sentence);
-  /// Call `job` on the host's thread, between two ticks. Callable from another thread (tests inspect a
-  /// running world with it).
+  /// Calls `job` on the host's thread, between two ticks. Any thread. Tests use it to inspect the world.
   void post(std::function<void(df::World&)> job);
-  /// Called after every tick, on the host's thread.
+  /// Sets a function to call after every tick, on the host's thread.
   void setObserver(std::function<void(df::World&)> observer) { m_observer = std::move(observer); }
 
  private:

@@ -14,8 +14,8 @@ namespace naiad {
 
 namespace {
 
-/// Is this line of the chat a command? It is clean (cleanChat). Blanks in front do not matter, nor characters
-/// that cannot be drawn, which are question marks by now: a password after one of them must not reach others.
+/// True if this chat line, cleaned by cleanChat(), is a command. Ignores leading blanks and question marks:
+/// clients send undrawable characters as question marks, and a command's password must not reach others.
 bool isCommand(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" ?");
   return first != std::string::npos && line[first] == '/';
@@ -48,7 +48,7 @@ HostClients::HostClients(HostContext& context, HostEndpoint& endpoint, std::func
       [this](Session& session, const std::string& room) { m_room_moves.askByGame(session, room); });
   m_rooms.watchClosed(
       [this](const Room& room, const std::string& sentence) { m_room_moves.leadAway(room, sentence); });
-  shapesOf({});  // loads the tables now: the tick of the first join should not wait for them
+  shapesOf({});  // loads the tables now, not in the tick of the first join
   makePlaces();
 }
 
@@ -127,7 +127,7 @@ Session::Events HostClients::sessionEvents() {
           [this](Session& session, const std::string& room) { m_room_moves.ask(session, room); }};
 }
 
-// A command is for the server alone, whatever becomes of it.
+// Commands go only to the server, even if they fail.
 void HostClients::takeChat(Session& session, const std::string& text) {
   const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
   if (!m_chat.take(prefix, session.now())) {

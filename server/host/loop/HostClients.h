@@ -1,5 +1,4 @@
-// A host's clients: their sessions, who of them plays and in which room, what they say, and the list of
-// players.
+// A host's clients: their sessions, players, rooms, chat and the player list.
 #pragma once
 
 #include <algorithm>
@@ -26,15 +25,14 @@
 
 namespace naiad {
 
-/// Ends sessions of players who do nothing: no key, no click, no line of chat.
-/// Not thread-safe. Time is passed in.
+/// Ends sessions of players without any key, click or chat line. Not thread-safe. Time is a parameter.
 class InactivityCheck {
  public:
-  /// Players are warned so long before; of a shorter limit, at half of it.
+  /// Players are warned this long before; if the limit is short, at half of it.
   static constexpr std::chrono::seconds kWarning{10};
 
-  /// Once a tick for each session that plays. `limit` 0: nobody is ended. One without a connection has its
-  /// grace time instead.
+  /// Call once a tick for each playing session. `limit` 0: no limit. Sessions without a connection are
+  /// skipped, because the grace time limits them.
   void check(Session& session, std::chrono::seconds limit, Counters& counters,
              const std::function<void(Session&, const std::string& line)>& tell) {
     if (limit.count() <= 0 || session.state() != Session::State::kPlaying || session.isDetached()) return;
@@ -51,20 +49,20 @@ class InactivityCheck {
       tell(session, "Press a key, or you leave the game in a moment.");
     }
   }
-  /// The session is over.
+  /// Call when the session is over.
   void forget(const Session& session) { m_warned.erase(session.id()); }
 
  private:
-  std::unordered_set<std::uint64_t> m_warned;  ///< sessions
+  std::unordered_set<std::uint64_t> m_warned;  ///< session ids
 };
 
-/// On the host's thread.
+/// Thread: the host's.
 class HostClients {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `context` and `endpoint` outlive this. `on_late_tick`: of Rooms. Throws std::runtime_error for a truth
-  /// file that cannot be written, and PasswordError.
+  /// `context` and `endpoint` must outlive this. `on_late_tick` is passed to Rooms. Throws PasswordError, or
+  /// std::runtime_error for a truth file that cannot be written.
   HostClients(HostContext& context, HostEndpoint& endpoint, std::function<void()> on_late_tick);
 
   SessionTable& sessions() { return m_sessions; }
@@ -73,30 +71,30 @@ class HostClients {
   const Rooms& rooms() const { return m_rooms; }
   Admission& admission() { return m_admission; }
 
-  /// Play in such worlds instead of the one that Host::run() is given: one after the other, or one for each
-  /// player (HostOptions::players). From the one it is given it takes only what welcomes say. New players get
-  /// ids above `highest_player`, which the first world may have seen. Before run().
+  /// Plays in these worlds instead of the one of Host::run(): one after the other, or one per player
+  /// (HostOptions::players). The world of Host::run() then only provides facts for welcomes. New players get
+  /// ids above `highest_player`, because the first world may have used these. Call before run().
   void setWorlds(NewWorld new_world, std::uint32_t highest_player = 0);
-  /// Have these rooms instead. Players begin in the first. Before run().
+  /// Plays in these rooms instead; players start in the first. Call before run().
   void setRooms(std::vector<RoomPlan> plans);
 
-  /// Commands in the chat, which begin with "/". They reach nobody but this, whatever becomes of them.
+  /// Sets the handler of chat commands: lines that begin with "/". They are never sent to other players.
   void setCommands(std::function<void(Session& session, const std::string& line)> serve_command) {
     m_serve_command = std::move(serve_command);
   }
 
-  /// What the server says of itself where players look for one.
+  /// Returns the facts that server lists show.
   ServerFacts facts() const;
 
-  /// A connection was accepted.
+  /// Call for each accepted connection.
   void add(std::unique_ptr<ReliableChannel> channel);
-  /// As many as may join by the options in force; a log line says so if too few files may be open for that.
+  /// Applies the player limit of the options in force. Logs a warning if too few files may be open for it.
   void makePlaces();
-  /// Once a tick, before worlds tick: deadlines, hellos that wait, and moves between rooms.
+  /// Call once a tick, before worlds tick: deadlines, waiting hellos, and moves between rooms.
   void update(Clock::time_point now);
-  /// Once a tick, after them: the list of players, which has those of all rooms.
+  /// Call once a tick, after worlds tick: sends the list of players of all rooms.
   void sendPlayers();
-  /// A line from the server to all players.
+  /// Sends a line from the server to all players.
   void say(const std::string& text);
 
  private:
@@ -114,7 +112,7 @@ class HostClients {
   RoomMoves m_room_moves;
   PrefixAllowance m_chat;
   InactivityCheck m_inactivity;
-  std::function<void(Session&, const std::string&)> m_serve_command;  ///< null: there are none
+  std::function<void(Session&, const std::string&)> m_serve_command;  ///< null without commands
 };
 
 }  // namespace naiad

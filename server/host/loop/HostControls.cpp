@@ -75,7 +75,7 @@ void HostControls::update(Clock::time_point now) {
   heedUpgrade(now);
 }
 
-// The worlds that there are go on; the next ones take a server that is of their build.
+// Present worlds continue; the next ones need a server of their own build.
 void HostControls::heedUpgrade(Clock::time_point now) {
   const auto news = m_clients.rooms().takeUpgrade();
   if (!news) return;
@@ -137,7 +137,7 @@ OptionChanges HostControls::adopt(const HostOptions& options) {
 
 // ---- the round --------------------------------------------------------------------------------------------
 
-// Servers that end while they execute a round are counted in its file (Journals.h).
+// A round in recovery cannot be kept: its file counts servers that ended in a recovery (Journals.h).
 std::string HostControls::whyNotKept() const {
   return m_clients.rooms().recovering() ? "it is being executed again already" : "";
 }
@@ -151,7 +151,7 @@ void HostControls::keepRound(Done done) {
   m_context.log("the round is executed again by the program that is installed, beside the game");
   m_p_handover->prove([this, done = std::move(done)](const RoundHandover::Result& result) {
     asio::post(m_context.home, [this, done, result] {
-      if (!result.starts) return done(false, kCannotBeKept + result.problem);  // nor could it be begun later
+      if (!result.starts) return done(false, kCannotBeKept + result.problem);  // nor could it start later
       finishProof(result.problem, done);
     });
   });
@@ -170,7 +170,7 @@ void HostControls::finishProof(const std::string& problem, const Done& done) {
   done(true, text);
 }
 
-// As if players were asked to finish.
+// Like a restart that lets players finish.
 void HostControls::endWithoutRound(const std::string& problem, const Done& done) {
   const std::string text = "The round cannot go on in the program that is installed: " + problem;
   m_context.log(LogEvent::warning("restart: " + text + "; the server begins again when all have left"));

@@ -1,5 +1,5 @@
-// What can be asked of a running host: to end, to begin again, to go on with its round in another program, to
-// read its options again. Signals ask, and so do commands and what runs the server.
+// Controls of a running host: end it, restart it, continue its round in a new program, reload its options.
+// Used by signals, commands and the platform that runs the server.
 #pragma once
 
 #include <atomic>
@@ -22,27 +22,26 @@ class HostClients;
 class HostEndpoint;
 class RoundHandover;
 
-/// What was read, and what takes time to make of it.
+/// Reloaded options, and what is slow to compute from them.
 struct Reloaded {
-  std::string problem;  ///< why nothing can be made of it; empty: it is good
+  std::string problem;  ///< why they cannot be used; empty if they can
   HostOptions options;
-  std::optional<PasswordHash> password;    ///< of a password that has changed
-  std::optional<ServerIdentity> identity;  ///< of --certificate and --key: the files may be new
+  std::optional<PasswordHash> password;    ///< hash of a changed password
+  std::optional<ServerIdentity> identity;  ///< from --certificate and --key, whose files may be new
 };
 
-/// Reads a running server's options again. Files may be slow, and a password takes 0.1 s to hash: both happen
-/// on a thread of its own.
+/// Reads a running server's options again. On its own thread: files may be slow, hashing takes 0.1 s.
 class Reload {
  public:
-  /// Throws what says why it cannot.
+  /// Throws an exception that says why the options cannot be read.
   using ReadOptions = std::function<HostOptions()>;
 
   explicit Reload(ReadOptions read) : m_read(std::move(read)) {}
-  /// Waits for what has begun.
+  /// Waits for a running reload.
   ~Reload();
 
-  /// Read them, and call `done` once, on the other thread. `now`: the options in force. False: what was begun
-  /// earlier is not done.
+  /// Starts a reload from `now`, the options in force. Calls `done` once, on the reload thread. False if a
+  /// reload is already running.
   bool begin(const HostOptions& now, std::function<void(Reloaded)> done);
 
  private:
@@ -51,60 +50,58 @@ class Reload {
   std::atomic<bool> m_reading = false;
 };
 
-/// On the host's thread.
+/// Thread: the host's.
 class HostControls {
  public:
   using Clock = std::chrono::steady_clock;
-  /// What became of a request, once, on the host's thread: whether it is done, and a sentence without its
-  /// end.
+  /// Called once with the result of a request, on the host's thread: whether it succeeded, and a sentence
+  /// without its full stop.
   using Done = std::function<void(bool is_done, const std::string& sentence)>;
 
-  /// All of these outlive it.
+  /// All arguments must outlive this.
   HostControls(HostContext& context, HostEndpoint& endpoint, HostClients& clients)
       : m_context(context), m_endpoint(endpoint), m_clients(clients) {}
 
-  /// Host::run() ends so; at the end of a round, where each player has a world of their own, is when all have
-  /// left.
+  /// Plans the end of Host::run(). With private worlds or named rooms, at_round_end means when all have left.
   void end(Ending::Plan plan);
-  /// The same as soon as no players are left, or after so long.
+  /// Plans the end when no players are left, or after this many seconds.
   void endWhenEmpty(double seconds);
-  /// Do not end after all. False: nothing was planned.
+  /// Cancels a planned end. False if none was planned.
   bool cancelEnd();
-  /// Once a tick: what players should know of the end, and a program that was upgraded.
+  /// Call once a tick: tells players about the end, and notices an upgraded program.
   void update(Clock::time_point now);
-  /// Do what signals ask for. The first SIGTERM lets players finish, if there is time for that; a second
-  /// signal ends all (Watchdog.h). SIGHUP without a terminal reads the options again.
+  /// Reacts to signals. The first SIGTERM gives players drain_time to finish; a second signal ends everything
+  /// at once (Watchdog.h). SIGHUP without a terminal reloads the options.
   void heedSignals(StopSignals& signals);
 
   void setReload(Reload::ReadOptions read) { m_reload.emplace(std::move(read)); }
-  /// Read the options again, and take over what may change while the server runs. Files are read and
-  /// passwords hashed on a thread of their own. Options that cannot be used, and those that need a restart,
-  /// leave what there was.
+  /// Reads the options again and applies those that may change while the server runs. Reading and password
+  /// hashing run on another thread. If the options are invalid or need a restart, the present values stay.
   void reload(Done done);
-  /// SIGHUP was heeded: `is_done` false, and once the options are read, true.
+  /// Sets a function called when SIGHUP starts a reload (`is_done` false) and when it has finished (true).
   void watchReloads(std::function<void(bool is_done, Clock::time_point now)> on_reload) {
     m_on_reload = std::move(on_reload);
   }
-  /// The process is ended without the game, which hangs. It is called on the watchdog's thread, and may wait
-  /// so long. Before Host::run().
+  /// Sets a function called before the process ends without the hung game. It runs on the watchdog's thread
+  /// and may block for `patience`. Call before Host::run().
   void watchForcedEnd(std::function<void(std::chrono::milliseconds patience)> on_forced_end) {
     m_on_forced_end = std::move(on_forced_end);
   }
   void announceForcedEnd(std::chrono::milliseconds patience) const {
     if (m_on_forced_end) m_on_forced_end(patience);
   }
-  /// Some of these have changed, of which takeOver() (HostOptions.h) takes those that may.
+  /// Applies the changed options that may change while the server runs: takeOver() (HostOptions.h).
   OptionChanges adopt(const HostOptions& options);
 
-  /// What keepRound() works with; outlives this.
+  /// Sets the object that keepRound() uses; it must outlive this.
   void setHandover(RoundHandover& handover) { m_p_handover = &handover; }
-  /// Begin again in the program that is installed by now, with the round that is being played. `done` is
-  /// called once that has been tried out. If it cannot be, the server begins again when all have left; or
-  /// nothing has changed, for there is no round to try it with.
+  /// Restarts in the installed program, which continues the present round. `done` is called after a trial
+  /// replay of the round. If the program cannot continue the round, the server restarts when all have left.
+  /// If the trial cannot start, nothing changes.
   void keepRound(Done done);
-  /// Host::run() has ended, or is about to, so that another program goes on with the round.
+  /// True if Host::run() has ended, or is about to, so that another program continues the round.
   bool keepsRound() const;
-  /// No more ticks: what a proof finds out comes too late, and the round that is kept is written no further.
+  /// Call after the last tick. Ignores a trial replay that still runs; stops writing a round that is kept.
   void beginDrain();
 
  private:
@@ -120,7 +117,7 @@ class HostControls {
   std::optional<Reload> m_reload;
   std::function<void(bool, Clock::time_point)> m_on_reload;
   std::function<void(std::chrono::milliseconds)> m_on_forced_end;
-  RoundHandover* m_p_handover = nullptr;  ///< null: no round can be kept
+  RoundHandover* m_p_handover = nullptr;  ///< null: rounds cannot be kept
   bool m_keeps_round = false;
   bool m_is_draining = false;
   int m_heeded_signals = 0;

@@ -15,7 +15,7 @@ namespace naiad {
 
 namespace {
 
-/// For the log alone: the client has been hung up on.
+/// Only for the log: the client is disconnected without an answer.
 std::string sentenceOf(StreamRefusal why) {
   switch (why) {
     case StreamRefusal::kBanned:
@@ -38,7 +38,7 @@ TcpOptions channelOptions() {
   return options;
 }
 
-/// The key that TLS proves; nothing without encryption.
+/// Returns the key that TLS proves; nullopt without encryption.
 std::optional<ServerIdentity> identityOf(const HostOptions& options) {
   if (options.insecure) return std::nullopt;
   if (!options.certificate.empty()) return ServerIdentity::load(options.certificate, options.key);
@@ -90,7 +90,7 @@ TlsListening HostEndpoint::listening() {
   return listening;
 }
 
-// A world may have this user's rights, and so those on the socket: it would be as many visitors as it likes.
+// Refuses world processes: they may have this user's rights to the socket, and could claim any visitors.
 VisitorsListening HostEndpoint::visitors() const {
   VisitorsListening visitors;
   visitors.path = m_context.options.visitors;

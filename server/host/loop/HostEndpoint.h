@@ -1,4 +1,4 @@
-// Where a host listens, whom it lets that far, and how it is found there.
+// Where a host listens, which connections it accepts, and how players find it.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -22,48 +22,48 @@
 
 namespace naiad {
 
-/// Logs the connections that are hung up on before TLS.
-/// A flood of them must not fill the host's queue: what is left out is counted by the listener all the same.
+/// Logs the connections that are dropped before TLS. Rate-limited, so that a flood does not fill the host's
+/// queue; the listener counts all of them.
 class StreamRefusalLog {
  public:
-  /// `home` runs the host's thread, where `log` is written; both outlive this.
+  /// `home` runs the host's thread, where `log` is written. Both must outlive this.
   StreamRefusalLog(asio::io_context& home, ClientLog& log) : m_home(home), m_log(log) {}
 
-  /// On the network thread.
+  /// Call on the network thread.
   void note(const asio::ip::tcp::endpoint& peer, StreamRefusal why);
 
  private:
   asio::io_context& m_home;
   ClientLog& m_log;
-  TokenBucket m_allowance;  ///< of the network thread
+  TokenBucket m_allowance;  ///< used on the network thread
 };
 
-/// On the host's thread.
+/// Thread: the host's.
 class HostEndpoint {
  public:
-  /// Listens from now on; connections wait until network().start(). `context` outlives this. Throws
-  /// ListenError, or TlsError for keys that cannot be used.
+  /// Starts to listen; connections wait until network().start(). `context` must outlive this. Throws
+  /// ListenError, or TlsError for unusable keys.
   HostEndpoint(HostContext& context, TcpListener::OnChannel on_channel);
 
   NetworkThread& network() { return m_network; }
   const NetworkThread& network() const { return m_network; }
-  /// The addresses that players come from.
+  /// The number of players of each address prefix.
   PlayerPrefixes& prefixes() { return m_prefixes; }
 
   std::uint16_t port() const { return m_network.port(); }
-  /// "127.0.0.1:9876".
+  /// The address with its port, e.g. "127.0.0.1:9876".
   std::string address() const { return m_network.address(); }
-  /// What players compare; nothing without encryption.
+  /// The fingerprint that players compare; nullopt without encryption.
   std::optional<Fingerprint> fingerprint() const;
-  /// What dfclient needs on its command line to join from this machine: "127.0.0.1:9876 --fingerprint …".
+  /// Returns the dfclient arguments to join from this machine: "127.0.0.1:9876 --fingerprint …".
   std::string joinArguments() const;
-  /// The link for players of this machine, or of any machine if HostOptions::link_host is given and
-  /// `elsewhere` asked for. Nothing without encryption.
+  /// Returns the link for players on this machine, or if `elsewhere`, on any machine; the latter needs
+  /// HostOptions::link_host. Nullopt without encryption.
   std::optional<JoinLink> joinLink(bool elsewhere) const;
 
-  /// Connections from now on meet this key.
+  /// Uses this key for new connections.
   void setIdentity(ServerIdentity identity);
-  /// Connections that this is true for are hung up on. It is called on the network's thread. Before start().
+  /// Drops connections for which `is_banned`, called on the network thread, is true. Call before start().
   void setBans(std::function<bool(const asio::ip::address& address)> is_banned) {
     m_is_banned = std::move(is_banned);
   }
@@ -74,11 +74,11 @@ class HostEndpoint {
   bool listensOnAll() const;
 
   HostContext& m_context;
-  std::optional<ServerIdentity> m_identity;  ///< nothing: without encryption
+  std::optional<ServerIdentity> m_identity;  ///< nullopt without encryption
   PlayerPrefixes m_prefixes;
-  PrefixAllowance m_handshakes;  ///< of the network thread
+  PrefixAllowance m_handshakes;  ///< used on the network thread
   StreamRefusalLog m_refusals;
-  std::function<bool(const asio::ip::address&)> m_is_banned;  ///< null: nobody is
+  std::function<bool(const asio::ip::address&)> m_is_banned;  ///< null: no bans
   NetworkThread m_network;
 };
 

@@ -1,5 +1,5 @@
-// The interface of what a host may have beside its game: scores, commands, metrics, the list of servers, a
-// fleet. Such parts are in a library of their own (OperatorLibrary.h).
+// The interface of the parts that a host may have in addition to its game: scores, commands, metrics, the
+// server list, a fleet. They are in another library (OperatorLibrary.h).
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@ class HostClients;
 class HostControls;
 class HostEndpoint;
 
-/// What parts work with. All of it outlives them.
+/// The objects that parts work with. All of them outlive the parts.
 struct HostAccess {
   HostContext& context;
   HostEndpoint& endpoint;
@@ -19,20 +19,20 @@ struct HostAccess {
   HostControls& controls;
 };
 
-/// All calls are for the host's thread, in this order. None but finish() waits. A part that cannot begin its
-/// work throws in its constructor, before players may come: ListenError, or std::runtime_error.
+/// All calls are on the host's thread, in this order. Only finish() may block. A part that cannot start
+/// throws ListenError or std::runtime_error in its constructor, before players can join.
 class HostPart {
  public:
   using Clock = std::chrono::steady_clock;
 
   virtual ~HostPart() = default;
-  /// Ticks begin, and players may come.
+  /// Called before the first tick; players may now join.
   virtual void begin() {}
-  /// The end of each tick, which began at `now`. A world in a process of its own ends its tick later.
+  /// Called at the end of each tick, which began at `now`. World processes may finish their tick later.
   virtual void tick(Clock::time_point now) = 0;
-  /// The last tick has ended; the players' goodbyes come next.
+  /// Called after the last tick, before the players' goodbyes.
   virtual void drain() {}
-  /// After these: no player is left, and what was promised is to be on disk when this returns.
+  /// Called when no player is left. Must have written all promised data to disk when it returns.
   virtual void finish() {}
 };
 

@@ -10,8 +10,8 @@ namespace naiad {
 
 namespace {
 
-/// Loads the library for good and returns its function; null if that fails (dlerror). It is loaded from next
-/// to the library with this code, because the address sanitizer's dlopen() ignores our RUNPATH.
+/// Loads the library permanently and returns its function; null on failure (dlerror). Looks next to the
+/// library of this code, because the address sanitizer's dlopen() ignores our RUNPATH.
 MakeOperatorParts* load() {
   Dl_info own{};
   std::filesystem::path path = dladdr(reinterpret_cast<const void*>(&load), &own) != 0 ? own.dli_fname : "";

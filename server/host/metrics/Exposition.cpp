@@ -13,15 +13,15 @@ void appendNumber(std::string& text, std::uint64_t value) {
   text += std::to_string(value);
 }
 
-/// The shortest text without an exponent that is read back as the same number, whatever the locale is.
+/// Appends the shortest text without an exponent that parses to the number. Independent of the locale.
 void appendNumber(std::string& text, double value) {
-  std::array<char, 1100> digits;  // of the least number
+  std::array<char, 1100> digits;  // enough for the smallest number
   const auto end =
       std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed).ptr;
   text.append(digits.data(), end);
 }
 
-/// The same without an exponent, as bounds are compared by their text.
+/// Appends a bucket's bound, without an exponent because bounds are compared by their text.
 void appendBound(std::string& text, double bound) {
   std::array<char, 512> digits;
   const auto end =

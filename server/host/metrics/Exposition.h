@@ -17,13 +17,13 @@ enum class MetricType { kCounter, kGauge, kHistogram };
 
 class Exposition {
  public:
-  /// The samples that follow are of this family, until the next one. `name` and `help` are plain ASCII
+  /// Begins a family of metrics; the samples that follow belong to it. `name` and `help` are plain ASCII
   /// without quotes, backslashes or line ends.
   void begin(std::string_view name, MetricType type, std::string_view help);
-  /// `labels`: as they stand in the braces, like R"(reason="full")"; may be empty.
+  /// Adds a sample. `labels`: the text between the braces, like R"(reason="full")"; may be empty.
   void add(std::string_view labels, std::uint64_t value);
   void add(std::string_view labels, double value);
-  /// The buckets, sum and count of a family of histograms.
+  /// Adds the buckets, sum and count of a histogram.
   void add(const Histogram& histogram);
 
   const std::string& text() const { return m_text; }
@@ -35,7 +35,7 @@ class Exposition {
   std::string m_name;
 };
 
-/// `name="value"` with the value escaped: its backslashes, quotes and line ends.
+/// Returns `name="value"`, with backslashes, quotes and line ends in the value escaped.
 std::string metricLabel(std::string_view name, std::string_view value);
 
 }  // namespace naiad

@@ -39,7 +39,7 @@ void HostPulse::beginDrain(bool ticks) {
   m_phase = ticks ? Phase::kDraining : Phase::kEnding;
 }
 
-// A host that starts loads its game, and one that ends waits for its last bytes: neither ticks.
+// A host does not tick while it loads its game at the start, or flushes its last bytes at the end.
 HostPulse::Verdict HostPulse::health(Clock::time_point now) const {
   const Phase phase = m_phase;
   if (phase == Phase::kStarting) return {true, "starting"};

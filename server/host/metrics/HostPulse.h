@@ -1,5 +1,5 @@
-// Is the host alive, and does it take players? Written by the thread that ticks, read by the one that answers
-// /healthz and /readyz: a host that hangs cannot answer for itself.
+// The health and readiness of a host. The tick thread writes it; the metrics thread reads it for /healthz and
+// /readyz, because a tick thread that hangs cannot answer.
 #pragma once
 
 #include <atomic>
@@ -11,38 +11,38 @@
 
 namespace naiad {
 
-/// As in the metric's label: "between", "receive", ….
+/// Returns the stage's name in metrics, like "between" or "receive".
 const char* nameOf(Stage stage);
 
-/// Writers are for the thread that ticks, health() and readiness() for any. Time is passed in.
+/// Any thread may call health() and readiness(), the tick thread the others. Time is passed in.
 class HostPulse {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// A tick that is later than this has not begun because the host hangs: a second, or ten ticks.
+  /// If no tick begins for this long (one second or ten ticks, whichever is more), the host counts as hung.
   static constexpr std::chrono::nanoseconds kLeastPatience = std::chrono::seconds(1);
   static constexpr int kPatienceTicks = 10;
 
-  /// `stages`: ticks that begin, and in which stage a host hangs; outlives this.
+  /// `stages` has the time of the newest tick and the current stage; it must outlive this.
   explicit HostPulse(const StageClock& stages) : m_stages(stages) {}
 
-  /// Listening, and ticks of this length begin.
+  /// Call it when the host listens and ticks of this length begin.
   void begin(std::chrono::nanoseconds tick_length, Clock::time_point now);
-  /// All places are taken, or no longer.
+  /// Sets whether the maximum number of players is reached.
   void setFull(bool full) { m_full.store(full, std::memory_order_relaxed); }
-  /// It takes no more players and is about to end; `ticks`: as long as it ticks it can hang.
+  /// Call it when the host accepts no more players. `ticks`: it still ticks, so it can still hang.
   void beginDrain(bool ticks);
-  /// It does not end after all.
+  /// Returns to normal operation.
   void cancelDrain() { m_phase = Phase::kRunning; }
 
-  /// What is answered: with 200 if it is good, else with 503.
+  /// The response: status 200 if good, else 503.
   struct Verdict {
     bool is_good = true;
     std::string sentence;
   };
-  /// Do ticks begin?
+  /// Returns whether ticks begin in time.
   Verdict health(Clock::time_point now) const;
-  /// May players come?
+  /// Returns whether new players can join.
   Verdict readiness(Clock::time_point now) const;
 
  private:
@@ -50,8 +50,8 @@ class HostPulse {
 
   const StageClock& m_stages;
   std::atomic<Phase> m_phase = Phase::kStarting;
-  std::atomic<Clock::rep> m_began = 0;       ///< when ticks were to begin
-  std::atomic<std::int64_t> m_patience = 0;  ///< in nanoseconds
+  std::atomic<Clock::rep> m_began = 0;       ///< time of begin()
+  std::atomic<std::int64_t> m_patience = 0;  ///< nanoseconds without a new tick that mean a hung host
   std::atomic<bool> m_full = false;
 };
 

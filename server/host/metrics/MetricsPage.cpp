@@ -18,8 +18,9 @@ namespace naiad {
 
 namespace {
 
-/// Of proc(5), the fields of /proc/self/stat after the name.
-constexpr int kStartTime = 20;  ///< field 22: in clock ticks after the start of the machine
+/// Position of the start time among the fields after the name in /proc/self/stat (proc(5), field 22). Its
+/// unit is clock ticks since the machine's boot.
+constexpr int kStartTime = 20;
 
 std::string textOf(const char* path) {
   std::ifstream in(path);
@@ -28,7 +29,7 @@ std::string textOf(const char* path) {
 
 double startTime() {
   const std::string text = textOf("/proc/self/stat");
-  // A program's name may have spaces and brackets in it.
+  // A program's name may contain spaces and brackets.
   std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
   std::string field;
   for (int i = 0; i < kStartTime && fields >> field; ++i) {
@@ -47,7 +48,7 @@ std::uint64_t openFiles() {
        at.increment(error)) {
     ++count;
   }
-  return count == 0 ? 0 : count - 1;  // without that of the folder itself
+  return count == 0 ? 0 : count - 1;  // without the descriptor of the folder itself
 }
 
 double seconds(std::chrono::nanoseconds time) {

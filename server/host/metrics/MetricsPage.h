@@ -1,4 +1,4 @@
-// The page that a scraper reads: /metrics.
+// The page /metrics for Prometheus.
 #pragma once
 
 #include <array>
@@ -16,20 +16,20 @@ namespace naiad {
 
 class Exposition;
 
-/// What the kernel says of this process, as every exporter of Prometheus gives it out (process_…).
+/// The kernel's data about this process: the standard process_* metrics of Prometheus.
 struct ProcessFacts {
-  double cpu_seconds = 0;      ///< of all its threads, in the program and in the kernel
-  double start_seconds = 0;    ///< since 1970
+  double cpu_seconds = 0;      ///< user and system time of all threads
+  double start_seconds = 0;    ///< seconds since 1970
   std::uint64_t resident = 0;  ///< bytes
   std::uint64_t virtual_size = 0;
   std::uint64_t open_files = 0;
   std::uint64_t max_files = 0;
 
-  /// Reads /proc; what cannot be read is 0.
+  /// Reads /proc. Values that cannot be read are 0.
   static ProcessFacts read();
 };
 
-/// Writes the families process_… of these facts.
+/// Writes the process_* metrics.
 void writeProcess(Exposition& out, const ProcessFacts& facts);
 
 /// Upper bounds of buckets.
@@ -37,8 +37,7 @@ inline constexpr std::array<double, 10> kRoundTripBounds{0.001, 0.005, 0.01, 0.0
                                                          0.1,   0.2,   0.4,  0.8,   2};
 inline constexpr std::array<double, 9> kLossBounds{0, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
 
-/// The values of all metrics of a host at one moment. The thread that ticks makes one once a second; it never
-/// changes.
+/// The values of all metrics of a host at one moment. Immutable; the tick thread makes one every second.
 struct MetricsSnapshot {
   Counters counters;
   PasswordCheck::Counters passwords;
@@ -46,10 +45,10 @@ struct MetricsSnapshot {
   StageClock::Seconds stages{};
   Histogram tick_durations{kTickBounds};
   Histogram tick_lateness{kLatenessBounds};
-  Histogram round_trips{kRoundTripBounds};  ///< one of each player that has a line, each second
-  Histogram losses{kLossBounds};            ///< the same
+  Histogram round_trips{kRoundTripBounds};  ///< one sample per second of each player with a known round trip
+  Histogram losses{kLossBounds};            ///< one sample per second of each connected player
 
-  /// Of threads so far; "other" are those of passwords, log, watchdog, and the game's own.
+  /// Total CPU times of threads. "other": those of passwords, log and watchdog, and the game's own.
   struct Cpu {
     std::chrono::nanoseconds tick{0};
     std::chrono::nanoseconds network{0};
@@ -57,15 +56,15 @@ struct MetricsSnapshot {
     std::chrono::nanoseconds other{0};
   } cpu;
 
-  // At this moment.
-  std::uint64_t connected = 0;  ///< players
-  std::uint64_t detached = 0;   ///< players whose connection broke
-  std::uint64_t greeting = 0;   ///< connections that are no players yet
+  // Current values.
+  std::uint64_t connected = 0;  ///< players with a connection
+  std::uint64_t detached = 0;   ///< players that lost the connection
+  std::uint64_t greeting = 0;   ///< sessions that do not play, yet or any more
   std::uint64_t max_players = 0;
-  std::uint64_t rooms = 0;
-  std::uint64_t objects = 0;  ///< that are published
+  std::uint64_t rooms = 0;    ///< rooms that are not asleep
+  std::uint64_t objects = 0;  ///< published Objects
   double tick_length = 0;     ///< seconds
-  /// A room that has a name.
+  /// A named room.
   struct NamedRoom {
     std::string name;
     std::string game;
@@ -76,8 +75,8 @@ struct MetricsSnapshot {
   std::vector<NamedRoom> named_rooms;
 };
 
-/// In Prometheus' text format (Exposition.h). `snapshot` null: the host has none yet, and the page has only
-/// what the process itself knows.
+/// Returns the page in Prometheus' text format (Exposition.h). Without a snapshot (null) it has only the
+/// build and process metrics.
 std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts& process);
 
 }  // namespace naiad

@@ -25,14 +25,14 @@ using asio::ip::tcp;
 using std::error_code;
 
 constexpr std::chrono::milliseconds kRetryDelay{100};
-/// Of what comes after a request, so that no reset overtakes the answer.
+/// Maximum of bytes read after a request. Reading them prevents a TCP reset that could overtake the answer.
 constexpr std::size_t kMaxDrained = std::size_t{1} << 20;
 
 MetricsServer::Answer badRequest() {
   return {400, "This is no request that is answered here.\n"};
 }
 
-/// RFC 9110 15. Clients do not use it.
+/// Returns the reason phrase of a status (RFC 9110, 15). Clients ignore it.
 std::string_view reasonOf(int status) {
   switch (status) {
     case 200:
@@ -76,13 +76,13 @@ struct MetricsServer::Loop {
   asio::steady_timer retry{context};
   MetricsHosts hosts;
   Respond respond;
-  std::list<std::weak_ptr<Connection>> connections;  ///< oldest first; those that have ended among them
+  std::list<std::weak_ptr<Connection>> connections;  ///< oldest first; may include ended ones
   std::uint16_t port = 0;
   std::thread thread;
   clockid_t cpu_clock = CLOCK_THREAD_CPUTIME_ID;
 };
 
-/// One request and its answer. Lives as long as something of it is under way.
+/// One request and its answer. Pending operations keep it alive.
 class MetricsServer::Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Loop& loop, tcp::socket socket)
@@ -92,7 +92,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
     limit();
     read();
   }
-  /// No answer is under way: its request has not come yet, or it has been answered and does not go.
+  /// True if no answer is being sent: before the request is complete, and after the answer.
   bool isIdle() const { return m_idle; }
   void hangUp() {
     error_code ignored;
@@ -192,7 +192,7 @@ void MetricsServer::Loop::accept() {
       }
       return accept();
     }
-    // Out of descriptors: those that wait, wait on in the kernel.
+    // Out of descriptors: new connections wait in the kernel's queue.
     retry.expires_after(kRetryDelay);
     retry.async_wait([this](error_code ended) {
       if (!ended) accept();
@@ -200,7 +200,7 @@ void MetricsServer::Loop::accept() {
   });
 }
 
-// A scraper sends its request at once and goes with the answer, so the oldest that waits is none.
+// Evicts the oldest idle connection: a real scraper sends its request at once and closes after the answer.
 bool MetricsServer::Loop::makeRoom() {
   std::erase_if(connections, [](const auto& connection) { return connection.expired(); });
   if (connections.size() < kMaxConnections) return true;

@@ -1,7 +1,7 @@
 // A small HTTP server for metrics and health: GET of a few paths, on a thread of its own.
 //
-// It is for a scraper and a health check of this machine or a private network, and is built to cost a host
-// nothing whoever reaches it: few connections, each for one request with a small head, all with deadlines.
+// It serves a scraper and health checks on this machine or a private network. Hostile clients cannot burden
+// the host: there are few connections, each for one request with a small head, and all have deadlines.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@
 
 namespace naiad {
 
-/// It cannot listen there; what() is a sentence.
+/// Thrown if the server cannot listen. what() is a one-sentence message.
 class MetricsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,11 +25,11 @@ class MetricsError : public std::runtime_error {
 
 class MetricsServer {
  public:
-  static constexpr std::size_t kMaxHead = std::size_t{4} * 1024;  ///< bytes of a request
-  /// Connections at a time. The oldest that is not being answered ends for a new one; where all are, the new
-  /// one ends.
+  static constexpr std::size_t kMaxHead = std::size_t{4} * 1024;  ///< maximum bytes of a request
+  /// Maximum number of connections. A new one replaces the oldest that is not being answered; if all are
+  /// being answered, the new one is closed.
   static constexpr std::size_t kMaxConnections = 4;
-  /// For a request to come, and for its answer to go.
+  /// Timeout of receiving a request, and of sending its answer.
   static constexpr std::chrono::seconds kPatience{5};
 
   struct Answer {
@@ -37,16 +37,16 @@ class MetricsServer {
     std::string body;
     std::string_view type = "text/plain; charset=utf-8";  ///< a constant
   };
-  /// What a path has to say; nothing with status 404. Called on the server's thread.
+  /// Returns the answer for a path, with status 404 for unknown paths. Called on the server's thread.
   using Respond = std::function<Answer(std::string_view path)>;
 
-  /// Listens and answers from now on. Throws MetricsError.
+  /// Begins to listen. Throws MetricsError.
   MetricsServer(const MetricsAddress& address, MetricsHosts hosts, Respond respond);
-  /// Ends the thread, and hangs up.
+  /// Ends the thread and closes all connections.
   ~MetricsServer();
 
   std::uint16_t port() const;
-  /// That the thread has used so far. Any thread.
+  /// CPU time used by the server's thread. Any thread.
   std::chrono::nanoseconds cpuTime() const;
 
  private:

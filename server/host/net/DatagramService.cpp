@@ -19,7 +19,7 @@ DatagramService::~DatagramService() = default;
 std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporter& exporter, AeadId aead) {
   for (;;) {
     const ConnectionId id{m_random()};
-    if (m_gate.has(id)) continue;  // one in 2^64
+    if (m_gate.has(id)) continue;  // probability 2^-64
     return open(exporter, aead, id);
   }
 }
@@ -54,7 +54,7 @@ DatagramService::Channel::Channel(DatagramService& service, ConnectionId id, Aea
 
 DatagramService::Channel::~Channel() {
   if (m_unproven) std::erase(m_service.m_unproven, this);
-  // One that never got in must not take the session with it that has the same id.
+  // An unregistered channel must not remove the session that already has its id.
   if (m_registered) m_service.m_gate.remove(m_link.id());
 }
 
@@ -63,7 +63,7 @@ bool DatagramService::Channel::renew(const KeyExporter& exporter, Epoch epoch) {
     return m_link.startEpoch(epoch, deriveDatagramKeys(exporter, m_aead, m_link.id(), epoch),
                              m_service.m_now());
   } catch (const KeyExportError&) {
-    return false;  // a stream without encryption, or one that has just died
+    return false;  // a stream without encryption, or one that has just ended
   }
 }
 
@@ -85,12 +85,12 @@ void DatagramService::Channel::send(std::string_view packet) {
   }
 }
 
-// An address has to prove itself before much is sent there.
+// An address must be validated before much is sent to it.
 void DatagramService::Channel::answerChallenges(Time now) {
   if (m_link.wantsToSend(now)) send({});
 }
 
-// A new address is looked after by flush() until it has answered.
+// flush() handles a new address until it is validated.
 void DatagramService::Channel::noteUnproven() {
   if (m_unproven || m_link.isValidated(*m_link.path())) return;
   m_unproven = true;

@@ -1,4 +1,4 @@
-// All datagrams of a server: one socket, a gate against floods, and a sealed channel for each session.
+// All datagrams of a server: one socket, a gate against floods, and a sealed channel per session.
 #pragma once
 
 #include <chrono>
@@ -15,18 +15,18 @@
 
 namespace naiad {
 
-/// Not thread-safe. Must outlive the channels it gives out.
+/// Not thread-safe. Must outlive its channels.
 class DatagramService {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Now = std::function<Time()>;
   using Random = std::function<std::uint64_t()>;
 
-  /// `random`: 64 unpredictable bits.
+  /// `random` returns 64 unpredictable bits.
   DatagramService(std::unique_ptr<DatagramSocket> socket, Now now, Random random);
   ~DatagramService();
 
-  /// One session's datagrams, opened and sealed. They go to wherever the newest authentic one came from.
+  /// Seals and opens one session's datagrams. Sends to the address of the newest authentic datagram.
   class Channel : public SealedChannel {
    public:
     ~Channel() override;
@@ -51,25 +51,25 @@ class DatagramService {
     DatagramService& m_service;
     AeadId m_aead;
     SealedLink m_link;
-    bool m_registered = false;  ///< with the gate
-    bool m_unproven = false;    ///< in the service's list
+    bool m_registered = false;  ///< in the service's gate
+    bool m_unproven = false;    ///< in the service's m_unproven
     std::function<void(std::string_view)> m_on_packet;
   };
 
-  /// Keys come from the stream's exporter (DatagramKeys.h). Null if it has none to give.
+  /// Opens a channel with keys from the stream's exporter (DatagramKeys.h). Null if it provides none.
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead);
-  /// The same with an id that was drawn already; null also if it is in use.
+  /// Like open(exporter, aead), with a given id. Also null if the id is in use.
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead, ConnectionId id);
-  /// Hand the kernel what was sent since the last call, and the link's own packets.
+  /// Passes packets sent since the last call to the kernel, and sends the channels' own control packets.
   void flush();
-  /// Some address is being challenged: flush() is to be called now and then even if nothing is sent.
+  /// True while an address is being challenged. Then call flush() regularly even if nothing is sent.
   bool isUnproven() const { return !m_unproven.empty(); }
-  /// When the packet came that is being delivered; of use in callbacks of channels.
+  /// When the packet now being delivered was received; for use in callbacks of channels.
   Time received() const { return m_received; }
-  /// The port bound to.
+  /// The bound port.
   std::uint16_t port() const { return m_socket->localEndpoint().port; }
   const DatagramGateCounters& counters() const { return m_gate.counters(); }
-  /// Bytes of all packets that came, also those that were refused, and that were handed to the socket.
+  /// Bytes of all packets received, including refused ones.
   std::uint64_t bytesReceived() const { return m_bytes_received; }
   std::uint64_t bytesSent() const { return m_bytes_sent; }
 
@@ -82,7 +82,7 @@ class DatagramService {
   Time m_received{};
   std::uint64_t m_bytes_received = 0;
   std::uint64_t m_bytes_sent = 0;
-  std::vector<Channel*> m_unproven;  ///< channels whose address has not answered yet
+  std::vector<Channel*> m_unproven;  ///< channels whose address has not been validated yet
 };
 
 }  // namespace naiad

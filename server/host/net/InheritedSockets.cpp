@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kExported = "NAIAD_SOCKETS";  ///< process, streams, datagrams, is_service
 constexpr int kWanted = 2;
-constexpr int kSpare = 16;  ///< the lowest of duplicates
+constexpr int kSpare = 16;  ///< duplicates get at least this number
 
 [[noreturn]] void refuse(const std::string& what) {
   throw ListenError("The sockets from the service manager (LISTEN_FDS) cannot be used: " + what + ".",
@@ -41,7 +41,7 @@ int intOption(int socket, int option) {
   return getsockopt(socket, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
 }
 
-/// The address that an Internet socket is bound to.
+/// Returns the address that an Internet socket is bound to.
 asio::ip::tcp::endpoint endpointOf(int socket) {
   asio::ip::tcp::endpoint endpoint;
   auto size = static_cast<socklen_t>(endpoint.capacity());
@@ -53,7 +53,7 @@ asio::ip::tcp::endpoint endpointOf(int socket) {
   return endpoint;
 }
 
-/// Put a socket where its type belongs, and keep it from programs that this process starts.
+/// Stores a socket according to its type, and closes it in child processes.
 void sort(int socket, InheritedSockets& sockets) {
   if (fcntl(socket, F_SETFD, FD_CLOEXEC) != 0)
     refuse("descriptor " + std::to_string(socket) + " is not open");
@@ -75,7 +75,7 @@ void noteAddress(InheritedSockets& sockets) {
   sockets.port = streams.port();
 }
 
-/// Nullopt: the variable is missing or names another process.
+/// Returns nullopt if the variable is missing or names another process.
 std::optional<InheritedSockets> readExported() {
   const char* p_text = std::getenv(kExported);
   if (p_text == nullptr) return std::nullopt;
@@ -110,7 +110,7 @@ std::optional<InheritedSockets> InheritedSockets::take(pid_t process, const Vari
   return sockets;
 }
 
-// Above those that take() looks at, which are in use.
+// kSpare is above the numbers that take() examines, which are in use.
 InheritedSockets InheritedSockets::duplicate() const {
   InheritedSockets others = *this;
   for (int* const p_socket : {&others.streams, &others.datagrams}) {

@@ -1,6 +1,6 @@
-// Sockets that are open when this program starts: opened by the service manager (systemd's socket activation,
-// sd_listen_fds(3)), or by the server that this process ran before. Connections that come while the server is
-// not there wait for it.
+// Sockets that are already open when this program starts: opened by the service manager (systemd socket
+// activation, sd_listen_fds(3)), or by the server program that this process ran before. Connections made
+// while no server runs wait in them.
 #pragma once
 
 #include <sys/types.h>
@@ -12,34 +12,35 @@
 
 namespace naiad {
 
-/// What a server listens with: a socket for streams and one for datagrams, on the same address and port.
-/// Plain descriptors: what is opened with them (ServerPort.h) owns and closes them.
+/// The sockets that a server listens on: one for streams and one for datagrams, on one address and port.
+/// Plain descriptors: the objects made from them (ServerPort.h) own and close them.
 struct InheritedSockets {
   int streams = -1;
   int datagrams = -1;
-  std::string address;     ///< numeric, as of `--address`
-  std::uint16_t port = 0;  ///< of both
-  /// The service manager's, which opens them once: every program that this process runs later gets them.
+  std::string address;     ///< numeric, as in `--address`
+  std::uint16_t port = 0;  ///< port of both
+  /// True if the service manager opened them. It does so once; later programs of this process inherit them.
   bool is_service = false;
 
-  /// Others for the same two, which stay open when these are closed: for a process that runs a program again.
+  /// Returns duplicates, which stay open when these are closed, for a process that executes a program again.
   /// Throws std::system_error.
   InheritedSockets duplicate() const;
-  /// Leaves these open for the program that this process runs next, and their numbers in its environment.
-  /// They keep their numbers: other threads may open and close descriptors until the last moment. Call just
-  /// before exec, with sockets that nothing else closes (duplicate()). Throws std::system_error.
+  /// Keeps these sockets open for the next program that this process executes, and puts their numbers into
+  /// the environment. The numbers do not change, because other threads may open and close descriptors until
+  /// exec. Call just before exec, with sockets that nothing else closes (duplicate()).
+  /// Throws std::system_error.
   void exportToExec() const;
 
-  /// The value of a variable of the environment, or null.
+  /// Returns the value of an environment variable, or null.
   using Variable = std::function<const char*(const char* name)>;
 
-  /// What LISTEN_PID and LISTEN_FDS say. Nothing if they are not there, or are for another process. Programs
-  /// that this process starts do not get the descriptors. Once in a process. Throws ListenError
-  /// (TcpListener.h) if they are not one listening TCP socket and one UDP socket, in any order, on the same
-  /// address and port. `first`: the lowest of the descriptors.
+  /// Returns the sockets described by LISTEN_PID and LISTEN_FDS; nullopt if these are missing or name another
+  /// process. Child processes do not inherit the descriptors. Call once per process. `first`: the lowest
+  /// descriptor. Throws ListenError (TcpListener.h) unless they are one listening TCP socket and one UDP
+  /// socket, in any order, on one address and port.
   static std::optional<InheritedSockets> take(pid_t process, const Variable& variable, int first = 3);
   /// Returns the sockets that exportToExec() left open for this program, and removes their numbers from the
-  /// environment. Without such sockets: as above, for this process and its environment.
+  /// environment. Otherwise calls take(process, variable) for this process and its environment.
   static std::optional<InheritedSockets> take();
 };
 

@@ -15,7 +15,7 @@ namespace naiad {
 
 namespace {
 
-/// Does a server on this address hear what is sent to that one?
+/// True if a server that listens on `listened` receives what is sent to `address`.
 bool hears(const asio::ip::address& listened, const asio::ip::address& address) {
   if (listened == asio::ip::address_v6::any()) return true;
   if (listened == asio::ip::address_v4::any()) return address.is_v4();
@@ -48,7 +48,7 @@ const LanNetwork* LanQueryJudge::findNetwork(const LanPacket& packet) const {
   return found == m_networks.end() ? nullptr : &*found;
 }
 
-// Cheap tests come first, and those that a stranger to the link cannot pass.
+// Cheap tests come first, and tests that a sender outside the link cannot pass.
 std::optional<LanQueryJudge::Reply> LanQueryJudge::judgePacket(const LanPacket& packet, std::size_t players,
                                                                Time now) {
   if (packet.hop_limit != kLanHopLimit) {
@@ -65,7 +65,7 @@ std::optional<LanQueryJudge::Reply> LanQueryJudge::judgePacket(const LanPacket& 
     ++m_counters.malformed;
     return std::nullopt;
   }
-  // The common allowance is taken last: who is over their own does not use it up.
+  // The common limit comes last, so a sender over its own limit does not use it up.
   TokenBucket& own = m_prefixes.use(AddressPrefix::of(packet.source.address()));
   if (!own.takeToken(kOfAPrefix, now) || !m_all.takeToken(kInAll, now)) {
     ++m_counters.too_often;
@@ -136,7 +136,7 @@ void LanResponder::refresh() {
   }
 }
 
-/// False when no packet waits any more.
+/// Returns false when no packets are left.
 bool LanResponder::serve(LanSocket& socket) {
   for (int i = 0; i < kTurn; ++i) {
     const auto packet = socket.receivePacket();
@@ -148,7 +148,7 @@ bool LanResponder::serve(LanSocket& socket) {
   return true;
 }
 
-/// For stop(), for packets as well if `sockets` is true, and not longer than `time`.
+/// Waits for stop(), also for packets if `sockets` is true, and at most for `time`.
 void LanResponder::wait(bool sockets, std::chrono::milliseconds time) {
   std::vector<pollfd> waited{{m_wake, POLLIN, 0}};
   for (const LanSocket& socket : m_sockets) {

@@ -1,8 +1,7 @@
-// Answers clients that look for the servers of the local network (LanMessage.h).
+// Answers clients that search the local network for servers (LanMessage.h).
 //
-// It has a thread and sockets of its own, so that whatever is sent there costs the game nothing but processor
-// time, and little of that: no more than kTurn packets are read in kPause; the system drops the rest.
-// Networks that come and go are noticed within kRefresh.
+// It has its own thread and sockets, so LAN packets cost the game little processor time and nothing else: it
+// reads at most kTurn packets per kPause; the system drops the rest. It notices new networks within kRefresh.
 #pragma once
 
 #include <atomic>
@@ -23,58 +22,56 @@
 
 namespace naiad {
 
-/// When a server is found in the local network.
+/// Controls where a server can be found in the local network.
 enum class LanMode {
   kOff,
-  kAuto,  ///< in private networks (LanNetwork::is_private), unless it listens on loopback alone
-  kOn,    ///< in all networks it listens in
+  kAuto,  ///< in private networks (LanNetwork::is_private), unless it listens only on loopback
+  kOn,    ///< in all networks that it listens on
 };
 
-/// Those of `networks` in which a server that listens on this numeric address ("::" hears IPv4 as well) is to
-/// be found. With kAuto loopback counts only beside a private network.
+/// Returns those of `networks` in which a server that listens on this numeric address can be found. "::"
+/// includes IPv4. With kAuto, loopback is included only if a private network is.
 std::vector<LanNetwork> answeredNetworks(const std::vector<LanNetwork>& networks, const std::string& address,
                                          LanMode mode);
 
-/// What became of every packet: each is counted once.
+/// Outcomes of received packets. Each packet is counted once.
 struct LanCounters {
   std::uint64_t answered = 0;
-  std::uint64_t routed = 0;   ///< the hop limit was not the full one
-  std::uint64_t foreign = 0;  ///< not to the group, or not from a network in which the server is to be found
-  std::uint64_t malformed = 0;  ///< no query
-  std::uint64_t too_often = 0;  ///< over a limit
+  std::uint64_t routed = 0;     ///< the hop limit shows that it passed a router
+  std::uint64_t foreign = 0;    ///< not to the group, or not from a network in which the server can be found
+  std::uint64_t malformed = 0;  ///< not a query
+  std::uint64_t too_often = 0;  ///< over a rate limit
   std::uint64_t unsent = 0;     ///< the system refused to send the answer
 };
 
-/// Decides which queries of the local network a server answers, and with what. LanResponder has the sockets.
+/// Decides which queries from the local network a server answers, and how. LanResponder owns the sockets.
 ///
-/// A packet is answered if it was sent to the group, has come through no router (hop limit 255), from an
-/// address in a network of the interface it came in by where the server is to be found, is a query, and
-/// neither its sender nor all together have asked too often. So an answer leaves the link never, and a forged
-/// query costs its victim, a neighbour, 370 bytes for each 512 that the forger sends, a few times a second.
-/// Not thread-safe. Time is passed in.
+/// A packet is answered if it was sent to the group, passed no router (hop limit 255), came from an address
+/// in an answered network of its interface, is a query, and is within the rate limits of its sender and of
+/// all senders. So answers never leave the link, and a forged query sends at most 370 bytes to its victim, a
+/// neighbour, per 512 bytes of the forger, a few times a second. Not thread-safe. Time is a parameter.
 class LanQueryJudge {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Answers a second, and at once: in all, and to an address (IPv6: /64). A client asks twice in its first
-  /// second, in each family.
+  /// Rate limits of answers, in all and per address (IPv6: /64). A client asks twice at first, per family.
   static constexpr BucketRate kInAll{10, 10};
   static constexpr BucketRate kOfAPrefix{2, 4};
 
-  /// `facts`: all but nonce and players.
+  /// `facts`: everything except nonce and players.
   explicit LanQueryJudge(LanAnswer facts) : m_facts(std::move(facts)) {}
 
-  /// In which queries are answered from now on: answeredNetworks().
+  /// Sets the networks in which queries are answered: answeredNetworks().
   void setNetworks(std::vector<LanNetwork> networks) { m_networks = std::move(networks); }
   const std::vector<LanNetwork>& networks() const { return m_networks; }
 
   struct Reply {
-    const LanNetwork* p_network;  ///< good until setNetworks()
+    const LanNetwork* p_network;  ///< valid until setNetworks()
     std::string bytes;
   };
-  /// Nothing if the packet is not to be answered, which is counted. `players`: how many play.
+  /// Returns nullopt if the packet gets no answer; the reason is counted. `players`: number of players.
   std::optional<Reply> judgePacket(const LanPacket& packet, std::size_t players, Time now);
-  /// The last reply could not be sent.
+  /// Call if the last reply could not be sent.
   void noteUnsent();
 
   const LanCounters& counters() const { return m_counters; }
@@ -91,23 +88,23 @@ class LanQueryJudge {
 
 class LanResponder {
  public:
-  static constexpr int kTurn = 64;  ///< packets, of each family
+  static constexpr int kTurn = 64;  ///< packets per address family
   static constexpr std::chrono::milliseconds kPause{50};
   static constexpr std::chrono::seconds kRefresh{5};
 
-  /// Opens the sockets. Throws std::system_error if there is none of either family. `facts`: all but nonce
-  /// and players. `address`: numeric, that the server listens on.
+  /// Opens the sockets. `facts`: everything except nonce and players. `address`: numeric, where the server
+  /// listens. Throws std::system_error if no socket of either family can be opened.
   LanResponder(LanAnswer facts, std::string address, LanMode mode);
-  /// Stops.
+  /// Calls stop().
   ~LanResponder();
 
   void start();
-  /// End the thread. Nothing is answered after that.
+  /// Ends the thread. Nothing is answered afterwards.
   void stop();
 
-  /// How many play. From any thread.
+  /// Sets the number of players. Any thread.
   void setPlayers(std::size_t players) { m_players.store(players, std::memory_order_relaxed); }
-  /// Before start() or after stop().
+  /// Call before start() or after stop().
   const LanCounters& counters() const { return m_judge.counters(); }
 
  private:
@@ -122,7 +119,7 @@ class LanResponder {
   std::vector<LanSocket> m_sockets;
   std::atomic<std::size_t> m_players = 0;
   std::atomic<bool> m_stopping = false;
-  int m_wake = -1;  ///< an eventfd: written to stop
+  int m_wake = -1;  ///< an eventfd; stop() writes to it
   std::thread m_thread;
 };
 

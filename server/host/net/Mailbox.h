@@ -1,8 +1,8 @@
-// Messages from one thread to another, many at a time.
+// Messages from one thread to another, in batches.
 //
-// A writer collects a Batch of its own, and now and then puts it into the Mailbox; the reader takes all that
-// is there at once. Both swap vectors under a lock that is held for no longer, so neither waits for what the
-// other does, and after a while nothing is allocated any more.
+// A writer fills its own Batch and puts it into the Mailbox from time to time; the reader takes everything in
+// it at once. Both hold the lock only to swap or append vectors, so neither waits long for the other. After a
+// while nothing is allocated any more.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace naiad {
 
-/// Headers in the order they were added, each with some bytes. Not thread-safe.
+/// Headers in the order in which they were added, each with some bytes. Not thread-safe.
 template <class Header>
 class Batch {
  public:
@@ -27,8 +27,8 @@ class Batch {
     m_items.insert(m_items.end(), other.m_items.begin(), other.m_items.end());
     m_bytes.insert(m_bytes.end(), other.m_bytes.begin(), other.m_bytes.end());
   }
-  /// The next one that was not read yet, and its bytes, which are valid until the batch changes. False after
-  /// the last one: then the batch is empty again.
+  /// Reads the next unread header and its bytes, which are valid until the batch changes. False after the
+  /// last one; then the batch is empty again.
   bool read(Header& header, std::string_view& bytes) {
     if (m_read == m_items.size()) {
       clear();
@@ -49,7 +49,7 @@ class Batch {
     Header header;
     std::uint32_t size;
   };
-  /// What a burst has left behind beyond this is given back.
+  /// Memory above this many bytes is released after a burst.
   static constexpr std::size_t kKept = std::size_t{1} << 22;
 
   void clear() {
@@ -70,7 +70,7 @@ class Batch {
 template <class Header>
 class Mailbox {
  public:
-  /// Leave all of `batch` here. It comes back empty.
+  /// Moves all of `batch` into the mailbox. `batch` is empty afterwards.
   void putBatch(Batch<Header>& batch) {
     const std::lock_guard lock(m_mutex);
     if (m_waiting.empty()) {
@@ -81,13 +81,13 @@ class Mailbox {
     }
     m_size = m_waiting.size();
   }
-  /// Fetch what is here. `batch` has to be empty.
+  /// Moves everything in the mailbox to `batch`, which must be empty.
   void takeBatch(Batch<Header>& batch) {
     const std::lock_guard lock(m_mutex);
     std::swap(m_waiting, batch);
     m_size = 0;
   }
-  /// Bytes that were not fetched yet.
+  /// Bytes that have not been taken yet.
   std::size_t size() const { return m_size; }
 
  private:

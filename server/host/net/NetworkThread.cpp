@@ -20,18 +20,18 @@ namespace naiad {
 
 namespace {
 
-/// Handlers of the event loop before what they brought is handed over.
+/// Maximum number of event-loop handlers per turn; then the results are handed over.
 constexpr int kTurn = 64;
-/// What a notice of a frame takes beside the frame, so that many small ones fill a bound, too.
+/// Overhead of a notice in addition to its frame, so that many small frames also reach a limit.
 constexpr std::size_t kNoticeBytes = 32;
-/// How often unsent bytes are counted while there are any. That takes a system call for each stream, so with
-/// many streams the pause is kCounting times as long as the counting took, up to kLongBusy.
+/// Minimum time between two counts of unsent bytes. A count takes one system call per stream. So with many
+/// streams the pause is kCounting times the duration of the count, up to kLongBusy.
 constexpr std::chrono::milliseconds kBusy{2};
 constexpr std::chrono::milliseconds kLongBusy{6};
 constexpr int kCounting = 20;
-/// How often new addresses are challenged.
+/// Interval of challenges to unvalidated addresses.
 constexpr std::chrono::milliseconds kUnproven{50};
-/// The tick thread serves notices between two ticks for this long at a time.
+/// Time that the tick thread serves notices at once between two ticks.
 constexpr std::chrono::microseconds kHelping{200};
 constexpr int kMinServed = 64;
 
@@ -64,7 +64,7 @@ void NetworkThread::stop() {
     asio::post(m_io, [] {});
     m_thread.join();
   }
-  // No order is carried out any more, but what it hands over is still kept or released.
+  // Runs the remaining orders, so that the objects in them are stored or released. None is sent any more.
   m_order_box.putBatch(m_orders);
   obeyOrders();
 }
@@ -80,7 +80,7 @@ void NetworkThread::setTls(std::shared_ptr<const TlsContext> context) {
 // ---- the tick thread --------------------------------------------------------------------------------------
 
 bool NetworkThread::serve(Clock::time_point enough) {
-  m_home_woken = false;  // before it is taken, so that what comes later wakes again
+  m_home_woken = false;  // before taking the batch, so that later notices wake it again
   bool more = false;
   m_serving = true;
   Notice notice;
@@ -138,7 +138,7 @@ std::unique_ptr<SealedChannel> NetworkThread::openDatagrams(const ReliableChanne
   const auto* relayed = dynamic_cast<const RelayedStream*>(&stream);
   if (!hasDatagrams() || relayed == nullptr) return nullptr;
   constexpr Epoch kFirstEpoch{1};
-  auto* const end = new DatagramsEnd;  // kept by m_datagrams from the order on
+  auto* const end = new DatagramsEnd;  // owned by m_datagrams once the order runs
   end->id = ++m_newest_datagrams;
   if (m_free_places.empty()) {
     m_free_places.push_back(static_cast<std::uint32_t>(m_near_datagrams.size()));
@@ -160,7 +160,7 @@ bool NetworkThread::renewDatagrams(DatagramsEnd& end, const ReliableChannel& str
   return true;
 }
 
-// What waits longer is left unsent; the jobs own what they touch beside this.
+// Data unsent at the deadline is lost. The posted jobs own what they use in addition to this object.
 void NetworkThread::sendLast(const std::string& frame, std::chrono::milliseconds patience) {
   const auto end = Clock::now() + patience;
   asio::post(m_io, [this, frame] {
@@ -214,7 +214,7 @@ DatagramGateCounters NetworkThread::gateCounters() const {
 
 // ---- the network thread -----------------------------------------------------------------------------------
 
-// Its loop: serve what is ready, then hand over what that brought.
+// Serves what is ready, then hands over the results, in a loop.
 void NetworkThread::run() {
   while (!m_stopping) {
     if (!m_busy.empty()) {
@@ -242,8 +242,8 @@ void NetworkThread::endTurn() {
   if (std::exchange(m_urgent, false)) wakeHome();
 }
 
-// Counts the unsent bytes of the streams that had some at the last count, or have been sent more since. Not
-// in every turn: after a tick all streams are busy for many turns.
+// Counts the unsent bytes of streams that had some at the last count or were sent more since. Not in every
+// turn, because after a tick all streams are busy for many turns.
 void NetworkThread::noteUnsent() {
   const Clock::time_point begin = Clock::now();
   if (m_busy.empty() || begin < m_count_at) return;
@@ -263,7 +263,7 @@ bool NetworkThread::hasUnsent() const {
 }
 
 void NetworkThread::obeyOrders() {
-  m_woken = false;  // before they are taken, so that later ones wake again
+  m_woken = false;  // before taking the batch, so that later orders wake it again
   m_order_box.takeBatch(m_taken);
   Order order;
   std::string_view bytes;
@@ -373,7 +373,7 @@ void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
 void NetworkThread::noteRoom(DatagramsEnd& end) {
   const auto room = end.channel->room();
   const std::int32_t now = room ? static_cast<std::int32_t>(*room) : -1;
-  // Relaxed: nothing else depends on it. Compared first: it hardly ever changes.
+  // Relaxed, because nothing else depends on it. Compared first, because it rarely changes.
   if (end.room.load(std::memory_order_relaxed) != now) end.room.store(now, std::memory_order_relaxed);
 }
 
@@ -411,7 +411,7 @@ void NetworkThread::onFrame(StreamEnd& end, std::string_view frame) {
   addNotice({.kind = Notice::kFrame, .id = end.id, .came = Clock::now()}, frame);
 }
 
-// The stream ended by itself, or is made to end.
+// Call when the stream has ended, or to end it.
 void NetworkThread::onClosed(StreamEnd& end, CloseReason reason) {
   end.channel.reset();
   addNotice({.kind = Notice::kClosed, .reason = reason, .id = end.id, .came = Clock::now()});

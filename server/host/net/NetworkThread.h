@@ -1,20 +1,19 @@
-// The server's sockets, on a thread of their own: accepting, TLS, frames, the gate for datagrams, opening and
-// sealing, sendmmsg. The thread that ticks knows channels whose other ends are here (RelayedStream,
-// RelayedDatagrams), and never waits for a socket, a handshake, or a lock that is held across a system call.
+// The server's sockets, on their own thread: accepting, TLS, frames, the gate for datagrams, sealing and
+// opening, sendmmsg. The tick thread uses channels whose other ends are here (RelayedStream,
+// RelayedDatagrams). It never waits for a socket, a handshake, or a lock held across a system call.
 //
 //   network thread   sockets -> Batch<Notice>  --put--> Mailbox --take--> serve()   -> channels' callbacks
 //   tick thread      channels -> Batch<Order>  --put--> Mailbox --take--> the sockets, in order
 //
-// Streams' frames wake the tick thread; datagrams wait for its next tick, which is when they count, with the
-// time at which they came. Orders leave the tick thread with flush(): once for a tick, once for what was
-// served between two.
+// Frames of streams wake the tick thread. Datagrams wait for its next tick, but keep their arrival time.
+// Orders leave the tick thread with flush(): once per tick, and once for each serve() between ticks.
 //
-// Everything here is bounded, and what is over a bound is counted:
+// Everything here is limited, and what exceeds a limit is counted:
 //   datagrams, each direction     dropped while the mailbox is full (Limits::mailbox)
 //   a stream's frames             the stream ends (CloseReason::kOverflow) when more than Limits::stream_in
 //                                 bytes of it wait for the tick thread, or its own queue (TcpOptions) or the
 //                                 mailbox is full
-//   connections                   hung up on while Limits::unmet wait for the tick thread
+//   connections                   dropped while Limits::unmet wait for the tick thread
 #pragma once
 
 #include <asio/executor_work_guard.hpp>
@@ -44,17 +43,17 @@ namespace naiad {
 class RelayedDatagrams;
 class RelayedStream;
 
-/// What did not get across, each once.
+/// What was not passed between the threads. Each loss is counted once.
 struct RelayCounters {
   std::uint64_t datagrams_in_dropped = 0;   ///< the tick thread was behind
   std::uint64_t datagrams_out_dropped = 0;  ///< the network thread was behind
-  std::uint64_t streams_overflowed = 0;     ///< ended: more frames than the tick thread could take
-  std::uint64_t streams_clogged = 0;        ///< ended: more to send than its queue holds
-  std::uint64_t unmet = 0;                  ///< connections hung up on: too many waited to be met
-  std::uint64_t keyless = 0;                ///< sessions whose stream ended before it could give keys
+  std::uint64_t streams_overflowed = 0;     ///< ended: more frames waited than allowed
+  std::uint64_t streams_clogged = 0;        ///< ended: its send queue was full
+  std::uint64_t unmet = 0;                  ///< connections dropped: too many waited for the tick thread
+  std::uint64_t keyless = 0;                ///< keys requested from a stream that had ended
 };
 
-/// What came and went. Of streams: frames with their heads, before TLS; of datagrams: payloads of UDP.
+/// Traffic of streams (frames with their headers, before TLS) and of datagrams (UDP payloads).
 struct TrafficCounters {
   std::uint64_t frames_in = 0;
   std::uint64_t frames_out = 0;
@@ -64,13 +63,13 @@ struct TrafficCounters {
   std::uint64_t datagram_bytes_out = 0;
 };
 
-/// All that the network thread counts.
+/// All counters of the network thread.
 struct NetworkCounters {
   RelayCounters relay;
   TrafficCounters traffic;
   TcpListener::Counters streams;
   VisitorsListener::Counters visitors;  ///< all zero without a visitors' socket
-  DatagramGateCounters gate;            ///< all zero without datagrams, as the next
+  DatagramGateCounters gate;            ///< all zero without datagrams, like `udp`
   UdpCounters udp;
 };
 
@@ -80,69 +79,68 @@ class NetworkThread {
   using OnChannel = TcpListener::OnChannel;
 
   struct Limits {
-    std::size_t mailbox = std::size_t{32} << 20;  ///< bytes that may wait for one of the threads
+    std::size_t mailbox = std::size_t{32} << 20;  ///< bytes that may wait for each of the threads
     std::size_t stream_in = std::size_t{256}
                             << 10;  ///< bytes of one stream that may wait for the tick thread
-    std::size_t unmet = 512;        ///< connections that it has not met yet
+    std::size_t unmet = 512;        ///< connections that may wait for the tick thread
   };
 
-  /// Listens from now on (ServerPort.h), with the `inherited` sockets if there are any, whatever `address`
-  /// and `port` are; connections wait until start(). `home`: runs the tick thread's handlers; from there
-  /// `on_channel` and the channels' callbacks are called. Throws ListenError.
+  /// Starts to listen (ServerPort.h); connections wait until start(). If there are `inherited` sockets, uses
+  /// them and ignores `address` and `port`. `home` runs the tick thread's handlers, in which `on_channel` and
+  /// the channels' callbacks are called. Throws ListenError.
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
                 TcpOptions options, TlsListening tls, Limits limits, VisitorsListening visitors = {},
                 const std::optional<InheritedSockets>& inherited = std::nullopt);
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
                 TcpOptions options, TlsListening tls)
       : NetworkThread(home, address, port, std::move(on_channel), options, std::move(tls), Limits{}) {}
-  /// Channels may outlive the sockets; they have to be gone before this.
+  /// Channels must be destroyed before this; they may outlive the sockets.
   ~NetworkThread();
 
-  // All of these: from the tick thread.
+  // Call all of these on the tick thread.
 
   void start();
-  /// End the thread, at once; nothing comes or goes after that.
+  /// Ends the thread at once. Nothing is sent or received afterwards.
   void stop();
-  /// No more connections.
+  /// Closes the listener: no new connections.
   void closeListener();
-  /// Connections accepted from now on meet this certificate and key.
+  /// Sets the certificate and key for connections accepted from now on.
   void setTls(std::shared_ptr<const TlsContext> context);
 
-  /// Call back for what came, but no longer than until `enough` (and for a least number of messages). False:
-  /// there is more.
+  /// Calls back for received messages until `enough`, at least a minimum number. False if more are left.
   bool serve(Clock::time_point enough);
-  /// Hand over what was sent.
+  /// Passes on everything sent since the last flush.
   void flush() { sendOrders(std::nullopt); }
-  /// The same at the end of a tick that began at `began`.
+  /// Like flush(), at the end of a tick that began at `began`.
   void flushTick(Clock::time_point began) { sendOrders(began); }
-  /// When what is being served came; now, if nothing is.
+  /// When the message being served was received; outside serve(), the present time.
   Clock::time_point now() const { return m_serving ? m_came : Clock::now(); }
 
-  /// Are there datagrams, beside streams?
+  /// True if there are datagrams in addition to streams.
   bool hasDatagrams() const { return m_port.datagrams != nullptr; }
-  /// Datagrams for a session, with keys from its stream, which must be one of ours. Null if there are none.
+  /// Opens datagrams for a session, with keys from `stream`, which must be one of this object's. Null if
+  /// the server has no datagrams.
   std::unique_ptr<SealedChannel> openDatagrams(const ReliableChannel& stream, AeadId aead);
 
   std::uint16_t port() const { return m_port.streams->port(); }
   std::string address() const { return m_port.streams->address(); }
 
-  /// Send `frame` on all streams, close them, and wait until they are empty, but not longer than `patience`.
-  /// From any thread but the network's, while that runs: for a tick thread that does not return.
+  /// Sends `frame` on all streams, closes them, and waits until they are empty, at most `patience`. Call from
+  /// any thread but the network's, while that runs; for the case that the tick thread hangs.
   void sendLast(const std::string& frame, std::chrono::milliseconds patience);
 
-  /// How long ticks took, begin to last datagram sent. Thread-safe.
+  /// Durations of ticks, from their start to the last datagram sent. Thread-safe.
   const TickTimes& tickTimes() const { return m_tick_times; }
-  /// What became of every datagram until just now; nothing without them. Thread-safe.
+  /// Counters of the gate as of the last turn of the thread; all zero without datagrams. Thread-safe.
   DatagramGateCounters gateCounters() const;
   void resetTickTimes() { m_tick_times.reset(); }
-  /// Ask the thread for its counters, which takes it a turn; latestCounters() has them then. Without a
-  /// request nothing is copied.
+  /// Makes the thread copy its counters in its next turn; latestCounters() then returns them.
   void askForCounters() { giveOrder({.kind = Order::kReportCounters}); }
-  /// As they were when last asked for; all zero before that.
+  /// The counters of the last request; all zero before the first.
   NetworkCounters latestCounters() const;
-  /// CPU time of the thread so far; 0 while it does not run.
+  /// CPU time used by the thread; 0 while it does not run.
   std::chrono::nanoseconds cpuTime();
-  /// The rest: when the thread does not run.
+  /// Call the rest only while the thread does not run.
   RelayCounters counters() const;
   const TcpListener::Counters& streamCounters() const { return m_port.streams->counters(); }
   /// All zero without a visitors' socket.
@@ -154,35 +152,35 @@ class NetworkThread {
   friend class RelayedDatagrams;
   friend class RelayedStream;
 
-  /// The network thread's end of a stream. What is not atomic belongs to that thread.
+  /// The network thread's end of a stream. Non-atomic members belong to that thread.
   struct StreamEnd {
     std::uint64_t id = 0;
     std::string peer;  ///< never changes
     std::unique_ptr<ReliableChannel> channel;
     bool busy = false;                     ///< in m_busy
-    std::atomic<std::size_t> unsent = 0;   ///< of what was taken over
-    std::atomic<std::uint64_t> taken = 0;  ///< bytes that came over from the tick thread, ever
-    std::atomic<std::size_t> in = 0;       ///< bytes in transit to it
+    std::atomic<std::size_t> unsent = 0;   ///< unsent bytes of those taken over
+    std::atomic<std::uint64_t> taken = 0;  ///< total bytes taken over from the tick thread
+    std::atomic<std::size_t> in = 0;       ///< bytes in transit to the tick thread
   };
-  /// The same of a session's datagrams.
+  /// The network thread's end of a session's datagrams.
   struct DatagramsEnd {
     std::uint64_t id = 0;
-    std::uint32_t place = 0;  ///< in m_near_datagrams
+    std::uint32_t place = 0;  ///< index in m_near_datagrams
     std::uint64_t connection = 0;
     AeadId aead = AeadId::kAes128Gcm;
     std::unique_ptr<DatagramService::Channel> channel;  ///< null without keys
     std::atomic<std::int32_t> room = -1;                ///< SealedChannel::room(); negative: none
   };
-  /// From the network thread.
+  /// A message from the network thread.
   struct Notice {
     enum Kind : std::uint8_t { kMet, kFrame, kClosed, kDatagram } kind = kMet;
     CloseReason reason = CloseReason::kLocal;
-    std::uint32_t place = 0;  ///< of datagrams
+    std::uint32_t place = 0;  ///< place of the datagrams
     std::uint64_t id = 0;
     StreamEnd* stream = nullptr;
     Clock::time_point came{};
   };
-  /// From the tick thread.
+  /// A message from the tick thread.
   struct Order {
     enum Kind : std::uint8_t {
       kSendFrame,
@@ -203,7 +201,7 @@ class NetworkThread {
     std::uint64_t number = 0;  ///< limit, epoch, or when the tick began
   };
 
-  // On the tick thread.
+  // Members used on the tick thread.
   bool renewDatagrams(DatagramsEnd& end, const ReliableChannel& stream, Epoch epoch);
   void giveOrder(const Order& order, std::string_view bytes = {}) { m_orders.add(order, bytes); }
   bool isFull() const { return m_order_box.size() + m_orders.size() > m_limits.mailbox; }
@@ -211,7 +209,7 @@ class NetworkThread {
   void onNotice(const Notice& notice, std::string_view bytes);
   void wakeHome();
 
-  // On the network thread.
+  // Members used on the network thread.
   void run();
   void obeyOrders();
   void obeyOrder(const Order& order, std::string_view bytes);
@@ -231,22 +229,22 @@ class NetworkThread {
   OnChannel m_on_channel;
   Limits m_limits;
 
-  // The network thread's.
+  // Owned by the network thread.
   asio::io_context m_io{1};
   asio::executor_work_guard<asio::io_context::executor_type> m_work{m_io.get_executor()};
   ServerPort m_port;
   std::unordered_map<const StreamEnd*, std::unique_ptr<StreamEnd>> m_streams;
   std::unordered_map<const DatagramsEnd*, std::unique_ptr<DatagramsEnd>> m_datagrams;
-  std::vector<StreamEnd*> m_busy;  ///< those with bytes unsent, at the last count
-  Clock::time_point m_count_at{};  ///< when they may be counted again
+  std::vector<StreamEnd*> m_busy;  ///< streams with unsent bytes at the last count
+  Clock::time_point m_count_at{};  ///< earliest time of the next count
   Batch<Order> m_taken;
   Batch<Notice> m_notices;
   std::uint64_t m_newest_stream = 0;
-  bool m_urgent = false;  ///< the tick thread is to be woken for what is in m_notices
+  bool m_urgent = false;  ///< the tick thread must be woken for m_notices
   RelayCounters m_counters;
   TrafficCounters m_traffic;
 
-  // Shared.
+  // Shared by both threads.
   Mailbox<Notice> m_notice_box;
   Mailbox<Order> m_order_box;
   std::atomic<bool> m_home_woken = false;
@@ -255,14 +253,14 @@ class NetworkThread {
   std::atomic<std::size_t> m_unmet = 0;
   TickTimes m_tick_times;
   mutable std::mutex m_gate_mutex;
-  DatagramGateCounters m_gate_counters;  ///< a copy, for others to read
-  NetworkCounters m_reported;            ///< the same, made when asked for
+  DatagramGateCounters m_gate_counters;  ///< a copy, for other threads
+  NetworkCounters m_reported;            ///< counters of the last request
 
-  // The tick thread's.
+  // Owned by the tick thread.
   Batch<Order> m_orders;
   Batch<Notice> m_serving_batch;
   std::unordered_map<std::uint64_t, RelayedStream*> m_near_streams;
-  /// Places are used again, ids are not: notices still in transit when a session ends reach no channel.
+  /// Places are reused, ids are not: a notice in transit when its session ends reaches no channel.
   struct NearDatagrams {
     std::uint64_t id = 0;
     RelayedDatagrams* channel = nullptr;

@@ -1,5 +1,5 @@
-// Which address prefixes have players, and how many: for the limit on each, and for the places that listeners
-// set aside for prefixes with players.
+// The number of players of each address prefix: for the limit per prefix, and because listeners reserve
+// places for prefixes with players.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace naiad {
 
-/// A session counts from its welcome to its end, its stream broken or not: for the prefix that its player
-/// joined from, and for the one where they are now, if that is another one. So neither leaving a stream nor
+/// A session counts from its welcome to its end, even without a stream. It counts for the prefix that its
+/// player joined from, and for the player's present prefix if that differs. So neither dropping a stream nor
 /// moving it frees a place of a prefix.
 ///
-/// Thread-safe; no call waits for more than another one.
+/// Thread-safe; a call waits at most for another call.
 class PlayerPrefixes {
  public:
-  /// The first time the session's player joins from `prefix`; later they have moved there.
+  /// Records a join from `prefix`. Later calls for this session record a move to `prefix`.
   void note(std::uint64_t session, const AddressPrefix& prefix) {
     const std::lock_guard lock(m_mutex);
     const auto [found, joined] = m_sessions.try_emplace(session, Places{prefix, prefix});
@@ -28,7 +28,7 @@ class PlayerPrefixes {
     places.present = prefix;
     if (joined || places.present != places.joined) ++m_counts[prefix];
   }
-  /// The session is over. Harmless if it was never noted.
+  /// Call when the session is over. Ignores unknown sessions.
   void forget(std::uint64_t session) {
     const std::lock_guard lock(m_mutex);
     const auto ended = m_sessions.extract(session);
@@ -38,7 +38,7 @@ class PlayerPrefixes {
     leave(places.joined);
   }
 
-  /// Sessions that count for `prefix`.
+  /// Number of sessions that count for `prefix`.
   std::size_t count(const AddressPrefix& prefix) const {
     const std::lock_guard lock(m_mutex);
     const auto found = m_counts.find(prefix);
@@ -57,7 +57,7 @@ class PlayerPrefixes {
 
   mutable std::mutex m_mutex;
   std::map<std::uint64_t, Places> m_sessions;
-  std::map<AddressPrefix, std::size_t> m_counts;  ///< none is zero
+  std::map<AddressPrefix, std::size_t> m_counts;  ///< never zero
 };
 
 }  // namespace naiad

@@ -8,7 +8,7 @@ namespace naiad {
 
 namespace {
 
-/// Bytes in transit to the network thread, at most; there the channel has a queue of its own.
+/// Maximum bytes in transit to the network thread, where the channel has its own queue.
 constexpr std::size_t kMaxInTransit = TcpOptions{}.send_cap;
 
 }  // namespace
@@ -41,8 +41,8 @@ std::optional<std::size_t> RelayedDatagrams::room() const {
   return room < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(room));
 }
 
-// The epoch is taken to be in use although the stream may just have ended: the next one is higher then, which
-// both ends accept (SealedLink::startEpoch).
+// Assumes that the epoch is in use, although the stream may just have ended. Then the next epoch skips a
+// number, which both ends accept (SealedLink::startEpoch).
 bool RelayedDatagrams::renew(const ReliableChannel& stream, Epoch epoch) {
   if (epoch <= m_epoch || !m_network.renewDatagrams(m_end, stream, epoch)) return false;
   m_epoch = epoch;
@@ -77,7 +77,7 @@ void RelayedStream::send(std::string_view frame) {
 
 std::size_t RelayedStream::unsentBytes() const {
   if (m_idle) return 0;
-  // In this order: what is taken over in between counts twice rather than not at all.
+  // This order matters: bytes taken over in between are counted twice, not missed.
   const std::size_t in_transit = inTransit();
   const std::size_t unsent = in_transit + m_end.unsent;
   m_idle = unsent == 0;

@@ -1,4 +1,4 @@
-// A stream of which the tick thread sees this, while its socket is the network thread's.
+// The tick thread's ends of streams and datagrams whose sockets belong to the network thread.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace naiad {
 
-/// A session's datagrams of which the tick thread sees this, while keys and socket are the network thread's.
-/// Thread: the one that ticks. Packets come from NetworkThread::serve(), and leave with its flush(). room()
-/// is what it was when the network thread last sealed or opened one. A stream that ends before it could give
-/// keys leaves the ones before in use, or none: then there is no room, ever.
+/// A session's datagrams as the tick thread sees them; keys and socket belong to the network thread. Thread:
+/// the one that ticks. Packets arrive in NetworkThread::serve() and leave with its flush(). room() is the
+/// value of the network thread's last packet. If a stream ends before it provides keys, the previous keys
+/// stay in use; without such keys there is never room.
 class RelayedDatagrams : public SealedChannel {
  public:
   RelayedDatagrams(NetworkThread& network, NetworkThread::DatagramsEnd& end, Epoch epoch);
@@ -26,7 +26,7 @@ class RelayedDatagrams : public SealedChannel {
   void start(std::function<void(std::string_view packet)> on_packet) override;
   void send(std::string_view packet) override;
   std::optional<std::size_t> room() const override;
-  /// The address may change with every packet, and is the network thread's to know.
+  /// Returns a label: the address may change with every packet, and only the network thread knows it.
   std::string peerAddress() const override { return "datagrams " + std::to_string(m_end.id); }
 
   std::uint64_t id() const override { return m_end.connection; }
@@ -44,9 +44,9 @@ class RelayedDatagrams : public SealedChannel {
 };
 
 /// Thread: the one that ticks. Callbacks come from NetworkThread::serve(), frames leave with its flush().
-/// unsentBytes() counts the bytes on the way to the network thread and those that it had unsent at its last
-/// count, which it makes every few milliseconds while there are any.
-/// exportSecret() gives nothing: keys are made over there (NetworkThread::openDatagrams).
+/// unsentBytes() adds the bytes on the way to the network thread and those that it had unsent at its last
+/// count. It counts every few milliseconds while there are any. exportSecret() returns nothing, because the
+/// network thread makes the keys (NetworkThread::openDatagrams).
 class RelayedStream : public ReliableChannel {
  public:
   RelayedStream(NetworkThread& network, NetworkThread::StreamEnd& end);
@@ -64,17 +64,17 @@ class RelayedStream : public ReliableChannel {
  private:
   friend class NetworkThread;
 
-  /// Bytes that the network thread has not taken over yet.
+  /// Bytes that the network thread has not received yet.
   std::size_t inTransit() const { return static_cast<std::size_t>(m_given - m_end.taken); }
   void deliver(std::string_view frame);
   void reportEnd(CloseReason reason);
 
   NetworkThread& m_network;
   NetworkThread::StreamEnd& m_end;
-  std::shared_ptr<Callbacks> m_callbacks;  ///< shared with the call that is running
-  std::uint64_t m_given = 0;               ///< bytes, ever
-  mutable bool m_idle = false;             ///< nothing was given since nothing was unsent
-  bool m_closed = false;                   ///< by us, or it overflowed
+  std::shared_ptr<Callbacks> m_callbacks;  ///< shared with a running callback
+  std::uint64_t m_given = 0;               ///< total bytes passed to the network thread
+  mutable bool m_idle = false;             ///< no bytes passed since there were no unsent ones
+  bool m_closed = false;                   ///< by this end, or after an overflow
 };
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// One session's datagrams on the server, opened and sealed, as the session sees them.
+// One session's datagrams on the server, sealed and opened, as the session sees them.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace naiad {
 
-/// DatagramService has it where one thread does everything, NetworkThread where the sockets have their own.
+/// Implemented by DatagramService::Channel (on one thread) and RelayedDatagrams (sockets on their own
+/// thread).
 class SealedChannel : public DatagramChannel {
  public:
-  /// On the wire in front of what the client sends.
+  /// The connection id in the header of the client's datagrams.
   virtual std::uint64_t id() const = 0;
   virtual AeadId aead() const = 0;
-  /// Of the newest keys.
+  /// Epoch of the newest keys.
   virtual Epoch epoch() const = 0;
-  /// New keys, from another stream of the session. False if it has none to give, or for an epoch that is not
-  /// newer.
+  /// Switches to keys from another stream of the session. False if it provides none or `epoch` is not newer.
   virtual bool renew(const ReliableChannel& stream, Epoch epoch) = 0;
 };
 

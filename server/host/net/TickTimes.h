@@ -1,4 +1,4 @@
-// How long something took, many times over: quantiles without keeping every sample.
+// A histogram of durations: quantiles without storing every sample.
 #pragma once
 
 #include <array>
@@ -9,14 +9,15 @@
 
 namespace naiad {
 
-/// Counts by duration, in steps of 1/16 of it; from 1 µs to an hour. Thread-safe; a reader may miss what is
-/// being added.
+/// Counts durations from 1 µs to an hour in steps of 1/16 of the duration. Thread-safe; a reader may miss
+/// samples that are just being added.
 class TickTimes {
  public:
   void add(std::chrono::nanoseconds duration) {
     m_counts[indexOf(duration.count() / 1000)].fetch_add(1, std::memory_order_relaxed);
   }
-  /// The shortest duration that no more than `share` of all exceed, rounded up to its step; 0 without any.
+  /// The shortest duration that at least `share` of the samples do not exceed, rounded up to its step; 0 if
+  /// there are no samples.
   std::chrono::microseconds quantile(double share) const {
     const std::uint64_t all = count();
     std::uint64_t longer = all;
@@ -33,7 +34,7 @@ class TickTimes {
     for (const auto& n : m_counts) all += n;
     return all;
   }
-  /// Forget all.
+  /// Removes all samples.
   void reset() {
     for (auto& n : m_counts) n = 0;
   }

@@ -52,7 +52,7 @@ using Level = AdminCommand::Level;
 
 constexpr std::size_t kScoresOfATable = 10;
 constexpr std::size_t kMaxScoresOfATable = 10'000;
-/// A range that is wider takes in whole providers, and is a slip of the finger.
+/// Shortest prefixes that can be banned. A wider range covers whole providers and is most likely a typo.
 constexpr int kMinBitsIPv4 = 8;
 constexpr int kMinBitsIPv6 = 16;
 
@@ -81,10 +81,10 @@ AdminRow rowOf(const AdminPlayer& player, Level level) {
   return row;
 }
 
-/// Bans that one command makes, or why it makes none.
+/// The bans that a command makes, or the reason why it makes none.
 struct BanPlan {
   std::vector<Ban> bans;
-  std::string note;  ///< for whoever gave the command
+  std::string note;  ///< shown to the caller of the command
   AdminAnswer problem{};
 };
 
@@ -111,7 +111,7 @@ BanPlan planName(Ban ban, const std::string& name) {
   return {{std::move(ban)}, ""};
 }
 
-// By name alone where the address is this machine's, or that of others who play.
+// Bans only the name if the address is this machine's, or is shared with other players.
 BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, const std::string& typed) {
   const PlayerChoice choice = choosePlayer(players, typed);
   if (!choice.player) {
@@ -169,7 +169,7 @@ PlayerChoice choosePlayer(const std::vector<AdminPlayer>& players, const std::st
   return {std::nullopt, AdminAnswer::refused("There is no player \"" + typed + "\".")};
 }
 
-// From any thread; the job runs on the host's.
+// Runs the job on the host's thread. Can be called from any thread.
 void AdminConsole::post(std::function<void()> job) {
   asio::post(m_context.home, std::move(job));
 }
@@ -222,7 +222,7 @@ AdminAnswer AdminConsole::listPlayers(const AdminCaller& caller) const {
   return AdminAnswer::list(std::move(rows), "Nobody plays.");
 }
 
-// A muted player's lines reach nobody, so none of theirs is passed on here either.
+// Refuses a muted sender: a muted player must not reach others by private messages either.
 AdminAnswer AdminConsole::tell(const AdminRequest& request, const AdminCaller& caller) {
   const std::vector<AdminPlayer> players = m_admin.players();
   const auto sender = std::find_if(players.begin(), players.end(), [&caller](const AdminPlayer& player) {
@@ -267,7 +267,7 @@ void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, c
   text += model.kind == Ban::Kind::kException ? " cannot be banned" : " banned";
   text += model.until ? " until " + timeText(*model.until) + "." : " for ever.";
   if (!plan.note.empty()) text += " " + plan.note;
-  // The last one's writing is the last of them.
+  // The writes are done in order, so the answer is sent when the last one is done.
   for (std::size_t i = 0; i < plan.bans.size(); ++i) {
     const bool is_last = i + 1 == plan.bans.size();
     const auto saved = [this, text, is_last, done](const std::string& problem) {
@@ -288,7 +288,7 @@ void AdminConsole::unban(const AdminRequest& request, const Done& done) {
     done(AdminAnswer::refused("No ban is listed as \"" + who + "\"; see bans."));
 }
 
-// On the worker's thread, or the host's where there is no file.
+// Called on the worker's thread, or on the host's thread if there is no file.
 void AdminConsole::answerSaved(const std::string& text, const std::string& problem, const Done& done) {
   post([this, text, problem, done] {
     if (!problem.empty()) m_context.log("bans: " + problem);
@@ -356,7 +356,7 @@ void AdminConsole::scores(const AdminRequest& request, Done done) {
   m_admin.scores({request.of("table"), count, request.of("room"), request.of("game")}, std::move(done));
 }
 
-// A hash takes as long as a guess.
+// Hashes on the worker's thread, because Argon2id is slow by design.
 void AdminConsole::changePassword(const AdminRequest& request, Done done) {
   const std::string password = request.of("password");
   if (password.empty()) return done(m_admin.changePassword(std::nullopt));
@@ -375,7 +375,7 @@ void AdminConsole::changePassword(const AdminRequest& request, Done done) {
   if (!given) done(AdminAnswer::refused("Too much waits to be done. Try again in a moment."));
 }
 
-// The file of bans first: what is wrong with it is told, and the rest is loaded all the same.
+// Reloads the ban file first. If that fails, the answer says so, and the rest is still reloaded.
 void AdminConsole::reload(Done done) {
   const auto loaded = [this, done](std::vector<Ban> bans, const std::string& problem) {
     post([this, done, bans = std::move(bans), problem] {

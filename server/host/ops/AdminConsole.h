@@ -1,4 +1,4 @@
-// Carries out commands, wherever they come from: the control socket, or the chat of an admin.
+// Carries out commands from the control socket and from the chat.
 #pragma once
 
 #include <functional>
@@ -16,27 +16,27 @@
 
 namespace naiad {
 
-/// Which player somebody means who types #ID, a name, or the beginning of one.
+/// The result of choosePlayer().
 struct PlayerChoice {
-  std::optional<AdminPlayer> player;  ///< nothing: `problem` says why
+  std::optional<AdminPlayer> player;  ///< nullopt: `problem` has the reason
   AdminAnswer problem{};
 };
 
-/// In this order: #ID, which is never a name, so that a player who is called "#7" shields nobody; the whole
-/// name; the whole name but for the case of letters; its beginning. Several that fit equally well are an
-/// error that lists them.
+/// Finds the player meant by a typed #ID, name, or beginning of a name. Tries #ID only if the text has that
+/// form, so a player named "#7" cannot protect another one; else the exact name, the name ignoring case, then
+/// its beginning. If several players match equally well, the problem lists them.
 PlayerChoice choosePlayer(const std::vector<AdminPlayer>& players, const std::string& typed);
 
-/// On the host's thread. Each command of an admin is logged with who gave it, passwords as "***".
+/// Carries out commands on the host's thread. Logs each admin's command with its caller, passwords as "***".
 class AdminConsole {
  public:
   using Done = std::function<void(AdminAnswer)>;
 
-  /// All of these outlive it.
+  /// All arguments must outlive the console.
   AdminConsole(HostContext& context, HostAdmin& admin, AdminWorker& worker, BanList& bans)
       : m_context(context), m_admin(admin), m_worker(worker), m_bans(bans) {}
 
-  /// `done` is called once, on the host's thread: now, or later for what takes long.
+  /// Carries out a command. Calls `done` once, on the host's thread: at once, or later if it takes long.
   void execute(const AdminRequest& request, const AdminCaller& caller, Done done);
 
  private:

@@ -41,7 +41,7 @@ void ChatCommands::refuse(Session& session, const std::string& sentence) {
   m_access.context.client_log.logRefusal(session.address(), sentence, session.now());
 }
 
-// A password may have quotes and blanks, so that line is not split into words.
+// The line "/admin PASSWORD" is not split into words, because a password may have quotes and blanks.
 void ChatCommands::serve(Session& session, const std::string& whole) {
   const std::string line = whole.substr(whole.find('/'));
   if (line.starts_with(kAdminCommand)) return becomeAdmin(session, line.substr(kAdminCommand.size()));
@@ -95,7 +95,7 @@ void ChatCommands::becomeAdmin(Session& session, const std::string& password) {
                     });
 }
 
-// The rights are the stream's: another one may have come meanwhile, with a token.
+// Admin rights belong to the stream. The session may have been resumed on another one since the check began.
 void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordCheck::Answer answer) {
   Session* const p_session = m_access.clients.sessions().find(id);
   if (p_session == nullptr || p_session->state() != Session::State::kPlaying) return;
@@ -148,7 +148,7 @@ void ChatCommands::vote(Session& session, const AdminRequest& request) {
   }
 }
 
-// By name, and by address where nobody else plays there. A moment: not written to disk.
+// Bans the name, and the address unless others play there. The ban is short, so it is not written to disk.
 void ChatCommands::throwOut(const AdminPlayer& player) {
   if (const Session* const p_session = m_access.clients.sessions().find(player.session))
     logNews(*p_session, inQuotes(player.name) + " is thrown out by a vote");

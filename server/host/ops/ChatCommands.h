@@ -1,4 +1,4 @@
-// Lines of chat that begin with /: commands of players and admins.
+// Commands that players and admins type in the chat: lines that begin with /.
 #pragma once
 
 #include <memory>
@@ -14,17 +14,17 @@
 
 namespace naiad {
 
-/// On the host's thread.
+/// Thread: the host's.
 class ChatCommands {
  public:
-  /// Lines that one answer takes, at most.
+  /// Maximum number of lines of an answer.
   static constexpr std::size_t kMaxLines = 30;
 
-  /// What it works with outlives it. Throws PasswordError.
+  /// All arguments must outlive it. Throws PasswordError.
   ChatCommands(const HostAccess& access, HostAdmin& admin, AdminConsole& console, BanList& bans);
 
   void serve(Session& session, const std::string& line);
-  /// Votes that failed. Once a tick.
+  /// Announces votes that failed. Call it once a tick.
   void update(Session::Clock::time_point now);
 
  private:
@@ -43,7 +43,7 @@ class ChatCommands {
   HostAdmin& m_admin;
   AdminConsole& m_console;
   BanList& m_bans;
-  std::unique_ptr<PasswordCheck> m_password;  ///< null: there are no admins in the chat
+  std::unique_ptr<PasswordCheck> m_password;  ///< null: no admins in the chat
   VoteKick m_vote;
 };
 

@@ -20,7 +20,7 @@ namespace naiad {
 
 namespace {
 
-/// Those that may change while the server runs, as the command line calls them.
+/// Returns the options that may change while the server runs, without dashes.
 const std::vector<std::string>& changeableOptions() {
   static const std::vector<std::string> names{"max-players",   "max-per-address", "server-name",
                                               "grace",         "exit-when-empty", "drain-time",
@@ -67,7 +67,7 @@ AdminAnswer listOf(const std::vector<ScoreRow>& scores) {
   return AdminAnswer::list(std::move(rows), "No scores are kept.");
 }
 
-/// "rooms one, two".
+/// Returns text like "rooms one, two".
 std::string listed(const std::vector<std::string>& rooms) {
   std::string text = rooms.size() == 1 ? "room " : "rooms ";
   for (std::size_t i = 0; i < rooms.size(); ++i) text += (i > 0 ? ", " : "") + rooms[i];
@@ -148,7 +148,7 @@ Session* HostAdmin::findPlaying(std::uint64_t session) const {
   return p_session != nullptr && p_session->state() == Session::State::kPlaying ? p_session : nullptr;
 }
 
-// The end of a session is the end of its token (Admission::forgetSession).
+// Ending the session also invalidates its resume token (Admission::forgetSession).
 void HostAdmin::endPlayer(std::uint64_t session, const std::string& sentence) {
   if (Session* p_session = findPlaying(session)) p_session->goodbye(safeText(sentence, kMaxSentenceLength));
 }
@@ -200,7 +200,7 @@ void HostAdmin::keepRound(std::function<void(AdminAnswer)> done) {
   m_access.controls.keepRound(answering(std::move(done)));
 }
 
-// Without a time of its own, or of the server's option: until the last one leaves.
+// The time limit is that of the command, else --drain-time. If both are absent, there is no limit.
 AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
   Ending::Plan plan{.when_empty = true};
   std::chrono::duration<double> patience(m_access.context.options.drain_time);

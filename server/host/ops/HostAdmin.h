@@ -1,4 +1,4 @@
-// A host as commands see it.
+// The operations of a host that commands use.
 #pragma once
 
 #include <chrono>
@@ -18,67 +18,67 @@
 
 namespace naiad {
 
-/// When a server begins again.
+/// The time of a restart.
 struct AdminRestart {
   enum class When { kNow, kAtRoundEnd, kIn } when = When::kNow;
-  std::chrono::seconds in{0};  ///< for kIn
+  std::chrono::seconds in{0};  ///< delay of kIn
 };
 
-/// Which scores.
+/// Selects scores. The game is `game`, else the game of `room`, else the server's only one.
 struct AdminScores {
-  std::string table;      ///< empty: of all tables of the game
-  std::size_t count = 0;  ///< of each table
-  std::string room;       ///< that of its game; empty: not said
-  std::string game;       ///< the same
+  std::string table;      ///< empty: all tables of the game
+  std::size_t count = 0;  ///< rows of each table
+  std::string room;       ///< may be empty
+  std::string game;       ///< may be empty
 };
 
-/// All of it on the host's thread, between two ticks; nothing of it waits.
+/// Call all functions on the host's thread, between two ticks. None of them blocks.
 class HostAdmin {
  public:
-  /// What it works with outlives it.
+  /// The arguments must outlive it.
   HostAdmin(const HostAccess& access, HostScores& scores);
 
-  /// By id.
+  /// Returns the players, by id.
   std::vector<AdminPlayer> players() const;
   AdminRow status() const;
-  /// One of each room that has a name.
+  /// Returns a row for each named room.
   std::vector<AdminRow> rooms() const;
 
-  /// Sends them the sentence, and ends their session: its token is void. Sessions that are gone are left out.
+  /// Sends the player the sentence and ends their session and its token. Ignores sessions that do not play.
   void endPlayer(std::uint64_t session, const std::string& sentence);
-  /// A line from the server to all players, or to one. It is cut to the length of a line of chat.
+  /// Sends a line from the server to all players, or to one. Truncates it to the length of a chat line.
   void say(const std::string& text);
   void tell(std::uint64_t session, const std::string& text);
   void setMuted(std::uint64_t session, bool muted);
 
-  // These say what became of them, in one sentence: it is done, or why it is not. `done` is called once, on
-  // the host's thread: now, or when files have been read.
+  // The answer of each of the following is one sentence: the result, or the reason for a failure. `done` is
+  // called once, on the host's thread: at once, or when files have been read.
 
   AdminAnswer stop(const std::string& sentence);
   AdminAnswer restart(const AdminRestart& restart);
-  /// HostControls::keepRound().
+  /// Calls HostControls::keepRound().
   void keepRound(std::function<void(AdminAnswer)> done);
-  /// Nothing: as long as the server's own option says.
+  /// `most`: time limit; nullopt: --drain-time.
   AdminAnswer drain(std::optional<std::chrono::seconds> most);
   AdminAnswer cancel();
   void reload(std::function<void(AdminAnswer)> done);
-  /// Nothing: none is needed any more.
+  /// nullopt: new players need no password.
   AdminAnswer changePassword(std::optional<PasswordHash> hash);
-  /// Rows of the file of scores, best first.
+  /// Answers with rows of the score file, best first.
   void scores(const AdminScores& which, std::function<void(AdminAnswer)> done);
-  /// `option` without dashes.
+  /// Changes an option, named without dashes.
   AdminAnswer set(const std::string& option, const std::string& value);
-  /// Those that set() knows, with their values.
+  /// Returns the options that set() can change, with their values.
   AdminRow settings() const;
 
  private:
-  /// The tables of a game, and the rooms that play it; without rooms those of the one game.
+  /// The score tables of a game, and the named rooms in which it is played.
   struct Board {
     std::string game;
     std::vector<std::string> rooms;
   };
   std::vector<Board> boards() const;
-  /// Null: `refusal` says why there is none, or that there are several.
+  /// Returns null, with the reason in `refusal`, if no board or more than one matches.
   static const Board* findBoard(const std::vector<Board>& boards, const AdminScores& which,
                                 AdminAnswer& refusal);
   Session* findPlaying(std::uint64_t session) const;

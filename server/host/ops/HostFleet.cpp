@@ -40,13 +40,13 @@ class SystemdPlatform : public HostPlatform {
 };
 
 constexpr std::chrono::seconds kSayPlayers{1};
-constexpr std::chrono::milliseconds kLastWord{1500};  ///< to the platform, and to the bus
+constexpr std::chrono::milliseconds kLastWord{1500};  ///< timeout of finish(), for bus and platform each
 
 BusSettings busSettings(const HostOptions& options) {
   return {options.bus, options.bus_credentials, options.bus_ca};
 }
 
-/// Each sets a variable for what it runs.
+/// Returns --platform; for "auto", detects the platform by the variable that it sets for its processes.
 std::string platformOf(const HostOptions& options) {
   if (options.platform != "auto") return options.platform;
   if (std::getenv("AGONES_SDK_HTTP_PORT") != nullptr) return "agones";
@@ -60,7 +60,7 @@ std::unique_ptr<HostPlatform> makePlatform(const HostOptions& options) {
   return std::make_unique<NoPlatform>();
 }
 
-/// The machine and the port, if nothing is given.
+/// Returns --bus-id, or an id made of the machine's name and the port.
 std::string busId(const HostOptions& options, std::uint16_t port) {
   if (!options.bus_id.empty()) return options.bus_id;
   char host[256] = {};
@@ -68,7 +68,7 @@ std::string busId(const HostOptions& options, std::uint16_t port) {
   return serverIdOf(std::string(host).substr(0, kMaxServerId - 6) + "-" + std::to_string(port));
 }
 
-/// The rooms of a server, where they have names.
+/// Returns the named rooms of a server.
 std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms) {
   std::vector<PresenceRoom> all;
   if (!rooms.isNamed()) return all;
@@ -122,7 +122,7 @@ void HostFleet::tick(Clock::time_point now) {
   takeNews();
 }
 
-// What is no good says nothing, and what was good before ends by itself.
+// Ignores invalid messages. An earlier valid redirect expires by itself (linkToOther()).
 void HostFleet::hearDirectory(Clock::time_point now) {
   if (!m_bus) return;
   for (const BusMessage& message : m_bus->takeMessages()) {
@@ -195,7 +195,6 @@ void HostFleet::takeNews() {
   m_access.context.counters.bus_connections = bus.connections;
 }
 
-// A platform that is sent the end takes the server away: so it comes last.
 void HostFleet::drain() {
   m_platform->notifyStopping();
   if (!m_bus) return;
@@ -204,6 +203,7 @@ void HostFleet::drain() {
   m_bus->publish({presenceSubject(m_id), last.payload()});
 }
 
+// The platform comes last, because it may remove the server as soon as it is told of the end.
 void HostFleet::finish() {
   if (m_bus) m_bus->finish(kLastWord);
   m_platform->finish(kLastWord);

@@ -1,5 +1,5 @@
-// A host's part in a fleet: what runs the server (HostPlatform.h), and what it says to others (Bus.h). Losing
-// either costs players nothing, and is seen in the counters.
+// Connects a host to the platform that runs it (HostPlatform.h) and to the fleet's bus (Bus.h). Losing either
+// does not affect players, and shows in the counters.
 #pragma once
 
 #include <chrono>
@@ -16,10 +16,10 @@
 
 namespace naiad {
 
-/// On the host's thread. Nothing of it waits, but finish().
+/// Thread: the host's. Only finish() blocks.
 class HostFleet : public HostPart {
  public:
-  /// What it works with outlives it.
+  /// The arguments must outlive it.
   HostFleet(const HostAccess& access, HostScores& scores);
   ~HostFleet() override;
 
@@ -32,9 +32,9 @@ class HostFleet : public HostPart {
   std::chrono::milliseconds interval() const {
     return std::chrono::milliseconds(m_access.context.options.bus_interval_ms);
   }
-  /// A link to another server of the fleet that has places, as the directory says; nothing: none is known.
+  /// Returns a link to another server of the fleet with free places, named by the directory; nullopt: none.
   std::optional<JoinLink> linkToOther() const;
-  /// A row that is about to be written. None twice.
+  /// Publishes a score row that is about to be written. Called once per row.
   void publishScore(const ScoreRow& row, const std::string& game);
   void sayPlayers();
   Presence presence() const;
@@ -44,10 +44,10 @@ class HostFleet : public HostPart {
   HostAccess m_access;
   std::unique_ptr<HostPlatform> m_platform;
   std::unique_ptr<Bus> m_bus;  ///< null: none
-  std::string m_id;            ///< on the bus
-  Clock::time_point m_said{};  ///< players, to the platform
+  std::string m_id;            ///< name on the bus
+  Clock::time_point m_said{};  ///< last report of players to the platform
   Clock::time_point m_present{};
-  std::optional<SendOn> m_other;  ///< the newest that the directory has said
+  std::optional<SendOn> m_other;  ///< newest redirect from the directory
   Clock::time_point m_other_heard{};
 };
 

@@ -40,7 +40,7 @@ HostMetrics::HostMetrics(const HostAccess& access) : m_access(access), m_pulse(a
   try {
     m_server = std::make_unique<MetricsServer>(address, *MetricsHosts::parse(options.metrics_hosts),
                                                [this](std::string_view path) { return answer(path); });
-  } catch (const MetricsError& error) {  // an error as for the players' port
+  } catch (const MetricsError& error) {  // reported like an error of the players' port
     throw ListenError(error.what(), std::make_error_code(std::errc::address_in_use));
   }
   access.context.log("metrics are at http://" + address.hostText() + ":" + std::to_string(m_server->port()) +
@@ -49,7 +49,7 @@ HostMetrics::HostMetrics(const HostAccess& access) : m_access(access), m_pulse(a
 
 HostMetrics::~HostMetrics() = default;
 
-// On the server's thread.
+// Runs on the thread of the MetricsServer.
 MetricsServer::Answer HostMetrics::answer(std::string_view path) {
   if (path == "/metrics") {
     return {200, renderMetrics(m_newest.takeLatest(), ProcessFacts::read()), kExpositionType};
@@ -82,7 +82,7 @@ void HostMetrics::measure(Clock::time_point now) {
   m_next.counters = context.counters;
   m_next.passwords = m_access.clients.admission().passwordCounters();
   m_next.network = network.latestCounters();
-  network.askForCounters();  // for the next time
+  network.askForCounters();  // for the next call
   m_next.stages = context.stages.spent();
   m_next.tick_lateness = context.stages.lateness();
   m_next.tick_durations = context.stages.durations();
@@ -119,7 +119,7 @@ void HostMetrics::measureSessions() {
   });
 }
 
-// The clocks are read one after the other, so the rest is not exact; a counter must not fall all the same.
+// The clocks are read one after the other, so `other` is not exact. The counters must still never decrease.
 void HostMetrics::measureCpu() {
   MetricsSnapshot::Cpu& cpu = m_next.cpu;
   cpu.tick = cpuOf(CLOCK_THREAD_CPUTIME_ID);

@@ -1,8 +1,8 @@
-// What a host measures of itself, and gives out on --metrics: /metrics, /healthz, /readyz.
+// Measures a host and serves the values on --metrics: /metrics, /healthz, /readyz.
 //
-// Once a second, between two ticks, the thread that ticks copies all values into a MetricsSnapshot and hands
-// it to the thread of the MetricsServer, which makes a page of it when asked. Nothing that changes is read
-// from another thread, and where nothing was asked for nothing is measured.
+// Once a second, between two ticks, the tick thread copies all values into a MetricsSnapshot and hands it to
+// the thread of the MetricsServer, which renders it on request. So no thread reads values that another one
+// changes. Without --metrics, nothing is measured.
 #pragma once
 
 #include <atomic>
@@ -17,18 +17,18 @@
 
 namespace naiad {
 
-/// Hands the newest value from one thread to another, without a lock: neither ever waits.
-/// One thread calls publish(), one other takeLatest().
+/// Passes the newest value from one thread to another. Lock-free: neither thread ever waits.
+/// One thread calls publish(), another one takeLatest().
 template <class T>
 class LatestValue {
  public:
   ~LatestValue() { delete m_newest.load(); }
 
-  /// A value that was not taken yet is dropped.
+  /// Replaces the value. An older one that was not taken is dropped.
   void publish(std::unique_ptr<const T> value) {
     delete m_newest.exchange(value.release(), std::memory_order_acq_rel);
   }
-  /// The newest value; null before the first. Valid until the next call.
+  /// Returns the newest value; null before the first. Valid until the next call.
   const T* takeLatest() {
     if (const T* p_newest = m_newest.exchange(nullptr, std::memory_order_acq_rel)) m_taken.reset(p_newest);
     return m_taken.get();
@@ -36,18 +36,18 @@ class LatestValue {
 
  private:
   std::atomic<const T*> m_newest = nullptr;
-  std::unique_ptr<const T> m_taken;  ///< the reader's
+  std::unique_ptr<const T> m_taken;  ///< owned by the reader
 };
 
-/// All calls are for the thread that ticks.
+/// Thread: the host's (the tick thread).
 class HostMetrics : public HostPart {
  public:
-  /// Listens on HostOptions::metrics, and logs the port. Throws ListenError for one that is taken.
+  /// Listens on HostOptions::metrics and logs the port. Throws ListenError if it cannot listen.
   explicit HostMetrics(const HostAccess& access);
   ~HostMetrics() override;
 
   void begin() override;
-  /// Measures, if it is time.
+  /// Measures once a second.
   void tick(Clock::time_point now) override;
   void drain() override { m_pulse.beginDrain(false); }
 
@@ -61,9 +61,9 @@ class HostMetrics : public HostPart {
   HostAccess m_access;
   HostPulse m_pulse;
   LatestValue<MetricsSnapshot> m_newest;
-  MetricsSnapshot m_next;  ///< histograms and times that go on
+  MetricsSnapshot m_next;  ///< updated by each measurement; histograms accumulate
   Clock::time_point m_measure_at{};
-  std::unique_ptr<MetricsServer> m_server;  ///< last: its thread uses the others
+  std::unique_ptr<MetricsServer> m_server;  ///< last member, because its thread uses the others
 };
 
 }  // namespace naiad

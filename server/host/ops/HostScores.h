@@ -1,4 +1,4 @@
-// The scores of a host's games, as one of its parts: what worlds begin with and add, and what is on disk.
+// The host part for scores: gives worlds their tables, collects the scores they add, and saves them.
 #pragma once
 
 #include <functional>
@@ -14,32 +14,32 @@
 
 namespace naiad {
 
-/// On the host's thread.
+/// Thread: the host's.
 class HostScores : public HostPart, public ScoreBoard {
  public:
-  /// Gets each row that a world has added, before it is written, with the name of its game.
+  /// Called for each row that a world has added, before it is written, with the name of the game.
   using Observer = std::function<void(const ScoreRow& row, const std::string& game)>;
 
   explicit HostScores(const HostAccess& access);
 
   void setObserver(Observer observer) { m_observer = std::move(observer); }
-  /// The tables of this game.
+  /// Returns the tables of this game. Opens them on the first call.
   ScoreKeeper& of(const std::string& game);
 
   const Tables& tables(const std::string& game) override { return of(game).tables(); }
   void add(const std::string& game, const RoundName& round,
            const std::vector<df::AddedScore>& scores) override;
 
-  /// Opens the tables of all games that are played here: a tick should not wait for the disk.
+  /// Opens the tables of all games played here, so that no tick has to wait for the disk.
   void begin() override;
-  /// News of the file goes to the log, and what is counted to the host's counters.
+  /// Logs the keepers' messages and updates the host's counters.
   void tick(Clock::time_point now) override;
   void finish() override;
 
  private:
   HostAccess m_access;
   Observer m_observer;                                            ///< null: none
-  std::map<std::string, std::unique_ptr<ScoreKeeper>> m_keepers;  ///< by game
+  std::map<std::string, std::unique_ptr<ScoreKeeper>> m_keepers;  ///< key: game
 };
 
 }  // namespace naiad

@@ -33,13 +33,12 @@ namespace naiad {
 
 namespace {
 
-/// Takes commands for a host: from the socket for programs of this machine, and from the chat.
-/// On the host's thread, where commands are carried out, too.
+/// Accepts commands from the control socket and the chat, and carries them out on the host's thread.
 class HostCommands : public HostPart {
  public:
-  /// Makes the socket, by HostOptions::control, and has clients that are banned kept out. Throws
-  /// BanFileError, PasswordError, and ListenError where the socket's path was asked for and cannot be; the
-  /// usual one is a convenience, without which a server goes on.
+  /// Opens the control socket (HostOptions::control) and makes the host refuse banned clients. Throws
+  /// BanFileError, PasswordError, and ListenError if an explicitly given socket path cannot be used. If the
+  /// default path cannot be used, only logs a warning.
   HostCommands(const HostAccess& access, HostScores& scores)
       : m_access(access),
         m_bans(m_worker, access.context.options.state),
@@ -54,13 +53,13 @@ class HostCommands : public HostPart {
         [this](Session& session, const std::string& line) { m_chat.serve(session, line); });
     listen();
   }
-  /// As finish().
+  /// Calls finish().
   ~HostCommands() override { finish(); }
 
   void tick(Clock::time_point now) override { m_chat.update(now); }
-  /// No more commands are taken. What was promised is written before.
+  /// Stops accepting commands. Waits until accepted changes are written.
   void finish() override {
-    // Answers of the worker go to the socket's clients.
+    // The socket goes first, so that no command arrives while the worker finishes its jobs.
     m_control.reset();
     m_worker.finish();
   }
@@ -81,7 +80,7 @@ class HostCommands : public HostPart {
     }
   }
   ControlListening listening(bool by_default) const {
-    // A world must not give orders, nor hide in a namespace from where its process has no number here.
+    // Refuses worlds (descendants) and processes of PID namespaces that have no number in this one.
     ControlListening listening;
     listening.path = m_access.context.options.control;
     if (by_default) {
@@ -102,27 +101,27 @@ class HostCommands : public HostPart {
 
   HostAccess m_access;
   AdminWorker m_worker;
-  BanList m_bans;  ///< the network thread asks it, too
+  BanList m_bans;  ///< the network thread calls isBanned()
   HostAdmin m_admin;
   AdminConsole m_console;
   ChatCommands m_chat;
-  std::unique_ptr<ControlSocket> m_control;  ///< null: there is none
+  std::unique_ptr<ControlSocket> m_control;  ///< null: none
 };
 
-/// Lets players find a server: in the local network, and by a file for lists on the web.
-/// On the host's thread.
+/// Lets players find a server: in the local network (--lan), and by a file for server lists on the web
+/// (--status-file). Thread: the host's.
 class HostListing : public HostPart {
  public:
-  /// By the options. Throws ListenError with HostOptions::lan "on" if there is no socket for the network's
-  /// queries, and std::runtime_error for a status file that cannot be written.
+  /// Throws ListenError with --lan on if the socket for the network's queries cannot be opened, and
+  /// std::runtime_error if the status file cannot be written.
   explicit HostListing(const HostAccess& access)
       : m_access(access), m_lan(openLan()), m_status(openStatus()) {}
 
-  /// It answers in the local network from now on.
+  /// Begins to answer queries in the local network.
   void begin() override {
     if (m_lan) m_lan->start();
   }
-  /// The number of players is told on.
+  /// Publishes the number of players.
   void tick(Clock::time_point /*now*/) override {
     const std::size_t playing = m_access.clients.sessions().playing();
     if (m_lan) m_lan->setPlayers(playing);
@@ -130,12 +129,12 @@ class HostListing : public HostPart {
     m_status->setPlayers(static_cast<std::uint32_t>(playing));
     if (const std::string news = m_status->takeNews(); !news.empty()) m_access.context.log(news);
   }
-  /// It is found no more.
+  /// Stops to answer queries and removes the status file.
   void drain() override {
     if (m_lan) m_lan->stop();
     m_status.reset();
   }
-  /// What became of the network's queries goes to the log.
+  /// Logs the counters of the network's queries.
   void finish() override {
     if (!m_lan) return;
     const LanCounters lan = m_lan->counters();
@@ -150,8 +149,8 @@ class HostListing : public HostPart {
 
  private:
   std::unique_ptr<LanResponder> openLan() const {
-    // Without encryption it is not to be found. Loopback alone is found only if that is asked for: it is no
-    // network with others in it.
+    // A server without encryption is never listed. One on loopback is listed only with --lan on, because
+    // other machines cannot reach it.
     const HostOptions& options = m_access.context.options;
     const bool automatic = options.lan == "auto";
     const bool loopback = asio::ip::make_address(options.address).is_loopback();
@@ -177,13 +176,13 @@ class HostListing : public HostPart {
   }
 
   HostAccess m_access;
-  std::unique_ptr<LanResponder> m_lan;   ///< null: not to be found in the local network
-  std::unique_ptr<StatusFile> m_status;  ///< null: none is asked for
+  std::unique_ptr<LanResponder> m_lan;   ///< null: not visible in the local network
+  std::unique_ptr<StatusFile> m_status;  ///< null: no --status-file, or removed
 };
 
 }  // namespace
 
-// The fleet comes last: a platform that is sent the end takes the server away.
+// The fleet comes last, because a platform may remove the server as soon as it is told of the end.
 extern "C" void naiad_makeOperatorParts(const HostAccess& access,
                                         std::vector<std::unique_ptr<HostPart>>& parts) {
   auto scores = std::make_unique<HostScores>(access);

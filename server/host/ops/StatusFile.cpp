@@ -59,7 +59,7 @@ void StatusFile::run() {
   }
 }
 
-// A full disk is said once, and once more when it is over.
+// Reports a failure (like a full disk) once, and once when writing works again.
 void StatusFile::write(const ServerFacts& facts) {
   std::string problem;
   try {

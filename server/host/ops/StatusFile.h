@@ -1,8 +1,7 @@
-// A file that says what plays here, for lists of servers on the web: JSON, replaced in one step every few
-// seconds.
+// A JSON file with the server's status, for server lists on the web, replaced atomically every 5 seconds.
 //
-// It has no names of players and no addresses but the one that is meant to be public. A thread of its own
-// writes it, so that a disk that stalls costs the game nothing.
+// It contains no names of players and no address except the public one (--link-host). A thread of its own
+// writes it, so a slow disk does not delay the game.
 #pragma once
 
 #include <chrono>
@@ -16,8 +15,8 @@
 
 namespace naiad {
 
-/// One line of JSON: name, game, players, max_players, password, protocol, version, and link if there is one.
-/// `link`: for players elsewhere; empty: unknown, and left out. ASCII.
+/// Returns one line of ASCII JSON: name, game, players, max_players, password, protocol, version, and link.
+/// `link`: for players elsewhere; omitted if empty.
 std::string statusText(const ServerFacts& facts, const std::string& link);
 
 class StatusFile {
@@ -26,12 +25,12 @@ class StatusFile {
 
   /// Writes the file for the first time. Throws std::runtime_error if it cannot be written.
   StatusFile(std::string path, ServerFacts facts, std::string link);
-  /// Removes the file: no server, no status.
+  /// Removes the file.
   ~StatusFile();
 
-  /// How many play. Does not wait for the disk. Any thread.
+  /// Sets the number of players. Does not wait for the disk. Any thread.
   void setPlayers(std::uint32_t players);
-  /// What is new about writing, as a line of the log: that it fails, or works again; else empty. Any thread.
+  /// Returns a log line, once, if writing has begun to fail or works again; else empty. Any thread.
   std::string takeNews();
 
  private:
@@ -46,7 +45,7 @@ class StatusFile {
   std::string m_news;
   bool m_failing = false;
   bool m_stopping = false;
-  std::thread m_thread;  ///< last: it uses the others
+  std::thread m_thread;  ///< last member, because it uses the others
 };
 
 }  // namespace naiad

@@ -21,18 +21,19 @@ namespace naiad::crash {
 
 namespace {
 
-// All that the handler reads is plain data, set before: it may call nothing that is not async-signal-safe.
+// The handler reads only plain data that was set before, because it may call only async-signal-safe
+// functions.
 constexpr std::size_t kStack = std::size_t{64} << 10;
 constexpr std::chrono::milliseconds kForLog{200};
 constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 char g_name[64];
 int g_files[2] = {STDERR_FILENO, -1};
-long g_utc_offset = 0;  ///< seconds east
+long g_utc_offset = 0;  ///< seconds east of UTC
 std::atomic<df::World*> g_p_world = nullptr;
 constinit df::ActivityPage g_page{};
-std::atomic<std::uint64_t> g_tick = 0;       ///< that is running
-std::atomic<std::uint64_t> g_last_tick = 0;  ///< that has begun
+std::atomic<std::uint64_t> g_tick = 0;       ///< running tick; 0: none
+std::atomic<std::uint64_t> g_last_tick = 0;  ///< last tick that has begun
 std::atomic_flag g_reported;
 
 const char* nameOf(int signal) {
@@ -50,7 +51,7 @@ const char* nameOf(int signal) {
   }
 }
 
-/// A line in memory of its own.
+/// A line in a fixed buffer.
 class Line {
  public:
   Line& add(std::string_view text) {
@@ -67,7 +68,8 @@ class Line {
     std::reverse(reversed, reversed + count);
     return add(std::string_view(reversed, static_cast<std::size_t>(count)));
   }
-  /// "2025-01-31 23:59:59 " (days to dates as in Howard Hinnant's "chrono-compatible low-level algorithms").
+  /// Adds "2025-01-31 23:59:59 " (days to dates as in Howard Hinnant's "chrono-compatible low-level
+  /// algorithms").
   Line& addTime(std::int64_t seconds) {
     const std::int64_t of_day = seconds % 86400;
     const std::int64_t days = seconds / 86400 + 719468;
@@ -76,7 +78,7 @@ class Line {
     const std::int64_t year_of_era =
         (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
     const std::int64_t day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    const std::int64_t month = (5 * day_of_year + 2) / 153;  // from March
+    const std::int64_t month = (5 * day_of_year + 2) / 153;  // counted from March
     const auto part = [this](std::int64_t value, const char* end) {
       add(static_cast<std::uint64_t>(value), 2).add(end);
     };
@@ -88,7 +90,7 @@ class Line {
     part(of_day % 60, " ");
     return *this;
   }
-  /// To all files that take it at once: one that stalls must not keep the process alive.
+  /// Writes to all files that accept it at once: one that stalls must not keep the process alive.
   void write() const {
     for (const int file : g_files) {
       pollfd ready{file, POLLOUT, 0};
@@ -138,8 +140,7 @@ void writeHint() {
 
 void onCrash(int signal, siginfo_t* p_info, void* /*context*/) {
   if (!g_reported.test_and_set()) {
-    LineLog::waitUntilWritten(
-        kForLog);  // atomics and sleeps: what the game logged last is what is wanted now
+    LineLog::waitUntilWritten(kForLog);  // only atomics and sleeps; the game's last lines matter now
     writeLine(signal);
     writeLog();
     writeHint();
@@ -147,15 +148,15 @@ void onCrash(int signal, siginfo_t* p_info, void* /*context*/) {
   struct sigaction action {};
   action.sa_handler = SIG_DFL;
   sigaction(signal, &action, nullptr);
-  // A fault happens again when this returns. What was sent (abort(), kill) does not.
+  // A fault happens again when this returns. A signal that was sent (abort(), kill) does not.
   if (p_info->si_code <= 0) raise(signal);
 }
 
-// For the calling thread, which calls the game. One that is there is somebody's.
+// Gives the calling thread, which runs the game, a signal stack, unless it has one.
 void useOwnStack() {
   stack_t before{};
   if (sigaltstack(nullptr, &before) != 0 || (before.ss_flags & SS_DISABLE) == 0) return;
-  static char* const p_memory = new char[kStack];  // for ever
+  static char* const p_memory = new char[kStack];  // never freed
   stack_t stack{};
   stack.ss_sp = p_memory;
   stack.ss_size = kStack;

@@ -1,4 +1,4 @@
-// The end of a server that was asked for: at once, when its players have left, or so that it begins again.
+// A planned shutdown or restart: at a time, when all players have left, or at the end of the round.
 #pragma once
 
 #include <chrono>
@@ -12,33 +12,33 @@ class Ending {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Players hear of the end once more so long before it.
+  /// Players get a last notice this long before the end.
   static constexpr std::chrono::seconds kLastCall{10};
-  /// Clients of a server that begins again look for it so long.
+  /// Clients look for a restarting server for this long.
   static constexpr std::chrono::seconds kLookAgain{60};
 
   struct Plan {
-    bool begins_again = false;    ///< restart: the goodbye tells clients to look for the server again
-    std::optional<Time> at = {};  ///< then at the latest; nothing: no limit
-    bool when_empty = false;      ///< as soon as no players are left
-    bool at_round_end = false;    ///< when the round is over that is being played
-    std::string sentence = {};    ///< the last one to players; empty: by what is planned
+    bool begins_again = false;    ///< a restart: the goodbye tells clients to look for the server again
+    std::optional<Time> at = {};  ///< latest time of the end; nullopt: no limit
+    bool when_empty = false;      ///< end as soon as no players are left
+    bool at_round_end = false;    ///< end when the current round is over
+    std::string sentence = {};    ///< last message to players; empty: a default one
   };
 
-  /// End so from now on. Replaces an earlier plan.
+  /// Sets the plan. Replaces an earlier one.
   void setPlan(Plan plan, Time now);
-  /// Go on. False: nothing was planned.
+  /// Cancels the plan. Returns false if there was none.
   bool cancel();
   const std::optional<Plan>& plan() const { return m_plan; }
-  /// May new players join? Not while the server waits for those who play to leave, and ends for good then.
+  /// True if new players may join: not if the server ends for good at a time, or when all have left.
   bool isOpen() const { return !m_plan || m_plan->begins_again || !(m_plan->when_empty || m_plan->at); }
 
-  /// Is it time? `is_empty`: no players are left.
+  /// True if it is time to end. `is_empty`: no players are left.
   bool isDue(Time now, bool is_empty) const;
   bool beginsAgain() const { return m_plan && m_plan->begins_again; }
-  /// The last sentence to players; empty if nothing is planned.
+  /// Returns the last message to players; empty if nothing is planned.
   std::string sentence() const;
-  /// The notice that players should get now, if any. Once a tick.
+  /// Returns the notice that players should get now, if any. Call once a tick.
   std::optional<std::string> takeNews(Time now);
 
  private:

@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// For a process that was killed to be gone: one that waits for a disk may stay.
+/// Time limit for the end of a killed process: one that waits for a disk may stay.
 constexpr std::chrono::seconds kKillTime{2};
 
 /// A descriptor that is closed at the end of its block.
@@ -43,7 +43,7 @@ int millisUntil(Clock::time_point end) {
   return static_cast<int>(std::clamp<long long>(left + 1, 0, 60'000));
 }
 
-/// Take what is there without waiting. False: there will be no more.
+/// Reads what is there without waiting. Returns false at the end of the output.
 bool readInto(std::string& printed, int from) {
   char part[4096];
   while (true) {
@@ -55,7 +55,8 @@ bool readInto(std::string& printed, int from) {
   }
 }
 
-/// Until the process has ended, whatever it leaves behind. False: it has not by then.
+/// Reads until the process has ended, even if its children have not. Returns false if it has not ended by
+/// `end`.
 bool readUntilEnd(int handle, OwnDescriptor& output, Clock::time_point end, std::string& printed) {
   while (true) {
     pollfd places[] = {{handle, POLLIN, 0}, {output.get(), POLLIN, 0}};
@@ -69,7 +70,7 @@ bool readUntilEnd(int handle, OwnDescriptor& output, Clock::time_point end, std:
   return true;
 }
 
-/// As if a shell had started it: the thread that starts it has signals of its own.
+/// Gives the program the signals that a shell would give it, not those of this thread.
 void useDefaultSignals(posix_spawnattr_t& attributes) {
   sigset_t none;
   sigset_t all;
@@ -84,7 +85,7 @@ void useDefaultSignals(posix_spawnattr_t& attributes) {
 
 }  // namespace
 
-// 0: it cannot be, or is not to be.
+// Returns 0 if the program cannot be started, or cancel() was called.
 pid_t ProgramRun::start(const std::string& path, const std::vector<std::string>& arguments, int output) {
   const std::string name = std::filesystem::path(path).filename().string();
   std::vector<char*> words{const_cast<char*>(name.c_str())};
@@ -124,11 +125,11 @@ ProgramEnd ProgramRun::run(const std::string& path, const std::vector<std::strin
   const pid_t child = start(path, arguments, input.get());
   input.close();
   if (child == 0) return result;
-  // (glibc 2.36 declares pidfd_open as a C function alone.)
+  // glibc 2.36 declares pidfd_open() for C only.
   const OwnDescriptor handle(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));
   if (!readUntilEnd(handle.get(), output, end, result.printed)) {
     result.is_late = true;
-    kill(-child, SIGKILL);  // with what it has started
+    kill(-child, SIGKILL);  // with its process group
     readUntilEnd(handle.get(), output, Clock::now() + kKillTime, result.printed);
   }
   const std::lock_guard lock(m_mutex);

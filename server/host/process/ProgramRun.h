@@ -1,4 +1,4 @@
-// Another program, run beside the game to its end: what it printed, and how it ended.
+// Runs another program to its end, and collects its output.
 #pragma once
 
 #include <sys/types.h>
@@ -11,27 +11,27 @@
 
 namespace naiad {
 
-/// How a program ended.
+/// The end of a program.
 struct ProgramEnd {
-  /// The code of a program that cannot be started, as a shell has it.
+  /// Code of a program that cannot be started, as in a shell.
   static constexpr int kNotStarted = 127;
 
-  int code = kNotStarted;  ///< its exit code, if no signal ended it
-  int signal = 0;          ///< that ended it; 0: none
-  bool is_late = false;    ///< it was ended because its time was over
-  std::string printed;     ///< on its standard output and error, the beginning of it
+  int code = kNotStarted;  ///< exit code, if no signal ended it
+  int signal = 0;          ///< signal that ended it; 0: none
+  bool is_late = false;    ///< it was killed because its time was over
+  std::string printed;     ///< beginning of its standard output and error
 };
 
 class ProgramRun {
  public:
-  /// Bytes of what it prints that are kept.
+  /// Maximum bytes of its output that are kept.
   static constexpr std::size_t kMaxPrinted = std::size_t{64} << 10;
 
-  /// Run the program at `path` with these arguments, without input, and wait for its end. When `limit` is
-  /// over it is killed. It gets the environment of this process and none of its other files. One at a time.
+  /// Runs the program at `path` with these arguments, without input, and waits for its end. After `limit` it
+  /// is killed. It gets the environment of this process and none of its other descriptors. One at a time.
   ProgramEnd run(const std::string& path, const std::vector<std::string>& arguments,
                  std::chrono::milliseconds limit);
-  /// Kill the one that runs, and start no other. From any thread.
+  /// Kills the program that runs, and prevents further ones. Any thread.
   void cancel();
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kPort = "--port";
 
-/// A port on the command line is replaced; elsewhere the environment comes first.
+/// Replaces a port on the command line. Over one elsewhere the environment takes precedence.
 std::vector<std::string> withPort(std::vector<std::string> arguments, const std::string& port) {
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     if (arguments[i] == kPort && i + 1 < arguments.size()) arguments[i + 1] = port;
@@ -33,9 +33,9 @@ std::vector<const char*> pointersTo(const std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// Where this process's program lies; an upgrade may have put another one there, and is to.
+/// Returns the path of this process's program. An upgrade may have put another file there, which is then run.
 std::string programPath() {
-  constexpr std::string_view kReplaced = " (deleted)";  // the kernel's word for it
+  constexpr std::string_view kReplaced = " (deleted)";  // added by the kernel
   std::error_code error;
   std::string path = std::filesystem::read_symlink("/proc/self/exe", error).string();
   if (path.ends_with(kReplaced) && !std::filesystem::exists(path, error))
@@ -71,7 +71,7 @@ void StartCommand::run(std::uint16_t port) const {
   setenv("NAIAD_PORT", number.c_str(), 1);
   const std::vector<std::string> arguments = withPort(m_arguments, number);
   execv(m_program.c_str(),
-        const_cast<char* const*>(pointersTo(arguments).data()));  // it changes none of them
+        const_cast<char* const*>(pointersTo(arguments).data()));  // execv() changes none of them
   throw std::system_error(errno, std::generic_category(), "The server cannot begin again");
 }
 

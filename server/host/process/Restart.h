@@ -1,4 +1,4 @@
-// A server that begins again in its own place.
+// Restarts the server's program in this process.
 #pragma once
 
 #include <cstdint>
@@ -7,30 +7,30 @@
 
 namespace naiad {
 
-/// How this process was started. The same process runs the program again, as it is on the disk by then: who
-/// has started it, and waits for it, notices nothing.
+/// The command that started this process. run() executes the program again in this process, as it is on disk
+/// at that time, so the parent that waits for this process notices nothing.
 class StartCommand {
  public:
-  /// Before a password is hidden in `argv`.
+  /// Call before a password is hidden in `argv`.
   StartCommand(int argc, const char* const* argv);
-  /// The same, read from the process.
+  /// Reads the command from /proc.
   static StartCommand ofProcess();
 
-  /// Its path.
+  /// Returns the program's path.
   const std::string& program() const { return m_program; }
-  /// Behind the program's name.
+  /// Returns the arguments after the program's name.
   std::vector<std::string> arguments() const;
   int argc() const { return static_cast<int>(m_arguments.size()); }
-  /// Ends with null; valid as long as this.
+  /// Returns pointers to all words, then a null one. Valid as long as this.
   std::vector<const char*> argv() const;
-  /// Run the program again, with --port `port` where another one was asked for, or any. Close what is open
-  /// first. Throws std::system_error if that cannot be.
+  /// Executes the program again with --port `port`, whatever port was asked for. Close what is open first.
+  /// Throws std::system_error if it fails.
   [[noreturn]] void run(std::uint16_t port) const;
 
  private:
   explicit StartCommand(std::vector<std::string> arguments);
 
-  std::string m_program;  ///< path
+  std::string m_program;  ///< path of the program
   std::vector<std::string> m_arguments;
 };
 

@@ -1,8 +1,7 @@
-// Where the tick thread's time goes: seconds by stage of the tick, the stage that it is in, and how late
-// ticks begin and how long they take.
+// Measures the tick thread's time by stage of the tick, and how late ticks begin and how long they take.
 //
-// A stage ends where the next one begins, so each change costs one reading of the clock. A clock that is off
-// reads none.
+// A stage ends where the next one begins, so each change costs one reading of the clock. A clock that was not
+// started reads none.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +14,17 @@
 
 namespace naiad {
 
-/// Counts of values by fixed upper bounds, as Prometheus' histograms have them.
-/// Not thread-safe. A value costs a search among at most kMaxBounds bounds and one increment.
+/// Counts of values by fixed upper bounds, like Prometheus' histograms. Not thread-safe. A value costs a
+/// search among at most kMaxBounds bounds and one increment.
 class Histogram {
  public:
   static constexpr std::size_t kMaxBounds = 16;
 
-  /// `bounds`: the highest value of each bucket, rising, at most kMaxBounds; they outlive the histogram.
+  /// `bounds`: the highest value of each bucket, rising, at most kMaxBounds; they must outlive the histogram.
   explicit Histogram(std::span<const double> bounds)
       : m_bounds(bounds.first(std::min(bounds.size(), kMaxBounds))) {}
 
-  /// A value that is over all bounds is counted beyond the last.
+  /// Adds a value. A value above all bounds is counted in an extra bucket.
   void add(double value) {
     const auto found = std::lower_bound(m_bounds.begin(), m_bounds.end(), value);
     ++m_counts[static_cast<std::size_t>(found - m_bounds.begin())];
@@ -33,7 +32,7 @@ class Histogram {
   }
 
   std::span<const double> bounds() const { return m_bounds; }
-  /// Values in the bucket of this bound alone; `bucket` == bounds().size(): beyond the last.
+  /// Returns the number of values in this bucket alone; `bucket` == bounds().size(): above all bounds.
   std::uint64_t count(std::size_t bucket) const { return m_counts[bucket]; }
   double sum() const { return m_sum; }
 
@@ -44,35 +43,35 @@ class Histogram {
 };
 
 enum class Stage : std::uint8_t {
-  kBetween,    ///< between two ticks: streams are served, or there is nothing to do
-  kReceive,    ///< datagrams since the last tick
-  kSessions,   ///< deadlines of sessions, rounds that end and begin
-  kInputs,     ///< keys and clicks go into the worlds
-  kWorld,      ///< the game's code and the engine; asking, for worlds in processes of their own
-  kPublish,    ///< published models are compared with the world
-  kSnapshots,  ///< snapshots are written, for each player
-  kNews,       ///< sounds, lists of players, lines
-  kFlush,      ///< all that is handed to the network thread
+  kBetween,    ///< between two ticks: serving streams, or idle
+  kReceive,    ///< reading the datagrams since the last tick
+  kSessions,   ///< deadlines of sessions; ends and starts of rounds
+  kInputs,     ///< passing keys and clicks to the worlds
+  kWorld,      ///< the game's code and the engine; sending the turn, for worlds in processes of their own
+  kPublish,    ///< comparing published models with the world
+  kSnapshots,  ///< writing snapshots for each player
+  kNews,       ///< sending sounds, lists of players, and lines
+  kFlush,      ///< handing everything to the network thread
 };
 inline constexpr std::size_t kStages = 9;
 
-/// Upper bounds of buckets, in seconds. A tick is 33 ms by default, and the late ones are of interest.
+/// Upper bounds of buckets, in seconds. The default tick, 33 ms, is one of them.
 inline constexpr std::array<double, 14> kTickBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
                                                     0.02,   0.033,   0.05,   0.1,   0.25,   0.5,   1};
 inline constexpr std::array<double, 11> kLatenessBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005,
                                                         0.01,   0.033,   0.1,    0.5,   1};
 
-/// current(), tick() and tickBegan() are for any thread, all else for the one that ticks.
+/// current(), tick() and tickBegan() may be called on any thread, all else only on the one that ticks.
 class StageClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Begin to measure.
+  /// Starts to measure.
   void start() {
     m_on = true;
     m_since = Clock::now();
   }
-  /// From now on it is this stage. Return the one before.
+  /// Enters a stage. Returns the one before.
   Stage enter(Stage stage) {
     if (!m_on) return Stage::kBetween;
     const Stage before = m_current.load(std::memory_order_relaxed);
@@ -82,7 +81,7 @@ class StageClock {
     m_current.store(stage, std::memory_order_relaxed);
     return before;
   }
-  /// A tick begins that was due at `deadline`.
+  /// Begins a tick that was due at `deadline`.
   void beginTick(std::uint64_t number, Clock::time_point deadline, Clock::time_point now) {
     if (!m_on) return;
     m_tick.store(number, std::memory_order_relaxed);
@@ -90,13 +89,13 @@ class StageClock {
     m_lateness.add(std::chrono::duration<double>(now - deadline).count());
     m_in_tick = true;
   }
-  /// All that the tick has sent is with the network thread. Further calls for one tick are ignored.
+  /// Ends the tick: the network thread has all that it sent. Further calls for one tick are ignored.
   void endTick() {
     if (!m_in_tick) return;
     m_in_tick = false;
     m_durations.add(std::chrono::duration<double>(Clock::now() - tickBegan()).count());
   }
-  /// The newest tick; 0: none has begun.
+  /// Returns the newest tick; 0: none has begun.
   std::uint64_t tick() const { return m_tick.load(std::memory_order_relaxed); }
   Clock::time_point tickBegan() const {
     return Clock::time_point(Clock::duration(m_began.load(std::memory_order_relaxed)));
@@ -107,7 +106,7 @@ class StageClock {
   Stage current() const { return m_current.load(std::memory_order_relaxed); }
 
   using Seconds = std::array<std::chrono::nanoseconds, kStages>;
-  /// By stage, until the last enter().
+  /// Returns the time by stage, until the last enter().
   const Seconds& spent() const { return m_spent; }
 
  private:

@@ -9,7 +9,7 @@ namespace naiad {
 
 namespace {
 
-// Lock-free, so that a handler may touch them, and several hosts in one process (tests have them) may, too.
+// Lock-free, as signal handlers need it, and shared by the hosts of a process (tests have several).
 constinit std::atomic<int> g_count = 0;
 constinit std::atomic<int> g_signal = 0;
 constinit std::atomic<bool> g_hung_up = false;
@@ -24,7 +24,7 @@ void noteHangUp(int /*signal*/) {
   g_hung_up = true;
 }
 
-// Asked before a signal comes: then the terminal may be gone.
+// Called before a signal comes, because the terminal may be gone afterwards.
 bool hasControllingTerminal() {
   const int terminal = ::open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   if (terminal >= 0) ::close(terminal);
@@ -34,7 +34,7 @@ bool hasControllingTerminal() {
 void handle(int signal, void (*handler)(int), struct sigaction& before) {
   struct sigaction action {};
   action.sa_handler = handler;
-  action.sa_flags = SA_RESTART;  // a game's reads and sleeps know of no EINTR
+  action.sa_flags = SA_RESTART;  // games do not expect EINTR
   sigaction(signal, &action, &before);
 }
 

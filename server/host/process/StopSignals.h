@@ -1,13 +1,13 @@
-// SIGINT, SIGTERM and SIGHUP while a server runs: the first one asks it to end, the second one insists.
+// Counts SIGINT, SIGTERM and SIGHUP while a server runs: the first asks it to end, the second to end at once.
 #pragma once
 
 #include <csignal>
 
 namespace naiad {
 
-/// Installed while it lives; a signal counts for all that are. SIGHUP asks for the end as the others do if
-/// the process has a controlling terminal when this is made: that terminal is gone. Without one it only asks
-/// for attention (takeHangUp). Where it is ignored (nohup), it stays so.
+/// Handlers are installed while this exists; a signal counts for all objects. SIGHUP asks for the end like
+/// the others if the process has a controlling terminal when this is made: that terminal is gone. Without a
+/// terminal it is reported by takeHangUp(). If it is ignored (nohup), it stays so.
 class StopSignals {
  public:
   StopSignals();
@@ -15,12 +15,12 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// How many signals have asked for the end since this was installed. Any thread.
+  /// Returns the number of signals that have asked for the end since this was installed. Any thread.
   int count() const;
   bool isAsked() const { return count() > 0; }
-  /// The last one of them. Any thread.
+  /// Returns the last of these signals. Any thread.
   int signal() const;
-  /// A SIGHUP came that does not ask for the end. True once for all that came.
+  /// True, once, after a SIGHUP that does not ask for the end.
   bool takeHangUp();
 
  private:

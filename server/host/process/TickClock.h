@@ -1,4 +1,4 @@
-// When ticks are due: absolute deadlines, 30 a second by default.
+// Computes when ticks are due: absolute deadlines, 30 a second by default.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@ struct TickLength {
   std::int64_t nanoseconds = 1'000'000'000;
   std::int64_t divisor = 30;
 
-  /// A whole number of microseconds; 0 stands for 1/30 s.
+  /// Returns the length of `micros` microseconds; 0 stands for 1/30 s.
   static constexpr TickLength fromMicros(std::int64_t micros) {
     return micros == 0 ? TickLength{} : TickLength{micros * 1000, 1};
   }
@@ -28,10 +28,10 @@ class TickClock {
 
   explicit TickClock(Clock::time_point start, TickLength length = {}) : m_origin(start), m_length(length) {}
 
-  /// When the next tick is due.
+  /// Returns the time when the next tick is due.
   Clock::time_point deadline() const { return m_origin + m_length.times(m_count); }
 
-  /// A tick begins at `now`: go on to the next deadline. Return true if the schedule was re-based.
+  /// Begins a tick at `now`, and advances to the next deadline. Returns true if the schedule was re-based.
   bool beginTick(Clock::time_point now) {
     const bool rebased = now - deadline() >= m_length.times(1);
     if (rebased) {

@@ -38,7 +38,7 @@ void WatchFeed::publishGame(const std::string& line, std::chrono::steady_clock::
   add({"game", "game: " + oneLine(std::string_view(line).substr(0, kMaxGameLine))});
 }
 
-// Under the mutex.
+// Call with the mutex locked.
 void WatchFeed::add(WatchEvent event) {
   if (!m_wake) return;
   if (m_waiting.events.size() >= kMaxWaiting) {

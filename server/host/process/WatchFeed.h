@@ -1,4 +1,4 @@
-// Passes events of the server on to those who watch it, from any thread.
+// Passes events of the server to those that watch it (`dfctl watch`), from any thread.
 #pragma once
 
 #include <atomic>
@@ -20,27 +20,26 @@ struct WatchEvent {
   std::string text;
 };
 
-/// Thread-safe. Publishing never waits, and costs nothing while nobody watches.
+/// Thread-safe. Publishing never waits, and costs nothing without watchers.
 class WatchFeed {
  public:
-  /// Events that wait for the reader; further ones are dropped and counted.
+  /// Maximum events that wait for the reader; further ones are dropped and counted.
   static constexpr std::size_t kMaxWaiting = 512;
-  /// Lines of games: what a round's start may print, and in the long run. The others are left out and
+  /// Rate limit for lines of games: per second, and burst for the start of a round. Others are dropped and
   /// counted.
   static constexpr BucketRate kGameRate{100, 500};
-  /// Bytes of such a line, at most.
+  /// Maximum bytes of such a line.
   static constexpr std::size_t kMaxGameLine = 1000;
 
-  /// `wake`: called, on the publisher's thread, when there is something to take after there was nothing.
+  /// Starts the feed. `wake` is called, on the publisher's thread, when a first event waits.
   void begin(std::function<void()> wake);
-  /// Nobody watches any more; `wake` is not called after this.
+  /// Stops the feed; `wake` is not called after this.
   void end();
   void publish(std::string kind, std::string text);
-  /// A line that a game has written, which may have any bytes: control characters are escaped.
+  /// Publishes a line that a game has written, which may have any bytes: control characters are escaped.
   void publishGame(const std::string& line, std::chrono::steady_clock::time_point now);
 
-  /// The same logs, of which those who watch read every line: of the server's own, and of its game's. This
-  /// outlives them.
+  /// Return logs that also publish each line: the server's own, and its game's. This must outlive them.
   LogLine watched(LogLine log);
   LogLine watchedGame(LogLine log);
 
@@ -58,7 +57,7 @@ class WatchFeed {
   std::function<void()> m_wake;
   Taken m_waiting;
   TokenBucket m_game_lines;
-  std::uint64_t m_left_out = 0;  ///< lines of games, since the last one that was published
+  std::uint64_t m_left_out = 0;  ///< dropped lines of games, since the last one that was published
 };
 
 }  // namespace naiad

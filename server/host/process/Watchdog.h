@@ -1,5 +1,5 @@
-// A thread that watches the one that ticks: a game that never returns from a handler keeps that one from
-// noticing anything.
+// A thread that watches the tick thread, which notices nothing itself while a game does not return from a
+// handler.
 #pragma once
 
 #include <atomic>
@@ -18,17 +18,17 @@
 
 namespace naiad {
 
-/// Log lines for a thread that must not wait: one that ends a server whose game may hold the log's lock.
-/// Passes lines on, in order, on a thread of its own, which is there before it is needed.
+/// A log for threads that must not wait, as when ending a server whose game may hold the log's lock. Passes
+/// lines on, in order, on a thread of its own, which is started in advance.
 class SideLog {
  public:
   explicit SideLog(LogLine log);
   /// Waits for all lines, however long they take.
   ~SideLog();
 
-  /// Does not wait for the log. Any thread.
+  /// Adds a line, without waiting for the log. Any thread.
   void operator()(const std::string& line);
-  /// Wait until all lines are passed on, or for so long. Any thread.
+  /// Waits until all lines are passed on, at most `most`. Any thread.
   void waitUntilLogged(std::chrono::milliseconds most);
 
  private:
@@ -39,30 +39,30 @@ class SideLog {
   std::condition_variable m_changed;
   std::deque<std::string> m_lines;  ///< the first one is being passed on
   bool m_stopping = false;
-  std::thread m_thread;  ///< last: it uses the others
+  std::thread m_thread;  ///< last, because it uses the others
 };
 
-/// Judges how long the tick takes: is the game hanging, and may the server still end in order?
+/// Decides, by the duration of the tick, whether the game hangs and whether the server must end without it.
 /// Single-threaded. Time is passed in.
 class HangWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// After this time in one tick the game counts as hanging.
+  /// Time in one tick after which the game counts as hanging.
   static constexpr std::chrono::seconds kHang{1};
-  /// A server that is to end waits so long for a tick, and so long after the signal.
+  /// A server that was asked to end waits this long for a tick, and this long after the signal.
   static constexpr std::chrono::seconds kTickBeforeEnd{3};
   static constexpr std::chrono::seconds kSignalBeforeEnd{1};
 
   enum class Step {
     kNothing,
-    kReport,     ///< the game hangs: once for each tick
-    kEndHung,    ///< end without the game: it is asked for, and the tick does not finish
-    kEndAtOnce,  ///< end without the game: it was asked for twice
+    kReport,     ///< report that the game hangs: once for each tick
+    kEndHung,    ///< end without the game: an end was requested, and the tick does not finish
+    kEndAtOnce,  ///< end without the game: an end was requested twice
   };
 
-  /// `tick` and `since`: of the tick that is running, if one is. `stops`: signals so far that ask for the
-  /// end.
+  /// Returns what to do. `tick` and `since`: number and begin of the running tick, if any. `stops`: number of
+  /// signals so far that ask for the end.
   Step check(std::optional<std::uint64_t> tick, Time since, int stops, Time now) {
     if (stops > 0 && !m_asked_at) m_asked_at = now;
     if (stops > 1) return Step::kEndAtOnce;
@@ -79,11 +79,11 @@ class HangWatch {
   std::optional<std::uint64_t> m_reported;
 };
 
-/// How a server ends without its game.
+/// The end of a server without its game.
 struct ForcedEnd {
-  bool hung = false;       ///< the tick did not finish; else there was a second signal
+  bool hung = false;       ///< the tick did not finish; false: there was a second signal
   std::uint64_t tick = 0;  ///< the tick that did not finish; 0: none was running
-  int signal = 0;          ///< that asked for it
+  int signal = 0;          ///< signal that asked for it
 };
 
 class Watchdog {
@@ -94,7 +94,7 @@ class Watchdog {
   Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedEnd&)> end);
   ~Watchdog();
 
-  /// On the thread that ticks.
+  /// Call these on the thread that ticks.
   void beginTick(std::uint64_t number);
   void endTick() { m_since.store(0, std::memory_order_release); }
 

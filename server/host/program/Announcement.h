@@ -1,4 +1,4 @@
-// Tells people and scripts, at a server's start, its address and how to join.
+// Prints and writes a server's address and how to join it, at its start.
 #pragma once
 
 #include <string>
@@ -9,20 +9,19 @@ namespace naiad {
 class HostEndpoint;
 struct HostOptions;
 
-/// Which setting lets more or fewer players in: a sentence each.
+/// Hints which settings let more or fewer players in; one sentence each.
 struct Openness {
   std::string how_to_open;
   std::string how_to_restrict;
 };
 
-/// "Join from this machine with: dfclient naiad://…", how from elsewhere, by ssh and on a page as far as the
-/// options name these, and what is listened on.
+/// Returns lines for the player: "Join from this machine with: dfclient naiad://…", how to join from
+/// elsewhere, by ssh and in a browser as far as the options name these, and the address it listens on.
 std::vector<std::string> howToJoin(const HostEndpoint& endpoint, const HostOptions& options,
                                    const Openness& openness);
-/// The QR code that HostOptions::qr asks for, or why there is none; empty if it does not.
+/// Returns the QR code if HostOptions::qr is set, or a line that says why there is none; otherwise empty.
 std::vector<std::string> qrLines(const HostOptions& options);
-/// HostOptions::port_file and join_file, if they are asked for: each replaced in one step. Throws
-/// std::runtime_error if one cannot be written.
+/// Writes HostOptions::port_file and join_file, if set, each atomically. Throws std::runtime_error.
 void writeWhereabouts(const HostOptions& options, const HostEndpoint& endpoint);
 
 }  // namespace naiad

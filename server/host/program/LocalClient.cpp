@@ -26,14 +26,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the game has printed so far belongs where it was when it printed it.
+// Flushes what the game has printed so far, to where it was printed.
 void flushAll() {
   std::cout.flush();
   std::clog.flush();
   std::fflush(stdout);
 }
 
-// A pipe whose other end is not read would hold up the game.
+// Opens a regular file, otherwise /dev/null: a pipe that is not read would block the game.
 int openOrNull(const std::string& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0640);
   struct stat facts {};
@@ -42,14 +42,14 @@ int openOrNull(const std::string& path) {
   return ::open("/dev/null", O_WRONLY | O_CLOEXEC);
 }
 
-constexpr int kPatienceMillis = 2000;  // for a client to end after the game's goodbye
+constexpr int kPatienceMillis = 2000;  // time for a client to end after the game's goodbye
 
 bool isProgram(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
 }
 
-/// Where this library lies.
+/// Returns the folder of this library.
 fs::path ownFolder() {
   Dl_info info{};
   if (dladdr(reinterpret_cast<void*>(&isProgram), &info) == 0 || info.dli_fname == nullptr) return {};
@@ -57,14 +57,14 @@ fs::path ownFolder() {
   return fs::canonical(info.dli_fname, error).parent_path();
 }
 
-/// How dfclient ends when it has not played (client/session/TrustOptions.h): wrong usage, unreachable,
-/// refused, no terminal.
+/// True if dfclient's exit status means that it did not play (client/session/TrustOptions.h): wrong usage,
+/// unreachable, refused, no terminal.
 bool meansFailure(int status) {
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   return code != 0 && code != 4;
 }
 
-/// Ours, but for what would send the client elsewhere.
+/// Returns this process's environment, without variables that would lead the client to another server.
 std::vector<std::string> environmentOfClient(const std::string& password) {
   std::vector<std::string> kept;
   for (char** p = environ; *p != nullptr; ++p) {
@@ -143,7 +143,7 @@ LocalClient::LocalClient(const fs::path& program, const std::vector<std::string>
   for (int n = 0; n < 3; ++n) {
     if (m_redirect.original(n) >= 0) posix_spawn_file_actions_adddup2(&actions, m_redirect.original(n), n);
   }
-  // Nor the game's sockets: a port would stay taken as long as the client lives.
+  // The client must not inherit the game's sockets: it would keep the port in use as long as it lives.
   posix_spawn_file_actions_addclosefrom_np(&actions, 3);
   const int problem = posix_spawn(&m_process, program.c_str(), &actions, nullptr, pointersTo(words).data(),
                                   pointersTo(environment).data());
@@ -155,7 +155,7 @@ LocalClient::LocalClient(const fs::path& program, const std::vector<std::string>
 
 LocalClient::~LocalClient() {
   if (hasEnded()) return;
-  // (glibc 2.36 declares pidfd_open as a C++ function.)
+  // glibc 2.36 declares pidfd_open as a C++ function.
   const int handle = static_cast<int>(syscall(SYS_pidfd_open, m_process, 0));
   pollfd ended{handle, POLLIN, 0};
   if (handle < 0 || poll(&ended, 1, kPatienceMillis) <= 0) kill(m_process, SIGTERM);
@@ -170,7 +170,7 @@ bool LocalClient::hasEnded() {
   int status = 0;
   const pid_t ended = waitpid(m_process, &status, WNOHANG);
   if (ended == 0 || (ended < 0 && errno == EINTR)) return false;
-  // (A game that waits for children of its own may have taken the status.)
+  // A game that waits for its own child processes may have taken the status.
   m_failed = ended > 0 && meansFailure(status);
   m_process = -1;
   return true;

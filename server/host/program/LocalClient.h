@@ -1,4 +1,4 @@
-// A dfclient in the terminal in which a game was started, so that running the game is playing it.
+// A dfclient in the terminal in which a game was started, so that running the game starts playing it.
 #pragma once
 
 #include <sys/types.h>
@@ -10,19 +10,18 @@
 
 namespace naiad {
 
-/// While a client draws in this process's terminal, the game's output goes to a file, and its input is empty.
+/// Redirects the game's output to a file and empties its input while a client uses this process's terminal.
 class OutputRedirect {
  public:
-  /// Append standard output, and standard error if that is a terminal, to this file; where it cannot be
-  /// opened, to nowhere. Standard input is empty from now on. Throws std::system_error without file
-  /// descriptors to spare.
+  /// Appends standard output, and standard error if it is a terminal, to this file; to /dev/null if it cannot
+  /// be opened. Standard input is empty. Throws std::system_error if file descriptors run out.
   explicit OutputRedirect(const std::string& path);
-  /// As before.
+  /// Restores the standard descriptors.
   ~OutputRedirect();
   OutputRedirect(const OutputRedirect&) = delete;
   OutputRedirect& operator=(const OutputRedirect&) = delete;
 
-  /// The standard descriptor `n` (0, 1, 2) as it was.
+  /// The original of standard descriptor `n` (0, 1, 2).
   int original(int n) const { return m_saved[n]; }
 
  private:
@@ -31,29 +30,29 @@ class OutputRedirect {
 
 class LocalClient {
  public:
-  /// Is there a terminal on standard input and output, whose foreground is ours?
+  /// True if standard input and output are a terminal with this process in the foreground.
   static bool hasTerminal();
-  /// The program: what the environment names (NAIAD_CLIENT), else the one installed or built with this
-  /// library, else one on the PATH. Nothing if there is none.
+  /// Returns the client program: the one named by NAIAD_CLIENT, otherwise the one installed or built with
+  /// this library, otherwise one on the PATH. Nullopt if there is none.
   static std::optional<std::filesystem::path> findProgram();
 
-  /// Start it. It has the terminal from now on; what the game prints goes to `log_file`. The server's
-  /// password goes by the environment, which other users do not see. Throws std::system_error.
+  /// Starts the client, which takes the terminal; the game's output goes to `log_file`. The password is
+  /// passed in the environment, which other users cannot see. Throws std::system_error.
   LocalClient(const std::filesystem::path& program, const std::vector<std::string>& arguments,
               const std::string& password, const std::string& log_file);
-  /// Ends it, if it does not end by itself, and gives the terminal back to the game.
+  /// Ends the client if it does not end by itself, and returns the terminal to the game.
   ~LocalClient();
   LocalClient(const LocalClient&) = delete;
   LocalClient& operator=(const LocalClient&) = delete;
 
-  /// Has it ended?
+  /// True if the client has ended.
   bool hasEnded();
-  /// Did it end because it could not join or draw? (Else its player has left.)
+  /// True if it ended because it could not join or draw; false if its player left.
   bool hasFailed() const { return m_failed; }
 
  private:
   OutputRedirect m_redirect;
-  pid_t m_process = -1;  ///< until it has ended
+  pid_t m_process = -1;  ///< -1 after it has ended
   bool m_failed = false;
 };
 

@@ -44,7 +44,7 @@ namespace fs = std::filesystem;
 
 enum ExitCode { kGameFailed = 1, kUsage = 2, kCannotListen = 4, kFile = 5 };
 
-constexpr std::chrono::seconds kLogTime{1};  ///< for what was logged before the end
+constexpr std::chrono::seconds kLogTime{1};  ///< time to write log lines at the end
 
 const Openness kOpenness{
     "NAIAD_PUBLIC=1 in the environment, or public:true, in df-config.txt, lets others in.",
@@ -54,7 +54,7 @@ std::string programName() {
   return program_invocation_short_name;
 }
 
-bool g_failed = false;  ///< and has said why
+bool g_failed = false;  ///< fail() has already printed the reason
 
 [[noreturn]] void fail(ExitCode code, const std::string& sentence) {
   g_failed = true;
@@ -63,7 +63,7 @@ bool g_failed = false;  ///< and has said why
   std::exit(code);
 }
 
-/// Print what a world has printed, as if the game ran in this process; where that would wait, it is lost.
+/// Prints a line that a world has printed, as if the game ran here. Drops it if printing would block.
 void printLine(const std::string& line) {
   std::cout.flush();
   pollfd ready{STDOUT_FILENO, POLLOUT, 0};
@@ -77,7 +77,7 @@ std::string configFile() {
   return p_named != nullptr ? p_named : df::CONFIG_FILENAME;
 }
 
-/// "df-config.txt:3: port", for the line that says so; the first word alone where it is not found.
+/// Returns "df-config.txt:3: port", for error messages; without the line number if the key is not found.
 std::string placeInConfig(const std::string& key) {
   std::string place = configFile();
   std::ifstream lines(place);  // a regular file, or there would be no key
@@ -86,15 +86,15 @@ std::string placeInConfig(const std::string& key) {
   for (std::string line; std::getline(lines, line);) {
     ++number;
     std::erase_if(line, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
-    line.insert(0, 1, ',');  // before the first key, as before the others
+    line.insert(0, 1, ',');  // so every key follows a comma
     if (!line.starts_with(",#") && line.find(wanted) != std::string::npos)
       return place.append(":").append(std::to_string(number)).append(": ").append(key);
   }
   return place.append(": ").append(key);
 }
 
-/// Sprites and sounds are looked for in the working directory, beside the program, and above it: many build
-/// in a folder of their own.
+/// Adds folders to search for sprites and sounds after the working directory: the program's and the one
+/// above, because many build in a subfolder.
 void addFolders(df::World& world) {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -103,7 +103,7 @@ void addFolders(df::World& world) {
   world.extras().resources.addFolder(folder.parent_path().string());
 }
 
-/// On the usual port; if that is taken and no option asked for it, on any free one.
+/// Opens the usual port; if it is in use and no option set it, any free port.
 std::unique_ptr<Host> openHost(HostOptions options, bool port_given, const Host::Log& log) {
   try {
     return std::make_unique<Host>(options, programName(), log);
@@ -114,7 +114,7 @@ std::unique_ptr<Host> openHost(HostOptions options, bool port_given, const Host:
   return std::make_unique<Host>(options, programName(), log);
 }
 
-/// So that players can look it up on the help screen of their clients.
+/// Adds lines to the help screen of clients.
 void addToHelp(df::World& world, const std::vector<std::string>& lines) {
   std::vector<std::string> help = world.getHelp();
   for (const std::string& line : lines) {
@@ -125,7 +125,7 @@ void addToHelp(df::World& world, const std::vector<std::string>& lines) {
   world.setHelp(std::move(help));
 }
 
-/// Lets the client in the terminal, if there is one, and the game end each other.
+/// Connects the game and the client in the terminal, if there is one: the end of one ends the other.
 class TerminalPlayer {
  public:
   TerminalPlayer(Host& host, const HostOptions& options, const std::string& log_file,
@@ -149,7 +149,7 @@ class TerminalPlayer {
     }
   }
 
-  /// Once a tick.
+  /// Call once a tick.
   void update() {
     if (m_client && m_client->hasEnded()) endClient();
     if (m_local_left && m_host.clients().sessions().connected() == 0) m_host.stop("The game is over.");
@@ -176,7 +176,7 @@ class TerminalPlayer {
   bool m_local_left = false;
 };
 
-/// What the game logs goes to its own file, as ever; those who watch the server read it, too.
+/// Sends the game's log lines to its own file, as without a host, and to `dfctl watch`.
 class WatchedLog {
  public:
   WatchedLog(df::World& world, Host& host) : m_world(world) {
@@ -193,7 +193,7 @@ class WatchedLog {
   df::World& m_world;
 };
 
-/// The process runs its program again; the game's statics end with it.
+/// Executes the program again in this process; the game's statics are lost.
 [[noreturn]] void beginAgain(std::unique_ptr<Host>& host) {
   const std::uint16_t port = host->endpoint().port();
   host.reset();
@@ -202,7 +202,7 @@ class WatchedLog {
   StartCommand::ofProcess().run(port);
 }
 
-/// What a process that ends by itself has left out, if anything: a beginner would look at a silent shell.
+/// Prints why the program ended without a proper end, so that beginners do not just see a silent shell.
 void reportEnd() {
   if (g_failed) return;
   if (crash::inTick()) {
@@ -250,8 +250,8 @@ void ProgramHost::startUp(df::World& world) {
                     (m_options.headless ? ", headless" : ""));
 }
 
-// random_seed is for rand(): 0 takes the time, -1 leaves it alone. The engine's own random numbers differ
-// from run to run, unless an option gives a seed; without players they are the same.
+// random_seed is for rand(): 0 uses the time, -1 leaves it unseeded. The engine's own random numbers differ
+// in each run, unless an option sets a seed; headless runs with -1 repeat.
 void ProgramHost::seed(df::World& world) const {
   const int random_seed = df::Config::getInstance().getRandomSeed();
   std::uint64_t seed = takeWorldSeed().value_or(static_cast<std::uint64_t>(m_options.seed));
@@ -267,7 +267,7 @@ void ProgramHost::seed(df::World& world) const {
 void ProgramHost::run(df::World& world) {
   if (!m_started) fail(kGameFailed, "GM.run() was called before GM.startUp(), which reads the settings");
   if (m_stopped) return world.setGameOver();
-  // A world in a process of its own has one run: its game that runs again finds that it is over.
+  // A world process has one run: if its game calls run() again, the game is over.
   if (m_world_socket)
     return WorldServer(std::exchange(*m_world_socket, -1), leavesAlone(m_options)).run(world);
   if (m_options.headless) return runHeadless(world);
@@ -278,7 +278,7 @@ void ProgramHost::run(df::World& world) {
   } catch (const std::exception& error) {
     fail(kFile, error.what());
   }
-  // Players have left, or a signal has stopped the server: no more of the game, whatever its main() does.
+  // If players have left or a signal has stopped the server, the game ends, whatever its main() does.
   m_stopped = !world.isGameOver();
 }
 
@@ -293,7 +293,7 @@ void ProgramHost::runHeadless(df::World& world) {
 void ProgramHost::serve(df::World& world) {
   std::optional<LineLog> lines;
   if (!m_options.log_file.empty() || !LocalClient::hasTerminal()) lines.emplace(m_options.log_file);
-  // What the game itself logs goes to its own file, as ever.
+  // If a client uses the terminal and no log file is set, the host logs to the file of the game.
   const Host::Log log = [&](const LogEvent& event) {
     lines ? (*lines)(event) : world.log().write(event.text);
   };
@@ -315,7 +315,7 @@ void ProgramHost::serve(df::World& world) {
 
   if (launcher != nullptr) {
     HostOptions journaled = m_options;
-    journaled.port = host->endpoint().port();  // a round goes on where its players look for it
+    journaled.port = host->endpoint().port();  // a round continues on the port that its players know
     const auto journals = Journals::open(journaled, programName(), "", log);
     host->clients().setWorlds(startWorlds(launcher, host->context().feed.watchedGame(printLine), journals),
                               journals ? journals->highestPlayer() : 0);
@@ -324,7 +324,7 @@ void ProgramHost::serve(df::World& world) {
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });
   {
     std::optional<WatchedLog> watched;
-    if (lines) watched.emplace(world, *host);  // or the host's own lines would come twice
+    if (lines) watched.emplace(world, *host);  // without `lines`, the host's own lines would appear twice
     host->run(world);
   }
   world.setHelp(help);

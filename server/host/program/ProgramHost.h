@@ -1,12 +1,11 @@
-// A game that is a program itself is a server: what GM.startUp() and GM.run() do in it.
+// Makes a program that contains its game a server: GM.startUp() and GM.run() in such a program.
 //
-// startUp() reads the options (HostOptions.h: environment, then df-config.txt) and seeds the dice; run()
-// hosts the game as dfserver would, says how to join, and where there is a terminal attaches a client to it.
-// In a process that such a host has started for one of its worlds (WorldStart.h), both serve that host
-// instead. A run that the game itself ends may be followed by another, as after a title of its own: players
-// join again, and the client in the terminal is another one. Options that make no sense end the process with
-// code 2, an address that cannot be listened on with 4, files and keys that cannot be used with 5, each with
-// one line on stderr.
+// startUp() reads the options (HostOptions.h: environment, then df-config.txt) and seeds random numbers.
+// run() hosts the game like dfserver, prints how to join, and starts a client if there is a terminal. In a
+// process that such a host started for one of its worlds (WorldStart.h), both serve that host instead. After
+// a run that the game itself ends, another may follow, e.g. after the game's own title screen: players join
+// again, with a new client in the terminal. Exit codes, each with one line on stderr: 2 for invalid options,
+// 4 for an address that cannot be listened on, 5 for unusable files and keys.
 #pragma once
 
 #include <optional>
@@ -28,12 +27,12 @@ class ProgramHost : public df::running::Program {
   void runHeadless(df::World& world);
   void serve(df::World& world);
 
-  bool m_started = false;  ///< startUp() was called
+  bool m_started = false;  ///< true after startUp()
   HostOptions m_options;
-  std::set<std::string> m_given;      ///< names of options that the environment or df-config.txt gave
-  int m_ticks = 0;                    ///< without players, in all runs
-  bool m_stopped = false;             ///< by a signal, an option or the last player who left, not by the game
-  std::optional<int> m_world_socket;  ///< of a process that was started for a world
+  std::set<std::string> m_given;      ///< names of the options set by the environment or df-config.txt
+  int m_ticks = 0;                    ///< headless ticks of all runs
+  bool m_stopped = false;             ///< ended by a signal, an option or the last player, not by the game
+  std::optional<int> m_world_socket;  ///< socket to the host, in a process started for a world
 };
 
 }  // namespace naiad

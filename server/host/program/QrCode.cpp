@@ -12,7 +12,7 @@ namespace naiad {
 
 namespace {
 
-constexpr int kQuietZone = 4;       // modules
+constexpr int kQuietZone = 4;       // in modules
 constexpr unsigned char kDark = 1;  // the bit of a module's byte
 
 bool isLight(const QRcode& code, int x, int y) {

@@ -1,5 +1,5 @@
-// dfserver: starts the game's worlds in processes of their own, and is their front. Each of them, and with
-// --in-process this process, loads the game, installs a runner, and calls the game's main().
+// dfserver: starts the game's worlds in their own processes and serves players for them. Each world process,
+// or with --in-process this process, loads the game, installs a runner, and calls the game's main().
 #include <cstdint>
 #include <exception>
 #include <iostream>
@@ -47,7 +47,7 @@ enum ExitCode { kOk = 0, kGameFailed = 1, kUsage = 2, kNoGame = 3, kCannotListen
 const naiad::Openness kOpenness{"--address :: lets others in.",
                                 "--address 127.0.0.1 restricts it to this machine."};
 
-/// What games reach the host by; taken back however the game ends, for their statics outlive the host.
+/// Connects games to the host. Undone however the game ends, because the game's statics outlive the host.
 struct Installed {
   Installed(df::Runner& runner, const naiad::Host::Log& log) {
     LM.setSink(log);
@@ -61,7 +61,7 @@ struct Installed {
   Installed& operator=(const Installed&) = delete;
 };
 
-/// Play. A game that throws failed; its exception is none of ours.
+/// Runs the game. An exception that it throws means that the game failed.
 ExitCode play(const naiad::GameModule& game) {
   try {
     const int result = game.main();
@@ -79,14 +79,14 @@ ExitCode play(const naiad::GameModule& game) {
   return kGameFailed;
 }
 
-/// For lines of a game: they may have a player's name, and read as a line of the server's own, and so are
-/// marked.
+/// Returns a log for lines of a game. It marks them, because they may contain player names and could look
+/// like lines of the server.
 naiad::LogLine markedLog(naiad::LineLog& log) {
   return [&log](const std::string& line) { log({"game", "game: " + line, {}}); };
 }
 
-/// What is the same for a host and for a world that it has started in another process; `where` it is.
-/// `game_log`: for the game's own lines.
+/// Runs the game in a host, or in a world process that a host has started; `where` says which. `game_log`
+/// receives the game's own lines.
 ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
               naiad::HostOptions& options, naiad::LineLog& log, const naiad::LogLine& game_log) {
   const auto given = naiad::takeWorldSeed();
@@ -108,7 +108,7 @@ void announce(const naiad::HostOptions& options, const naiad::Host& host) {
   for (const std::string& line : naiad::qrLines(options)) std::cout << line << std::endl;
 }
 
-/// The world of which players see the size and the help when they join; no game ticks in it.
+/// Sets the window size and help that players get when they join. No game ticks in this world.
 void setUp(df::World& world, const naiad::WorldReady& ready) {
   world.views().setWindow(ready.window_width, ready.window_height);
   world.setCompat(ready.compat);
@@ -122,10 +122,10 @@ ExitCode failGame(const std::string& how) {
   return kGameFailed;
 }
 
-/// How a game ended before anybody could play.
+/// Reports how a game ended before players could join.
 ExitCode failPreview(const naiad::WorldEnd& end) {
   if (end.why == naiad::WorldEnd::kGameOver) return kOk;
-  if (end.exit_code == kNoGame) return kNoGame;  // and it has said why
+  if (end.exit_code == kNoGame) return kNoGame;  // it has printed the reason
   for (const std::string& line : end.last_lines) std::cerr << "dfserver: the game's log: " << line << "\n";
   return failGame(end.text + (end.when.empty() ? " before GM.run()" : " " + end.when));
 }
@@ -137,14 +137,14 @@ void useLogOptions(const naiad::HostOptions& options, naiad::LineLog& lines) {
   lines.setLevel(level == "error" ? Level::kError : level == "warning" ? Level::kWarning : Level::kInfo);
 }
 
-/// How a process was started.
+/// How this process was started, and how to restart it.
 struct Start {
   naiad::StartCommand command;
   naiad::HostOptions options;
-  std::string config;                                ///< file of --config
-  std::optional<std::uint16_t> again = {};           ///< to be run again on this port
-  std::optional<naiad::InheritedSockets> kept = {};  ///< that it would be run again with
-  /// The same for one time, so that players of a round that goes on come to sockets that were open all along.
+  std::string config;                                ///< argument of --config
+  std::optional<std::uint16_t> again = {};           ///< port of the restart; nullopt: no restart
+  std::optional<naiad::InheritedSockets> kept = {};  ///< sockets for every restart
+  /// Sockets for the next restart only, so that the port stays open for players of a kept round.
   std::optional<naiad::InheritedSockets> handed_over = {};
 };
 
@@ -173,7 +173,7 @@ void noteEnd(const naiad::Host& host, Start& start) {
   if (host.context().ending.beginsAgain()) start.again = host.endpoint().port();
 }
 
-/// The same of a host that may keep its rounds.
+/// Like noteEnd(host, start), for a host that may hand over its rounds.
 void noteEnd(const naiad::Host& host, const naiad::RoundHandover& handover, Start& start) {
   noteEnd(host, start);
   if (!host.controls().keepsRound()) return;
@@ -181,7 +181,7 @@ void noteEnd(const naiad::Host& host, const naiad::RoundHandover& handover, Star
   handover.announce();
 }
 
-/// The game is loaded in its worlds alone: here it would have this process's key before it begins.
+/// Only the worlds load the game: in this process, its code could read the server's key.
 int serveWorlds(Start& start, naiad::LineLog& lines) {
   const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
   const naiad::HostOptions options = naiad::withUsableJournal(start.options, log);
@@ -195,7 +195,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
     said.push_back(naiad::oneLine(line));
   });
   if (!preview.ready) {
-    // Why a game cannot be loaded is for whoever has started the server, too.
+    // If the log is a file, also print on stderr why the game could not be loaded.
     for (const std::string& line : said) {
       if (!options.log_file.empty()) std::cerr << line << std::endl;
     }
@@ -204,7 +204,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(start.options, name, log);
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
-  journaled.port = host.endpoint().port();  // a round goes on where its players look for it
+  journaled.port = host.endpoint().port();  // a round continues on the port that its players know
   const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
   host.clients().setWorlds(naiad::startWorlds(launcher, host.context().feed.watchedGame(print), journals),
                            journals ? journals->highestPlayer() : 0);
@@ -221,7 +221,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   return host.clients().rooms().failure().empty() ? kOk : failGame(host.clients().rooms().failure());
 }
 
-/// For lines of a room's game.
+/// Returns a log for lines of a room's game.
 naiad::LogLine roomLog(naiad::LineLog& log, const std::string& room) {
   return [&log, room](const std::string& line) {
     log({"game", "game in " + room + ": " + line, {{"room", room}}});
@@ -246,7 +246,7 @@ std::vector<naiad::RoomPlan> roomsOf(naiad::Host& host, const std::vector<naiad:
   return rooms;
 }
 
-/// What keeps the rounds of rooms; nothing: they are not written down.
+/// Returns the rooms whose rounds are recorded.
 std::vector<naiad::RoundHandover::Room> keptRooms(
     const std::vector<naiad::LaunchedRoom>& launched,
     const std::vector<std::shared_ptr<naiad::Journals>>& journals) {
@@ -257,7 +257,7 @@ std::vector<naiad::RoundHandover::Room> keptRooms(
   return rooms;
 }
 
-/// Each room has its game in worlds of its own.
+/// Serves rooms; each room's game has its own world processes.
 int serveRooms(Start& start, naiad::LineLog& lines) {
   const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
   const naiad::HostOptions options = naiad::withUsableJournal(start.options, log);
@@ -287,7 +287,7 @@ int serve(Start& start) {
     df::World::current().setActivityPage(naiad::openWorldPage());
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
     return play(naiad::GameModule(options.game), " in a world of its own", world, options, log,
-                [&log](const naiad::LogEvent& event) { log(event); });  // the front marks
+                [&log](const naiad::LogEvent& event) { log(event); });  // the front process marks lines
   }
   if (const std::string problem = naiad::operatorPartsProblem(); !problem.empty())
     throw std::runtime_error("The operators' features cannot be loaded, bans among them: " + problem);

@@ -1,4 +1,4 @@
-// What all of a host works with: its options, its log, its counters, and the queue of its thread.
+// The state that all parts of a host share: its options, log, counters, and the event queue of its thread.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -15,22 +15,22 @@
 
 namespace naiad {
 
-// News of a worker as an event of the log.
+// A worker thread's message as a log event.
 
-/// What begins with "warning: " is one.
+/// Returns an event of level warning if the message begins with "warning: ", else of level info.
 inline LogEvent newsEvent(const std::string& news) {
   return {news.starts_with("warning: ") ? LogEvent::Level::kWarning : LogEvent::Level::kInfo, news};
 }
 
-/// Not thread-safe, but for `feed`, `log` and the atomics of `stages`.
+/// Not thread-safe, except for `feed`, `log` and the atomics of `stages`.
 struct HostContext {
   HostContext(HostOptions in_force, std::string game_name, LogLine log_line)
       : options(std::move(in_force)), game(std::move(game_name)), log(feed.watched(std::move(log_line))) {}
 
-  HostOptions options;     ///< in force; some change while the server runs
-  const std::string game;  ///< that is played; of several rooms the first one's
+  HostOptions options;     ///< current values; some change while the server runs
+  const std::string game;  ///< name of the game; with several rooms, of the first room's game
   WatchFeed feed;
-  const LogLine log;  ///< watchers of `feed` read it, too
+  const LogLine log;  ///< its lines go to watchers of `feed`, too
   ClientLog client_log{log};
   Counters counters;
   asio::io_context home{1};  ///< runs the handlers of the host's thread; no sockets

@@ -1,4 +1,4 @@
-// Rooms that have names: which there are, when they sleep and wake, and what becomes of one whose game fails.
+// Named rooms: opening them, sleep and wake-up, and closing a room whose game keeps failing.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace naiad {
 
 namespace {
 
-/// The world of a room in which none is: it takes no turn, until another one replaces it.
+/// Null object for a room without a world. It runs no ticks.
 class SleepingWorld : public WorldPort {
  public:
   bool isReady() const override { return false; }
@@ -26,10 +26,10 @@ class SleepingWorld : public WorldPort {
   df::WorldView m_view;
 };
 
-/// A game that fails as soon as it begins is not begun again before.
+/// Time that a room stays closed after its game failed repeatedly at the start of a round.
 constexpr std::chrono::seconds kClosedTime{30};
 
-constexpr std::uint32_t kRoomsEvery = 15;  ///< ticks between two looks at what games know of rooms
+constexpr std::uint32_t kRoomsEvery = 15;  ///< ticks between updates of the room list that games see
 
 df::GameRoom gameRoomOf(const Room& room) {
   return {.name = room.plan()->name,
@@ -107,11 +107,11 @@ void Rooms::leaveRoom(const Session& session) {
   removeSession(session);
 }
 
-// ---- what games know of rooms -----------------------------------------------------------------------------
+// ---- the room list that games see -------------------------------------------------------------------------
 
 void Rooms::passRooms(Room& room) const {
   if (room.round().recovering())
-    return;  // the inputs of then are in its journal; those of now come behind them
+    return;  // the journal has the original inputs; endRecovery() adds today's room list after them
   for (std::size_t i = 0; i < m_game_rooms.size(); ++i) {
     df::GameRoom known = m_game_rooms[i];
     known.is_this_one = m_rooms[i].get() == &room;
@@ -119,7 +119,7 @@ void Rooms::passRooms(Room& room) const {
   }
 }
 
-// To all worlds, and only what has changed: half a second is soon enough for a sign on a door.
+// Sends changes only, to all worlds. A delay of half a second does not matter for a sign on a door.
 void Rooms::publishRooms() {
   if (tickNumber() % kRoomsEvery != 0) return;
   m_game_rooms.resize(m_rooms.size());
@@ -135,7 +135,7 @@ void Rooms::publishRooms() {
   }
 }
 
-// A world may be a stranger's program: it sends its own players alone.
+// A world may be an untrusted program, so it can send only its own players to other rooms.
 void Rooms::passSent(Room& room) {
   for (const df::SentPlayer& sent : room.round().takeSent()) {
     Session* const p_session = room.find(sent.player);
@@ -145,7 +145,7 @@ void Rooms::passSent(Room& room) {
 
 // ---- sleep ------------------------------------------------------------------------------------------------
 
-// A world that ends takes time, which the room does not wait for.
+// Ending a world takes time. The room does not wait for it.
 void Rooms::putToSleep(Room& room) {
   auto round = room.changeRound(sleepingRound());
   room.round().checkProcess(tickNumber());
@@ -171,7 +171,7 @@ void Rooms::checkEnding() {
   std::erase_if(m_ending, [](const auto& round) { return round->end().has_value(); });
 }
 
-// The other rooms go on. Its players are led away in the next tick.
+// The other rooms continue. The players of this one are moved to another room in the next tick.
 void Rooms::closeRoom(Room& room, const std::string& sentence) {
   m_log("the room " + room.plan()->name + " is closed for " + std::to_string(kClosedTime.count()) +
         " s: " + sentence);

@@ -43,7 +43,7 @@ void PlayerNews::sendToAll(const std::vector<ListedPlayer>& players, const Round
   for (const ListedPlayer& player : players) send(player.id, message);
 }
 
-// To other players in each tick, so that no tick has to send to all.
+// Each tick serves a different share of the players, so no tick sends to all of them.
 void PlayerNews::sendToSome(std::uint32_t tick, const std::vector<ListedPlayer>& players,
                             const RoundTrip& round_trip, const Send& send) {
   m_sent.clear();

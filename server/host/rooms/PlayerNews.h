@@ -15,35 +15,35 @@ namespace wire {
 class ServerMessage;
 }
 
-/// What the list says of a player.
+/// A player's entry in the list.
 struct ListedPlayer {
   std::uint32_t id = 0;
-  std::string name;  ///< UTF-8, as the server has cleaned it
+  std::string name;  ///< UTF-8, sanitized by the server
   df::Color color = df::COLOR_DEFAULT;
   int score = 0;
 };
 
-/// Up to kMaxPlayers, every player gets the list of all, every half second if it has changed. In a larger
-/// crowd each gets, every five seconds, those with the highest scores and their own entry: the list stays a
-/// screenful, and what all lists cost grows with the crowd, not with its square. A list that does not fit in
-/// a frame lacks its last entries. Not thread-safe.
+/// With at most kMaxPlayers players, each gets the full list every half second if it has changed. With more,
+/// each gets the highest scores and their own entry every five seconds: the list stays a screenful, and the
+/// cost of all lists grows with the number of players, not with its square. A list that does not fit in a
+/// frame lacks its last entries. Not thread-safe.
 class PlayerNews {
  public:
   static constexpr std::uint32_t kEvery = 15;        ///< ticks
-  static constexpr std::uint32_t kCrowdEvery = 150;  ///< ticks
-  static constexpr std::size_t kCrowdEntries = 32;
+  static constexpr std::uint32_t kCrowdEvery = 150;  ///< ticks, with more than kMaxPlayers players
+  static constexpr std::size_t kCrowdEntries = 32;   ///< highest scores listed then
 
-  /// Round trip of a player in milliseconds; 0: not known.
+  /// Returns a player's round trip in milliseconds, or 0 if it is not known.
   using RoundTrip = std::function<std::uint32_t(std::uint32_t player)>;
   using Send = std::function<void(std::uint32_t player, const wire::ServerMessage& message)>;
 
   PlayerNews();
   ~PlayerNews();
 
-  /// The end of a tick: call `send` for each player that is to get a list now.
+  /// Calls `send` for each player due for a list. Call it at the end of a tick.
   void tick(std::uint32_t tick, const std::vector<ListedPlayer>& players, const RoundTrip& round_trip,
             const Send& send);
-  /// A client may have missed the last list: send the next one even if nothing has changed.
+  /// Sends the next list even if nothing has changed, because a client may have missed the last one.
   void repeat() { m_sent.clear(); }
 
  private:
@@ -53,7 +53,7 @@ class PlayerNews {
   void findBest(const std::vector<ListedPlayer>& players, const RoundTrip& round_trip);
 
   std::string m_sent;                           ///< the last list for all, serialised
-  std::unique_ptr<wire::ServerMessage> m_best;  ///< of a crowd
+  std::unique_ptr<wire::ServerMessage> m_best;  ///< highest scores, with more than kMaxPlayers players
 };
 
 }  // namespace naiad

@@ -13,7 +13,7 @@ namespace {
 
 wire::ServerMessage line(const std::string& text) {
   wire::ServerMessage message;
-  message.mutable_chat()->set_text(text);  // without a player: the server's
+  message.mutable_chat()->set_text(text);  // no player: a line from the server
   return message;
 }
 
@@ -127,7 +127,7 @@ void Room::publish(TruthWriter* p_truth) {
 
 void Room::sendSnapshots(TruthWriter* p_truth) {
   forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
-    // The truth first: a test that compares must find it once the snapshot has arrived.
+    // Written before the snapshot is sent, so a test that receives the snapshot finds its truth in the file.
     if (p_truth != nullptr) p_truth->write(m_publisher.tick(), facts.id, m_p_round->renderPlayer(facts.id));
     if (facts.id == m_pictured && session.isAudited())
       session.recordTruth(m_publisher.tick(), m_p_round->renderPlayer(facts.id));
@@ -146,7 +146,7 @@ SoundNews::Send Room::soundSender() const {
   };
 }
 
-// Lines of the engine's own for the players.
+// Sends the engine's own lines to the players as chat.
 void Room::sendNotes() const {
   for (const std::string& note : m_p_round->view().notes) say(safeText(note, kMaxChatLength));
 }
@@ -164,9 +164,9 @@ std::unique_ptr<Round> Room::changeRound(std::unique_ptr<Round> round) {
   return round;
 }
 
-// ---- whose turn it is -------------------------------------------------------------------------------------
+// ---- whose input counts -----------------------------------------------------------------------------------
 
-// It is the turn of the first of the connected players.
+// Gives the turn to the connected player with the lowest id.
 void Room::passTurn() {
   if (!m_turn.isOneOnly()) return;
   const Session* p_first = nullptr;

@@ -21,14 +21,14 @@ namespace naiad {
 
 namespace {
 
-constexpr std::uint64_t kShortestRound = 30;  ///< ticks; a shorter one has hardly begun
-constexpr int kMaxShortRounds = 5;            ///< in a row
-constexpr std::size_t kEndingWorlds = 8;      ///< of players who left, beside one for each player allowed
+constexpr std::uint64_t kShortestRound = 30;  ///< ticks; a shorter round counts as failed at its start
+constexpr int kMaxShortRounds = 5;            ///< consecutive ones; then no further round begins
+constexpr std::size_t kEndingWorlds = 8;      ///< ending worlds of former players, allowed above max_players
 
 constexpr const char* kHowToSeeMore =
     "to see where: run the game by itself in a debugger, as docs/when-it-goes-wrong.md says";
 
-/// A name for a round, which no other round has.
+/// Returns a unique id for a round: 128 random bits in hexadecimal.
 std::string newRoundId() {
   std::random_device random;
   std::string name;
@@ -40,7 +40,7 @@ std::string newRoundId() {
   return name;
 }
 
-/// For the log: which room; empty if it has no name.
+/// Returns " in the room NAME" for the log, or "" if the room has no name.
 std::string inRoom(const Room& room) {
   return room.plan() != nullptr ? " in the room " + room.plan()->name : "";
 }
@@ -54,7 +54,7 @@ void AuditTurns::noteJoin(Session& session, std::uint32_t tick) {
 
 void AuditTurns::noteRound(const Room& room, std::uint32_t tick) {
   if (m_ticks_per_second == 0) return;
-  if (m_p_session != nullptr && !room.has(*m_p_session)) return;  // another room's
+  if (m_p_session != nullptr && !room.has(*m_p_session)) return;  // the audited player is in another room
   Session* p_first = nullptr;
   Session* p_next = nullptr;
   room.forEachPlaying([&](Session& session) {
@@ -69,8 +69,7 @@ void AuditTurns::forget(const Session& session) {
   if (m_p_session == &session) m_p_session = nullptr;
 }
 
-// One second in so many, counted from the beginning of the turn, so that a player who stays briefly is
-// audited, too.
+// The seconds count from the beginning of the turn, so that players with a short visit are audited, too.
 std::uint32_t AuditTurns::pictured(std::uint32_t tick) const {
   if (m_p_session == nullptr) return 0;
   return (tick - m_since) / m_ticks_per_second % kPeriod == 0 ? m_p_session->player() : 0;
@@ -124,10 +123,10 @@ void Rooms::watchWorld(Room& room) {
   if (isNamed()) passRooms(room);
 }
 
-// Inputs like any other: before all others of its first tick. A round that goes on has had them.
+// Scores are ordinary inputs, before all others of the first tick. A resumed round has had them already.
 void Rooms::passScores(Room& room) const {
   if (room.round().name().id.empty()) room.round().setId(newRoundId());
-  if (m_p_scores == nullptr || room.round().recovering()) return;  // they are in its journal
+  if (m_p_scores == nullptr || room.round().recovering()) return;  // its journal has the scores
   for (const auto& [table, rows] : m_p_scores->tables(gameOf(room))) {
     for (const df::HighScore& row : rows)
       room.round().addInput({.kind = df::InputQueue::kScore,
@@ -264,7 +263,7 @@ void Rooms::publish(Room& room) {
   }
 }
 
-// The game is over for players who pressed the key that ends it; the others play on.
+// Says goodbye to players that pressed the key to end the game; the others continue to play.
 void Rooms::dismissLeavers(Room& room) {
   for (const std::uint32_t leaver : room.round().takeLeavers()) {
     if (hasLastPlayer()) {
@@ -296,7 +295,8 @@ void Rooms::checkWorlds(Time now) {
   std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->round().end(); });
 }
 
-// A number of ticks (--ticks) and a round that is the last one are played to their end.
+// True if the room's world ticks without players: with --ticks, in the last round, or if the game asks for
+// it.
 bool Rooms::runsEmpty(const Room& room) const {
   if (m_options.ticks > 0 || m_last_round) return true;
   if (room.plan() != nullptr) return room.plan()->ready.runs_empty;
@@ -324,7 +324,7 @@ void Rooms::noteTakeOver(const Room& room, const TakeOver& done) {
   room.say("The game failed, and goes on from where it was.");
 }
 
-// The players of a server that was killed may come back now, to a server whose rooms may be others.
+// After the replay of a killed server's round, its players may reconnect. The room list may have changed.
 void Rooms::endRecovery(Room& room, const std::vector<KeptSession>& sessions) {
   if (m_on_sessions) m_on_sessions(room, sessions);
   if (isNamed()) passRooms(room);
@@ -347,12 +347,12 @@ void Rooms::countEnd(WorldEnd::Why why) {
     case WorldEnd::kNotRecovered:
       ++m_counters.rounds_unrecovered;
       break;
-    case WorldEnd::kForeign:  // it has not begun
+    case WorldEnd::kForeign:  // the round has not begun
       break;
   }
 }
 
-// Its players come back to the server once that has begun again, or are told that it has to.
+// With private worlds, disconnects the room's players: their clients reconnect after the restart.
 void Rooms::noteUpgrade(const Room& room, const WorldEnd& end) {
   if (!std::exchange(m_upgraded, true)) {
     m_upgrade_news = "this server's program was upgraded while it runs: a new world " + end.text +
@@ -363,8 +363,8 @@ void Rooms::noteUpgrade(const Room& room, const WorldEnd& end) {
                  Ending::kLookAgain);
 }
 
-// No further round for a player alone in the game's own terminal. Nor for a game that ends again and again as
-// soon as it begins: it would do so for ever.
+// No further round begins for a player alone in the game's own terminal, nor for a game that keeps ending at
+// its start, because that would never stop.
 void Rooms::endRound(Room& room, const WorldEnd& end) {
   if (end.why == WorldEnd::kForeign) return noteUpgrade(room, end);
   m_log("the round is over" + inRoom(room) + ": the game " + end.text +
@@ -372,7 +372,7 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
   for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
   if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
   countEnd(end.why);
-  // What this server was started for is the next round.
+  // If the old round cannot be recovered, the server starts with the next one.
   if (end.why == WorldEnd::kNotRecovered && beginRound(room))
     return room.say("The round could not go on; the next one begins.");
   const bool is_short = room.ticks() < kShortestRound;

@@ -1,5 +1,5 @@
-// The rooms of a host: one for all players, one for each, or those that have names, and the rounds that are
-// played in them (docs/rounds.md).
+// The rooms of a host and the rounds played in them (docs/rounds.md): one room for all players, one for each
+// player, or named rooms.
 #pragma once
 
 #include <chrono>
@@ -25,152 +25,152 @@ class World;
 
 namespace naiad {
 
-/// Whose pictures are audited (PictureAudit.h), and when: one player at a time, one second in ten.
+/// Selects the player whose pictures are audited (PictureAudit.h): one player at a time, one second in ten.
 ///
-/// An audit begins with a world that is sent from the beginning, so the turn goes to a player who joins once
-/// the one before had ten seconds, and to the next one by id when a round begins.
-/// Thread: the host's.
+/// An audit can only begin when a client gets the world from the beginning. So a player who joins takes the
+/// turn if the current one has had it for ten seconds, and at the start of a round it passes to the next
+/// player by id. Thread: the host's.
 class AuditTurns {
  public:
-  /// Ticks are compared in one second of so many.
+  /// Ticks are compared in one of this many seconds.
   static constexpr std::uint32_t kPeriod = 10;
 
-  /// Begin to audit. Before that nothing happens here.
+  /// Begins to audit. Before this call the other functions do nothing.
   void start(std::uint32_t ticks_per_second) { m_ticks_per_second = ticks_per_second; }
-  /// The session was welcomed, and has been sent nothing yet.
+  /// Call it for a session that was welcomed and has not been sent anything else yet.
   void noteJoin(Session& session, std::uint32_t tick);
-  /// All players of the room are about to be sent another world.
+  /// Call it before all players of the room are sent another world.
   void noteRound(const Room& room, std::uint32_t tick);
-  /// The session is about to be destroyed.
+  /// Call it before the session is destroyed.
   void forget(const Session& session);
-  /// The player whose picture is wanted in this tick of the host; 0: none.
+  /// Returns the player whose picture is compared in this tick of the host, or 0.
   std::uint32_t pictured(std::uint32_t tick) const;
 
  private:
   void give(Session& session, std::uint32_t tick);
 
-  std::uint32_t m_ticks_per_second = 0;  ///< 0: there is no audit
-  Session* m_p_session = nullptr;        ///< whose turn it is
-  std::uint32_t m_since = 0;             ///< in this tick its turn began
-  std::uint32_t m_last = 0;              ///< the player whose turn it was last
+  std::uint32_t m_ticks_per_second = 0;  ///< 0: no audit
+  Session* m_p_session = nullptr;        ///< has the turn; null: none
+  std::uint32_t m_since = 0;             ///< tick in which its turn began
+  std::uint32_t m_last = 0;              ///< player of the newest turn
 };
 
 /// Not thread-safe.
 class Rooms {
  public:
-  /// `context` and `sessions` outlive the Rooms. `on_late_tick`: a tick has ended after beginTicks() had
-  /// returned. Throws std::runtime_error for a truth file that cannot be written.
+  /// `context` and `sessions` must outlive the Rooms. `on_late_tick` is called when a tick ends after
+  /// beginTicks() returned. Throws std::runtime_error if the truth file cannot be written.
   Rooms(HostContext& context, const SessionTable& sessions, std::function<void()> on_late_tick);
 
-  /// Play in such worlds, not in the one that open() is given. Before open().
+  /// Uses new worlds of this kind instead of the one given to open(). Call it before open().
   void setWorlds(NewWorld new_world) { m_new_world = std::move(new_world); }
-  /// Have such rooms, instead of the one that open() makes. They begin asleep, but for the first. Before
-  /// open().
+  /// Opens these named rooms instead of one room. All begin asleep, except the first and those that resume a
+  /// round. Call it before open().
   void setNamed(std::vector<RoomPlan> plans) { m_plans = std::move(plans); }
-  /// The game of a room that has a name cannot go on: its players have to leave.
+  /// Sets the callback for a named room whose game cannot continue; its players must leave the room.
   void watchClosed(std::function<void(Room& room, const std::string& sentence)> on_closed) {
     m_on_closed = std::move(on_closed);
   }
-  /// The game of a room that has a name sends this player of it to another one.
+  /// Sets the callback for a player whose game sends them to another named room.
   void watchSent(std::function<void(Session& session, const std::string& room)> on_sent) {
     m_on_sent = std::move(on_sent);
   }
-  /// A room's world is one that players were in: `on_round` a new one, after another; `on_sessions` that of a
-  /// server that was killed, with the sessions that its players had. Before open().
+  /// Sets callbacks for worlds with players: `on_round` when the next round has begun in a room,
+  /// `on_sessions` when a killed server's round was recovered, with its players' sessions. Call it before
+  /// open().
   void watchRounds(std::function<void(Room&)> on_round,
                    std::function<void(Room&, const std::vector<KeptSession>&)> on_sessions) {
     m_on_round = std::move(on_round);
     m_on_sessions = std::move(on_sessions);
   }
-  /// When the game is over for a player who is alone, it is over for all.
+  /// If set, the game ends for all when the last connected player ends it, and no further round begins.
   void setEndsWithLast(bool ends) { m_ends_with_last = ends; }
 
-  /// Tables of scores for all worlds; outlives the Rooms. Before open().
+  /// Sets the score tables of all worlds; they must outlive the Rooms. Call it before open().
   void setScores(ScoreBoard& scores) { m_p_scores = &scores; }
 
-  /// Audit pictures of players, one at a time.
+  /// Begins to audit players' pictures (AuditTurns).
   void startAudit(std::uint32_t ticks_per_second) { m_audit.start(ticks_per_second); }
 
   // Players.
 
-  /// Each player has a world of their own.
+  /// True if each player has a world of their own.
   bool isPrivate() const { return m_new_world && m_options.players == "private"; }
-  /// Worlds at once, where each player has one: those that are ending count.
+  /// Maximum number of worlds, including those that are ending, if each player has one.
   static std::size_t mostWorlds(const HostOptions& options);
-  /// Null: there can be no world for another player, and `problem` says why; it is empty if the worlds are
-  /// being closed.
+  /// Returns the room for a new player. Returns null if a world cannot be started, with the reason in
+  /// `problem`, or if worlds are being closed or the program was upgraded, with `problem` unchanged.
   Room* roomForNewPlayer(std::string& problem);
-  // Rooms that have names.
+  // Named rooms.
 
   bool isNamed() const { return !m_plans.empty(); }
-  /// Null if there is none of this name.
+  /// Returns null if no room has this name.
   Room* findRoom(const std::string& name) const;
-  /// Where players begin.
+  /// The room in which players begin.
   Room& firstRoom() const { return *m_rooms.front(); }
   std::vector<std::string> roomNames() const;
   template <class Visit>
   void forEachRoom(Visit visit) const {
     for (const auto& room : m_rooms) visit(*room);
   }
-  /// It has a world from now on. False: it cannot have one, and `problem` says why; it is empty if the worlds
-  /// are being closed.
+  /// Gives a sleeping room a world. Fails like roomForNewPlayer(), returning false.
   bool wake(Room& room, std::string& problem);
-  /// The session, which plays, leaves its room and the world in it; add() makes it one of another's.
+  /// Removes a playing session from its room, and the player from the world there. add() adds it to another.
   void leaveRoom(const Session& session);
 
-  /// Null for sessions that do not play.
+  /// Returns null for sessions that do not play.
   Room* roomOf(const Session& session) const;
-  /// Null if there is none.
+  /// Returns null if no such player plays.
   Session* findPlayer(std::uint32_t player) const;
-  /// The session was welcomed to this room.
+  /// Adds a session that was welcomed to this room.
   void add(Room& room, Session& session);
-  /// The player leaves; with them goes a world of their own.
+  /// Removes the player from the world, or ends the world if it is the player's own.
   void leave(const Session& session);
-  /// The session is about to be destroyed.
+  /// Call it before the session is destroyed.
   void removeSession(const Session& session);
   std::size_t count() const { return m_rooms.size(); }
-  /// Without those that sleep.
+  /// Number of rooms that are not asleep.
   std::size_t countAwake() const;
-  /// Percent of a round that is being executed again (Round::recovering); nothing: none is.
+  /// Progress in percent of a round that is being replayed (Round::recovering); nullopt if none is.
   std::optional<int> recovering() const;
-  /// Objects that are published, in all rooms.
+  /// Number of published Objects in all rooms.
   std::size_t objects() const;
-  /// The players of all rooms whose worlds have them, by id. A world has the say in their scores alone: it
-  /// may be a stranger's program. Valid until the next call.
+  /// Returns the players that are in their rooms' worlds, by id. Only scores come from the worlds, which may
+  /// be untrusted programs. Valid until the next call.
   const std::vector<ListedPlayer>& players();
 
   // Ticks and rounds.
 
-  /// No further round begins: what is played is the last one.
+  /// If set, no further round begins after the current one.
   void setLastRound(bool last) { m_last_round = last; }
-  /// The first room; with worlds of their own each player opens one.
+  /// Opens the room or the named rooms. With private worlds, roomForNewPlayer() opens the rooms.
   void open(df::World& world);
   using Time = RoomSleep::Time;
-  /// A world in which nobody has played for so long stands still, unless its game wants to go on.
+  /// Time without players after which a world stands still, unless its game asks to run empty.
   static constexpr std::chrono::seconds kEmptyTime{60};
-  /// Begin another round where a world has ended; stop worlds without players, and let those with players go
-  /// on. Once a tick.
+  /// Begins another round where a world has ended, stops worlds without players and resumes those that have
+  /// players again. Call it once a tick.
   void checkWorlds(Time now = std::chrono::steady_clock::now());
   void beginTicks();
-  /// All worlds stand still or sleep, and none is beginning or ending.
+  /// True if all worlds stand still or sleep and no world is starting, ending or being replayed.
   bool rest() const;
-  /// A room's tick has begun and not ended.
+  /// True while any room's tick is running.
   bool isTicking() const;
 
   // The end.
 
-  /// No round is played any more, and none will be.
+  /// True if no round is being played and none will be.
   bool isOver() const;
-  /// Why, for players; empty if the game ended in this process.
+  /// The reason for isOver(), for players; empty if the game ended in this process.
   const std::string& lastSentence() const { return m_last_sentence; }
-  /// How the last world failed, like "crashed (SIGABRT)"; empty if it did not.
+  /// The last world's failure, like "crashed (SIGABRT)"; empty if it did not fail.
   const std::string& failure() const { return m_failure; }
-  /// A new world is of another build than this server, whose program was upgraded: no further world can
-  /// begin. Those that there are go on. In words for the log; nothing if it is not so, or was said before.
+  /// Returns, once, a log message if the server's program was upgraded on disk. A new world then has another
+  /// build than this server, so no further world can begin; existing worlds continue.
   std::optional<std::string> takeUpgrade() { return std::exchange(m_upgrade_news, std::nullopt); }
-  /// Try again to begin worlds.
+  /// Allows new worlds again after an upgrade.
   void forgetUpgrade() { m_upgraded = false; }
-  /// End all worlds. One in a process of its own takes time: call again until isEmpty().
+  /// Ends all worlds. A world process takes time to end: call again until isEmpty().
   void closeWorlds();
   bool isEmpty() const { return m_rooms.empty() && m_ending.empty(); }
   void clear() {
@@ -214,11 +214,11 @@ class Rooms {
   const LogLine& m_log;
   std::function<void()> m_on_late_tick;
   StageClock& m_stages;
-  const df::World* m_p_world = nullptr;  ///< that open() was given
+  const df::World* m_p_world = nullptr;  ///< given to open()
   NewWorld m_new_world;                  ///< empty: the world of this process, or m_plans
   std::vector<RoomPlan> m_plans;
-  std::vector<df::GameRoom> m_game_rooms;        ///< what worlds were passed last, by room
-  std::vector<std::unique_ptr<Round>> m_ending;  ///< of rooms that were put to sleep
+  std::vector<df::GameRoom> m_game_rooms;        ///< room list last passed to worlds, in the order of m_rooms
+  std::vector<std::unique_ptr<Round>> m_ending;  ///< ending rounds of rooms that were put to sleep
   std::function<void(Room&, const std::string&)> m_on_closed;
   std::function<void(Session&, const std::string&)> m_on_sent;
   std::function<void(Room&)> m_on_round;
@@ -227,13 +227,13 @@ class Rooms {
   std::vector<ListedPlayer> m_players;
   std::optional<TruthWriter> m_truth;
   AuditTurns m_audit;
-  ScoreBoard* m_p_scores = nullptr;  ///< null: nothing is kept
+  ScoreBoard* m_p_scores = nullptr;  ///< null: scores are not saved
   bool m_ends_with_last = false;
   bool m_in_begin = false;
-  bool m_over = false;  ///< there is no next round
+  bool m_over = false;  ///< no further round will begin
   bool m_closing = false;
   bool m_last_round = false;
-  bool m_upgraded = false;  ///< new worlds are of another build
+  bool m_upgraded = false;  ///< new worlds have another build than this server
   std::optional<std::string> m_upgrade_news;
   std::string m_last_sentence;
   std::string m_failure;

@@ -1,4 +1,4 @@
-// The tables of scores of a host's games, as rooms see them.
+// The interface through which rooms use the score tables of a host's games.
 #pragma once
 
 #include <map>
@@ -10,16 +10,16 @@
 
 namespace naiad {
 
-/// On the host's thread.
+/// Thread: the host's.
 class ScoreBoard {
  public:
   using Tables = std::map<std::string, std::vector<df::HighScore>>;
 
   virtual ~ScoreBoard() = default;
-  /// What a world of this game is passed at its start. Valid until the next call of add().
+  /// Returns the tables that a world of this game gets at its start. Valid until the next call of add().
   virtual const Tables& tables(const std::string& game) = 0;
-  /// A world of this game has added these in its round. It may be a stranger's program: all is checked. Of a
-  /// round that is executed again they may come again, and count once.
+  /// Adds scores from a world's round. The world may be an untrusted program, so all values are checked. A
+  /// replayed round may report a score again; it counts once.
   virtual void add(const std::string& game, const RoundName& round,
                    const std::vector<df::AddedScore>& scores) = 0;
 };

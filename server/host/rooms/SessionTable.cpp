@@ -17,7 +17,7 @@ bool isPlaying(const Session& session) {
   return session.state() == Session::State::kPlaying;
 }
 
-/// It neither plays nor waits for an answer to its hello.
+/// True if the session neither plays nor waits for an answer to its hello.
 bool isIdle(const Session& session) {
   return !isPlaying(session) && !(session.state() == Session::State::kGreeting && session.isGreeted());
 }
@@ -30,7 +30,7 @@ bool isConnected(const Session& session) {
 
 void sendServerLine(Session& session, const std::string& text) {
   wire::ServerMessage message;
-  message.mutable_chat()->set_text(safeText(text, kMaxChatLength));  // without a player: the server's
+  message.mutable_chat()->set_text(safeText(text, kMaxChatLength));  // no player: a line from the server
   session.sendKept(message);
 }
 
@@ -48,8 +48,8 @@ void SessionTable::add(std::unique_ptr<ReliableChannel> channel, Session::Events
   m_places.back().session->start(std::move(events));
 }
 
-// Connections that have not said hello count, too, or they would evade the limit. A client whose password is
-// being compared has said hello, and stays.
+// Connections without a hello count, too, or they would evade the limit. A client whose password is being
+// checked has sent its hello, so it is never evicted.
 bool SessionTable::makeRoom(const AddressPrefix& newcomer) {
   if (m_places.size() >= m_max_sessions) sweep();
   if (m_places.size() < m_max_sessions) return true;
@@ -61,8 +61,8 @@ bool SessionTable::makeRoom(const AddressPrefix& newcomer) {
   return true;
 }
 
-// The oldest, since a player says hello at once; of the crowd, since players whose hellos are on their way
-// may be older than it.
+// Returns the idle session to evict: the oldest one, because real clients send a hello at once, but from the
+// most crowded addresses, because honest sessions whose hello is on its way may be older than a flood's.
 SessionTable::Places::iterator SessionTable::mostCrowding(const AddressPrefix& newcomer) {
   std::map<AddressPrefix, int> networks{{newcomer.widest(), 1}};
   std::map<AddressPrefix, int> prefixes{{newcomer, 1}};

@@ -19,37 +19,36 @@ namespace naiad {
 /// Sends a chat line from the server, cut to kMaxChatLength characters. Thread: the host's.
 void sendServerLine(Session& session, const std::string& text);
 
-/// Not thread-safe. Callbacks run inside sessions, so sessions are destroyed in add() and sweep() alone: call
-/// these from outside of any session's callback.
+/// Not thread-safe. Only add() and sweep() destroy sessions: do not call them in a session's callback.
 class SessionTable {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// At most `max_sessions` at once. `on_remove` is called before a session is destroyed.
+  /// Holds at most `max_sessions`. `on_remove` is called before a session is destroyed.
   SessionTable(std::size_t max_sessions, Counters& counters, std::function<void(Session&)> on_remove);
 
-  /// Start a session on a new connection. If there are too many, one that neither plays nor waits for an
-  /// answer to its hello makes room: the oldest of the most crowded address or /64, in the most crowded /24
-  /// or /48, this connection included. If there is none, the connection is closed.
+  /// Starts a session on a new connection. If there are too many sessions, evicts one that neither plays nor
+  /// waits for an answer to its hello: the oldest of the most crowded address or /64 in the most crowded /24
+  /// or /48, counting the new connection. If no session can be evicted, closes the new connection.
   void add(std::unique_ptr<ReliableChannel> channel, Session::Events events, Clock::time_point now);
-  /// A session without a stream, to be restored.
+  /// Adds a session without a stream, to be restored.
   Session& addDetached(Clock::time_point now);
-  /// At most so many from now on; those that are there stay.
+  /// Sets the maximum. Existing sessions stay.
   void setMost(std::size_t max_sessions) { m_max_sessions = max_sessions; }
-  /// Destroy the sessions that have ended.
+  /// Destroys the sessions that have ended.
   void sweep();
 
-  /// Null if there is none.
+  /// Returns null if there is no session with this id.
   Session* find(std::uint64_t id) const;
   bool isEmpty() const { return m_places.empty(); }
-  /// How many play, their connections broken or not.
+  /// Number of playing sessions, including those that lost their connection.
   std::size_t playing() const;
-  /// How many play on a connection.
+  /// Number of playing sessions that have a connection.
   std::size_t connected() const;
-  /// Ticks skipped for this player (Session::skippedTicks); 0 if there is none.
+  /// Number of ticks skipped for this player (Session::skippedTicks); 0 if there is no such player.
   std::uint64_t skippedTicks(std::uint32_t player) const;
 
-  /// Call `visit(session)` for all, by id.
+  /// Calls `visit(session)` for all sessions, by id.
   template <class Visit>
   void forEach(Visit visit) const {
     for (const Place& place : m_places) visit(*place.session);
@@ -64,7 +63,7 @@ class SessionTable {
  private:
   struct Place {
     std::unique_ptr<Session> session;
-    AddressPrefix prefix;  ///< that the connection came from
+    AddressPrefix prefix;  ///< network of the client's address
   };
   using Places = std::vector<Place>;
 
@@ -75,7 +74,7 @@ class SessionTable {
   Counters& m_counters;
   std::function<void(Session&)> m_on_remove;
   std::uint64_t m_next_id = 1;
-  Places m_places;  ///< by id
+  Places m_places;  ///< sorted by id
 };
 
 }  // namespace naiad

@@ -13,19 +13,20 @@ namespace {
 
 static_assert(SoundNews::kPerTick <= kMaxSounds);
 
-/// A client that missed it would go on playing something else than the game does.
+/// True if a client that missed this sound would keep playing something other than the game does.
 bool lasts(const df::SoundPlayed& sound) {
   return sound.music || sound.loop || sound.what != df::SoundPlayed::kPlay;
 }
 
-/// What lasts counts as three: it is kept for clients that are away, and must not fill what may be kept.
+/// A lasting sound costs as much as three, because it is stored for disconnected clients and must not use up
+/// their storage.
 constexpr std::uint32_t kLastingCounts = 3;
 
 std::uint32_t costOf(const df::SoundPlayed& sound) {
   return SoundNews::kTicksForOne * (lasts(sound) ? kLastingCounts : 1);
 }
 
-/// The lower, the sooner it is sent to the player.
+/// Returns the rank of a sound for a player; lower ranks are sent first.
 int rankOf(const df::SoundPlayed& sound, std::uint32_t player) {
   if (lasts(sound)) return 0;
   if (sound.player == player) return 1;
@@ -78,7 +79,7 @@ void SoundNews::gatherSounds(const df::WorldView& view) {
   }
 }
 
-// Of more than fits in one message, what does not loop has most likely ended by itself.
+// If there are more than fit in one message, drops a sound that does not loop: it has most likely ended.
 void SoundNews::noteLasting(const df::SoundPlayed& sound) {
   if (!lasts(sound)) return;
   std::erase_if(m_lasting, [&sound](const df::SoundPlayed& other) {
@@ -104,7 +105,7 @@ SoundNews::Listener SoundNews::addListener(std::uint32_t player, const df::World
   return {player, kAtOnce * kTicksForOne, view.tick};
 }
 
-// A new player has got what loops with the list of what is playing.
+// Loops are skipped for a new player, because addListener() has just sent them.
 void SoundNews::sendSounds(Listener& listener, bool is_new, std::uint32_t tick, const Send& send) {
   listener.credit = std::min(listener.credit + (tick - listener.tick), kAtOnce * kTicksForOne);
   listener.tick = tick;

@@ -44,13 +44,13 @@ bool isInstalled(const std::string& game, const std::filesystem::path& module) {
 
 namespace fs = std::filesystem;
 
-/// Bytes of turns that may wait for a disk: of a thousand players for 20 seconds, of a room's, and of one
-/// alone.
+/// Bytes of turns that may wait for the disk: of a shared world (a thousand players for 20 seconds), of a
+/// room, and of a single player's world.
 constexpr std::size_t kSharedRing = std::size_t{4} << 20;
 constexpr std::size_t kRoomRing = std::size_t{1} << 20;
 constexpr std::size_t kPrivateRing = std::size_t{256} << 10;
 
-/// To go on with one round. A server that ends while it does so may have been ended by the round.
+/// Attempts to resume one round. A server that ends during one may have been ended by the round.
 constexpr int kMaxAttempts = 3;
 
 std::string readSettings() {
@@ -68,7 +68,7 @@ std::string hexNumber(std::uint64_t number) {
   return text;
 }
 
-/// dfreplay executes modules alone.
+/// Suggests dfreplay only for modules: it cannot execute games that are programs.
 std::string describeLastDeath(const std::string& path, std::uint32_t tick, const std::string& game,
                               const std::string& module) {
   if (module.empty())
@@ -85,7 +85,7 @@ DfrFacts factsOfStart(const WorldProcess& world) {
   return facts;
 }
 
-/// The header of a file that is one of this game's by its name, which pathOf() has made.
+/// Returns the header of a file whose name (of pathOf()) is that of one of this game's rounds.
 std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& game) {
   const std::string name = path.filename().string();
   if (path.extension() != ".dfr" || !name.starts_with(game + "-")) return std::nullopt;
@@ -96,7 +96,7 @@ std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& 
   return reader.problem().empty() ? std::optional(reader.header()) : std::nullopt;
 }
 
-/// Newest first.
+/// Returns the files of a game's rounds, newest first.
 std::vector<fs::path> roundsOf(const std::string& folder, const std::string& game) {
   std::vector<std::pair<std::uint64_t, fs::path>> found;
   std::error_code error;
@@ -111,7 +111,7 @@ std::vector<fs::path> roundsOf(const std::string& folder, const std::string& gam
   return paths;
 }
 
-/// What of a round is not as this server would play it, in words; empty: nothing is.
+/// Returns why this server cannot play the round as it was, in words; empty if it can.
 std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::uint64_t frame_nanos,
                          const KeptRounds& kept) {
   if ((round.header().flags & kDfrStopped) != 0) return "its journal had stopped before";
@@ -135,7 +135,7 @@ std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::
   return {};
 }
 
-/// Attempts to go on with the round from where it is. Each that comes to its end adds a turn.
+/// Returns the number of attempts to resume the round from its present end. A successful one adds a turn.
 int attemptsOf(const OpenRound& round) {
   std::istringstream fact(round.fact(kFactAttempts));
   int attempts = 0;
@@ -143,7 +143,7 @@ int attemptsOf(const OpenRound& round) {
   return fact >> attempts >> turns && turns >= round.turns() ? attempts : 0;
 }
 
-/// Not an option: it is of one start, and no configuration.
+/// Not an option, because it is for a single start.
 constexpr const char* kKeptVariable = "DF_KEPT_ROUNDS";
 
 }  // namespace
@@ -164,7 +164,7 @@ std::string debugCommand(const std::string& file, std::uint32_t tick, const std:
   return line;
 }
 
-// Only the newest one: from those before, players have gone on already.
+// Looks only at the newest round, because players have left the older ones.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
                                          std::uint64_t frame_nanos, std::string& said,
                                          const KeptRounds& kept) {
@@ -283,7 +283,7 @@ void Journals::findRound(const HostOptions& options) {
     why_not = m_open->path() + ": worlds of single players are not gone on with";
     m_open.reset();
   }
-  // A player comes back within the grace time; a file is written once a second.
+  // Players reconnect within the grace time, and a file is written once a second.
   const auto patience = std::chrono::duration<double>(options.grace) + JournalWriter::kBetween;
   if (m_open != nullptr && std::filesystem::file_time_type::clock::now() - m_open->writtenAt() > patience)
     m_open->dropSessions();
@@ -296,14 +296,14 @@ std::optional<WorldOrder> Journals::orderOfOpenRound() const {
   order.seed = m_open->header().seed;
   order.repeatable = true;
   order.copies = m_copies;
-  order.again = true;  // or a game that sleeps would take as long as the round
+  order.again = true;  // otherwise a game that sleeps would replay in real time
   order.start_nanos = m_open->header().start_nanos;
   order.frame_nanos = m_open->header().frame_nanos;
   return order;
 }
 
-// The attempt is noted in the file before it begins: a round that kills the server again and again is given
-// up.
+// Records the attempt in the file before it begins, so that a round that ends the server again and again is
+// given up.
 std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
   auto sink = std::make_unique<JournalFileSink>(round.path(), round.wholeBytes());
   const int attempts = attemptsOf(round);
@@ -332,7 +332,7 @@ std::unique_ptr<Round> Journals::goOn(std::unique_ptr<WorldProcess> world, NewWo
   }
   if (book.journal == nullptr) return nullptr;
   const bool is_kept = isKept(*round);
-  if (is_kept) book.journal->addFacts(m_facts);  // its game is this one from now on
+  if (is_kept) book.journal->addFacts(m_facts);  // from now on this server's game plays it
   if (!is_kept)
     book.find_difference = [p_world = world.get(), round] {
       for (const auto& [name, value] : factsOfStart(*p_world)) {
@@ -422,11 +422,11 @@ std::unique_ptr<Round> Journals::keep(std::unique_ptr<WorldProcess> world, const
   }
   m_shared->writer->add(book.journal);
   noteCurrent(book.journal, path);
-  m_shared->writer->wake();  // a server that is killed within the first second leaves a file, too
+  m_shared->writer->wake();  // so that there is a file if the server is killed within a second
   return std::make_unique<Round>(std::move(world), std::move(book));
 }
 
-// ---- a program that goes on in this one's place -----------------------------------------------------------
+// ---- handover to another program --------------------------------------------------------------------------
 
 KeptRounds takeKeptRounds() {
   KeptRounds rounds;

@@ -1,4 +1,4 @@
-// The journals of a server's worlds: what is said of each round beside its turns, and where its file is.
+// Writes the file and facts of each round of a server's worlds, and recovers a killed server's round.
 #pragma once
 
 #include <chrono>
@@ -22,78 +22,78 @@
 
 namespace naiad {
 
-// How an author sees where a game of theirs died.
+// Help for the authors of games that crashed.
 
-/// What to type in a shell: "dfreplay FILE --until TICK --debug", with --game where `game` is the name of no
-/// installed game, or of another one than `module` (both as of GameModule).
+/// Returns the command "dfreplay FILE --until TICK --debug", with --game if `game` is not the name of an
+/// installed game, or names another one than `module` (both as of GameModule).
 std::string debugCommand(const std::string& file, std::uint32_t tick, const std::string& game,
                          const std::filesystem::path& module);
 
-/// One word of a shell's line.
+/// Returns `text` quoted as one word of a shell command.
 std::string shellWord(const std::string& text);
 
-/// Rounds that a program which this process ran before has left open for this one: the uuid of each, and the
-/// hash of the module that has executed it again, to the same answers.
+/// Rounds that the previous program of this process left open for this one: the uuid of each, and the hash of
+/// the module that replayed it with equal answers.
 using KeptRounds = std::map<std::string, std::string>;
 
-/// What Journals::announceKept() has said, once.
+/// Returns what Journals::announceKept() has announced, once.
 KeptRounds takeKeptRounds();
 
-/// What the journals of a server's rooms have in common (openRoomJournals).
+/// State shared by the journals of a server's rooms (openRoomJournals).
 struct SharedJournals {
   std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
-  std::set<std::string> checked = {};  ///< games of which a round has been held against another, or is
+  std::set<std::string> checked = {};  ///< games that were, or are being, checked
   KeptRounds kept = takeKeptRounds();
 };
 
 class Journals {
  public:
-  /// Null if the options want none. `module`: the game's path; empty for a game that is this program itself.
+  /// Returns null if the options disable journals. `module`: the game's path; empty if this program is the
+  /// game.
   static std::shared_ptr<Journals> open(const HostOptions& options, const std::string& game,
                                         const std::string& module, const LogLine& log);
 
   using NewWorld = std::function<std::unique_ptr<WorldProcess>()>;
 
-  /// `p_shared`: with the journals of other rooms; null: there are none.
+  /// `p_shared`: state shared with the journals of other rooms; null: there are no others.
   Journals(const HostOptions& options, std::string game, const std::string& module, LogLine log,
            std::shared_ptr<SharedJournals> p_shared = nullptr);
 
-  /// For the next world.
+  /// Returns the order for a world of a new round.
   WorldOrder makeOrder() const;
-  /// For the world that goes on with the round of a server that was killed; nothing: there is no such round,
-  /// or it has been begun.
+  /// Returns the order for a world that resumes a killed server's round; nullopt if none is left.
   std::optional<WorldOrder> orderOfOpenRound() const;
-  /// The highest id that a player of that round ever had (OpenRound::highestPlayer()); 0: there is no such
-  /// round.
+  /// Returns the highest player id of that round (OpenRound::highestPlayer()); 0 without one.
   std::uint32_t highestPlayer() const;
-  /// The round of that world, which first gets the turns of the one before; null: it cannot be written down.
+  /// Returns the resumed round, whose `world` first gets the recorded turns; null if it cannot be recorded.
+  /// `another` starts a world that takes over from one that crashed or hangs.
   std::unique_ptr<Round> goOn(std::unique_ptr<WorldProcess> world, NewWorld another);
-  /// The round of that world, written down. If they cannot be, the log says so, and it plays without. `again`
-  /// starts another one from the same order: the first round of this server is held against it. `another`
-  /// starts one that takes over from a world that crashed or hangs.
+  /// Returns a new round of `world`, recorded unless that fails, which the log says. `again` starts a second
+  /// world from `order`, with which the first round of each game is compared. `another` starts a world that
+  /// takes over from one that crashed or hangs.
   std::unique_ptr<Round> keep(std::unique_ptr<WorldProcess> world, const WorldOrder& order,
                               RepeatCheck::NewWorld again = {}, NewWorld another = {});
 
-  // For a program that goes on with the round in this one's place (RoundHandover.h).
+  // Handover of the round to another program (RoundHandover.h).
 
-  /// A round that is being played and written down.
+  /// A round that is being played and recorded.
   struct CurrentRound {
     std::string uuid;
     std::string file;
-    std::uint64_t start_nanos = 0;  ///< since 1970
+    std::uint64_t start_nanos = 0;  ///< since 1970 in UTC
   };
-  /// Nothing: none is.
+  /// Returns the current round; nullopt if none is being recorded.
   std::optional<CurrentRound> currentRound() const;
-  /// Why its rounds cannot go on elsewhere, as the rest of a sentence; empty: they can, if there are any.
+  /// Returns why its rounds cannot be handed over, as the rest of a sentence; empty if nothing prevents it.
   std::string whyNotKept() const;
-  /// The path of the game's module; empty: it is a program of its own.
+  /// Returns the path of the game's module; empty: the game is a program of its own.
   const std::string& module() const { return m_module; }
-  /// Wait until all that was added is on the disk, or for so long. Return whether it is. From any thread.
+  /// Waits until everything added is on the disk, at most `most`. Returns true if it is. Any thread.
   bool sync(std::chrono::milliseconds most) { return m_shared->writer->drain(most); }
-  /// Its journal is left as by a server that was killed. From now on nothing is written down.
+  /// Leaves the journal as a killed server would. From now on nothing is recorded.
   void leaveOpen();
-  /// Say in the environment of the program that this process runs next that these rounds were executed again
-  /// by modules with these hashes (hashOfModule), and were the same: what those were before does not count.
+  /// Tells the program that this process runs next, in its environment, that modules with these hashes
+  /// (hashOfModule) replayed these rounds with equal answers, and may therefore resume them.
   static void announceKept(const KeptRounds& rounds);
 
  private:
@@ -111,33 +111,33 @@ class Journals {
   const std::int64_t m_seed;
   const std::uint64_t m_frame_nanos;
   const std::size_t m_ring;
-  const bool m_copies;  ///< of worlds: three processes for each are too many where each player has one
+  const bool m_copies;  ///< worlds make copies; too many processes if each player has a world
   DfrFacts m_facts;
   LogLine m_log;
   std::weak_ptr<Journal> m_current;
   std::string m_current_file;
   bool m_is_private = false;  ///< each player has a round of their own
   bool m_recovers = true;
-  std::shared_ptr<bool> m_repeats = std::make_shared<bool>(true);  ///< the current round, as far as is known
-  std::unique_ptr<OpenRound> m_open;                               ///< to go on with
+  /// False once the current round was found not to be repeatable.
+  std::shared_ptr<bool> m_repeats = std::make_shared<bool>(true);
+  std::unique_ptr<OpenRound> m_open;  ///< the round to resume
   std::shared_ptr<SharedJournals> m_shared;
 };
 
-/// The round that a server of this folder was killed in, if this one can go on with it: the same game with
-/// the same settings, on the same port, by `expected` facts. Else null, and `said` has why, if there is one.
-/// `kept`: rounds for which the game may be another version than it was.
+/// Returns the round that a server of this folder was killed in, if this server can resume it: game, settings
+/// and port are as in `expected`. Otherwise returns null; `said` has the reason if there is such a round.
+/// `kept`: rounds that another version of the game may have begun.
 std::unique_ptr<OpenRound> findOpenRound(const std::string& folder, const DfrFacts& expected,
                                          std::uint64_t frame_nanos, std::string& said,
                                          const KeptRounds& kept = {});
 
-/// The hash of a file by which a round says which game it was; empty if it cannot be read.
+/// Returns the hash of a file by which a round identifies its game; empty if the file cannot be read.
 std::string hashOfModule(const std::string& path);
 
-/// "name=hash" of build ids: this library's, and those of the C library and the kernel, which decide where
-/// memory lies.
+/// Returns the kernel version and the build ids of libraries, which decide where memory lies.
 DfrFacts factsOfMachine();
 
-/// The text of the game's settings, if there is such a file and it is of a sensible length.
+/// Maximum bytes of the game's settings; a longer file is not recorded.
 inline constexpr std::size_t kMaxSettings = kMaxDfrValue;
 
 // Names of facts.
@@ -149,11 +149,11 @@ inline constexpr const char* kFactGameOver = "on_game_over";
 inline constexpr const char* kFactAddresses = "addresses";    ///< "fixed" or "random"
 inline constexpr const char* kFactClocks = "clocks";          ///< "repeatable" or "real"
 inline constexpr const char* kFactSettings = "settings";      ///< the text of df-config.txt
-inline constexpr const char* kFactPort = "port";              ///< that players joined by
-inline constexpr const char* kFactFirstTick = "first_tick";   ///< by which the server's log and players count
-inline constexpr const char* kFactRepeatable = "repeatable";  ///< "no": a second world answered otherwise
-inline constexpr const char* kFactAttempts = "attempts";      ///< to go on with it, and behind how many turns
-inline constexpr const char* kFactFile = "file ";          ///< and its name: the hash of a file that was read
-inline constexpr const char* kFactVariable = "variable ";  ///< and its name: its value
+inline constexpr const char* kFactPort = "port";              ///< port by which players joined
+inline constexpr const char* kFactFirstTick = "first_tick";   ///< its number in the server's log
+inline constexpr const char* kFactRepeatable = "repeatable";  ///< "no": a second world answered differently
+inline constexpr const char* kFactAttempts = "attempts";      ///< attempts to resume it, and its turns then
+inline constexpr const char* kFactFile = "file ";  ///< followed by a file's name: the hash of that file
+inline constexpr const char* kFactVariable = "variable ";  ///< followed by a variable's name: its value
 
 }  // namespace naiad

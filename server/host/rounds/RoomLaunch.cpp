@@ -17,7 +17,7 @@ namespace naiad {
 
 namespace {
 
-/// Lines say which room they are about.
+/// Returns a log that names the room in each line.
 LogLine lineOfRoom(const LogLine& log, const std::string& room) {
   return [log, room](LogEvent event) {
     event.text.insert(0, "room " + room + ": ");
@@ -26,16 +26,16 @@ LogLine lineOfRoom(const LogLine& log, const std::string& room) {
   };
 }
 
-/// A game that takes all it can get leaves the front, which serves all rooms, as much as that needs.
+/// Nice value of worlds: a game that uses all its time leaves the front, which serves all rooms, enough.
 constexpr int kNice = 5;
 
-/// Rooms that differ in nothing but their names and places share a launcher.
+/// Returns the key of a room's launcher. Rooms that differ only in name and number of players share it.
 std::string kindOf(const RoomOptions& room) {
   return room.game + " " + std::to_string(room.world_memory) + " " + std::to_string(room.seed) + " " +
          room.players;
 }
 
-/// What is the same for several launchers is logged once.
+/// Returns a log that drops repeated lines, which several launchers write.
 LogLine onceOnly(const LogLine& log) {
   return [log, said = std::make_shared<std::set<std::string>>()](const LogEvent& event) {
     if (said->insert(event.text).second) log(event);

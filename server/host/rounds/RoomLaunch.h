@@ -1,4 +1,4 @@
-// Starts what the worlds of rooms are started from.
+// Starts the launchers of rooms, and opens their journals.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +20,16 @@ struct LaunchedRoom {
   std::shared_ptr<const WorldLauncher> launcher;
 };
 
-/// The rooms of these options. Each game runs until GM.run(), in a world that is ended then; `print` makes
-/// what gets its lines in a room. Better called before this process has threads and secrets. Throws GameError
-/// for a game that does not come so far, or std::system_error.
+/// Starts the launchers of rooms. Each game runs until GM.run(), in a world that is then ended; `print`
+/// returns the log for a room's output. Call it, if possible, before this process has threads and secrets.
+/// Throws GameError for a game that does not reach GM.run(), or std::system_error.
 std::vector<LaunchedRoom> launchRooms(const HostOptions& options, const std::string& config,
                                       const LogLine& log,
                                       const std::function<LogLine(const std::string& room)>& print);
 
-/// The journals of a server's rooms: a folder for each below that of --journal, and one thread that writes
-/// them. In the order of the rooms; null pointers if the options want no journals. `port`: by which players
-/// join: a round goes on where they look for it. Throws std::system_error if there can be no such folder.
+/// Opens the journals of a server's rooms, in their order: a folder for each below that of --journal, and one
+/// thread that writes them. Null pointers if the options disable journals. `port`: by which players join; a
+/// round is resumed only on its port. Throws std::system_error if the folder of --journal cannot be made.
 std::vector<std::shared_ptr<Journals>> openRoomJournals(const HostOptions& options, std::uint16_t port,
                                                         const std::vector<LaunchedRoom>& rooms,
                                                         const LogLine& log);

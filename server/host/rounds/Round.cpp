@@ -79,7 +79,7 @@ void Round::begin() {
   m_later = m_world->ticksBefore();
   if (!m_book.late_facts) return;
   m_book.journal->addFacts(m_book.late_facts());
-  m_book.writer->wake();  // a server that is killed within the first second knows them, too
+  m_book.writer->wake();  // so that they survive if the server is killed within a second
 }
 
 void Round::tick(bool watched, bool truth, std::uint32_t pictured) {
@@ -99,7 +99,7 @@ void Round::tick(bool watched, bool truth, std::uint32_t pictured) {
   sendTurn(std::exchange(m_turn, WorldTurn()));
 }
 
-// What the host wants to see anyway, or the player who has been here longest.
+// Chooses the picture that the host asked for, or that of the player who has been here longest.
 void Round::choosePicture() {
   if (!m_turn.wants_truth) {
     m_turn.wants_truth = true;
@@ -111,7 +111,7 @@ void Round::choosePicture() {
 void Round::sendTurn(WorldTurn turn) {
   m_sent.turn = std::move(turn);
   m_sent.record.clear();
-  // The world does not take a turn that is too much for a record, either.
+  // The world rejects a turn that is too long for a record, too.
   m_goes_on = m_writer.write(m_sent.turn, m_sent.record) && m_goes_on;
   if (m_goes_on) {
     m_book.journal->setCalm(m_players.empty());
@@ -120,7 +120,7 @@ void Round::sendTurn(WorldTurn turn) {
   m_world->tick(m_sent);
 }
 
-// ---- what came of it --------------------------------------------------------------------------------------
+// ---- results ----------------------------------------------------------------------------------------------
 
 void Round::endTick() {
   if (m_p_process != nullptr && m_p_process->wasSlow()) noteSlowTick();
@@ -172,10 +172,10 @@ df::Canvas Round::renderPlayer(std::uint32_t player) const {
   return {m_world->view().view_width, m_world->view().view_height};
 }
 
-// ---- looking after it -------------------------------------------------------------------------------------
+// ---- checks -----------------------------------------------------------------------------------------------
 
 void Round::checkProcess(std::uint32_t tick) {
-  // The first tick of a round keeps its number, whichever world and server has it.
+  // The first tick of a round keeps its number in every world and server.
   const std::uint32_t first = m_began ? m_later + 1 : m_book.first_tick;
   m_world->checkProcess(m_book.recovery && first != 0 ? first : tick);
   if (m_book.recovery && !m_repeating && m_world->isReady()) beginRepetition();
@@ -207,10 +207,10 @@ std::optional<std::string> Round::takeWarning() {
   return m_p_process != nullptr ? m_p_process->takeWarning() : std::nullopt;
 }
 
-// ---- a round of a server that was killed ------------------------------------------------------------------
+// ---- replay of a killed server's round --------------------------------------------------------------------
 
-// Until the sessions are there again: a client that comes before them would be a new player. While another
-// world takes over, players may join and press keys as ever.
+// Recovery ends when the sessions are restored, because a client that came before would be a new player.
+// While another world takes over, players may join and press keys as usual.
 std::optional<int> Round::recovering() const {
   if (m_sessions) return 100;
   return m_book.recovery && !isTakingOver() ? std::optional(m_book.recovery->percent()) : std::nullopt;
@@ -227,8 +227,8 @@ void Round::beginRepetition() {
   difference.empty() ? repeatTurns() : endRecovery(difference);
 }
 
-// Several are under way at once: neither end waits for the other then. Behind the first one, for which a
-// world has longer than for the others.
+// Sends several turns ahead, so that neither end waits for the other. The first one is sent alone, because
+// its time limit is longer.
 void Round::repeatTurns() {
   const std::uint32_t limit = m_book.recovery->turns() == 0 ? 1 : m_world->turnsAhead();
   while (m_book.recovery->unanswered() < limit) {
@@ -241,20 +241,20 @@ void Round::repeatTurns() {
   if (m_book.recovery->unanswered() == 0) closeRecovery();
 }
 
-// The one that the world is at.
+// Returns the tick that the world is in.
 std::uint32_t Round::currentTick() const {
   const std::uint32_t unanswered = m_book.recovery ? m_book.recovery->unanswered() : 0;
   return m_ticks - (std::max(unanswered, 1u) - 1);
 }
 
-// A server that was killed may not have written the last ones. Those of a world before were taken from it.
+// A killed server may not have stored the last scores; in a takeover they were taken before.
 void Round::keepRepeatedScores() {
   if (isTakingOver()) return;
   m_scores = takeScores();
   if (m_scores.size() > kMaxScores) m_scores.erase(m_scores.begin(), m_scores.end() - kMaxScores);
 }
 
-// What was sent last may have no result in the file; that of the closing turn is stored as any other.
+// Stores the result of the last turn, which may be missing in the file, and that of the closing turn.
 void Round::endRepeatedTick() {
   keepRepeatedScores();
   if (m_closing) {
@@ -271,7 +271,7 @@ void Round::endRepeatedTick() {
   m_world->answer().game_over ? endRecovery({}) : repeatTurns();
 }
 
-// A world that takes over is then where its players are.
+// A world that takes over needs no closing turn, because its players are still connected.
 void Round::closeRecovery() {
   if (isTakingOver()) return endTakeOver({});
   m_closing = true;
@@ -281,7 +281,7 @@ void Round::closeRecovery() {
   sendTurn(std::move(turn));
 }
 
-// Players who left or were led to other rooms while the round was played have gone.
+// Drops requests to leave or change rooms: the players of the replayed turns have left or moved already.
 void Round::endRecovery(const std::string& problem) {
   if (isTakingOver()) return endTakeOver(problem);
   const auto recovery = std::move(m_book.recovery);
@@ -298,7 +298,7 @@ void Round::endRecovery(const std::string& problem) {
 
 // ---- a world that crashed or hangs ------------------------------------------------------------------------
 
-// False: the round ends with it.
+// Returns false if the round ends with its world.
 bool Round::takeOver(const WorldEnd& end) {
   const bool failed = end.why == WorldEnd::kCrashed || end.why == WorldEnd::kHung;
   if (!failed || !m_book.new_world || !m_goes_on || !m_began) return false;
@@ -309,7 +309,7 @@ bool Round::takeOver(const WorldEnd& end) {
     return beginAgain(false);
   }
   const bool again = m_died_at && tick < *m_died_at + kSameDeath;
-  // A server that goes on with a round knows no more than that the world had the last turn.
+  // After a server's crash it is only known that the world had got the last turn.
   const bool in_last_turn = m_book.recovery ? m_book.recovery->isAtUnknownResult() : m_in_tick;
   const bool goes_on = !again && (!m_book.recovery || in_last_turn);
   if (m_book.on_death) m_book.on_death(end, tick, goes_on);
@@ -319,7 +319,7 @@ bool Round::takeOver(const WorldEnd& end) {
   return beginAgain(in_last_turn);
 }
 
-// Not where the round would end with the tick: then it is waited for.
+// False if the round would end with the tick: then the tick gets the full limit.
 bool Round::isImpatient() const {
   const bool is_followed = m_goes_on && m_book.new_world && !(m_died_at && m_ticks < *m_died_at + kSameDeath);
   return is_followed && (m_hangs == Hangs::kUnknown || m_hangs == Hangs::kReal);
@@ -329,7 +329,7 @@ void Round::noteHang() {
   m_hangs = m_hangs == Hangs::kUnknown ? Hangs::kOneEnded : Hangs::kReal;
 }
 
-// In the first one games load.
+// The first tick does not count, because games load in it.
 void Round::noteSlowTick() {
   if (currentTick() > 1 && std::exchange(m_hangs, Hangs::kSlow) != Hangs::kSlow)
     say("tick " + std::to_string(m_later + currentTick()) +
@@ -339,7 +339,7 @@ void Round::noteSlowTick() {
 
 bool Round::beginAgain(bool drops_keys) {
   if (drops_keys) store(InputsDropped());
-  if (!m_book.new_world) {  // the round has become too long by that
+  if (!m_book.new_world) {  // that has made the round too long
     m_death.reset();
     return false;
   }
@@ -351,7 +351,7 @@ bool Round::repeatByCopy() {
   const auto ticks = m_p_process->goOnWithCopy();
   if (!ticks) return false;
   const auto mark = m_history.takeCopy(*ticks);
-  assert(mark);  // one for each that there is
+  assert(mark);  // each copy has a mark
   prepareToRepeat(mark->records);
   m_by_copy = m_repeating = true;
   m_ticks = mark->ticks;
@@ -365,7 +365,7 @@ bool Round::repeatByAnother() {
     if (!m_history.hasBeginning()) throw std::system_error(std::make_error_code(std::errc::value_too_large));
     adopt(m_book.new_world());
   } catch (const std::system_error&) {
-    if (isTakingOver()) m_book.recovery.reset();  // that of a copy
+    if (isTakingOver()) m_book.recovery.reset();  // the copy's
     m_death.reset();
     return false;
   }
@@ -374,10 +374,10 @@ bool Round::repeatByAnother() {
   return true;
 }
 
-/// With the turns behind so many bytes of records.
+/// Prepares the replay of the turns after this many bytes of records.
 void Round::prepareToRepeat(std::size_t records) {
   m_book.check.reset();
-  m_book.find_difference = {};  // of the world before
+  m_book.find_difference = {};  // belongs to the previous world
   m_book.recovery = std::make_unique<RoundRecovery>(std::make_shared<const OpenRound>(
       m_book.journal->header(), std::string_view(m_history.records()).substr(records)));
   m_ticks = 0;
@@ -386,7 +386,7 @@ void Round::prepareToRepeat(std::size_t records) {
   m_repeating = m_closing = false;
 }
 
-// What came meanwhile is in the next turn. A tick that the world before did not end ends now.
+// Input of the meantime is in the next turn. A tick that the previous world did not end ends now.
 void Round::endTakeOver(const std::string& problem) {
   const auto recovery = std::move(m_book.recovery);
   const TakeOver done{std::exchange(m_by_copy, false), recovery->turns()};

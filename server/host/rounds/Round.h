@@ -1,12 +1,11 @@
-// A round: a world, and all that goes into it, which the owner of the round says here.
+// A round: a world, and all its inputs, which the round's owner adds here.
 //
-// What players do waits in the next turn. When its tick begins, the turn is spelled once: the journal, if
-// there is one, stores these bytes before the world gets the same ones, and what came of it after.
+// Inputs of players wait in the next turn. When its tick begins, the turn is encoded once. The journal, if
+// there is one, stores these bytes before the world gets them, and the tick's result afterwards.
 //
-// With a RoundRecovery the world first gets the turns of a round whose server was killed, as fast as it
-// answers, and is ready when it has had all of them. In the same way another world takes over from one that
-// crashed or hangs, without the keys and clicks of the tick in which that happened: a copy of it that is a
-// few seconds old, or one that begins again.
+// With a RoundRecovery the world first gets the turns of a killed server's round, as fast as it answers, and
+// is then ready. Another world takes over in a similar way from one that crashed or hangs, without the keys
+// and clicks of that tick: a copy that is a few seconds old, or a new world that replays the round.
 #pragma once
 
 #include <chrono>
@@ -34,61 +33,61 @@ class WorldProcess;
 
 /// Names a round in the file of scores.
 struct RoundName {
-  std::string id;    ///< 32 hexadecimal digits that no other round has
-  std::string file;  ///< its recording, from the folder of --journal; empty: it is not written down
+  std::string id;    ///< unique, 32 hexadecimal digits
+  std::string file;  ///< its recording, below the folder of --journal; empty: not recorded
 };
 
-/// Another world goes on in place of one that died.
+/// Report of a world that took over from one that crashed or hung.
 struct TakeOver {
-  bool by_copy = false;     ///< else it has executed the whole round
-  std::uint32_t ticks = 0;  ///< that it has executed again
+  bool by_copy = false;     ///< a copy took over; false: a world that replayed the whole round
+  std::uint32_t ticks = 0;  ///< ticks that it replayed
 };
 
 class Round {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Keys and clicks that wait for a tick, at most; those beyond are dropped.
+  /// Maximum inputs that wait for a tick; keys and clicks beyond it are dropped.
   static constexpr std::size_t kMaxInputs = 16'384;
 
   /// Ticks between two hashes of the state, and between two pictures, of which the first comes earlier. A
-  /// picture takes some 500 bytes of the file, a hash 8.
+  /// picture takes about 500 bytes of the file, a hash 8.
   static constexpr std::uint32_t kHashTicks = 30;
   static constexpr std::uint32_t kPictureTicks = 900;
   static constexpr std::uint32_t kFirstPicture = 300;
 
-  /// A second death within so many ticks of the first one is the same: the round is over.
+  /// A second crash or hang within this many ticks of the first one ends the round.
   static constexpr std::uint32_t kSameDeath = 30;
 
-  /// Scores of a recovery's turns that are kept: those before them are in the server's file.
+  /// Maximum scores kept of a recovery's turns: earlier ones are in the server's file.
   static constexpr std::size_t kMaxScores = 4096;
 
-  /// Where it is written, and what is to be said of it.
+  /// The journal and the callbacks of a round.
   struct Book {
     std::shared_ptr<JournalWriter> writer = nullptr;
-    std::shared_ptr<Journal> journal = nullptr;  ///< null: it is not written down
-    /// More facts, once the world has begun; empty: there are none.
+    std::shared_ptr<Journal> journal = nullptr;  ///< null: not recorded
+    /// Returns more facts, once the world has begun; empty: none.
     std::function<DfrFacts()> late_facts = {};
-    /// The journal has stopped, and why; the game goes on.
+    /// Called when the journal has stopped, with the reason; the game continues.
     std::function<void(const std::string& problem)> on_problem = {};
-    std::unique_ptr<RepeatCheck> check;       ///< whether the game is repeatable; null: unchecked
-    std::unique_ptr<RoundRecovery> recovery;  ///< null: the round begins
-    /// Of a recovery, once the world has begun: why it is not the world that the file has; empty: it is.
+    std::unique_ptr<RepeatCheck> check;       ///< checks whether the game is repeatable; null: unchecked
+    std::unique_ptr<RoundRecovery> recovery;  ///< null: a new round
+    /// Returns, once a recovery's world has begun, why it is not the world of the file; empty if it is.
     std::function<std::string()> find_difference = {};
-    /// Of a recovery, at its end: in how many ticks; or why the round cannot go on, and in which tick that
-    /// showed.
+    /// Called at the end of a recovery, with the number of its ticks. If it failed, `problem` says why, and
+    /// `ticks` is the tick in which that showed.
     std::function<void(std::uint32_t ticks, const std::string& problem)> on_recovered = {};
-    std::string recording = {};    ///< the file, from the folder of --journal
+    std::string recording = {};    ///< the file, below the folder of --journal
     std::string history = {};      ///< records of a recovery's round
-    std::uint32_t first_tick = 0;  ///< the number that the host gave to its first tick; 0: unknown
-    /// Starts another world of the same round, for a world that is a process; throws std::system_error.
-    /// Empty: the round ends with its world.
+    std::uint32_t first_tick = 0;  ///< the host's number of its first tick; 0: unknown
+    /// Starts another world of the round, if its world is a process; throws std::system_error. Empty: the
+    /// round ends with its world.
     std::function<std::unique_ptr<WorldProcess>()> new_world = {};
-    /// The world has ended so in this tick. `goes_on`: another one takes over.
+    /// Called when the world has crashed or hung in this tick. `goes_on`: another one takes over.
     std::function<void(const WorldEnd& end, std::uint32_t tick, bool goes_on)> on_death = {};
-    /// Another world has taken over, and how long that took.
+    /// Called when another world has taken over, with the time that it took.
     std::function<void(const TakeOver& done, std::chrono::milliseconds time)> on_taken_over = {};
-    /// A sentence about copies, for the log.
+    /// Gets sentences about copies for the log.
     std::function<void(const std::string& sentence)> on_copies = {};
   };
 
@@ -96,83 +95,84 @@ class Round {
   explicit Round(std::unique_ptr<WorldProcess> world);
   Round(std::unique_ptr<WorldPort> world, Book book);
   Round(std::unique_ptr<WorldProcess> world, Book book);
-  /// One that has not come to its end was stopped.
+  /// A round that has not ended is recorded as stopped.
   ~Round();
 
-  /// Called at the end of every tick: from tick(), or later from the host's event loop.
+  /// Sets what is called at the end of every tick: from tick(), or later from the host's event loop.
   void setOnTick(std::function<void()> on_tick) { m_on_tick = std::move(on_tick); }
-  /// Of a round that is not written down the id is to be set.
+  /// If the round is not recorded, its id must be set.
   const RoundName& name() const { return m_name; }
   void setId(std::string id) { m_name.id = std::move(id); }
 
-  // Input, in the order it came. It counts from nextTick() on.
+  // Input, in the order of arrival. It takes effect in the tick nextTick().
 
   /// Adds an input to the next turn. Drops keys and clicks beyond kMaxInputs.
   void addInput(df::InputQueue::Input input);
-  /// In the next tick only this player's input comes; 0: all players'.
+  /// Accepts only this player's input in the next tick; 0: all players'.
   void setHeard(std::uint32_t player) { m_turn.heard_player = player; }
   /// Ends the game: at once if its world is in this process, else at the end of the next tick.
   void endGame();
 
   // Ticks.
 
-  /// May one begin?
+  /// True if a tick may begin.
   bool isReady() const { return !m_book.recovery && m_world->isReady(); }
-  /// Begin one. `watched`: view() is wanted; the first time with every Object as changed. `truth`:
-  /// renderPlayer() is, too, of all players or only of `pictured`.
+  /// Begins a tick. `watched`: view() will be read; the first one has every Object as changed. `truth`:
+  /// renderPlayer() will be called, too, for all players or only for `pictured`.
   void tick(bool watched, bool truth, std::uint32_t pictured = 0);
-  /// The number of the next tick to begin, by which view() counts.
+  /// Returns the number of the next tick to begin, in the numbers of view().
   std::uint32_t nextTick() const { return m_death ? m_death->next_tick : m_world->nextTick(); }
-  /// What the last watched tick changed. Valid until the next one begins.
+  /// Returns what the last watched tick changed. Valid until the next one begins.
   const df::WorldView& view() const { return m_death ? m_death->view : m_world->view(); }
-  /// These models have been published for the last tick: for games that use lag compensation.
+  /// Passes on the models published for the last tick, for games that use lag compensation.
   void notePublished(const Publisher& publisher) { m_world->notePublished(publisher); }
-  /// The players who wanted to leave in the last tick.
+  /// Removes and returns the players that asked to leave in the last tick.
   std::vector<std::uint32_t> takeLeavers() { return std::exchange(m_world->answer().leavers, {}); }
-  /// The scores that the game added in the last tick, in that order.
+  /// Removes and returns the scores that the game added in the last tick, in order.
   std::vector<df::AddedScore> takeScores();
-  /// What the game asked for in the last tick: players to be moved to other rooms (WorldPort::answer).
+  /// Removes and returns the players to be moved to other rooms, as the game asked in the last tick
+  /// (WorldPort::answer).
   std::vector<df::SentPlayer> takeSent() { return std::exchange(m_world->answer().sent, {}); }
   bool isGameOver() const { return m_world->answer().game_over; }
-  /// What this player sees, as the engine drew it in the last tick.
+  /// Returns this player's picture, as the engine drew it in the last tick.
   df::Canvas renderPlayer(std::uint32_t player) const;
 
-  /// The world is to stand still for long: its copies end, unless only they could go on with the round. The
-  /// next tick makes one.
+  /// Ends the world's copies before a long pause, unless only they could resume the round. The next tick
+  /// makes one.
   void dropCopies();
 
-  // A round of a server that was killed, which is executed again until it is where it was.
+  // Replay of a killed server's round.
 
-  /// How far that is, in percent; nothing: there is no such round, or its sessions have been taken.
+  /// Returns its progress in percent; nullopt if there is none, or its sessions have been taken.
   std::optional<int> recovering() const;
-  /// Once, when recovering() has come to its end: the sessions that its players had.
+  /// Returns the sessions of its players, once, when the replay has ended.
   std::optional<std::vector<KeptSession>> takeSessions() { return std::exchange(m_sessions, std::nullopt); }
-  /// A player's session is so from now on: for the journal, before its client can know.
+  /// Records a change of a player's session in the journal. Call before its client can know of it.
   void noteSession(const KeptSession& session);
 
-  // Its end.
+  // The round's end.
 
-  /// Look after the world's process, and the journal. Once in each tick of the host, ready or not; `tick` is
+  /// Checks the world's process, and the journal. Call once in each tick of the host, ready or not; `tick` is
   /// its number.
   void checkProcess(std::uint32_t tick);
-  /// How it ended; nothing while it goes on.
+  /// Returns how it ended; nullopt while it continues.
   std::optional<WorldEnd> end() const { return m_unrecovered ? m_unrecovered : m_world->end(); }
-  /// A line for the log, once: the tick does not end.
+  /// Returns a line for the log if the tick does not end, once.
   std::optional<std::string> takeWarning();
-  /// Let it come to its end; end() says when it has.
+  /// Ends the world; end() says when it has ended.
   void close() { m_world->close(std::exchange(m_turn, WorldTurn())); }
-  /// Once, when another world has taken over from one that died.
+  /// Returns the report of a world that has taken over, once.
   std::optional<TakeOver> takeTakeOver() { return std::exchange(m_taken_over, std::nullopt); }
 
  private:
-  /// What is known of ticks that seem to hang.
+  /// Knowledge about ticks that seem to hang.
   enum class Hangs : std::uint8_t {
     kUnknown,
-    kOneEnded,  ///< once a copy took over at once; whether the tick would have ended is not known
-    kSlow,      ///< such a tick came to its end
-    kReal,      ///< one did not, however long it was waited for
+    kOneEnded,  ///< one was ended early, for a copy to take over; it may have been slow
+    kSlow,      ///< such a tick ended
+    kReal,      ///< one did not end within the full limit
   };
-  /// Of a world, while another one has its turns.
+  /// State of a dead world, while another one replays its turns.
   struct Death {
     WorldEnd end;
     Clock::time_point at;
@@ -215,34 +215,34 @@ class Round {
   void endTakeOver(const std::string& problem);
 
   std::unique_ptr<WorldPort> m_world;
-  WorldProcess* m_p_process = nullptr;  ///< the same; null: it is no process
+  WorldProcess* m_p_process = nullptr;  ///< the world, if it is a process; otherwise null
   Book m_book;
   RoundName m_name;
   std::function<void()> m_on_tick;
-  bool m_goes_on;  ///< the journal
+  bool m_goes_on;  ///< the journal is recording
   bool m_began = false;
   std::uint32_t m_later = 0;             ///< the host's tick numbers minus the world's own
-  std::uint32_t m_ticks = 0;             ///< begun, of this world
-  std::uint32_t m_recorded = 0;          ///< whose picture the tick that is under way gives; 0: none
-  std::vector<std::uint32_t> m_players;  ///< that have joined and not left, in order
+  std::uint32_t m_ticks = 0;             ///< ticks begun by this world
+  std::uint32_t m_recorded = 0;          ///< player whose picture the current tick records; 0: none
+  std::vector<std::uint32_t> m_players;  ///< players in the world, in the order in which they joined
   WorldTurn m_turn;                      ///< the next one
-  SentTurn m_sent;                       ///< the one before
+  SentTurn m_sent;                       ///< the newest one sent
   TurnRecordWriter m_writer;
 
-  // Of a recovery.
-  bool m_repeating = false;  ///< it has begun
-  bool m_closing = false;    ///< the world has been sent the turn behind those of the file
+  // Recovery.
+  bool m_repeating = false;  ///< the replay has begun
+  bool m_closing = false;    ///< the closing turn has been sent
   std::optional<std::vector<KeptSession>> m_sessions;
-  std::vector<df::AddedScore> m_scores;  ///< of repeated turns, which the server may not know
+  std::vector<df::AddedScore> m_scores;  ///< scores of replayed turns, which the server may not know
   std::optional<WorldEnd> m_unrecovered;
 
-  // Of a world that takes over.
+  // Takeover by another world.
   RoundHistory m_history;
   bool m_in_tick = false;
-  bool m_by_copy = false;  ///< the world that has the turns again is one
+  bool m_by_copy = false;  ///< the world that replays is a copy
   Hangs m_hangs = Hangs::kUnknown;
-  std::optional<Death> m_death;            ///< of the world before
-  std::optional<std::uint32_t> m_died_at;  ///< tick
+  std::optional<Death> m_death;            ///< state of the previous world
+  std::optional<std::uint32_t> m_died_at;  ///< tick of the newest death
   std::optional<TakeOver> m_taken_over;
 };
 

@@ -34,7 +34,7 @@ int socketOption(int socket, int option) {
   return getsockopt(socket, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
 }
 
-/// Nothing for what is no socket of the Internet.
+/// Returns the address of a socket; nullopt for one that is not of the Internet.
 std::optional<StreamEndpoint> boundTo(int socket) {
   StreamEndpoint endpoint;
   auto size = static_cast<socklen_t>(endpoint.capacity());
@@ -57,7 +57,7 @@ std::vector<int> openDescriptors() {
   return numbers;
 }
 
-/// The socket of this type on that port, and on that address if one is given; -1: there is none.
+/// Returns the socket of this type on that port, and on that address if one is given; -1: none.
 int findSocket(int type, std::uint16_t port, const std::optional<StreamEndpoint>& address) {
   for (const int socket : openDescriptors()) {
     const auto endpoint = boundTo(socket);
@@ -68,11 +68,11 @@ int findSocket(int type, std::uint16_t port, const std::optional<StreamEndpoint>
   return -1;
 }
 
-// The sockets by which this process is reached, for a program that it runs next in its own place.
+// The listening sockets of this process, for the program that it runs next.
 
-/// Copies of the socket that listens on this TCP port and of the one for datagrams on the same address, which
-/// stay open when those are closed; the caller's to close. Nothing if this process does not have both, as
-/// without encryption. Reads /proc.
+/// Returns copies of the socket that listens on this TCP port and of the one for datagrams on its address.
+/// They stay open when those are closed, and are the caller's to close. Returns nullopt if this process does
+/// not have both, as without encryption. Reads /proc.
 std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
   InheritedSockets sockets;
   sockets.streams = findSocket(SOCK_STREAM, port, std::nullopt);
@@ -85,16 +85,16 @@ std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
   return sockets.duplicate();
 }
 
-/// For what waits for the disk, before it is read again. The game goes on meanwhile, and other programs may
-/// keep the disk busy.
+/// Time limit of writes, before a file is read again. The game continues, and other programs may keep the
+/// disk busy.
 constexpr std::chrono::seconds kSyncTime{20};
-/// For a program that only reads its options.
+/// Time limit of a program that only reads its options.
 constexpr std::chrono::seconds kCheckTime{20};
 constexpr std::size_t kMaxProblem = 200;
 
 constexpr std::string_view kProtocolKey = " protocol=";
 
-/// The last line that begins so; with an empty `begin` the last one that is not empty.
+/// Returns the last line that begins with `begin`; if that is empty, the last line that is not empty.
 std::string lineWith(const std::string& text, std::string_view begin) {
   std::istringstream lines(text);
   std::string found;
@@ -104,7 +104,7 @@ std::string lineWith(const std::string& text, std::string_view begin) {
   return found;
 }
 
-/// The last line, as the rest of a sentence.
+/// Returns the last line, as the rest of a sentence.
 std::string lastWords(const std::string& printed) {
   std::string last = lineWith(printed, "");
   while (last.ends_with('.')) last.pop_back();
@@ -120,7 +120,7 @@ std::string protocolProblem(const std::string& verified) {
          std::to_string(kProtocolVersion);
 }
 
-/// What has no exit code of the program's own; empty: it has one.
+/// Describes an end without an exit code of the program's own; empty if it has one.
 std::string abruptEnd(const std::string& name, const ProgramEnd& end) {
   if (end.is_late) return name + ", which tries that out, does not come to its end";
   if (end.signal != 0)
@@ -138,7 +138,7 @@ std::chrono::milliseconds timeFor(const Journals::CurrentRound& round) {
   return std::min<std::chrono::milliseconds>(time, RoundHandover::kMaxTime);
 }
 
-/// Why, of the room of that name if rooms have names; empty: there is no reason.
+/// Returns the reason `why` with the room's name, if it has one; empty if there is no reason.
 std::string inRoom(const std::string& name, const std::string& why) {
   return why.empty() || name.empty() ? why : "room " + name + ": " + why;
 }
@@ -173,7 +173,7 @@ std::string RoundHandover::refusal() const {
   return is_any ? std::string() : "none is being written down";
 }
 
-// Signals are for the thread that ticks.
+// Signals are handled on the thread that ticks.
 void RoundHandover::prove(std::function<void(const Result& result)> done) {
   if (m_thread.joinable()) m_thread.join();  // it has done its work
   m_proofs.clear();
@@ -197,7 +197,7 @@ RoundHandover::Result RoundHandover::execute() {
   return {};
 }
 
-// One that ends at once, for it cannot be loaded or has other options, would end the game.
+// A new program that ends at once, because it cannot be loaded or has other options, would end the game.
 std::string RoundHandover::problemOfProgram() {
   std::vector<std::string> arguments = withoutPasswords(m_command.arguments());
   arguments.emplace_back("--check-config");

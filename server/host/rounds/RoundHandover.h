@@ -1,10 +1,10 @@
-// Rounds that go on in the program that is installed by now: dfctl restart --keep.
+// Hands rounds over to a newly installed program: dfctl restart --keep.
 //
-// dfreplay, which is installed beside the new dfserver, executes each round again with it, in processes
-// beside the game, and holds every answer against the file. When all are the same and both ends of the wire
-// keep their protocol, this process leaves the journals open, as if it had been killed, and runs the new
-// program in its own place, with the sockets that players come to. That one goes on with the rounds as after
-// a crash (Journals.h), and so players are back as the same players.
+// The new dfreplay, installed with the new dfserver, replays each round in processes of its own while the
+// game continues, and compares every answer with the file. If all are equal and the network protocol is
+// unchanged, this process leaves the journals open, as if it had been killed, and executes the new program in
+// its own place, with its listening sockets. The new program resumes the rounds as after a crash
+// (Journals.h), and so players keep their sessions.
 #pragma once
 
 #include <atomic>
@@ -26,51 +26,50 @@ namespace naiad {
 
 class RoundHandover {
  public:
-  /// For dfreplay: so much, and of the time that the round has been played this part, for it is executed at
-  /// least twenty times as fast; never more than the last.
+  /// Time limit of dfreplay: kLeastTime + played time / kPartOfRound, at most kMaxTime. A replay is at least
+  /// twenty times as fast as the round.
   static constexpr std::chrono::seconds kLeastTime{60};
   static constexpr int kPartOfRound = 4;
   static constexpr std::chrono::hours kMaxTime{1};
 
-  /// Where a round may be played.
+  /// A room, in which a round may be played.
   struct Room {
     std::string name;  ///< empty: the server has no rooms
     std::shared_ptr<Journals> journals;
   };
 
-  /// What came of a proof.
+  /// Result of a proof, that is, of replaying the rounds with the new program.
   struct Result {
-    std::string problem;  ///< why the rounds cannot go on, as the rest of a sentence; empty: they can
-    bool starts = true;   ///< the program does, so that it can be begun once the rounds are over
+    std::string problem;  ///< why they cannot be handed over, as the rest of a sentence; or empty
+    bool starts = true;   ///< the new program starts, so that it can be run after the rounds
   };
 
-  /// `command`: that runs dfserver again; outlives this. What `done` of prove() uses outlives it, too.
+  /// `command` runs dfserver again, and must outlive this. So must what `done` of prove() uses.
   RoundHandover(const StartCommand& command, std::vector<Room> rooms);
-  /// A proof that is under way ends.
+  /// Ends a running proof.
   ~RoundHandover();
 
-  // On the host's thread.
+  // Call these on the host's thread.
 
-  /// Why no round can be kept now, as the rest of a sentence; empty: one can.
+  /// Returns why no round can be handed over now, as the rest of a sentence; empty if one can.
   std::string refusal() const;
-  /// Execute the rounds again. `done` is called once, on a thread of this, unless this ends before. Only
-  /// without a refusal().
+  /// Replays the rounds. `done` is called once, on a thread of this, unless this is destroyed before. Call
+  /// only without a refusal().
   void prove(std::function<void(const Result& result)> done);
-  /// After a proof without a problem: what has changed since, so that it says nothing any more; empty:
-  /// nothing has.
+  /// Returns what has changed since a successful proof and makes it invalid; empty if nothing has.
   std::string changeSinceProof() const;
-  /// From now on nothing is written down, and another program goes on with the rounds. `port`: of the server.
+  /// Stops recording, so that another program can resume the rounds. `port`: of the server.
   void leaveOpen(std::uint16_t port);
-  /// After leaveOpen(): the sockets to hand over; nothing if the program is to open its own.
+  /// Returns the sockets to hand over, after leaveOpen(); nullopt if the program must open its own.
   const std::optional<InheritedSockets>& sockets() const { return m_sockets; }
-  /// After leaveOpen(): let the program that this process runs next know which rounds they are.
+  /// Tells the program that this process runs next which rounds were left open. Call after leaveOpen().
   void announce() const;
 
  private:
   struct Proof {
     const Room* p_room = nullptr;
     Journals::CurrentRound round;
-    std::string module_hash = {};  ///< of the game that played it the same
+    std::string module_hash = {};  ///< hash of the game that replayed it with equal answers
   };
 
   Result execute();
@@ -79,14 +78,14 @@ class RoundHandover {
 
   const StartCommand& m_command;
   const std::vector<Room> m_rooms;
-  std::vector<Proof> m_proofs;  ///< the thread's while it proves
+  std::vector<Proof> m_proofs;  ///< used by the thread during a proof
   std::optional<InheritedSockets> m_sockets;
   std::thread m_thread;
   std::atomic<bool> m_proving{false};
   ProgramRun m_run;
 };
 
-/// What came of dfreplay --verify: why the round cannot go on; empty: it can.
+/// Returns why the round cannot be handed over, from the end of dfreplay --verify; empty if it can.
 std::string readVerdict(const ProgramEnd& end);
 
 }  // namespace naiad

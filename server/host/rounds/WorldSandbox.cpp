@@ -24,25 +24,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of everybody, or of many programs.
+/// Folders of all users, or of many programs.
 const char* const kWideFolders[] = {"/",    "/dev",  "/etc",  "/home",    "/media",  "/mnt",
                                     "/opt", "/proc", "/root", "/run",     "/srv",    "/sys",
                                     "/tmp", "/usr",  "/var",  "/var/lib", "/var/tmp"};
 
-/// What games load from, in a folder that they share with other things.
+/// Folders that games load from, in a folder that they share with other things.
 const char* const kGameFolders[] = {"sprites", "sounds"};
 
 const char* const kVariables[] = {
-    // The machine's.
+    // Variables of the machine.
     "PATH", "HOME", "USER", "LOGNAME", "LANG", "LANGUAGE", "TZ", "TERM", "TMPDIR", "LD_LIBRARY_PATH",
     "ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS",
-    // Ours, for a game that is a program itself.
+    // Variables of the engine, for a game that is a program itself.
     "DF_COMPAT", "DRAGONFLY_CONFIG", "NAIAD_ON_GAME_OVER", "NAIAD_PLAYERS", "NAIAD_SEED"};
 
-/// Of these, what differs from one user and terminal to the next.
+/// Variables of these that differ between users and terminals.
 const char* const kPersonal[] = {"PATH", "HOME", "USER", "LOGNAME", "LANG", "LANGUAGE", "TERM", "TMPDIR"};
 
-/// Absolute, without links; where it does not exist, as far as it does.
+/// Returns an absolute path without links, as far as the path exists.
 fs::path resolve(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::path(firstDirectory()) / path;
@@ -50,7 +50,7 @@ fs::path resolve(const fs::path& path) {
   return error ? whole.lexically_normal() : resolved;
 }
 
-/// Is `inner` in `outer`, or the same? Both resolved.
+/// True if `inner` is in `outer`, or equal to it. Both must be resolved.
 bool holds(const fs::path& outer, const fs::path& inner) {
   const auto [rest, _] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
   return rest == outer.end();
@@ -77,7 +77,7 @@ fs::path executable() {
   return fs::read_symlink("/proc/self/exe", error);
 }
 
-/// This program and what it has loaded. Those in folders of the system are among them.
+/// Returns this program and its loaded libraries, including those in folders of the system.
 std::vector<fs::path> loadedFiles() {
   std::vector<fs::path> files{executable()};
   dl_iterate_phdr(
@@ -132,7 +132,7 @@ class Builder {
                                 [&](const fs::path& home) { return holds(folder, home); });
   }
 
-  /// What a world must not have of this folder; empty: all of it is for the game.
+  /// Returns why a world must not have this folder; empty if it may.
   std::string reservedIn(const fs::path& folder) const {
     if (isWide(folder)) return "is not the game's alone";
     for (const fs::path& secret : m_secrets) {
@@ -159,8 +159,8 @@ class Builder {
     }
   }
 
-  // A build links to the folders of its sources. A link that leads out of what the two have in common, as one
-  // that comes with a game and leads to the user's files, is not followed.
+  // A build links to the folders of its sources. A link is followed only if the folder that both have in
+  // common is not wide: one that comes with a game could lead to the user's files.
   void addLinked(const fs::path& folder) {
     for (const char* name : kGameFolders) {
       const fs::path inner = folder / name;
@@ -189,7 +189,7 @@ class Builder {
     }
   }
 
-  // Landlock gives a folder as a whole.
+  // Landlock allows folders only as a whole.
   void noteServerFiles(const fs::path& folder) {
     for (const std::string& file : m_place.server_files) {
       if (file.empty() || !holds(folder, resolve(file))) continue;

@@ -1,8 +1,8 @@
-// Which files, variables and how much memory the worlds of a server get (host/world/Sandbox.h).
+// Chooses the files, variables and memory that the worlds of a server get (host/world/Sandbox.h).
 //
-// A game reads the folders that it lies in and that its files are looked for in, and writes into the working
-// directory. A folder that is too wide - the user's home, or one that holds the server's key - is not given
-// as a whole: of it a game gets what is in sprites/ and sounds/.
+// A game reads its own folder and those of its resources, and writes into the working directory. A folder
+// that is too wide (the user's home, or one that holds the server's key) is not given as a whole: of it a
+// game gets sprites/ and sounds/.
 #pragma once
 
 #include <string>
@@ -13,42 +13,41 @@
 
 namespace naiad {
 
-/// Where a game and its files are. Relative paths begin in the directory of the program's start.
+/// Places of a game and its files. Relative paths begin in the directory of the program's start.
 struct GamePlace {
   std::vector<std::string> files;         ///< its module, its settings
   std::vector<std::string> folders;       ///< its resources
-  std::vector<std::string> logs;          ///< that it appends to
-  std::vector<std::string> server_files;  ///< that the server writes: no world should
-  std::vector<std::string> secrets;       ///< beside those that the options name: files or folders
-  bool is_program = false;  ///< the front's program is the game itself: not kept from being written
+  std::vector<std::string> logs;          ///< files that it appends to
+  std::vector<std::string> server_files;  ///< written by the server: no world should write them
+  std::vector<std::string> secrets;       ///< files or folders, in addition to those of the options
+  bool is_program = false;  ///< the front's program is the game itself: a world may write into its folder
 };
 
 struct WorldSandbox {
   Sandbox sandbox;
-  std::vector<std::string> notes;  ///< for the log: what a game might miss
+  std::vector<std::string> notes;  ///< lines for the log: what a game may lack
 };
 
 WorldSandbox makeWorldSandbox(const HostOptions& options, const GamePlace& place);
 
-/// What a world has of this process's environment: a fixed choice, and what HostOptions::world_environment
-/// names. Never the password.
+/// Returns the variables that a world gets from this process's environment: a fixed choice, and those that
+/// HostOptions::world_environment names. Never the passwords.
 std::vector<std::string> makeWorldEnvironment(const HostOptions& options);
 
-/// The same for worlds whose rounds are written down: what depends on who has started the server is left out
-/// or fixed, beyond those variables.
+/// Like makeWorldEnvironment(), for worlds whose rounds are recorded: variables that depend on the user who
+/// started the server are removed or fixed, unless the options name them.
 std::vector<std::string> makeFixedEnvironment(const HostOptions& options);
 
-/// "NAME=value": a variable by which the engine itself is another one for the game, and which a round's file
-/// keeps.
+/// True for "NAME=value" of a variable that changes the engine's behaviour, and that a round's file has.
 bool isGameVariable(const std::string& entry);
 
-/// Overwrite the values of --password and --admin-password, which every process of this machine can read in a
+/// Overwrites the values of --password and --admin-password, because every process of this machine can read a
 /// command line.
 void hidePassword(int argc, char** argv);
-/// The words of a command line without its passwords: for a program that is run beside this one.
+/// Returns the words of a command line without its passwords, for a program that this one runs.
 std::vector<std::string> withoutPasswords(const std::vector<std::string>& words);
 
-/// The file of --config; empty if there is none.
+/// Returns the file of --config; empty if there is none.
 std::string configFileOf(int argc, const char* const* argv);
 
 }  // namespace naiad

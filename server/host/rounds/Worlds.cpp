@@ -31,11 +31,11 @@ std::vector<std::string> ownArguments() {
   return words;
 }
 
-/// What a world needs of dfserver's options; the others are the front's.
+/// Returns the options of dfserver that a world needs; the others are the front's.
 std::vector<std::string> moduleArguments(const HostOptions& options, const std::string& module) {
   std::vector<std::string> words{"dfserver", "--game=" + module, "--players=" + options.players,
                                  "--on-game-over=" + options.on_game_over};
-  // Where rounds are written down each world is given its seed, and has the same arguments again.
+  // Worlds of recorded rounds are given their seed, and have equal arguments in each run.
   if (options.seed != 0 && !wantsJournal(options)) words.push_back("--seed=" + std::to_string(options.seed));
   return words;
 }
@@ -70,13 +70,13 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
 
 Journals::NewWorld repeatLater(const std::shared_ptr<const WorldLauncher>& launcher, WorldOrder order,
                                const LogLine& print, asio::io_context& home) {
-  order.again = true;  // or a game that sleeps would take as long as the round
+  order.again = true;  // otherwise a game that sleeps would replay in real time
   return [launcher, order, print, &home] {
     return std::make_unique<WorldProcess>(home, launcher->start(order), print);
   };
 }
 
-/// Null: there is no round to go on with.
+/// Returns null if there is no round to resume.
 std::unique_ptr<Round> goOnWithRound(const std::shared_ptr<const WorldLauncher>& launcher,
                                      const LogLine& print, Journals& journals, asio::io_context& home) {
   const auto order = journals.orderOfOpenRound();
@@ -141,7 +141,7 @@ std::function<std::unique_ptr<Round>(asio::io_context& home)> startWorlds(
   };
 }
 
-// 33 ms is how the published engine writes 1/30 s.
+// The published engine writes 1/30 s as 33 ms.
 HostOptions withFrameTime(HostOptions options, const WorldReady& ready) {
   constexpr int kUsualMillis = 33;
   if (options.frame_micros == 0 && ready.frame_millis != kUsualMillis)

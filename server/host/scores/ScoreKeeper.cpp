@@ -67,8 +67,8 @@ void ScoreKeeper::add(const std::string& round, const std::vector<df::AddedScore
   if (!m_writing) m_writing = m_worker.give([this] { write(); });
 }
 
-// On the worker's thread. What came while it wrote is written next; what could not be written waits for the
-// next row.
+// Runs on the worker's thread. Continues with rows that were added while it wrote. Rows that could not be
+// written are tried again with the next ones.
 void ScoreKeeper::write() {
   std::unique_lock lock(m_mutex);
   while (!m_waiting.empty()) {
@@ -102,7 +102,7 @@ bool ScoreKeeper::read(const std::string& table, std::size_t count, Read done) {
   });
 }
 
-// The same news is no news.
+// Ignores a problem that was already reported.
 void ScoreKeeper::note(std::string problem) {
   const std::lock_guard lock(m_mutex);
   if (problem == m_problem) return;

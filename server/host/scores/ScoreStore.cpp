@@ -83,7 +83,7 @@ void ScoreStore::save(const std::vector<ScoreRow>& rows) {
   } catch (const StateFileError&) {
     try {
       m_file.run("ROLLBACK");
-    } catch (const StateFileError&) {  // SQLite has done so by itself
+    } catch (const StateFileError&) {  // SQLite has already rolled back
     }
     throw;
   }
@@ -107,7 +107,7 @@ void ScoreStore::insert(const std::vector<ScoreRow>& rows) {
   }
 }
 
-// Walks over the index, a row of the table at most: few are beyond the end at a time.
+// The query walks the index past kMaxRows rows. Few rows are beyond, because each save() trims.
 void ScoreStore::trim(const std::string& table) {
   StateStatement statement = m_file.prepare(kTrim);
   statement.bind(1, m_game);

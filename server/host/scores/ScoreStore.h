@@ -1,4 +1,4 @@
-// The file of scores: an SQLite database in the server's state folder, with the tables of all its games.
+// The score file: an SQLite database in the server's state folder, with the tables of all its games.
 #pragma once
 
 #include <cstddef>
@@ -11,33 +11,33 @@
 
 namespace naiad {
 
-/// A row of a table. `round`, `tick` and `number` name it: no other row has the same.
+/// A row of a table, identified by `round`, `tick` and `number`.
 struct ScoreRow {
   std::string table;
-  std::string name;  ///< of the player
+  std::string name;  ///< name of the player
   std::int64_t points = 0;
   std::int64_t at = 0;         ///< seconds since 1970
   std::string round;           ///< RoundName::id
-  std::uint32_t tick = 0;      ///< of the round in which it was added
-  int number = 0;              ///< how many were added before it in that tick
-  std::string recording = {};  ///< the name of the round's; empty: there is none
+  std::uint32_t tick = 0;      ///< tick of the round in which the score was added
+  int number = 0;              ///< number of scores added before it in that tick
+  std::string recording = {};  ///< file name of the round's recording; empty: none
 };
 
-/// One thread at a time. Servers with the same folder share the file.
+/// The tables of one game. For one thread at a time. Servers with a common folder share the file.
 class ScoreStore {
  public:
-  static constexpr std::size_t kMaxRows = 10'000;  ///< of a table; the least go
+  static constexpr std::size_t kMaxRows = 10'000;  ///< maximum rows of a table; the lowest scores are dropped
 
-  /// Nothing is opened or made yet. `game`: whose tables they are.
+  /// Does not open or create the file yet.
   ScoreStore(std::filesystem::path file, std::string game);
 
-  // These throw StateFileError.
+  // The following functions throw StateFileError.
 
-  /// The best rows of a table, best first; of all tables, by name, if `table` is empty. None if there is no
-  /// file.
+  /// Returns the best `count` rows of a table, best first, or of each table, by name, if `table` is empty.
+  /// Returns none if the file does not exist.
   std::vector<ScoreRow> best(const std::string& table, std::size_t count);
-  /// Add the rows, all or none of them. What is there already stays as it is. Makes the file if need be, and
-  /// waits for the disk.
+  /// Adds all rows or none. Ignores rows that are already there. Creates the file if necessary. Waits for the
+  /// disk.
   void save(const std::vector<ScoreRow>& rows);
 
  private:

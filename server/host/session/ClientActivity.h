@@ -1,4 +1,4 @@
-// When the server heard from a client, and how many messages it may still send.
+// Tracks when the server last heard from a client, and how many messages the client may still send.
 #pragma once
 
 #include <algorithm>
@@ -13,29 +13,29 @@ class ClientActivity {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Messages at once. An honest client that catches up after a stall sends fewer: every reply is bounded by
-  /// what it got.
+  /// Maximum burst of messages. An honest client that catches up after a stall sends fewer, because its
+  /// replies are limited by what it received.
   static constexpr int kMessagesAtOnce = 1024;
-  /// Messages in the long run: the larger of the two. An honest client answers each snapshot, on two streams,
-  /// and sends a few inputs a tick. This many cost about a hundredth of a core.
+  /// Sustained rate of messages: the larger of the two limits. An honest client acknowledges each snapshot,
+  /// on two streams, and sends a few inputs a tick. Messages at this rate cost about 1 % of a core.
   static constexpr int kMessagesPerTick = 64;
   static constexpr int kMessagesPerSecond = 2000;
 
   explicit ClientActivity(Time now) : m_idle(now), m_frame_at(now), m_refilled(now) {}
 
-  /// A message came. False if it is one too many.
+  /// Counts a message. False if it is over the limit.
   bool countMessage() { return --m_messages >= 0; }
-  /// The message came by datagram.
+  /// Call for each message that came by datagram.
   void noteDatagram() { m_spoke = true; }
-  /// The message came on the first stream.
+  /// Call for each message that came on the first stream.
   void noteFrame(Time now) {
     m_spoke = true;
     m_frame_at = now;
     if (std::exchange(m_awaits_proof, false)) m_proved = true;
   }
-  /// The client is back, on another stream.
+  /// Call when the client has reconnected on another stream.
   void noteReturn(Time now) { m_idle.heard(now); }
-  /// Once a tick.
+  /// Call once a tick: updates the silence and refills the message limit.
   void endTick(Time now) {
     if (m_spoke) m_idle.heard(now);
     m_idle.listen(now);
@@ -43,19 +43,19 @@ class ClientActivity {
     refill(now);
   }
 
-  /// How long the client has been silent, to a tick (IdleTimer).
+  /// How long the client has been silent, accurate to a tick (IdleTimer).
   auto silence(Time now) const { return m_idle.at(now); }
-  /// When a frame came last.
+  /// When the newest frame came on the first stream.
   Time lastFrame() const { return m_frame_at; }
 
-  /// A welcome was sent: the next frame proves that the client has read it.
+  /// Call when a welcome was sent: the next frame proves that the client has read it.
   void awaitProof() { m_awaits_proof = true; }
-  /// That frame has come. True once for each welcome.
+  /// True once after that frame.
   bool takeProof() { return std::exchange(m_proved, false); }
 
  private:
   void refill(Time now) {
-    constexpr std::chrono::milliseconds kEnough{1000};  // to refill all of it
+    constexpr std::chrono::milliseconds kEnough{1000};  // refills all of it
     const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(
         std::min<Time::duration>(now - m_refilled, kEnough));
     m_refilled = now;
@@ -63,10 +63,10 @@ class ClientActivity {
     m_messages = std::min(m_messages + std::max(more, kMessagesPerTick), kMessagesAtOnce);
   }
 
-  bool m_spoke = false;  ///< since the last tick
+  bool m_spoke = false;  ///< a message came since the last tick
   bool m_awaits_proof = false;
   bool m_proved = false;
-  int m_messages = kMessagesAtOnce;  ///< that may come now
+  int m_messages = kMessagesAtOnce;  ///< messages that may come now
   IdleTimer m_idle;
   Time m_frame_at;
   Time m_refilled;

@@ -8,19 +8,19 @@ namespace naiad {
 
 namespace {
 
-/// One sample: a counter, or the difference of two where one counts a part of the other.
+/// One sample: a counter, minus `less` if that counts a part of it and has a row of its own.
 template <class Struct>
 struct CounterRow {
   std::uint64_t Struct::*counter;
-  std::string_view field;  ///< in the log; empty: not there
+  std::string_view field;  ///< name in the log; empty: not logged
   std::string_view family;
   std::string_view labels;
-  std::string_view help;  ///< of the family: in its first row
+  std::string_view help;  ///< help text of the family; only in its first row
   std::uint64_t Struct::*less = nullptr;
 };
 #define FIELD(Struct, name) &Struct::name, #name
 
-/// Is each counter of the struct, which has no other members, in one row of its own?
+/// True if each counter of the struct has exactly one row. The struct must have no other members.
 template <class Struct, std::size_t kRows>
 consteval bool hasAll(const std::array<CounterRow<Struct>, kRows>& rows) {
   for (std::size_t i = 0; i < kRows; ++i) {
@@ -179,7 +179,7 @@ static_assert(hasAll(kPasswordRows));
 
 using S = TcpListener::Counters;
 constexpr auto kStreamRows = std::to_array<CounterRow<S>>({
-    {&S::handshakes, "",  // usual, so not in the log
+    {&S::handshakes, "",  // expected, so not logged
      "naiad_handshakes_total", R"(result="done")", "TLS handshakes, by what became of them."},
     {FIELD(S, handshakes_failed), "naiad_handshakes_total", R"(result="failed")", ""},
     {FIELD(S, handshakes_late), "naiad_handshakes_total", R"(result="late")", ""},

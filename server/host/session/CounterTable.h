@@ -1,6 +1,6 @@
-// What the log and the metrics call each counter of a host: one table for each struct of counters.
+// Names of all counters in the log and the metrics: one table per struct of counters.
 //
-// A counter that no table has does not compile (CounterTable.cpp), so that none is forgotten.
+// A counter missing from its table is a compile error (CounterTable.cpp).
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 namespace naiad {
 
 struct CounterSample {
-  std::string_view field;  ///< the member's name, for the log; empty: not in the log
+  std::string_view field;  ///< the member's name, for the log; empty: not logged
   std::uint64_t value = 0;
-  std::string_view family = {};  ///< of metrics
+  std::string_view family = {};  ///< name of the metric family
   std::string_view labels = {};
-  std::string_view help = {};      ///< of the family: in its first sample
-  std::uint64_t metric_value = 0;  ///< without a part that has a sample of its own
+  std::string_view help = {};      ///< help text of the family; only in its first sample
+  std::uint64_t metric_value = 0;  ///< value without the part that has a sample of its own
 };
 
-/// Returns all counters of the struct, in the order of their table. The names in them are always valid.
+/// Returns all counters of the struct, in table order. The string views in it are always valid.
 std::vector<CounterSample> samplesOf(const Counters& counters);
 std::vector<CounterSample> samplesOf(const PasswordCheck::Counters& counters);
 std::vector<CounterSample> samplesOf(const TcpListener::Counters& counters);
@@ -33,7 +33,7 @@ std::vector<CounterSample> samplesOf(const DatagramGateCounters& counters);
 std::vector<CounterSample> samplesOf(const UdpCounters& counters);
 std::vector<CounterSample> samplesOf(const TrafficCounters& counters);
 
-/// "name=3 other=1 …", only those that are not zero.
+/// Returns "name=3 other=1 …", without counters that are zero.
 std::string listCounters(const std::vector<CounterSample>& samples);
 
 }  // namespace naiad

@@ -16,7 +16,7 @@ namespace {
 
 using icu::UnicodeString;
 
-/// Characters replaced by those they look like. The text itself if ICU has no tables.
+/// Replaces each character by the one it looks like. Returns the text itself if ICU has no tables.
 UnicodeString skeleton(const UnicodeString& text) {
   static const icu::LocalUSpoofCheckerPointer checker = [] {
     UErrorCode error = U_ZERO_ERROR;
@@ -55,8 +55,8 @@ std::string clean(const std::string& text, std::size_t longest) {
 
 }  // namespace
 
-// The inner skeleton comes before folding, since a capital of another script looks like a Latin one and its
-// small letter often does not; the outer one, since that small letter has a skeleton, too ("m" is "rn").
+// The inner skeleton comes before folding, because a foreign capital can look Latin while its small letter
+// does not. The outer one follows folding, because small letters have skeletons, too ("m" is "rn").
 std::vector<std::string> shapesOf(const std::string& name) {
   const UnicodeString text = UnicodeString::fromUTF8(name);
   return {utf8(skeleton(folded(skeleton(text)))), utf8(skeleton(folded(text)))};

@@ -7,7 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// Snapshots older than that cannot be acknowledged any more (AckWindow).
+/// Older snapshots can no longer be acknowledged (AckWindow).
 constexpr std::uint32_t kWindow = 64;
 
 }  // namespace
@@ -41,7 +41,7 @@ void PictureAudit::acknowledge(const AckWindow& acks, const SnapshotSender& send
   if (m_truths.empty() || m_truths.front().tick != m_header.tick) return;
   const df::Canvas truth = std::move(m_truths.front().picture);
   m_truths.pop_front();
-  // A small terminal is not sent all of the view; and what was lost may be missing for a while.
+  // A terminal smaller than the view is sent only a part of it, and lost changes may be missing for a while.
   if (!sender.coversView(m_shadow.viewWidth(), m_shadow.viewHeight())) return;
   if (!sender.matchesChecksum(acks, m_shadow.checksum())) return;
   ++m_counters.audited_pictures;
@@ -61,7 +61,7 @@ void PictureAudit::applyAcknowledged(const AckWindow& acks) {
   });
 }
 
-// A client that could not read one did not acknowledge it.
+// Skips unreadable snapshots; the client does not acknowledge those.
 void PictureAudit::apply(const std::string& bytes) {
   Snapshot snapshot;
   if (m_shadow.read(bytes, snapshot) != ReadResult::kOk) return;

@@ -1,12 +1,11 @@
-// Does a client see what the world shows its player? An audit in production, of one session at a time.
+// Checks in production that a client sees what the world shows its player, for one session at a time.
 //
-// A replica of the server's own, the shadow, is fed with the very snapshots that were sent to the client and
-// that the client has acknowledged, so it holds what the client's replica holds. When the newest of them
-// carried all that was pending, and nothing that was lost is missing, the shadow must draw what the engine
-// drew in that tick for the player, cell by cell.
+// The server keeps a replica, the shadow. It applies the snapshots that the client acknowledged, so it equals
+// the client's replica. If the newest of them carried everything pending and no lost change is missing, the
+// shadow must draw cell by cell what the engine drew for the player in that tick.
 //
-// The shadow needs the snapshots from the beginning of a world, so the audit of a session begins with its
-// first snapshot, or when its world is sent again: for a reset, a round, another process of the client.
+// The shadow needs all snapshots of a world. So an audit starts with a session's first snapshot, or when its
+// world is sent again: after a reset, in a new round, or to another process of the client.
 #pragma once
 
 #include <cstdint>
@@ -20,22 +19,21 @@
 
 namespace naiad {
 
-/// Memory: the shadow, at most 128 snapshots that are not acknowledged, at most 128 pictures.
-/// Thread: the session's.
+/// Memory: the shadow, up to 128 unacknowledged snapshots and up to 128 pictures. Thread: the session's.
 class PictureAudit {
  public:
-  /// Counts in audited_pictures, audited_cells and wrong_cells.
+  /// The audit counts in audited_pictures, audited_cells and wrong_cells.
   explicit PictureAudit(Counters& counters) : m_counters(counters) {}
 
-  /// The client is sent a world from the beginning, with the next snapshots.
+  /// Call when the next snapshots send a world from the beginning.
   void restart() { m_state = State::kBegins; }
-  /// Snapshots of this tick are about to be written; `newest`: the number of the newest one before.
+  /// Call before the snapshots of `tick` are built. `newest`: number of the newest snapshot so far.
   void beginTick(std::uint32_t newest, std::uint32_t tick);
   void recordSent(const SnapshotPacket& packet);
-  /// What the world shows the player at the end of this tick. Call it before the tick's snapshots are sent,
-  /// in those ticks that are to be compared.
+  /// Records what the world shows the player at the end of `tick`. Call it before the tick's snapshots are
+  /// sent, in the ticks to compare.
   void recordTruth(std::uint32_t tick, df::Canvas picture);
-  /// The client has acknowledged, and `sender` knows.
+  /// Call after `sender` has processed this acknowledgement.
   void acknowledge(const AckWindow& acks, const SnapshotSender& sender);
 
  private:
@@ -57,9 +55,9 @@ class PictureAudit {
   Counters& m_counters;
   State m_state = State::kWaits;
   Replica m_shadow;
-  SnapshotHeader m_header;     ///< of the newest snapshot that the shadow has
-  std::deque<Sent> m_sent;     ///< and not acknowledged, oldest first
-  std::deque<Truth> m_truths;  ///< that were not compared, oldest first
+  SnapshotHeader m_header;     ///< of the newest snapshot that the shadow has applied
+  std::deque<Sent> m_sent;     ///< unacknowledged snapshots, oldest first
+  std::deque<Truth> m_truths;  ///< not compared yet, oldest first
 };
 
 }  // namespace naiad

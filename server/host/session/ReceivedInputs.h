@@ -1,8 +1,8 @@
-// The inputs that a client sent and the world has not had yet: in order, each id once.
+// Inputs received from a client and not yet applied by the world: in order, each id once.
 //
-// They wait here, and not in the world's InputQueue, which lasts for one tick. The limits are a client's, and
-// are enforced as its updates arrive, while a world in a process of its own answers later. A snapshot
-// acknowledges the inputs of its tick, so the host has to know which these are.
+// They wait here because the world's InputQueue lasts for one tick only. Limits are per client and are
+// checked when updates arrive; a world process would answer later. A snapshot acknowledges the inputs of its
+// tick, so the host must know which inputs a tick has.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,14 @@
 
 namespace naiad {
 
-/// The keys that a player holds down, by the inputs received. A client that is cut off or killed sends no
-/// releases, so the server makes them.
+/// The keys that a player holds down according to the received inputs. A disconnected or killed client sends
+/// no releases, so the server creates them.
 class PressedKeys {
  public:
   void noteInput(const Input& input) {
     if (!input.is_mouse) m_down.set(input.key, input.action != df::KEY_RELEASED);
   }
-  /// Call `release(input)` with a release of each key that is down, by key. No key is down afterwards.
+  /// Calls `release(input)` with a release of each key that is down, by key code; afterwards no key is down.
   template <class Release>
   void releaseAll(Release release) {
     for (std::size_t key = 0; key < m_down.size() && m_down.any(); ++key) {
@@ -48,7 +48,7 @@ class ReceivedInputs {
  public:
   static constexpr std::size_t kMaxQueued = 64;
   static constexpr int kPerTick = 16;
-  /// An input that asks for a tick farther ahead is applied at once.
+  /// Ticks. An input for a tick further ahead than this is applied at once.
   static constexpr std::int32_t kMaxEarly = 8;
 
   enum class Verdict { kQueued, kRepeated, kTooMany };
@@ -60,7 +60,7 @@ class ReceivedInputs {
     m_pressed.noteInput(input);
     return Verdict::kQueued;
   }
-  /// Call `apply(input)` for up to kPerTick inputs that are due in the world's next tick.
+  /// Calls `apply(input)` for up to kPerTick inputs that are due in `tick`, the world's next tick.
   template <class Apply>
   void takeDue(std::uint32_t tick, Apply apply) {
     for (int i = 0; i < kPerTick && !m_queue.empty() && !isTooEarly(m_queue.front(), tick); ++i) {
@@ -68,15 +68,15 @@ class ReceivedInputs {
       m_queue.pop_front();
     }
   }
-  /// Queue the release of all keys that are down, in the tick `tick`.
+  /// Queues a release of each key that is down, for `tick`.
   void releaseKeys(std::uint32_t tick) {
     m_pressed.releaseAll([this, tick](Input input) {
-      input.id = m_newest;  // acknowledged together with that one
+      input.id = m_newest;  // acknowledged together with the newest input
       input.tick = tick;
       m_queue.push_back(input);
     });
   }
-  /// Another world begins: drop keys, controls and queued inputs. Return the last id dropped.
+  /// Drops keys, controls and queued inputs, for another world. Returns the last id dropped, if any.
   std::optional<std::uint32_t> clear() {
     std::optional<std::uint32_t> last;
     if (!m_queue.empty()) last = m_queue.back().id;
@@ -86,12 +86,12 @@ class ReceivedInputs {
     return last;
   }
 
-  /// The player steers by declared controls (null: does not). Keys in them wait for the tick that they ask
-  /// for, since the client's prediction has applied them there.
+  /// Sets the controls that the player steers with; null: none. Inputs of keys in them wait for the tick they
+  /// name, because the client's prediction applied them in that tick.
   void setControls(const std::shared_ptr<const df::ControlTable>& controls) {
     if (m_controls != controls) m_controls = controls;
   }
-  /// The id received last; 0: none.
+  /// The id received last; 0 if none.
   std::uint32_t newest() const { return m_newest; }
 
  private:
@@ -104,7 +104,7 @@ class ReceivedInputs {
 
   std::deque<Input> m_queue;
   std::uint32_t m_newest = 0;
-  PressedKeys m_pressed;  ///< after all of m_queue
+  PressedKeys m_pressed;  ///< after all inputs of m_queue
   std::shared_ptr<const df::ControlTable> m_controls;
 };
 

@@ -13,7 +13,7 @@ namespace naiad {
 namespace {
 
 wire::ServerMessage noticeOf(std::uint64_t lines) {
-  wire::ServerMessage message;  // without a player: the server's
+  wire::ServerMessage message;  // no player: a line from the server
   message.mutable_chat()->set_text(lines == 1 ? "1 line of chat was left out."
                                               : std::to_string(lines) + " lines of chat were left out.");
   return message;
@@ -30,7 +30,7 @@ void ReliableOutbox::add(const wire::ServerMessage& message) {
   append(message, message.has_players() ? Kind::kPlayers : Kind::kChat, {});
 }
 
-// One frame each, so that a newer state of a sound can replace the one before.
+// Each sound gets its own frame, so that its newer state can replace it.
 void ReliableOutbox::addSounds(const wire::ServerMessage& message) {
   for (const wire::Sound& sound : message.sounds().sounds()) {
     wire::ServerMessage single;
@@ -48,8 +48,8 @@ void ReliableOutbox::append(wire::ServerMessage message, Kind kind, std::string 
   limit();
 }
 
-// What waits is replaced in its place: at the end of the queue, news that come often would never be sent on a
-// line that is always busy. What was sent is removed.
+// Replaces an unsent frame in its place in the queue. At the end, frequent updates would never be sent over a
+// line that is always busy. A sent frame is removed, and the new one goes to the end.
 bool ReliableOutbox::replaceUnsent(wire::ServerMessage& message, Kind kind, const std::string& label) {
   if (kind == Kind::kChat) return false;
   const auto before = std::find_if(m_kept.begin(), m_kept.end(), [&](const Kept& kept) {
@@ -94,14 +94,14 @@ void ReliableOutbox::erase(std::size_t index) {
   m_kept.erase(at);
 }
 
-// m_kept.size() if there is none.
+// Returns m_kept.size() if none.
 std::size_t ReliableOutbox::findUnsent(Kind kind) const {
   const auto found = std::find_if(m_kept.begin(), m_kept.end(),
                                   [kind](const Kept& kept) { return !kept.sent && kept.kind == kind; });
   return static_cast<std::size_t>(found - m_kept.begin());
 }
 
-// The line's place is taken by a notice, which takes over from the notice before it.
+// Replaces the oldest unsent line by a notice, which adds the count of an earlier unsent notice to its own.
 bool ReliableOutbox::leaveOutChat() {
   std::uint64_t lines = 1;
   if (findUnsent(Kind::kChat) == m_kept.size()) return false;

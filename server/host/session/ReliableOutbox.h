@@ -1,9 +1,8 @@
-// What a client must get even if its stream breaks or is slow: chat, the list of players, lasting sounds.
+// Frames that must reach a client even if its stream breaks or is slow: chat, player lists, lasting sounds.
 //
-// Each frame has a number and is kept until the client says that it came (ReliableFrames.h has the other
-// end). What is kept is bounded whatever the other players and the game do, and never a reason to end a
-// session: when it is full, the oldest lines of chat that were not sent yet are left out, and one line in
-// their place says how many they were.
+// Each frame has a number and is kept until the client acknowledges it (receiver: ReliableFrames.h). Memory
+// is limited whatever other players and the game send, and a full outbox never ends a session: the oldest
+// unsent chat lines are dropped, and one line in their place says how many.
 #pragma once
 
 #include <cstddef>
@@ -19,33 +18,33 @@ namespace wire {
 class ServerMessage;
 }
 
-/// Not thread-safe. Frames are sent in the order in which they were added. One that was sent is never left
-/// out, since it may have arrived, so that what the client is told is exact.
+/// Not thread-safe. Frames are sent in the order in which they were added. Only frames that were never sent
+/// are dropped: a sent one may have arrived, and the reported number must be exact.
 class ReliableOutbox {
  public:
-  /// Kept at most, in bytes with their headers.
+  /// Limit of all kept frames, in bytes including headers.
   static constexpr std::size_t kMax = std::size_t{64} * 1024;
-  /// With so many bytes sent on a stream and not acknowledged, the next frames wait. A client acknowledges as
-  /// soon as it got half of it.
+  /// Flow-control window: further frames wait while this many bytes on the stream are
+  /// unacknowledged. A client acknowledges at the latest after half of it.
   static constexpr std::size_t kWindow = std::size_t{16} * 1024;
-  /// Bytes of sounds that wait, at most: of different ones, since of each only the newest state is kept.
+  /// Limit of unsent sounds, in bytes. Only the newest state of each sound is kept.
   static constexpr std::size_t kMaxSounds = std::size_t{16} * 1024;
 
   explicit ReliableOutbox(Counters& counters) : m_counters(counters) {}
 
-  /// Keep a message of chat, players or sounds. A list of players replaces the one before, a sound the one of
-  /// the same label.
+  /// Adds a message of chat, players or sounds. A player list replaces the previous one, a sound the one with
+  /// that label.
   void add(const wire::ServerMessage& message);
-  /// The client has all up to `number`. What was never sent is no acknowledgement.
+  /// Drops the frames up to `number`, which the client has. Ignores numbers that were never sent.
   void acknowledge(std::uint32_t number);
-  /// Another stream: what is kept is to be sent again.
+  /// Call for a new stream: everything kept is sent again.
   void restartStream();
-  /// Another process of the client, for which nothing of this is meant; numbers go on.
+  /// Drops everything, for another process of the client. Numbers continue.
   void clear();
 
-  /// The next frame to send on the stream; null if there is none, or too much is unacknowledged.
+  /// Returns the next frame to send on the stream; null if none waits or the window is full.
   const std::string* next() const;
-  /// It was sent.
+  /// Call when the frame of next() was sent.
   void noteSent();
 
   std::size_t bytes() const { return m_bytes; }
@@ -55,10 +54,10 @@ class ReliableOutbox {
   struct Kept {
     std::uint32_t number = 0;
     Kind kind = Kind::kChat;
-    bool sent = false;  ///< on this stream or an earlier one; these are the first ones
-    std::string label;  ///< of a sound, which is music or not
+    bool sent = false;  ///< over any stream; sent frames come first
+    std::string label;  ///< key of a sound, music or not
     std::string frame;
-    std::uint64_t lines = 0;  ///< of chat that a notice stands for
+    std::uint64_t lines = 0;  ///< chat lines that a notice stands for
     std::size_t size() const;
   };
 
@@ -74,13 +73,13 @@ class ReliableOutbox {
   std::size_t findUnsent(Kind kind) const;
 
   Counters& m_counters;
-  std::deque<Kept> m_kept;        ///< by number
-  std::size_t m_bytes = 0;        ///< of m_kept
-  std::size_t m_sound_bytes = 0;  ///< of these, sounds that were never sent
-  std::size_t m_on_stream = 0;    ///< so many of the first were sent on this stream
+  std::deque<Kept> m_kept;        ///< sorted by number
+  std::size_t m_bytes = 0;        ///< size of m_kept
+  std::size_t m_sound_bytes = 0;  ///< part of m_bytes: unsent sounds
+  std::size_t m_on_stream = 0;    ///< frames at the front of m_kept that this stream has carried
   std::size_t m_bytes_on_stream = 0;
-  std::uint32_t m_next = 1;         ///< number; never 0
-  std::uint32_t m_newest_sent = 0;  ///< number; 0: none
+  std::uint32_t m_next = 1;         ///< number of the next frame; never 0
+  std::uint32_t m_newest_sent = 0;  ///< number of the newest frame sent; 0: none
 };
 
 }  // namespace naiad

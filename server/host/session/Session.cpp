@@ -29,7 +29,7 @@ void Session::start(Events events) {
       kMaxHelloFrame);
 }
 
-// ---- the welcome or refusal -------------------------------------------------------------------------------
+// ---- welcome and refusal ----------------------------------------------------------------------------------
 
 void Session::refuse(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect,
                      const std::string& room) {
@@ -91,9 +91,9 @@ void Session::takeOver(Session& restored) {
   restored.stream() != nullptr ? restored.end() : static_cast<void>(restored.m_state = State::kGone);
 }
 
-// ---- streams that come and go -----------------------------------------------------------------------------
+// ---- stream changes ---------------------------------------------------------------------------------------
 
-// One that is refused for now was heard of all the same: its grace time starts again.
+// A refused attempt counts as activity: the grace time starts again.
 bool Session::admitResume() {
   if (m_resumes.takeToken(kResumeRate, now())) return true;
   m_activity.noteReturn(now());
@@ -150,7 +150,8 @@ void Session::accompany(Session& other) {
   m_streams.sendSecond(message.SerializeAsString());
 }
 
-// `other` has the old stream afterwards, if there was one, and does not report its end.
+// Moves the first stream of `other` here. If this session still had one, `other` gets it and does not report
+// its end.
 void Session::takeStream(Session& other) {
   m_knows_rooms = other.m_knows_rooms;
   m_streams.takeFirst(other.m_streams);
@@ -181,7 +182,6 @@ void Session::onSecondClosed(CloseReason reason) {
   m_streams.dropSecond();
 }
 
-// Go on without the stream.
 void Session::detach(Clock::time_point now) {
   ++m_counters.detached;
   m_streams.detach();
@@ -202,7 +202,7 @@ void Session::end() {
   if (m_state == State::kGone) return;
   m_state = stream() != nullptr ? State::kEnding : State::kGone;
   m_streams.close();
-  reportGone();  // the player's object must not wait for the last bytes to get through
+  reportGone();  // the player's object must not wait until the last bytes are sent
 }
 
 void Session::reportGone() {
@@ -238,26 +238,26 @@ void Session::checkSilence(Clock::time_point now) {
     end();
   } else if (m_state == State::kPlaying && !isDetached() && silence > kIdleTimeout) {
     ++m_counters.idle_timeouts;
-    // A line that is down for a while often breaks neither end's stream.
+    // An outage often breaks the stream at neither end.
     if (m_grace.count() > 0) return detach(now);
     setLeave(&Counters::left_silent);
     goodbye("The server has not heard from you for a while.");
   } else if (m_state == State::kPlaying && m_streams.isStalled(now) && silence < StallDetector::kPatience) {
-    // A client that is also silent has lost its connection: it is detached later, and may come back.
+    // A client that is also silent has lost its connection: it is detached later and may reconnect.
     ++m_counters.stuck_streams;
     setLeave(&Counters::left_stuck);
     goodbye("Your end takes in too little of what the server sends.");
   }
 }
 
-// A dropped input counts as received, or the client would repeat it.
+// A dropped input counts as received; otherwise the client would send it again.
 void Session::beginWorld() {
   if (const auto dropped = m_inputs.clear()) m_delivery.noteInput(*dropped, m_delivery.tick());
   m_delivery.reset();
 }
 
-// On the stream at once, which snapshots take, too, until datagrams have proved to pass again: none of the
-// new world comes before.
+// Snapshots also use this stream until datagrams are confirmed again, so no snapshot of the new world arrives
+// before this message.
 void Session::enterRoom(const wire::Welcome& welcome) {
   *m_welcome = welcome;
   m_player = welcome.player();
@@ -276,7 +276,7 @@ void Session::enterRoom(const wire::Welcome& welcome) {
   send(message);
 }
 
-// A click without a snapshot that is remembered is judged in the present.
+// A click without a remembered snapshot is evaluated in the present.
 df::ViewedTick Session::viewedTick(const Input& input) const {
   const auto base = input.is_mouse ? m_delivery.tickOf(input.snapshot) : std::nullopt;
   return base ? df::ViewedTick{true, *base, input.tick} : df::ViewedTick{};
@@ -301,8 +301,8 @@ void Session::sendKept(const wire::ServerMessage& message) {
   sendWaiting();
 }
 
-// A little at a time, and in turn with the picture: on a slow line, what others say must neither hold up the
-// game nor fill the stream until it counts as stuck.
+// Sends only while few bytes are unsent, alternating with snapshots: on a slow line, chat must neither delay
+// the game nor fill the stream until it counts as stuck.
 void Session::sendWaiting() {
   if (m_state != State::kPlaying || stream() == nullptr) return;
   while (const std::string* p_frame = m_outbox.next()) {

@@ -1,10 +1,10 @@
-// One client on the server's side: its streams, its state (STATES.md), its inputs and its snapshots.
+// The server's side of one client: its streams, its state (STATES.md), its inputs and its snapshots.
 //
-// A session is more than its stream: when that breaks, the session goes on over datagrams, or waits, until
-// the client comes back on another stream and adopt() gives it to the session, or the grace time is over.
+// A session outlives its stream. When the stream breaks, the session continues over datagrams, or waits until
+// the client reconnects and adopt() moves the new stream to it, or until the grace time ends.
 //
-// Everything the client sends is checked here and counted where it is refused; a session that breaks a rule
-// ends alone. Time is passed in. Single-threaded: the host's event loop and tick share a thread.
+// All input from the client is checked here; each rejection is counted. A client that breaks a rule ends only
+// its own session. Time is a parameter. Single-threaded: the host's event loop and tick share a thread.
 #pragma once
 
 #include <algorithm>
@@ -39,35 +39,35 @@ class ServerMessage;
 class Welcome;
 }  // namespace wire
 
-/// How many lines of chat a client may send now.
-/// One for a session, whatever becomes of its streams: only time refills it. Time is passed in.
+/// Rate limit of a client's chat lines. It lasts for the whole session: only time refills it, not a new
+/// stream. Time is a parameter.
 class ChatAllowance {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr double kPerSecond = 3;
   static constexpr double kAtOnce = 3;
-  /// Lines at once from a client that comes back, if it was silent long enough to have typed them.
+  /// Maximum after a reconnect: lines that the client may have queued during its silence.
   static constexpr double kSaved = 30;
 
   explicit ChatAllowance(Time now) : m_refilled(now) {}
 
-  /// False if the line is one too many.
+  /// Counts a line. False if it is over the limit.
   bool takeLine(Time now) {
     refill(now, kAtOnce);
     if (m_lines < 1) return false;
     m_lines -= 1;
     return true;
   }
-  /// The client is back, on another stream, and nothing had come since `silent_since`: what was typed
-  /// meanwhile comes all at once.
+  /// Call after a reconnect. Refills up to kSaved for the time since `silent_since`, because the lines typed
+  /// during the silence arrive at once.
   void refillAfterSilence(Time silent_since, Time now) {
     refill(silent_since, kAtOnce);
     refill(now, kSaved);
   }
 
  private:
-  /// Up to `most` lines; if there are more, they stay.
+  /// Refills up to `most` lines. Never takes lines away.
   void refill(Time now, double most) {
     if (now <= m_refilled) return;
     const double seconds = std::chrono::duration<double>(now - m_refilled).count();
@@ -79,8 +79,8 @@ class ChatAllowance {
   Time m_refilled;
 };
 
-/// The terminal size that a client asked for last, applied at most four times a second: each new size may
-/// cost half a world.
+/// The terminal size that a client requested last. At most one size per kEvery is applied, because a new size
+/// may cause half a world to be sent.
 class ResizeRequest {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -91,11 +91,11 @@ class ResizeRequest {
 
   static constexpr std::chrono::milliseconds kEvery{250};
 
-  /// True if this replaces a size that was not applied.
+  /// Replaces the pending size. True if there was one.
   bool request(Size size) { return std::exchange(m_wanted, size).has_value(); }
-  /// Go on with what was requested from `other`.
+  /// Copies the pending size of `other`.
   void continueFrom(const ResizeRequest& other) { m_wanted = other.m_wanted; }
-  /// The size to apply now, if any.
+  /// Removes and returns the size to apply now; nullopt if none is due.
   std::optional<Size> takeDue(Time now) {
     if (!m_wanted || (m_applied && now - *m_applied < kEvery)) return std::nullopt;
     m_applied = now;
@@ -104,21 +104,20 @@ class ResizeRequest {
 
  private:
   std::optional<Size> m_wanted;
-  std::optional<Time> m_applied;  ///< when a size was applied last
+  std::optional<Time> m_applied;  ///< when a size was last applied
 };
 
-/// What a host knows of a player beside the game: since when they play, and what they may do.
-/// Time is passed in.
+/// A player's join time, last activity and rights, which the game does not need. Time is a parameter.
 class SessionStanding {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// The client was welcomed.
+  /// Call when the client was welcomed.
   void begin(Time now) { m_joined = m_acted = now; }
-  /// A key, a click or a line of chat came.
+  /// Call for each key, click or line of chat.
   void noteAction(Time now) { m_acted = now; }
-  /// The session goes on with another stream, which is a sign of life. An admin's rights end, since a resume
-  /// token must not give them.
+  /// Call when the session continues on another stream; counts as activity. Ends admin rights, because a
+  /// resume token must not grant them.
   void changeStream(Time now) {
     m_acted = now;
     m_admin = false;
@@ -131,7 +130,7 @@ class SessionStanding {
   void setAdmin() { m_admin = true; }
   bool isMuted() const { return m_muted; }
   void setMuted(bool muted) { m_muted = muted; }
-  /// How many streams the session has had before the present one.
+  /// Number of earlier streams of this session.
   std::uint32_t streams() const { return m_streams; }
 
  private:
@@ -146,14 +145,14 @@ class Session {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// What a session asks of the host. Called from the event loop; the callee may refuse() or welcome(), at
-  /// once or within kJudgeTimeout.
+  /// Calls to the host, made from the event loop. A hello is answered within kJudgeTimeout: by refuse(),
+  /// welcome(), or another session's adopt(), restart() or accompany().
   struct Events {
     std::function<void(Session&, const wire::Hello&)> on_hello;
     std::function<void(Session&, const std::string& text)> on_chat;
     std::function<void(Session&)> on_gone;   ///< the session is ending; called once
     std::function<Clock::time_point()> now;  ///< empty: std::chrono::steady_clock
-    /// The client is being refused, with this sentence.
+    /// The client is being refused; `sentence` is the reason it is sent.
     std::function<void(Session&, const std::string& sentence)> on_refused = {};
     std::function<void(Session&)> on_list_rooms = {};
     std::function<void(Session&, const std::string& room)> on_enter_room = {};
@@ -162,93 +161,92 @@ class Session {
   enum class State { kGreeting, kPlaying, kEnding, kGone };
 
   static constexpr std::chrono::seconds kLoginTimeout{5};
-  /// A hello is judged before its client stops waiting for an answer (after 5 s).
+  /// Time limit for the answer to a hello; less than the 5 s that a client waits for it.
   static constexpr std::chrono::seconds kJudgeTimeout{4};
   static constexpr std::chrono::seconds kIdleTimeout{15};
-  /// After this silence the keys of a player without a stream are released.
+  /// After this much silence of a detached player, the keys they hold are released.
   static constexpr std::chrono::seconds kSuspend{1};
-  /// How often a session may go on with another stream, or another process. A line that breaks every second
-  /// is not noticed; each return may cost a world that is sent from the beginning.
+  /// Rate limit of resumes, on another stream or by another process. Players do not notice a line that breaks
+  /// once a second, but each resume may send a world from the beginning.
   static constexpr BucketRate kResumeRate{.per_second = 1, .burst = 3};
-  /// How often it may have another second stream. Clients ask every two seconds at most.
+  /// Rate limit of new second streams. Clients ask at most every two seconds.
   static constexpr BucketRate kSecondRate{.per_second = 0.5, .burst = 4};
-  /// With more than this unsent on the stream, a message arrives too late for sendFleeting(), and kept ones
-  /// wait for their turn.
+  /// Above this number of unsent bytes, sendFleeting() drops its message and messages of sendKept() wait.
   static constexpr std::size_t kMaxBeforeFleeting = std::size_t{4} * 1024;
 
   Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
   ~Session();
-  /// Names the session for as long as the host runs.
+  /// Sets the session's id, unique while the host runs.
   void setId(std::uint64_t id) { m_id = id; }
   std::uint64_t id() const { return m_id; }
-  /// Begin to receive. Not in the constructor: callbacks need a finished session.
+  /// Starts to receive. Not part of the constructor, because callbacks need a finished session.
   void start(Events events);
 
-  /// Answer the hello with a refusal; the connection ends. `redirect`: a link to where there is a place,
-  /// `room`: in which of its rooms.
+  /// Answers the hello with a refusal and ends the connection. `redirect`: link to a server with a free
+  /// place, `room`: the room to join there; both may be empty.
   void refuse(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect = "",
               const std::string& room = "");
-  /// Answer the hello: the client plays from now on. With `datagrams` if there are to be any.
+  /// Answers the hello; the client now plays. `datagrams`: null if snapshots may use only the stream.
   void welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams = nullptr);
-  /// Instead of start(): it has no stream, and its client knows nothing of it but a token. So are sessions of
-  /// a server that was killed. It waits for the client, who goes on with another session (retire()).
+  /// Call instead of start(), for a session of a killed server. It has no stream, and its client knows only
+  /// the resume token. It waits until the client's new session replaces it: takeOver().
   void restore(const wire::Welcome& welcome, Events events);
-  /// The client cannot go on with it as it is, since it has not proved that it knows it (takeProof()), and it
-  /// was restored, or took over from one that was.
+  /// True for a restored session, and for a session that replaced one until confirm(). Such a session cannot
+  /// be resumed by adopt() or restart(), because its client may not have read its welcome.
   bool isRestored() const { return m_restored; }
-  /// Its client goes on with this session, which was welcomed, in the place of one that was restored.
+  /// Call after welcome(): this session replaces `restored`, which ends. Keeps its mute and resume limit.
   void takeOver(Session& restored);
-  /// The client has proved that it knows it.
+  /// Call once the client has proved that it read the welcome (takeProof()).
   void confirm() { m_restored = false; }
-  /// The client is back: may it go on now (kResumeRate)? If not, nothing changes, and its session waits on.
+  /// Counts a resume. False if it is over the limit (kResumeRate): then the session keeps waiting, and its
+  /// grace time starts again.
   bool admitResume();
-  /// The client is back: take over the stream on which `other` heard its hello, answer the hello, and send
-  /// again all reliable frames after number `received`. `other` is Gone afterwards.
+  /// Resumes after a reconnect: takes the stream on which `other` received its hello, answers the hello, and
+  /// sends all reliable frames after number `received` again. `other` is kGone afterwards.
   void adopt(Session& other, wire::Welcome welcome, std::uint32_t received);
-  /// Another process of the client, which knows nothing yet, goes on with the session: as adopt(), but the
-  /// world is sent from the beginning, and with `datagrams` of its own, if any. A process that still holds
-  /// the old stream gets a goodbye.
+  /// Resumes in another client process, which has no state. Like adopt(), but the world is sent from the
+  /// beginning, with `datagrams` for the new process (may be null). An old process that is still connected
+  /// gets a goodbye.
   void restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams);
-  /// May it have another second stream now (kSecondRate)? If not, nothing changes.
+  /// Counts a second stream. False if it is over the limit (kSecondRate).
   bool admitSecond();
-  /// From now on small snapshots also go on the stream on which `other` heard its hello, beside this one's:
-  /// where datagrams do not pass, a packet that one stream waits for does not hold up the other. Updates come
-  /// on both. `other` is Gone afterwards; a second stream that was there before ends, and this one ends with
-  /// the first.
+  /// Adds the stream on which `other` received its hello as second stream, for small snapshots and for
+  /// updates from the client. Without datagrams, a lost packet then delays only one of the two streams.
+  /// `other` is kGone afterwards. An earlier second stream is closed; this one ends with the first stream.
   void accompany(Session& other);
   bool hasSecondStream() const { return m_streams.hasSecond(); }
-  /// How often the client may ask for the list of rooms, or for another room.
+  /// Rate limit of requests for the room list or for another room.
   static constexpr BucketRate kRoomRate{.per_second = 2, .burst = 4};
-  /// May the client, or its game, ask once more? If not, nothing changes.
+  /// Counts a request by the client or its game. False if it is over the limit.
   bool admitRoomRequest() { return m_room_requests.takeToken(kRoomRate, now()); }
-  /// Can the client be led to another room?
+  /// True if the client supports rooms, so it can be moved to another one.
   bool knowsRooms() const { return m_knows_rooms; }
-  /// The session, which has a stream, goes on in another room's world, as this welcome says: its client hears
-  /// of it before it is sent that world from the beginning.
+  /// Moves the session, which must have a stream, to another room's world, described by `welcome`. The client
+  /// is told before it is sent that world from the beginning.
   void enterRoom(const wire::Welcome& welcome);
-  /// Another world begins: the client forgets what it knows, and its inputs to the one before are dropped.
+  /// Call when another world begins: sends it from the beginning, drops inputs to the previous one.
   void beginWorld();
-  /// How long to wait for the client after its stream broke; 0: not at all.
+  /// Sets how long to wait for the client after its stream broke; 0: the session ends at once.
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
-  /// The stream is broken; the client may come back.
+  /// True while the stream is broken and the client may reconnect.
   bool isDetached() const { return m_state == State::kPlaying && m_streams.first() == nullptr; }
-  /// The client has sent a frame on its newest stream since it was welcomed there, so it has read the
-  /// welcome. True once for each stream.
+  /// True once for each welcome: the client has sent a frame on the first stream since, so it has read the
+  /// welcome.
   bool takeProof() { return m_activity.takeProof(); }
-  /// As it was sent, but without the resume token, of which only the hash is kept (ResumeTokens).
+  /// The welcome without its resume token, because only the hash is stored (ResumeTokens).
   const wire::Welcome& welcomed() const { return *m_welcome; }
   SealedChannel* datagrams() { return m_delivery.datagrams(); }
   /// Null while detached.
   const ReliableChannel* stream() const { return m_streams.first(); }
-  /// Keying material of the stream (Channel.h).
+  /// Returns keying material of the stream (Channel.h).
   std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
-  /// Send the client the reason, and end. `again`: the server is back within this time; 0: it is not.
+  /// Sends the reason and ends the session. `again`: the server will be back within this time; 0: never.
   void goodbye(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0));
 
-  /// Enforce deadlines. Once a tick: time between two calls that are far apart does not count as silence of
-  /// the client (IdleTimer).
+  /// Enforces deadlines. Call once a tick. A long gap between two calls does not count as silence of the
+  /// client (IdleTimer).
   void checkDeadlines(Clock::time_point now);
-  /// Call `apply(input)` for the inputs that are due in the world's next tick, `tick`.
+  /// Calls `apply(input)` for the inputs that are due in `tick`, the world's next tick.
   template <class Apply>
   void takeInputs(std::uint32_t tick, Apply apply) {
     m_inputs.takeDue(tick, [&](const Input& input) {
@@ -257,56 +255,56 @@ class Session {
     });
   }
 
-  /// The picture that the player clicked in, as far as that is known: for mouse inputs only.
+  /// Returns the picture in which the player clicked, if known. Only mouse inputs have one.
   df::ViewedTick viewedTick(const Input& input) const;
 
-  /// The controls that the player steers by (ReceivedInputs::setControls).
+  /// Sets the controls that the player steers with (ReceivedInputs::setControls).
   void setControls(const std::shared_ptr<const df::ControlTable>& controls) {
     m_inputs.setControls(controls);
   }
 
-  /// Audit the client's pictures (PictureAudit.h) from the next world on that it is sent from the beginning,
-  /// or do no longer.
+  /// Starts or stops the audit of the client's pictures (PictureAudit.h). It starts when a world is next sent
+  /// from the beginning.
   void setAudit(bool audit) { m_delivery.setAudit(audit); }
   bool isAudited() { return m_delivery.audit() != nullptr; }
-  /// While it is audited: what the world shows its player in the tick that sendTick() is about to send.
+  /// Only while audited. Records the picture of the tick that the next sendTick() sends.
   void recordTruth(std::uint32_t tick, df::Canvas picture) {
     m_delivery.audit()->recordTruth(tick, std::move(picture));
   }
 
-  /// Note a published tick, and send what is pending unless the client is still busy with earlier bytes.
+  /// Sends pending changes of the published tick, unless the client or its line is busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
   void send(const wire::ServerMessage& message);
-  /// Send it so that it arrives, on this stream or another one: it is kept until the client has it, or left
-  /// out if there is too much (ReliableOutbox.h). For chat, players and sounds.
+  /// Sends reliably, if needed on a later stream. Kept until the client acknowledges it, or dropped if too
+  /// much is kept (ReliableOutbox.h). For chat, player lists and sounds.
   void sendKept(const wire::ServerMessage& message);
 
-  /// Send it if it can arrive at once; late, it is worthless. Return whether it was sent.
+  /// Sends only if the message can arrive at once. Returns whether it was sent.
   bool sendFleeting(const wire::ServerMessage& message);
 
   State state() const { return m_state; }
   /// The host's time (Events::now).
   Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
-  /// The hello has come.
   bool isGreeted() const { return m_greeted; }
   std::uint32_t player() const { return m_player; }
   const std::string& name() const;
   std::string address() const { return m_streams.peerAddress(); }
-  /// Ticks at whose end this client was not up to date, since it or its line was busy with earlier bytes.
+  /// Ticks after which this client was not up to date, because its line or the client was busy with earlier
+  /// bytes.
   std::uint64_t skippedTicks() const { return m_delivery.skippedTicks(); }
-  /// The round trip the client measured last, in milliseconds; 0: not yet.
+  /// Newest round-trip time measured by the client, in milliseconds; 0 before the first.
   std::uint32_t rttMillis() const { return m_rtt_millis; }
-  /// Since when the player is here, and what they may do.
+  /// Join time, last activity and rights of the player.
   SessionStanding& standing() { return m_standing; }
   const SessionStanding& standing() const { return m_standing; }
   const TransportSelector& transport() const { return m_delivery.transport(); }
-  /// What the client has been sent.
+  /// State of the client's snapshots.
   const SnapshotSender& sender() const { return m_delivery.sender(); }
 
  private:
-  /// Why its player leaves.
+  /// Counter of the reason for which the player leaves.
   using Leave = std::uint64_t Counters::*;
-  /// It ends for this reason, unless it had one before.
+  /// Sets the reason unless one was set before.
   void setLeave(Leave leave) {
     if (m_leave == &Counters::left_dismissed) m_leave = leave;
   }
@@ -336,10 +334,10 @@ class Session {
   void end();
 
   State m_state = State::kGreeting;
-  std::uint32_t m_player = 0;  ///< of m_welcome, which is seldom in the cache
+  std::uint32_t m_player = 0;  ///< copy from m_welcome, which is rarely in the cache
   bool m_reported_gone = false;
   Leave m_leave = &Counters::left_dismissed;
-  bool m_greeted = false;  ///< the hello has come
+  bool m_greeted = false;  ///< the hello was received
   bool m_restored = false;
   bool m_knows_rooms = false;
   std::uint32_t m_rtt_millis = 0;

@@ -1,5 +1,4 @@
-// What a session receives from its client: every frame and datagram is parsed, checked and applied, or
-// refused and counted, in this file.
+// Parses, checks and applies every frame and datagram from the client. Rejected ones are counted.
 #include <algorithm>
 
 #include "host/session/Names.h"
@@ -13,13 +12,13 @@ namespace naiad {
 namespace {
 
 bool parse(std::string_view frame, wire::ClientMessage& message) {
-  silenceParseErrors();  // a stranger could fill the host's log; malformed frames are counted instead
+  silenceParseErrors();  // strangers could fill the host's log; malformed frames are counted instead
   return message.ParseFromArray(frame.data(), static_cast<int>(frame.size()));
 }
 
 }  // namespace
 
-// False if the message is one too many, and the session has ended because of it, or has ended before.
+// False if the session has ended, or ends now because the message is over the limit.
 bool Session::acceptMessage() {
   if (m_state == State::kEnding || m_state == State::kGone) return false;
   if (m_activity.countMessage()) return true;
@@ -41,7 +40,8 @@ void Session::onFrame(std::string_view frame) {
   if (!dispatch(message)) endMalformed();
 }
 
-// Updates only: what needs order goes on the first stream. A frame here is no sign that the first one lives.
+// Only updates are allowed: messages that need order use the first stream. A frame here does not prove that
+// the first stream works.
 void Session::onSecondFrame(std::string_view frame) {
   if (!acceptMessage()) return;
   wire::ClientMessage message;
@@ -54,14 +54,14 @@ void Session::onDatagram(std::string_view bytes) {
   if (!takeUpdate(bytes, true)) endMalformed();
 }
 
-// False if the message breaks a rule: then the connection ends, and nothing else happens.
+// False if the message breaks a rule: then it has no effect, and the caller ends the connection.
 bool Session::dispatch(const wire::ClientMessage& message) {
   using What = wire::ClientMessage::WhatCase;
   const bool greeting = m_state == State::kGreeting;
   if (greeting != (message.what_case() == What::kHello)) return false;
   switch (message.what_case()) {
     case What::kHello:
-      // Once: each hello may cost the check of a password.
+      // Only one hello is allowed, because each hello may cost a password check
       if (message.hello().magic() != kHelloMagic || m_greeted) return false;
       takeHello(message.hello());
       return true;
@@ -91,7 +91,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
   return false;
 }
 
-// Of a server without rooms, a client that knows them may ask all the same.
+// A server without rooms may also get these requests, from clients that support rooms.
 void Session::takeRoomRequest(const wire::ClientMessage& message) {
   if (!m_knows_rooms || !admitRoomRequest()) {
     ++m_counters.room_requests_dropped;
@@ -136,7 +136,7 @@ void Session::takeInput(const Input& input) {
   switch (m_inputs.add(input)) {
     case ReceivedInputs::Verdict::kQueued:
       ++m_counters.inputs;
-      // The world's next tick is the one after the newest that was published, or a later one.
+      // The world's next tick is at least the one after the newest published tick.
       m_counters.late_inputs += isNewer(input.tick, m_delivery.tick()) ? 0 : 1;
       return m_standing.noteAction(now());
     case ReceivedInputs::Verdict::kRepeated:

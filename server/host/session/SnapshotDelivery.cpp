@@ -12,10 +12,10 @@ namespace {
 
 constexpr PacketLimits kStreamRoom{64, kMaxSnapshot, false};
 constexpr PacketLimits kSecondRoom{1, SnapshotDelivery::kMaxOnSecond, false};
-/// At 30 Hz more than a megabit per second.
+/// More than a megabit per second at 30 Hz.
 constexpr std::size_t kDatagramsPerTick = 4;
 
-/// The sessions of a thread send one after the other, so that one buffer is enough.
+/// The sessions of a thread send one after the other, so they share one buffer.
 SnapshotSender::Packets& packetsOfThread() {
   thread_local SnapshotSender::Packets packets;
   return packets;
@@ -68,8 +68,8 @@ void SnapshotDelivery::sendDatagrams(const Publisher& publisher, StreamPair& str
 
 void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& streams, Time now) {
   if (streams.first() == nullptr) return;
-  // If the first stream only waits for a packet to be sent again, the second goes on alone. A large snapshot
-  // goes on the first, and nothing overtakes it.
+  // While the first stream waits for a retransmission, the second one continues alone. A large snapshot goes
+  // on the first stream, and nothing may overtake it.
   const bool first = streams.isFirstIdle();
   const bool second = streams.isSecondIdle() && !m_sender.hasLargeInFlight();
   m_held_up = !first && !second;
@@ -115,8 +115,7 @@ void SnapshotDelivery::acknowledge(const AckWindow& acks, bool by_datagram, Time
   m_transport.acknowledge(acks, by_datagram, now);
 }
 
-// What an acknowledgement settles is spread over memory that the session's turn in the tick needs anyway, so
-// it waits for that turn.
+// Processing an acknowledgement touches memory that sendTick() touches anyway, so it waits until then.
 void SnapshotDelivery::settleAcks() {
   if (m_acks) m_sender.acknowledge(*m_acks);
   if (m_acks && m_audit) m_audit->acknowledge(*m_acks, m_sender);
@@ -151,7 +150,7 @@ void SnapshotDelivery::reset() {
   if (m_audit) m_audit->restart();
 }
 
-// A client that was sent nothing yet is about to be sent a world from the beginning.
+// A client that was sent no snapshot yet is about to be sent a world from the beginning.
 void SnapshotDelivery::setAudit(bool audit) {
   m_audit = audit ? std::make_unique<PictureAudit>(m_counters) : nullptr;
   if (m_audit && m_sender.newestNumber() == 0) m_audit->restart();

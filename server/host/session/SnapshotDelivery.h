@@ -1,6 +1,6 @@
-// Sends one client's snapshots: by datagram where datagrams pass, else on the streams.
+// Sends one client's snapshots: as datagrams where datagrams pass, otherwise on the streams.
 //
-// Acknowledgements, checksums and requests for a reset arrive on the same transports.
+// Acknowledgements, checksums and reset requests arrive on these transports.
 #pragma once
 
 #include <chrono>
@@ -24,53 +24,53 @@ class SnapshotDelivery {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::seconds kResetEvery{2};
-  /// A client sends a checksum once a second; a few may come at once after a stall.
+  /// Minimum time between two checksums. Clients send one a second; a few may arrive together after a stall.
   static constexpr std::chrono::milliseconds kChecksumEvery{250};
-  /// A larger snapshot goes on the first stream only. A world sent twice would be too much for a slow line,
-  /// while the changes that gathered during a wait should not cause another wait.
+  /// Larger snapshots use the first stream only. Changes that gathered during a wait are small enough to
+  /// send twice; a whole world would be too much for a slow line.
   static constexpr std::size_t kMaxOnSecond = std::size_t{4} * 1024;
 
   SnapshotDelivery(Counters& counters, Time now) : m_counters(counters), m_transport(now) {}
 
-  /// Null: on the streams only.
+  /// Sets the datagram channel; null: snapshots use the streams only.
   void setDatagrams(std::unique_ptr<SealedChannel> datagrams) { m_datagrams = std::move(datagrams); }
   SealedChannel* datagrams() { return m_datagrams.get(); }
 
-  /// Note a published tick, and send what is pending unless the client is still busy with earlier bytes.
+  /// Sends pending changes of the published tick, unless the client or its line is busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player, StreamPair& streams, Time now);
-  /// The newest input that the world has had, and in which tick.
+  /// Sets the newest input that the world has applied, and the tick in which it did.
   void noteInput(std::uint32_t id, std::uint32_t tick) { m_sender.noteInput(id, tick); }
   void setTerminal(std::uint32_t columns, std::uint32_t rows) { m_sender.setTerminal(columns, rows); }
 
-  /// Audit the client's pictures (PictureAudit.h), or do no longer.
+  /// Starts or stops the audit of the client's pictures (PictureAudit.h).
   void setAudit(bool audit);
-  /// Null without an audit.
+  /// Null if there is no audit.
   PictureAudit* audit() { return m_audit.get(); }
 
   void acknowledge(const AckWindow& acks, bool by_datagram, Time now);
-  /// Reset the client's world if it is not what was sent.
+  /// Resets the client's world if the checksum does not match what was sent.
   void compareChecksum(const AckWindow& acks, std::uint64_t checksum, Time now);
-  /// Send the client's world again, but not more often than a line can carry.
+  /// Sends the client's world again, at most once per kResetEvery.
   void requestReset(Time now);
 
-  /// The client forgets what it knows: everything is pending.
+  /// Makes everything pending again, because the client starts from an empty world.
   void reset();
-  /// What was sent on the first stream is lost with it.
+  /// Call when the first stream broke: snapshots in flight on it are lost.
   void loseStream();
-  /// The client is on another stream: find out again whether datagrams pass.
+  /// Call when the client is on another stream: probes again whether datagrams pass.
   void renewTransport(Time now) { m_transport.renew(now); }
-  /// Another process of the client, which knows nothing of this one's transport. The world that it is sent
-  /// counts as a reset.
+  /// Call for another process of the client: forgets the transport state and sends the world, like a reset.
   void restart(Time now);
 
-  /// The last snapshot was to go on a stream and could not, because of earlier bytes.
+  /// True if earlier unsent bytes delayed the last snapshot, which was to use a stream.
   bool isHeldUp() const { return m_held_up; }
   bool usesDatagrams(Time now) const { return m_datagrams != nullptr && m_transport.isOpen(now); }
   /// The newest published tick.
   std::uint32_t tick() const { return m_tick; }
-  /// The tick of a snapshot; none if it is not remembered.
+  /// The tick of a snapshot; nullopt if it is no longer remembered.
   std::optional<std::uint32_t> tickOf(std::uint32_t snapshot) const { return m_ticks.tickOf(snapshot); }
-  /// Ticks at whose end the client was not up to date, since it or its line was busy with earlier bytes.
+  /// Ticks after which this client was not up to date, because its line or the client was busy with earlier
+  /// bytes.
   std::uint64_t skippedTicks() const { return m_skipped_ticks; }
   const TransportSelector& transport() const { return m_transport; }
   const SnapshotSender& sender() const { return m_sender; }
@@ -88,7 +88,7 @@ class SnapshotDelivery {
   Counters& m_counters;
   std::unique_ptr<SealedChannel> m_datagrams;
   std::uint32_t m_tick = 0;
-  std::optional<AckWindow> m_acks;  ///< received, and not settled yet
+  std::optional<AckWindow> m_acks;  ///< received, but not passed to m_sender yet
   std::uint64_t m_skipped_ticks = 0;
   SnapshotSender m_sender{Resend::kAhead};
   std::unique_ptr<PictureAudit> m_audit;

@@ -1,7 +1,7 @@
-// A session's two streams, and the callbacks that lead from them to the session.
+// A session's two streams, and the callbacks from them to the session.
 //
-// A stream outlives the session that heard its hello: takeFirst() and takeSecond() hand it to another pair,
-// and from then on its callbacks lead there.
+// A stream outlives the session that received its hello: takeFirst() and takeSecond() move it to another
+// pair, which then gets its callbacks.
 #pragma once
 
 #include <chrono>
@@ -15,9 +15,9 @@
 
 namespace naiad {
 
-/// Does the other end of a stream still take in what it is sent?
-/// A stream is stuck if more than kMuch is unsent and that has not become less for kPatience. A slow stream
-/// is not: each new minimum restarts the time. Pure.
+/// Detects a peer that no longer reads its stream. A stream is stuck if more than kMuch bytes are unsent and
+/// the number has not reached a new minimum for kPatience. A slow stream is not stuck: each new minimum
+/// restarts the time. Pure.
 class StallDetector {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -25,7 +25,7 @@ class StallDetector {
   static constexpr std::size_t kMuch = std::size_t{64} * 1024;  ///< bytes
   static constexpr std::chrono::seconds kPatience{10};
 
-  /// At `now` the stream has so many bytes unsent. True if it is stuck.
+  /// Records the number of unsent bytes; returns true if the stream is stuck.
   bool addSample(std::size_t unsent, Time now) {
     if (unsent <= kMuch || m_least == 0 || unsent < m_least) {
       m_least = unsent <= kMuch ? 0 : unsent;
@@ -34,15 +34,15 @@ class StallDetector {
     }
     return now - m_since >= kPatience;
   }
-  /// Another stream.
+  /// Call for another stream.
   void restart() { m_least = 0; }
 
  private:
-  std::size_t m_least = 0;  ///< the minimum since more than kMuch was unsent; 0: no more than that is
+  std::size_t m_least = 0;  ///< minimum since more than kMuch is unsent; 0: at most kMuch is unsent
   Time m_since{};
 };
 
-/// Not thread-safe. The first stream carries everything; the second one, small snapshots again.
+/// Not thread-safe. The first stream carries everything; the second one only small snapshots and updates.
 class StreamPair {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -58,37 +58,37 @@ class StreamPair {
   StreamPair(const StreamPair&) = delete;
   StreamPair& operator=(const StreamPair&) = delete;
 
-  /// Begin to receive. `limit`: bytes of a frame, at most.
+  /// Starts to receive. `limit`: maximum size of a frame, in bytes.
   void start(Callbacks callbacks, std::size_t limit);
-  /// The same for the frames that come from now on.
+  /// Sets the maximum size of frames received from now on, in bytes.
   void setReceiveLimit(std::size_t limit) { m_first->setReceiveLimit(limit); }
 
-  /// Take over the first stream of `other`, which gets this one's in exchange if it is not broken.
+  /// Takes the first stream of `other`. If this pair still has one, `other` gets it in exchange.
   void takeFirst(StreamPair& other);
-  /// Take over the first stream of `other` as the second one here; a second one that is here already ends.
+  /// Takes the first stream of `other` as the second one of this pair. An earlier second stream is closed.
   void takeSecond(StreamPair& other, std::size_t limit);
   void dropSecond();
-  /// The first stream is broken: go on without any.
+  /// Drops both streams, because the first one broke.
   void detach();
   void close();
 
   /// Null while detached.
   const ReliableChannel* first() const { return m_first.get(); }
   bool hasSecond() const { return m_second != nullptr; }
-  /// There is one, and nothing waits on it to be sent.
+  /// True if the stream exists and has no unsent bytes.
   bool isFirstIdle() const { return isIdle(m_first.get()); }
   bool isSecondIdle() const { return isIdle(m_second.get()); }
-  /// To be asked once a tick. Has the first stream taken in nothing for too long (StallDetector)?
+  /// Call once a tick. True if the first stream is stuck (StallDetector).
   bool isStalled(Time now) { return m_first != nullptr && m_stall.addSample(m_first->unsentBytes(), now); }
-  /// The address of the first stream, or that of the last one.
+  /// Address of the first stream, or of the last one while detached.
   std::string peerAddress() const { return m_first != nullptr ? m_first->peerAddress() : m_address; }
 
-  /// Dropped if there is no such stream.
+  /// Sends the frame, or drops it if there is no such stream.
   void sendFirst(std::string_view frame);
   void sendSecond(std::string_view frame);
 
  private:
-  /// Where the callbacks of one stream lead.
+  /// The pair and stream that get the callbacks of one stream.
   struct Route {
     StreamPair* pair = nullptr;
     bool second = false;
@@ -99,11 +99,11 @@ class StreamPair {
   }
 
   Callbacks m_callbacks;
-  std::string m_address;                      ///< of the last first stream, while there is none
+  std::string m_address;                      ///< of the last first stream; used while detached
   std::unique_ptr<ReliableChannel> m_first;   ///< null while detached
-  std::unique_ptr<ReliableChannel> m_second;  ///< null: there is none
-  StallDetector m_stall;                      ///< of the first
-  std::shared_ptr<Route> m_route = std::make_shared<Route>();  ///< of the first
+  std::unique_ptr<ReliableChannel> m_second;  ///< null if none
+  StallDetector m_stall;                      ///< of the first stream
+  std::shared_ptr<Route> m_route = std::make_shared<Route>();  ///< of the first stream
 };
 
 }  // namespace naiad

@@ -1,10 +1,10 @@
-// Whether a session's snapshots go by datagram or on the stream, and how often: by what is known of the link,
-// its round trip and its losses.
+// Chooses whether a session's snapshots go as datagrams or on the stream, and how often, from the link's
+// round trip and losses.
 //
-// A session starts on the stream. Once a second, and at first more often, it sends a snapshot as a datagram;
-// when one of those is acknowledged by a datagram, snapshots go as datagrams from then on, until none of them
-// has been acknowledged so for a second. (An acknowledgement on the stream would say that datagrams pass in
-// one direction only; then the player's keys would get lost.) Pure: time is passed in.
+// A session starts on the stream. It probes with a snapshot sent as a datagram: once a second, at first more
+// often. Once a datagram acknowledges such a datagram, snapshots are datagrams. They use the stream again
+// after a second without such an acknowledgement. (An acknowledgement on the stream would prove one direction
+// only, and the player's keys would get lost in the other.) Pure: time is a parameter.
 #pragma once
 
 #include <algorithm>
@@ -25,15 +25,14 @@ class TransportSelector {
 
   explicit TransportSelector(Time now) : m_probe(PathProbe::kOpenFor, now) {}
 
-  /// Snapshot `number` was sent, as a datagram or on the stream.
+  /// Records that snapshot `number` was sent, as a datagram or on the stream.
   void noteSent(std::uint32_t number, bool as_datagram, Time now) {
     m_sent[number % kKept] = {number, as_datagram, true, false, now};
     if (as_datagram && !isOpen(now)) m_probe.probeSent(now);
   }
-  /// The client acknowledged, by a datagram or on the stream.
+  /// Processes an acknowledgement that came by datagram or on the stream.
   void acknowledge(const AckWindow& acks, bool by_datagram, Time now) {
-    // Most of a window was in the one before, which came by the same transport: only what is new in it
-    // counts.
+    // Only bits that are not in the previous window of this transport are new.
     AckWindow& before = m_acked[by_datagram ? 1 : 0];
     const std::uint32_t ahead = acks.newest - before.newest;
     const bool follows = before.newest != 0 && !isNewer(before.newest, acks.newest) && ahead <= 64;
@@ -48,21 +47,21 @@ class TransportSelector {
       noteArrival(acks.newest - 1 - bit, false, by_datagram, now);
     }
   }
-  /// Another address or stream: find out again, soon.
+  /// Call for another address or stream: probes again soon.
   void renew(Time now) { m_probe.renew(now); }
 
-  /// Do datagrams pass?
+  /// True if datagrams pass.
   bool isOpen(Time now) const { return m_probe.isOpen(now); }
-  /// Is it time to try whether they do? `only`: there is no stream.
+  /// True if a probe is due. `only`: there is no stream.
   bool wantsProbe(Time now, bool only = false) const { return m_probe.isDue(now, only); }
 
-  /// From sending to acknowledgement, smoothed; 0 before the first.
+  /// Smoothed time from sending to acknowledgement; 0 before the first sample.
   Millis roundTrip() const { return m_stats.smoothed(); }
-  /// The shortest one of about the last ten seconds.
+  /// The shortest round trip of about the last ten seconds.
   Millis shortestRoundTrip() const { return m_stats.shortest(); }
 
-  /// Send in each `interval`-th tick: 1, 2, 3 or 6. More while the line is too full (its queues grow, or it
-  /// loses more than 15 %), less again after it was well for five seconds.
+  /// Returns how many ticks apart snapshots are sent: 1, 2, 3 or 6. It grows while the line is overloaded
+  /// (its queues grow, or it loses more than 15 %) and shrinks again after five good seconds.
   std::uint32_t interval(double loss, Time now) {
     const bool bad = roundTrip() - shortestRoundTrip() > kFullQueue || loss > kMuchLoss;
     if (bad != m_bad) (bad ? m_bad_since : m_good_since) = now;
@@ -88,7 +87,7 @@ class TransportSelector {
     std::uint32_t number = 0;
     bool as_datagram = false;
     bool open = false;       ///< not acknowledged yet
-    bool confirmed = false;  ///< a datagram that a datagram acknowledged
+    bool confirmed = false;  ///< a datagram that a datagram has acknowledged
     Time at{};
   };
   static constexpr std::size_t kKept = 128;
@@ -101,12 +100,12 @@ class TransportSelector {
     sent.open = false;
     if (!sent.as_datagram || !by_datagram || sent.confirmed) return;
     sent.confirmed = true;
-    // What was sent before the line fell silent says nothing of it now.
+    // An older datagram may predate an outage, so it says nothing about the path now.
     if (now - sent.at < 2 * PathProbe::kOpenFor) m_probe.addEvidence(now);
   }
 
   std::array<Sent, kKept> m_sent{};
-  std::array<AckWindow, 2> m_acked{};  ///< the newest windows taken in, on the stream and by datagram
+  std::array<AckWindow, 2> m_acked{};  ///< newest windows received: on the stream, by datagram
   PathProbe m_probe;
   LinkStats m_stats;
   std::size_t m_rung = 0;

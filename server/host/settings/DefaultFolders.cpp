@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Rounds of worlds for single players are not gone on with, so they are written down when asked for alone.
+/// Worlds of single players are not recovered after a crash, so their rounds are recorded only on request.
 void useDefaultJournal(HostOptions& options) {
   if (options.journal == kOffWord) return options.journal.clear();
   const bool has_none = options.in_process || options.players == "private";
@@ -24,7 +24,7 @@ void useDefaultJournal(HostOptions& options) {
   options.default_journal = true;
 }
 
-/// Why files cannot be made there; nothing if they can.
+/// Creates the folder (0700). Returns an error if it fails or if files cannot be created there.
 std::error_code makeFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder.parent_path(), error);

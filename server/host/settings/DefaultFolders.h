@@ -1,5 +1,4 @@
-// Where dfserver keeps things if no option says: its control socket, its state, and the rounds that it writes
-// down.
+// Default paths of dfserver's control socket, state and recorded rounds.
 #pragma once
 
 #include <string_view>
@@ -9,18 +8,17 @@
 
 namespace naiad {
 
-/// In place of a path: there is to be none.
+/// Given instead of a path, it disables the file or folder.
 inline constexpr std::string_view kOffWord = "off";
 
-/// Fill in what dfserver does where these options do not say. Games that are programs themselves have no such
-/// folders.
+/// Fills in dfserver's default paths. Games that are programs themselves have no such defaults.
 void useDefaultFolders(HostOptions& options);
 
-/// Without encryption a server is on loopback, unless an address was given.
+/// Makes a server without encryption listen on loopback only, unless an address was given.
 void keepHome(HostOptions& options);
 
-/// The options to start worlds with: these, without a journal if its default folder cannot be made or
-/// written, which the log says then. A folder that was asked for is left to fail where it is used.
+/// Returns the options to start worlds with. If the default journal folder cannot be created or written, logs
+/// a warning and removes the journal. A folder given by an option stays, and fails where it is used.
 HostOptions withUsableJournal(HostOptions options, const LogLine& log);
 
 }  // namespace naiad

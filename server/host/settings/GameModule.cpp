@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Folders with games: what the environment names, beside the program as built, and as installed.
+/// Returns the folders to search for games: NAIAD_GAMES, then those of the build tree and of an installation.
 std::vector<fs::path> folders() {
   std::vector<fs::path> all;
   if (const char* named = std::getenv("NAIAD_GAMES")) all.emplace_back(named);

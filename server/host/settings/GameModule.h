@@ -8,34 +8,34 @@
 
 namespace naiad {
 
-/// No such game, or its module cannot be loaded. what() is a sentence for the person at the command line.
+/// Thrown if a game does not exist or its module cannot be loaded. what() is a message for the user.
 class GameError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A loaded game. It stays loaded until the process ends: its code may be on the stack of static destructors.
+/// A loaded game. It stays loaded until the process ends, because static destructors may still run its code.
 class GameModule {
  public:
   /// `game`: the name of a shipped game, or a path (anything with a slash). Throws GameError.
   explicit GameModule(const std::string& game);
 
-  // Without loading it, which would run its static constructors:
+  // Functions that do not load the module, which would run its static constructors.
 
-  /// The module's absolute path. Throws GameError if a shipped game of this name is not there.
+  /// Returns the module's absolute path. Throws GameError if there is no shipped game of this name.
   static std::filesystem::path find(const std::string& game);
-  /// "saucershoot": the file's name without folder and ending.
+  /// Returns the file's name without folder and extension, like "saucershoot".
   static std::string nameOf(const std::filesystem::path& module) { return module.stem().string(); }
   static std::vector<std::string> resourceFolders(const std::filesystem::path& module);
 
   const std::string& name() const { return m_name; }
-  /// Where its files are (sprites, sounds): a folder of the module's name beside it, the one it is in itself,
-  /// and the one above, for many build in a folder of their own.
+  /// Returns the folders of the game's files (sprites, sounds): NAME/ next to the module NAME.so, the
+  /// module's own folder, and its parent, because many games are built in a subfolder.
   std::vector<std::string> resourceFolders() const { return resourceFolders(m_path); }
-  /// Run the game's main() on this thread; what it returns.
+  /// Runs the game's main() on this thread and returns its result.
   int main() const;
 
-  /// The names of all games that can be named, sorted.
+  /// Returns the names of all games that were found, sorted.
   static std::vector<std::string> available();
 
  private:

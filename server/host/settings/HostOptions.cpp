@@ -21,8 +21,8 @@ namespace naiad {
 
 namespace {
 
-/// The programs that have an option: dfserver, games that are programs themselves (no command line, but
-/// df-config.txt), or both.
+/// The programs that accept an option: dfserver, games that are programs themselves (df-config.txt instead of
+/// a command line), or both.
 enum class UsedBy { kBoth, kServer, kProgram };
 
 struct Row {
@@ -33,7 +33,7 @@ struct Row {
 using OneOf = std::vector<std::string>;
 using Values = std::variant<std::monostate, OptionRange, OneOf>;
 
-/// Its variable has the option's name: NAIAD_MAX_PLAYERS sets --max-players.
+/// Makes a row. The environment variable is named after the option: NAIAD_MAX_PLAYERS sets --max-players.
 Row row(const std::string& name, OptionTarget target, const char* help, const Values& values = {},
         UsedBy used_by = UsedBy::kBoth) {
   std::string variable = "NAIAD_" + name.substr(2);
@@ -45,7 +45,7 @@ Row row(const std::string& name, OptionTarget target, const char* help, const Va
   return {std::move(option), used_by};
 }
 
-/// The table, with its targets in `o`.
+/// Returns the table of options, with its targets in `o`.
 std::vector<Row> tableOf(HostOptions& o) {
   return {
       row("--game", &o.game,
@@ -214,19 +214,19 @@ std::vector<Row> tableOf(HostOptions& o) {
   };
 }
 
-/// Options that take effect while a server runs.
+/// Options that a reload changes while the server runs.
 constexpr std::string_view kLive[] = {
     "--max-players", "--max-per-address", "--server-name", "--exit-when-empty", "--password",  "--grace",
     "--drain-time",  "--certificate",     "--key",         "--log-format",      "--log-level", "--log-chat",
     "--vote-kick",   "--inactive-kick"};
 
-/// Variables that other programs of the project read, or this one beside its table.
+/// Variables that are not in the table but are read by this or other programs of the project.
 const char* const kOtherVariables[] = {
     "NAIAD_ASCII",         "NAIAD_CLIENT",  "NAIAD_FINGERPRINT", "NAIAD_GAMES",       "NAIAD_IDLE_LIMIT",
     "NAIAD_KNOWN_SERVERS", "NAIAD_NAME",    "NAIAD_NO_MOUSE",    "NAIAD_NO_REDIRECT", "NAIAD_NO_RESUME",
     "NAIAD_SERVER",        "NAIAD_SOCKETS", "NAIAD_SOUND",       "NAIAD_WORLD_SEED",  "NAIAD_WORLD_SOCKET"};
 
-/// Files, for completions: these options name them.
+/// Returns the type of an option's value in --help and completions, if it is a file, directory or socket.
 const char* typeOf(const std::string& name) {
   for (const char* p_file : {"--certificate", "--key", "--join-file", "--truth", "--port-file", "--log",
                              "--bus-credentials", "--bus-ca"})
@@ -255,9 +255,9 @@ const char* const kExitCodes =
     "  4  cannot listen on that address and port\n"
     "  5  a file cannot be written, or a key, certificate or password not be used\n";
 
-/// In df-config.txt: the name with _ for -; empty: it is not there.
+/// Returns the option's key in df-config.txt: its name with _ for -; empty if it has no key.
 std::string keyOf(const Row& row) {
-  if (row.option.name == "--frame-time") return {};  // there the game's frame_time is in milliseconds
+  if (row.option.name == "--frame-time") return {};  // the game's own key frame_time is in milliseconds
   std::string key = row.option.name.substr(2);
   std::replace(key.begin(), key.end(), '-', '_');
   return key;
@@ -275,7 +275,7 @@ void warnOfReadersOf(const std::string& file, const std::string& password, HostO
   options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
 }
 
-/// Of "FILE:LINE".
+/// Returns FILE of "FILE:LINE".
 std::string fileAt(const std::string& place) {
   return place.substr(0, place.rfind(':'));
 }
@@ -294,7 +294,7 @@ std::string listOf(const std::vector<std::string>& names) {
   return text;
 }
 
-/// What to print instead of running.
+/// Output that was requested instead of a run.
 struct Printing {
   bool games = false;
   bool check = false;
@@ -302,13 +302,13 @@ struct Printing {
   bool markdown = false;
 };
 
-/// Where passwords were given (Option::p_place).
+/// The "FILE:LINE" of passwords from a --config file (Option::p_place); empty: given elsewhere.
 struct Places {
   std::string password;
   std::string admin_password;
 };
 
-/// The options of dfserver's command line.
+/// Returns the options of dfserver's command line.
 std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Places& places) {
   std::vector<Row> rows = tableOf(options);
   warnOfUnknownVariables(rows, options);
@@ -404,7 +404,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
 
 OptionChanges takeOver(const HostOptions& next, HostOptions& now) {
   OptionChanges changes;
-  HostOptions values = next;  // the table wants targets that can change
+  HostOptions values = next;  // the table needs mutable targets
   std::vector<Row> rows = tableOf(now);
   const std::vector<Row> wanted = tableOf(values);
   for (std::size_t i = 0; i < rows.size(); ++i) {

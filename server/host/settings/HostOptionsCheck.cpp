@@ -13,8 +13,8 @@ namespace naiad {
 
 namespace {
 
-constexpr int kMinFrameMicros = 1000;        // clients believe no shorter one
-constexpr std::size_t kMaxWebAddress = 300;  // a QR code of more does not fit a terminal
+constexpr int kMinFrameMicros = 1000;        // clients reject shorter ticks
+constexpr std::size_t kMaxWebAddress = 300;  // the QR code of a longer one does not fit in a terminal
 
 /// Returns why --in-process cannot be combined with another option; empty if it can.
 std::string inProcessComplaint(const HostOptions& options) {

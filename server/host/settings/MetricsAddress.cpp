@@ -10,7 +10,7 @@ namespace naiad {
 
 namespace {
 
-/// "…:PORT"; nothing without one, or where it is none.
+/// Returns the port that follows the colon; nullopt if it is missing or invalid.
 std::optional<std::uint16_t> portAfter(std::string_view text, std::size_t colon) {
   if (colon == std::string_view::npos || colon + 1 == text.size()) return std::nullopt;
   std::uint16_t port = 0;

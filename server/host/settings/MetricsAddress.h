@@ -1,4 +1,4 @@
-// Where metrics are given out: --metrics ADDR:PORT, and by which names the server may be asked there.
+// The address of the metrics server (--metrics ADDR:PORT) and the host names accepted in requests to it.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,28 @@ namespace naiad {
 struct MetricsAddress {
   std::string address;  ///< numeric, IPv6 without brackets
   std::uint16_t port = 0;
-  /// It is loopback, or of a network that no router of the internet leads to (RFC 1918, 3927, 4193, 4291).
+  /// True for loopback and for networks that are not routed on the internet (RFC 1918, 3927, 4193, 4291).
   bool is_private = false;
 
-  /// "127.0.0.1:9100", "[::1]:9100"; port 0 takes any free one. Nothing if it is none.
+  /// Parses "127.0.0.1:9100" or "[::1]:9100"; port 0 means any free one. Returns nullopt if invalid.
   static std::optional<MetricsAddress> parse(std::string_view text);
-  /// As in a URL: IPv6 in brackets.
+  /// Returns the address as in a URL: IPv6 in brackets.
   std::string hostText() const {
     return address.find(':') == std::string::npos ? address : "[" + address + "]";
   }
 };
 
-/// The names in the Host header of a request that may have an answer.
+/// The host names that are accepted in the Host header of a request.
 ///
-/// A page of a stranger can have its own name resolved to 127.0.0.1 (DNS rebinding) and so reach what listens
-/// there; the browser then sends that name. A number as Host is no stranger's name.
+/// A malicious web page can make its own name resolve to 127.0.0.1 (DNS rebinding) and so reach servers
+/// there; the browser then sends that name. Numeric hosts are safe and always accepted.
 class MetricsHosts {
  public:
-  /// `names`: beside "localhost" and numbers, with commas between. Nothing if one of them is no name.
+  /// Parses names separated by commas, accepted in addition to "localhost" and numeric addresses. Returns
+  /// nullopt if one of them is invalid.
   static std::optional<MetricsHosts> parse(std::string_view names);
-  /// A Host header, in any case, with any port or none (a container's may be forwarded from another).
+  /// True if the Host header is accepted. Ignores case and the port, which may be a container's forwarded
+  /// one.
   bool allows(std::string_view host) const;
 
  private:

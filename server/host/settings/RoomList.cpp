@@ -12,7 +12,7 @@ namespace naiad {
 
 namespace {
 
-constexpr std::size_t kMaxShown = 80;  ///< characters of what was typed, in a sentence
+constexpr std::size_t kMaxShown = 80;  ///< maximum characters of the user's text quoted in a message
 
 std::string asTyped(const std::string& text) {
   return "\"" + safeText(text, kMaxShown) + "\"";
@@ -30,7 +30,7 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-/// The settings that a room may have: options of the server, by the same names.
+/// Returns the settings that a room may have. They are named like the server's options.
 std::vector<Option> settingsOf(RoomOptions& room) {
   return {{"--max-players", &room.max_players, "", "", OptionRange{1, kMaxServerPlayers}},
           {"--world-memory", &room.world_memory, "", "", OptionRange{0, 1 << 20}},
@@ -45,7 +45,7 @@ std::vector<std::string> settingNames() {
   return names;
 }
 
-/// `text` is KEY=VALUE. Throws OptionError, which begins with `place`.
+/// Stores a setting KEY=VALUE. Throws OptionError, whose text begins with `place`.
 void storeSetting(RoomOptions& room, const std::string& text, const std::string& place) {
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
@@ -58,7 +58,7 @@ void storeSetting(RoomOptions& room, const std::string& text, const std::string&
   throw OptionError(place + ": a room has no setting " + asTyped(key) + meant(key, settingNames()));
 }
 
-/// NAME=GAME[,KEY=VALUE…]. Throws OptionError.
+/// Parses NAME=GAME[,KEY=VALUE…]. Throws OptionError.
 RoomOptions readRoom(const std::string& text, const HostOptions& options) {
   const std::vector<std::string> parts = split(text, ',');
   const std::size_t equals = parts.empty() ? std::string::npos : parts.front().find('=');
@@ -91,7 +91,8 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-/// Of its game, which has to be there before the first player is.
+/// Returns a message if the room's game does not exist. Checked at the start, before any player wakes the
+/// room.
 std::string gameComplaint(const RoomOptions& room) {
   try {
     const auto module = GameModule::find(room.game);
@@ -106,7 +107,7 @@ std::string gameComplaint(const RoomOptions& room) {
   }
 }
 
-/// Options that say something else than rooms do.
+/// Returns a message about an option that contradicts --room; else empty.
 std::string conflict(const HostOptions& options) {
   if (options.players == "private") return "--room and --players private do not go together";
   if (options.on_game_over == "exit") return "--room and --on-game-over exit do not go together";
@@ -133,7 +134,7 @@ std::string roomsComplaint(const HostOptions& options) {
            std::to_string(rooms.size());
   std::set<std::string> names;
   for (const RoomOptions& room : rooms) {
-    // Players would take the one for the other.
+    // Players would confuse names that differ only in case.
     if (!names.insert(lowerCase(room.name)).second)
       return "--room " + room.name + ": there are two rooms of this name";
     if (std::string wrong = gameComplaint(room); !wrong.empty()) return wrong;

@@ -1,4 +1,4 @@
-// The rooms that a server is to have (--room), as text and as values.
+// Parses and checks the named rooms of a server (--room).
 #pragma once
 
 #include <cstdint>
@@ -9,33 +9,32 @@
 
 namespace naiad {
 
-/// A room: a game by a name, in a process of its own, with its own limits.
+/// A named room: a game in a process of its own, with its own limits.
 struct RoomOptions {
   std::string name;  ///< isRoomName()
-  std::string game;  ///< as of HostOptions
-  // These are the server's, where the room does not say.
-  int max_players = 0;  ///< at a time; the server's own limit holds for all rooms together
+  std::string game;  ///< like HostOptions::game
+  // The default of these is the server's option.
+  int max_players = 0;  ///< limit of this room; the server's own limit applies to all rooms together
   int world_memory = 0;
   std::int64_t seed = 0;
   std::string players;  ///< "together" or "first"
 };
 
-/// The rooms of HostOptions::rooms, which has been checked: none if there are none. Players begin in the
-/// first.
+/// Parses HostOptions::rooms, which must have been checked. Players begin in the first room.
 std::vector<RoomOptions> roomsOf(const HostOptions& options);
 
-/// What is wrong with the rooms, or with what else was asked for beside them; empty if nothing is. Looks for
-/// their games.
+/// Returns a message about an invalid room or an option that contradicts --room; empty if all are valid.
+/// Checks on disk that the games exist.
 std::string roomsComplaint(const HostOptions& options);
 
-/// With rooms there is no other game, and a round of theirs is followed by the next one: the options say so
-/// from now on.
+/// If there are rooms, sets `game` to the first room's game and `on_game_over` to "restart".
 void useRooms(HostOptions& options);
 
-/// The options of a server that has this room alone: for its worlds.
+/// Returns the options of a server that has only this room, to start its worlds with.
 HostOptions optionsOf(const HostOptions& options, const RoomOptions& room);
 
-/// `There is no room "tronn"; did you mean "tron"?`, or all names if none is near. `typed` may be anything.
+/// Returns `There is no room "tronn"; did you mean "tron"?`, or a message with all names if none is similar.
+/// `typed` may be any text.
 std::string unknownRoom(const std::string& typed, const std::vector<std::string>& names);
 
 }  // namespace naiad

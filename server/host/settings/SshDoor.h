@@ -1,4 +1,4 @@
-// An ssh door to a server, as its options name it (docs/doors.md).
+// The address of an ssh door to a server (--ssh-door, docs/doors.md).
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace naiad {
 
-/// USER@HOST[:PORT], where an ssh door is; port 22 if none is named.
+/// The address USER@HOST[:PORT] of an ssh door; the default port is 22.
 struct SshDoor {
-  std::string user;  ///< of letters, digits, '-' and '_': it is copied into shells
+  std::string user;  ///< only letters, digits, '-' and '_', because users paste it into shells
   LinkHost where;
 
   static std::optional<SshDoor> parse(std::string_view text);
-  /// "ssh OPTIONS -p 2222 play@::1": OpenSSH since 9.5 sends a decoy packet every 20 ms while keys are typed;
-  /// the options stop that, and older versions ignore them.
+  /// Returns "ssh OPTIONS -p 2222 play@::1". Since 9.5, OpenSSH sends a decoy packet every 20 ms while keys
+  /// are typed. The options stop that; older versions ignore them.
   std::string command() const;
 };
 

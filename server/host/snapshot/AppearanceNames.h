@@ -1,4 +1,4 @@
-// The appearances that snapshots to one client can name instead of spelling them out.
+// The appearances that snapshots to one client can reference by id instead of describing them.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 
 namespace naiad {
 
-/// An appearance is spelled out, with an id, until a snapshot that carried the id is acknowledged; from then
-/// on snapshots carry the id alone. When all ids are taken, the least recently used one is reassigned. The
-/// client drops a snapshot that still meant the old appearance as stale, so that snapshot counts as lost.
+/// An appearance is described, with an id, until a snapshot that carried the id is acknowledged; after that,
+/// snapshots carry only the id. When all ids are taken, the least recently used one is reassigned. A snapshot
+/// that still meant the old appearance is dropped by the client as stale, so it counts as lost.
 class AppearanceNames {
  public:
-  /// How to write the appearance with this hash and so many glyphs in the snapshot being built.
+  /// Returns how to write the appearance with this hash and number of glyphs in the snapshot being built.
   LookForm formOf(std::uint64_t hash, std::size_t glyphs, std::uint32_t snapshot) {
     if (glyphs > kMaxGlyphs / 8) return {};
     auto found = m_names.find(hash);
@@ -35,37 +35,36 @@ class AppearanceNames {
       m_glyphs += glyphs;
     }
     const Name& name = found->second;
-    const bool in_this_one = name.used == snapshot;  // this snapshot has it already
+    const bool in_this_one = name.used == snapshot;  // already in this snapshot
     return {name.confirmed || in_this_one ? LookForm::kNamed : LookForm::kDefined, name.id};
   }
-  /// The appearance was written in that form.
+  /// Call when the appearance was written in the form of formOf().
   void markUsed(std::uint64_t hash, std::uint32_t snapshot) {
     const auto found = m_names.find(hash);
     if (found != m_names.end()) found->second.used = snapshot;
   }
-  /// The snapshot that defined `id` arrived.
+  /// Call when the snapshot that defined `id` arrived.
   void confirmArrival(std::uint32_t id, std::uint64_t hash, std::uint32_t snapshot) {
     const auto found = m_names.find(hash);
     if (found == m_names.end() || found->second.id != id || isNewer(found->second.assigned, snapshot)) return;
     found->second.confirmed = true;
   }
-  /// The client has been reset.
+  /// Call when the client has been reset.
   void clear() { *this = {}; }
 
  private:
-  /// Half of what the client holds, since it keeps the old meaning of an id until the id has a new one.
+  /// Half of what the client holds, because it keeps the old meaning of an id until the id has a new one.
   static constexpr std::size_t kMaxGlyphs = kMaxDictionaryGlyphs / 2;
   struct Name {
     std::uint32_t id = 0;
     std::size_t glyphs = 0;
-    std::uint32_t assigned =
-        0;                   ///< the snapshot for which it got the id; older ones meant another appearance
-    std::uint32_t used = 0;  ///< the newest snapshot that used it; 0: none yet
+    std::uint32_t assigned = 0;  ///< first snapshot in which the id means this appearance
+    std::uint32_t used = 0;      ///< newest snapshot that used it; 0: none
     bool confirmed = false;
   };
-  /// False if `snapshot` itself uses all names.
+  /// Frees the id used least recently. False if `snapshot` itself uses all ids.
   bool retireOldest(std::uint32_t snapshot) {
-    // Within one snapshot an id has one meaning, so what it uses keeps its id.
+    // An id has one meaning in a snapshot, so ids that this snapshot uses are kept.
     const auto oldest = std::min_element(m_names.begin(), m_names.end(), [](const auto& a, const auto& b) {
       return isNewer(b.second.used, a.second.used);
     });
@@ -76,7 +75,7 @@ class AppearanceNames {
     return true;
   }
 
-  std::unordered_map<std::uint64_t, Name> m_names;  ///< by hash
+  std::unordered_map<std::uint64_t, Name> m_names;  ///< keyed by hash
   std::vector<std::uint32_t> m_free;
   std::uint32_t m_next_id = 0;
   std::size_t m_glyphs = 0;

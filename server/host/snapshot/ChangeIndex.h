@@ -1,5 +1,4 @@
-// The changes of a tick, indexed so that each of thousands of clients finds those that concern it without
-// examining all.
+// Indexes the changes of a tick, so that thousands of clients each find the relevant ones quickly.
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@
 
 namespace naiad {
 
-/// A set of slots with a bit for each slot modulo kBits: a slot whose bit is clear is not in it.
+/// A set of slots with one bit per slot modulo kBits. has() may be true for slots that were not added.
 class SlotBits {
  public:
   static constexpr std::uint32_t kBits = 4096;
@@ -22,7 +21,7 @@ class SlotBits {
   void set(std::uint32_t slot) { m_words[slot % kBits / 64] |= std::uint64_t{1} << (slot % 64); }
   void clear(std::uint32_t slot) { m_words[slot % kBits / 64] &= ~(std::uint64_t{1} << (slot % 64)); }
   void clear() { m_words = {}; }
-  /// Call `visit(bit)` for all that both have, in ascending order.
+  /// Calls `visit(bit)` for all bits set in both, in ascending order.
   template <class Visit>
   void forEachShared(const SlotBits& other, Visit visit) const {
     for (std::uint32_t i = 0; i < m_words.size(); ++i) {
@@ -38,14 +37,14 @@ class SlotBits {
 
 class ChangeIndex {
  public:
-  /// Which of the changes, by their index, concern a client: a byte each, and some more.
+  /// One byte per change, by index: nonzero if it concerns the client. May have zero bytes at the end.
   using Marks = std::vector<std::uint8_t>;
 
   void clear() {
     m_slots.clear();
     for (auto* side : {&m_left, &m_top, &m_right, &m_bottom}) side->clear();
   }
-  /// The next change is about `slot`. `sweep`: where it may be drawn; nowhere, if it is gone.
+  /// Adds the next change. `sweep`: where the object may be drawn; nowhere() if it is gone.
   void add(std::uint32_t slot, const CompactRect& sweep) {
     m_index[slot % SlotBits::kBits] = static_cast<std::uint32_t>(m_left.size());
     m_slots.set(slot);
@@ -55,7 +54,7 @@ class ChangeIndex {
     m_bottom.push_back(sweep.bottom);
   }
 
-  /// Mark the changes whose sweeps meet the rectangle, and no others.
+  /// Marks exactly the changes whose sweeps meet the rectangle.
   void markMeeting(CompactRect rect, Marks& marks) const {
     marks.assign((m_left.size() + 7) / 8 * 8, 0);
     const std::size_t count = m_left.size();
@@ -64,17 +63,17 @@ class ChangeIndex {
     const std::int32_t* __restrict const right = m_right.data();
     const std::int32_t* __restrict const bottom = m_bottom.data();
     std::uint8_t* __restrict const out = marks.data();
-    for (std::size_t i = 0; i < count; ++i) {  // without branches, so that the compiler takes many at a time
+    for (std::size_t i = 0; i < count; ++i) {  // no branches, so the compiler can vectorize it
       out[i] = static_cast<std::uint8_t>(
           static_cast<int>(left[i] < rect.right) & static_cast<int>(rect.left < right[i]) &
           static_cast<int>(top[i] < rect.bottom) & static_cast<int>(rect.top < bottom[i]));
     }
   }
-  /// Mark also the changes of these slots, all of which are below SlotBits::kBits.
+  /// Also marks the changes of these slots, all of which must be below SlotBits::kBits.
   void markShared(const SlotBits& slots, Marks& marks) const {
     m_slots.forEachShared(slots, [&](std::uint32_t bit) { marks[m_index[bit]] = 1; });
   }
-  /// Call `visit(index)` for all that are marked, in order.
+  /// Calls `visit(index)` for all marked changes, in order.
   template <class Visit>
   static void forEachMarked(const Marks& marks, Visit visit) {
     for (std::size_t i = 0; i < marks.size(); i += 8) {
@@ -89,7 +88,7 @@ class ChangeIndex {
 
  private:
   SlotBits m_slots;
-  std::array<std::uint32_t, SlotBits::kBits> m_index{};  ///< of the newest change of these bits
+  std::array<std::uint32_t, SlotBits::kBits> m_index{};  ///< index of the newest change with this bit
   std::vector<std::int32_t> m_left;
   std::vector<std::int32_t> m_top;
   std::vector<std::int32_t> m_right;

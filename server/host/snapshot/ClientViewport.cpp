@@ -11,14 +11,13 @@ namespace naiad {
 
 namespace {
 
-/// Cells around the view whose objects a predicting client needs, since it may collide with them.
+/// Cells around the view whose objects a predicting client needs, because it may collide with them.
 constexpr std::int32_t kCollisionMargin = 2;
-/// Ticks by which the client's picture of the player may differ from the server's: it draws the past, or
-/// predicts.
+/// Ticks by which the player in the client's picture may be behind or ahead: it draws the past, or predicts.
 constexpr double kOffTicks = 12;
-/// Cells by which it may differ at once: a key that moves in steps.
+/// Cells by which it may differ at once: a key may move the player in steps.
 constexpr std::int64_t kMinSpare = 6;
-/// Ticks after which a spare that is no longer needed shrinks by a cell.
+/// Ticks after which a spare that is larger than needed shrinks by a cell.
 constexpr std::uint32_t kShrinkEvery = 8;
 
 int clampedSize(std::uint32_t cells, int min_cells, int max_cells) {
@@ -34,7 +33,7 @@ void ClientViewport::setTerminal(std::uint32_t columns, std::uint32_t rows) {
   m_y.cells = clampedSize(rows, kMinRows, kMaxViewHeight);
 }
 
-// Grows at once and shrinks slowly, since the client learns late that a player has stopped.
+// Grows at once but shrinks slowly, because the client learns late that a player has stopped.
 void ClientViewport::Axis::noteSpeed(double cells_per_tick, std::uint32_t tick) {
   const double max_cells = std::min(std::abs(cells_per_tick) * kOffTicks, double{kMaxViewWidth});
   const std::int64_t wanted = kMinSpare + static_cast<std::int64_t>(std::ceil(max_cells));

@@ -1,7 +1,7 @@
-// The cells of the world that one client can show: its view, or where its terminal is smaller, the part
-// around the object that the view follows.
+// The cells of the world that one client can show: its view, or if its terminal is smaller, the part around
+// the object that the view follows.
 //
-// A terminal that is larger than the view shows no more of the world than other terminals do.
+// A terminal larger than the view does not show more of the world.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,27 @@ namespace naiad {
 
 class ClientViewport {
  public:
-  /// The client's terminal, in cells; 0: unknown, taken to be the largest. Clamped to what a client can use.
+  /// Sets the client's terminal size, in cells, clamped to usable sizes; 0: unknown, the largest is assumed.
   void setTerminal(std::uint32_t columns, std::uint32_t rows);
 
-  /// Does it show all of a view of this size?
+  /// True if the terminal shows all of a view of this size.
   bool covers(int view_width, int view_height) const {
     return m_x.cells >= view_width && m_y.cells >= view_height;
   }
-  /// What the client shows at the publisher's tick or may show within `look_ahead` ticks, and a margin for
-  /// clients that predict collisions. Once a tick.
+  /// Returns the cells that the client shows at the publisher's tick or may show within `look_ahead` ticks,
+  /// plus a margin for clients that predict collisions. Call once a tick.
   CellRect update(const Publisher& publisher, const df::PlayerFacts& player, std::uint32_t look_ahead);
 
   static constexpr int kMinColumns = 20;
   static constexpr int kMinRows = 10;
 
  private:
-  /// One axis: what of the view is shown.
+  /// The part of the view that is shown, on one axis.
   struct Axis {
-    int cells = 0;           ///< of the terminal
-    std::int64_t spare = 0;  ///< to either side, since the client may see the player elsewhere
+    int cells = 0;           ///< size of the terminal
+    std::int64_t spare = 0;  ///< extra cells on either side, because the client may see the player elsewhere
     void noteSpeed(double cells_per_tick, std::uint32_t tick);
-    /// Widen low … high by what is shown of a view.
+    /// Extends low … high by the part of a view that is shown.
     void cover(std::int64_t corner, int extent, std::int64_t focus, std::int64_t& low,
                std::int64_t& high) const;
   };

@@ -1,4 +1,4 @@
-// One client's snapshots in flight: the contents of each, until it is known whether it arrived.
+// One client's snapshots in flight: the contents of each, until it has arrived or counts as lost.
 #pragma once
 
 #include <algorithm>
@@ -11,22 +11,22 @@
 
 namespace naiad {
 
-/// In the order they were sent. Memory of settled snapshots is used again.
+/// Snapshots in the order of sending. Reuses the memory of removed ones.
 class Flight {
  public:
   struct Snapshot {
     std::uint32_t number = 0;
-    bool large = false;  ///< on a stream: late rather than lost
+    bool large = false;  ///< on a stream, where it may be late but is not lost
     bool empty = true;
     bool probe = false;
     std::vector<KnownObjects::Sent> objects;
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> names;  ///< ids of appearances defined, their sums
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> names;  ///< appearances it defines: id, checksum
   };
-  /// At most so many are in flight; the oldest beyond that counts as lost.
+  /// Maximum number in flight. If one more is sent, the oldest counts as lost.
   static constexpr std::size_t kMaxSnapshots = 64;
 
   std::size_t size() const { return m_count; }
-  /// Add a snapshot that is about to be written; it becomes newest().
+  /// Adds a snapshot that is about to be written; it becomes newest().
   Snapshot& add(std::uint32_t number) {
     if (m_count == m_snapshots.size()) m_snapshots.emplace_back();
     Snapshot& snapshot = m_snapshots[m_count++];
@@ -39,7 +39,7 @@ class Flight {
   }
   Snapshot& newest() { return m_snapshots[m_count - 1]; }
   void removeNewest() { --m_count; }
-  /// The snapshot goes on a stream. Ignored if it is settled.
+  /// Marks a snapshot that uses a stream. Ignored if it is no longer in flight.
   void markLarge(std::uint32_t number) {
     for (std::size_t i = m_count; i > 0; --i) {
       if (m_snapshots[i - 1].number == number) m_snapshots[i - 1].large = true;
@@ -48,11 +48,11 @@ class Flight {
   bool hasLarge() const {
     return std::any_of(begin(), end(), [](const Snapshot& snapshot) { return snapshot.large; });
   }
-  /// Does any of them carry something?
+  /// True if any snapshot in flight carries something.
   bool hasContent() const {
     return std::any_of(begin(), end(), [](const Snapshot& snapshot) { return !snapshot.empty; });
   }
-  /// Remove those for which `settle(snapshot)` returns true, called from the oldest to the newest.
+  /// Calls `settle(snapshot)` from the oldest to the newest, and removes those for which it returns true.
   template <class Settle>
   void removeIf(Settle settle) {
     std::size_t kept = 0;

@@ -8,7 +8,7 @@ namespace naiad {
 
 namespace {
 
-/// Ticks after which a known object is examined again, at most.
+/// Maximum number of ticks until a known object is examined again.
 constexpr std::uint32_t kLongest = 1u << 20;
 
 bool isDue(std::uint32_t due, std::uint32_t tick) {
@@ -38,13 +38,13 @@ CellPosition cellAt(const Motion& motion, std::uint32_t tick) {
   return {df::cellOf(at.x), df::cellOf(at.y)};
 }
 
-/// A lower bound of the ticks that a coordinate stays between two cells; 0 if it is not there.
+/// Returns a lower bound of the ticks that a coordinate stays between two cells; 0 if it is not between them.
 std::uint32_t staysFor(df::Fixed position, df::Fixed velocity, std::int64_t low, std::int64_t high) {
   const std::int64_t cell = df::cellOf(position);
   if (cell < low || cell >= high) return 0;
   if (velocity == 0) return kLongest;
   const std::int64_t cells = velocity > 0 ? high - 1 - cell : cell - low;
-  // One cell less, since cells are shifted by a half and the last one is left only beyond its end.
+  // One cell less: cells are shifted by half a cell, and the last one is left only beyond its end.
   if (cells <= 1 || velocity < -df::fromCells(1 << 20) || velocity > df::fromCells(1 << 20)) return 0;
   const std::uint64_t ticks = (static_cast<std::uint64_t>(cells - 1) << df::kFixedBits) /
                               static_cast<std::uint64_t>(std::abs(velocity));
@@ -110,8 +110,8 @@ void Interest::noteChanges() {
   noteChanges(changes, count);
 }
 
-// What this client knows of them has left the cache since its last turn, so it is fetched for many at once:
-// with 1,500 clients, waiting for each took 3.5 % of the server's time.
+// Prefetches for many changes at once, because what this client knows of them is no longer cached: with 1,500
+// clients, waiting for each took 3.5 % of the server's time.
 void Interest::noteChanges(const Changes& changes, std::size_t count) {
   std::array<std::uint32_t, std::tuple_size_v<Changes>> ids;
   for (std::size_t i = 0; i < count; ++i) {
@@ -122,7 +122,7 @@ void Interest::noteChanges(const Changes& changes, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) noteChange(*changes[i], ids[i]);
 }
 
-// Mark the changes of objects that may be known or may enter the view.
+// Marks the changes of objects that may be known or may enter the view.
 void Interest::markChanges(ChangeIndex::Marks& marks) const {
   const ChangeIndex& index = m_p_publisher->changeIndex();
   // The publisher has computed sweeps of kSweep ticks for all clients at once.
@@ -150,7 +150,7 @@ void Interest::noteChange(const Publisher::Change& change, std::uint32_t id) {
   if (model != nullptr) considerObject(change.slot);
 }
 
-// Add the object, which the client does not know, if it is visible, and watch it if it may become so.
+// Adds an object unknown to the client if it is visible, or as a candidate if it may become visible.
 void Interest::considerObject(std::uint32_t slot) {
   const Publisher::Outlook& outlook = this->outlook(slot);
   if (!outlook.later.meets(CompactRect(m_covered))) return;
@@ -161,7 +161,7 @@ void Interest::considerObject(std::uint32_t slot) {
 void Interest::judgeCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
     const Publisher::Outlook& outlook = this->outlook(slot);
-    if (!outlook.soon.meets(m_window)) return outlook.generation == 0;  // of most candidates
+    if (!outlook.soon.meets(m_window)) return outlook.generation == 0;  // most candidates end here
     if (outlook.generation != 0 && !isKnown(slot)) addObject(slot, outlook.generation);
     return true;
   });
@@ -190,8 +190,7 @@ void Interest::searchView() {
                              });
 }
 
-// A view that has moved since the last search will probably have moved at the next, which examines all
-// objects again.
+// A view that moved since the last search has probably moved again by the next, which then examines all.
 void Interest::removeOutside(const CellRect& outer, bool moves) {
   m_known_bits.clear();
   const CompactRect around(outer);

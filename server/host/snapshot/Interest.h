@@ -1,15 +1,15 @@
 // Interest management: the objects in one client's view and those about to enter it.
 //
-// Objects are re-examined only when they may have entered or left the view. The path of a model is known
+// Objects are examined again only when they may have entered or left the view. The path of a model is known
 // until the model changes, so between changes:
 //
-//   in      a changed object is judged at once. Every kGap ticks the blocks around the view are searched for
-//           candidates, which may enter it before the next search; only these few are judged in each tick.
-//           Blocks inside the view hold no object that is unknown.
-//   out     the same search examines those known objects whose straight path may have led out by now. To
-//           remove an object late costs little.
+//   enter   A changed object is checked at once. Every kGap ticks the blocks around the view are searched for
+//           candidates, which may enter it before the next search; only these few are checked in each tick.
+//           Blocks inside the view contain no unknown objects.
+//   leave   This search also examines the known objects whose straight path may have left the view. Removing
+//           an object late costs little.
 //
-// The search covers some cells more than a moving view, and is repeated at once when these are used up.
+// Around a moving view the search covers more cells. It is repeated at once when the view leaves this area.
 #pragma once
 
 #include <array>
@@ -23,28 +23,27 @@ namespace naiad {
 
 class Interest {
  public:
-  /// What the client looks at.
+  /// The area and objects of interest to the client.
   struct Focus {
-    CellRect window;                     ///< the view, and where it is about to be
-    std::array<df::ObjectKey, 2> own{};  ///< of interest wherever they are
-    std::uint32_t look_ahead = 0;        ///< ticks before it enters that an object is to be known
-    std::uint32_t stagger = 0;           ///< any number, so that not all clients search in the same tick
+    CellRect window;                     ///< the view, and its expected place after look_ahead ticks
+    std::array<df::ObjectKey, 2> own{};  ///< known to the client wherever they are
+    std::uint32_t look_ahead = 0;        ///< an object is known this many ticks before it may enter
+    std::uint32_t stagger = 0;           ///< any number; spreads the searches of clients over the ticks
   };
-  /// To be called after every update of the publisher: births, deaths and changes become pending in `known`.
+  /// Call after every update of the publisher. Births, deaths and changes become pending in `known`.
   void update(const Publisher& publisher, const Focus& focus, KnownObjects& known);
 
-  /// Is the object in the view, or will it be after `look_ahead` ticks?
+  /// True if the object is in the view, or may be until `look_ahead` ticks later.
   static bool isVisible(const Publisher::Model& model, std::uint32_t tick, std::uint32_t look_ahead,
                         const CellRect& window);
 
   /// Ticks between two searches.
   static constexpr std::uint32_t kGap = 8;
-  /// An object that left the view is removed only this many cells outside, so that it does not come and go at
-  /// the edge.
+  /// Cells. An object is removed only this far outside the view, so that it does not flicker at the edge.
   static constexpr std::int64_t kHysteresis = 2;
 
  private:
-  /// Cells to spare around a view that moves.
+  /// Cells searched in addition around a moving view.
   static constexpr std::int64_t kSpare = 4;
 
   using Changes = std::array<const Publisher::Change*, 32>;
@@ -63,9 +62,8 @@ class Interest {
   const Publisher::Outlook& outlook(std::uint32_t slot) const {
     return m_p_publisher->outlook(slot, m_focus.look_ahead, kGap + m_focus.look_ahead);
   }
-  // Most changes in the world concern objects that the client does not know. A bit for each slot, modulo
-  // their count, tells so without a lookup in the table. In a world of fewer slots the bits are exact; the
-  // last one is of kLooseSlot.
+  // Most changes in the world concern objects that the client does not know. These bits tell without a table
+  // lookup. They are exact in a world of fewer slots than bits; the last one belongs to kLooseSlot.
   static_assert(kLooseSlot % SlotBits::kBits == SlotBits::kBits - 1);
   bool bitsAreExact() const { return m_p_publisher->slotCount() < SlotBits::kBits; }
   bool mayBeKnown(std::uint32_t slot) const { return m_known_bits.has(slot); }
@@ -74,22 +72,23 @@ class Interest {
   }
   void removeObject(std::uint32_t id, std::uint32_t slot);
 
-  const Publisher* m_p_publisher = nullptr;  ///< these three only during update()
+  const Publisher* m_p_publisher = nullptr;  ///< this and the next two only during update()
   KnownObjects* m_p_known = nullptr;
   std::uint32_t m_tick = 0;
   Focus m_focus;
   CompactRect m_window;    ///< m_focus.window
-  CellRect m_last_window;  ///< the window of the update before: all objects in it are known
+  CellRect m_last_window;  ///< window of the previous update(): all objects in it are known
   CellRect m_searched;     ///< the window at the last search
-  CellRect m_covered;  ///< the candidates are all that may enter a window inside this before the next search
+  CellRect m_covered;  ///< m_candidates has all objects that may enter a window inside this before the next
+                       ///< search
   bool m_has_searched = false;
   std::vector<std::uint32_t> m_candidates;  ///< slots
   SlotBits m_known_bits;
   struct Stay {
     std::uint32_t until = 0;                   ///< the tick until which it cannot leave m_searched
-    std::uint32_t slot = KnownObjects::kNone;  ///< of the object with the id
+    std::uint32_t slot = KnownObjects::kNone;  ///< slot of the object with this id
   };
-  std::vector<Stay> m_stays;  ///< by id
+  std::vector<Stay> m_stays;  ///< indexed by id
 };
 
 }  // namespace naiad

@@ -1,4 +1,4 @@
-// A coarse grid of the published objects: which of them could be seen in a rectangle of cells?
+// A coarse grid of the published objects, to find those that may be visible in a rectangle of cells.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,8 @@ struct CellRect {
   }
 };
 
-/// The same in half the memory, since thousands are compared. Cells beyond its type, where no position is,
-/// are clamped.
+/// A CellRect in half the memory, because thousands are compared. Coordinates that exceed the type are
+/// clamped; no position is that far out.
 struct CompactRect {
   CompactRect() = default;
   explicit CompactRect(const CellRect& rect)
@@ -36,10 +36,10 @@ struct CompactRect {
         right(clamped(rect.right)),
         bottom(clamped(rect.bottom)) {}
   static CompactRect everywhere() { return CompactRect({INT32_MIN, INT32_MIN, INT32_MAX, INT32_MAX}); }
-  /// Meets nothing.
+  /// A rectangle that meets no other.
   static CompactRect nowhere() { return CompactRect({INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN}); }
   bool meets(const CompactRect& other) const {
-    // No branches, since none would be predictable.
+    // No branches, because they would be unpredictable.
     return static_cast<int>(left < other.right) & static_cast<int>(other.left < right) &
            static_cast<int>(top < other.bottom) & static_cast<int>(other.top < bottom);
   }
@@ -55,10 +55,10 @@ struct CompactRect {
   }
 };
 
-/// Slots filed by their cell, in blocks of 16 by 8 cells. Memory follows the number of slots.
+/// The slots by cell, in blocks of 16 by 8 cells. Memory is proportional to the number of slots.
 class InterestGrid {
  public:
-  /// File `slot` at its present cell; cheap if it has not left its block.
+  /// Stores `slot` at its present cell. Cheap if it has not left its block.
   void put(std::uint32_t slot, CellPosition cell) {
     if (slot >= m_places.size()) m_places.resize(std::size_t{slot} + 1);
     const std::uint64_t key = keyOf(cell.x >> kColumnShift, cell.y >> kRowShift);
@@ -84,8 +84,8 @@ class InterestGrid {
     m_places[slot].filed = false;
   }
 
-  /// Call `visit(slot)` for every slot in a block that meets `rect`, unless the block lies in `inner`: all in
-  /// the rectangle that are not in the inner one, and some more.
+  /// Calls `visit(slot)` for every slot in a block that meets `rect`, except blocks inside `inner`. So it
+  /// visits all slots that are in `rect` but not in `inner`, and some others.
   template <class Visit>
   void forEachNear(const CellRect& rect, const CellRect& inner, Visit visit) const {
     const std::int64_t left = rect.left >> kColumnShift;
@@ -99,7 +99,7 @@ class InterestGrid {
     const auto visitAll = [&visit](const std::vector<std::uint32_t>& block) {
       for (const std::uint32_t slot : block) visit(slot);
     };
-    // A rectangle of more blocks than there are is compared with each of them.
+    // If the rectangle has more blocks than exist, go through the existing blocks instead.
     if (static_cast<std::uint64_t>(right - left + 1) * static_cast<std::uint64_t>(bottom - top + 1) >=
         m_blocks.size()) {
       for (const auto& [key, block] : m_blocks) {
@@ -122,7 +122,7 @@ class InterestGrid {
   static constexpr int kRowShift = 3;
   struct Place {
     std::uint64_t key = 0;
-    std::uint32_t index = 0;  ///< in the block
+    std::uint32_t index = 0;  ///< index in the block
     bool filed = false;
   };
 
@@ -131,7 +131,7 @@ class InterestGrid {
   }
 
   using Block = std::vector<std::uint32_t>;
-  /// The last result for the keys that share this place of the cache; null: no block.
+  /// A cache entry: the last result for the keys that map to it. `block` is null if there was no block.
   struct Found {
     std::uint64_t key = 0;
     const Block* block = nullptr;
@@ -139,7 +139,7 @@ class InterestGrid {
   };
   static constexpr std::size_t kFound = 1024;
   Found& foundOf(std::uint64_t key) const { return m_found[((key >> 32) & 31) | (key & 31) << 5]; }
-  /// The block; null if it is empty.
+  /// Returns the block; null if it is empty.
   const Block* find(std::uint64_t key) const {
     Found& found = foundOf(key);
     if (found.valid && found.key == key) return found.block;
@@ -149,8 +149,8 @@ class InterestGrid {
   }
 
   std::unordered_map<std::uint64_t, Block> m_blocks;
-  mutable std::array<Found, kFound> m_found{};  ///< a cache
-  std::vector<Place> m_places;                  ///< by slot
+  mutable std::array<Found, kFound> m_found{};  ///< cache of find()
+  std::vector<Place> m_places;                  ///< indexed by slot
 };
 
 }  // namespace naiad

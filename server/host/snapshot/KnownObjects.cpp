@@ -12,8 +12,7 @@ namespace {
 
 constexpr int kLifeIndex = 0;
 
-/// Of the look as a snapshot of `tick` carries it. Only clocks depend on the tick; other looks are not
-/// copied.
+/// Returns the checksum of the look as a snapshot of `tick` carries it. Looks without a clock are not copied.
 std::uint64_t lookSumAt(std::uint32_t id, const Look& look, std::uint32_t tick) {
   const Selector::Kind kind = look.selector.kind;
   const bool clock = kind == Selector::kClock || kind == Selector::kClockOnce;
@@ -108,9 +107,9 @@ KnownObjects::Sent KnownObjects::markSent(std::uint32_t id, std::uint32_t snapsh
   return {id, known.birth, groups};
 }
 
-// A group that is sent again unchanged is confirmed by any snapshot since the first that carried it so.
+// A group sent again unchanged is confirmed by any snapshot since the first that carried this content.
 void KnownObjects::recordSum(Entry& entry, std::size_t group, std::uint32_t snapshot, std::uint64_t sum) {
-  constexpr std::uint32_t kMax = std::numeric_limits<std::uint8_t>::max();  // none of these is in flight
+  constexpr std::uint32_t kMax = std::numeric_limits<std::uint8_t>::max();  // none this old is in flight
   const bool first = entry.sent[group] == 0 || entry.sums[group] != sum;
   const std::uint32_t since =
       first ? 0 : entry.since_first[group] + before(entry.sent[group], brief(snapshot));
@@ -155,7 +154,7 @@ bool KnownObjects::requeueLost(const Sent& sent, std::uint32_t snapshot, std::ui
     if (carried && known.sent[i] == brief(snapshot)) missing |= 1 << i;
   }
   missing &= known.unconfirmed;
-  // A birth that was lost after another one arrived leaves its other groups, if they are the newest.
+  // If a birth is lost after another one arrived, only its other groups are missing, if they are the newest.
   if (known.life == Life::kAlive) missing &= ~kLife;
   addPending(sent.id, missing, tick);
   return missing != 0;

@@ -45,13 +45,13 @@ void LagCompensator::recordViews(const Publisher& publisher, const df::WorldView
 }
 
 void LagCompensator::recordModel(std::uint32_t slot, const Publisher::Model& model, bool moved) {
-  if (slot == kLooseSlot) return;  // no object
+  if (slot == kLooseSlot) return;  // not an object
   if (slot >= m_histories.size()) m_histories.resize(std::size_t{slot} + 1);
   History& history = m_histories[slot];
   if (history.generation != model.generation) history = {model.generation, m_tick, {}};
   if (!moved && !history.motions.empty()) return;
   history.motions.push_back({m_tick, model.state.motion});
-  // A motion that was replaced before the oldest tick kept is not needed.
+  // Motions replaced before the oldest tick kept are not needed.
   while (history.motions.size() > 1 && !isNewer(history.motions[1].since, m_tick - kTicks)) {
     history.motions.pop_front();
   }

@@ -1,9 +1,9 @@
-// Lag compensation: where objects were on a client's screen, by the published motions of the last ticks and
-// the players' views.
+// Lag compensation: the positions of objects on a client's screen, from the published motions and the
+// players' views of the last ticks.
 //
-// All clients extrapolate the same published models, so what a client drew follows from two ticks: the newest
-// that it had received, and the one that it drew. Older ticks are clamped, since players must not choose to
-// be late.
+// All clients extrapolate the published models. So two ticks determine what a client drew: the newest tick
+// that it had received, and the tick that it drew. Older ticks are clamped: players must not gain from being
+// late.
 #pragma once
 
 #include <array>
@@ -20,34 +20,33 @@ namespace naiad {
 
 class LagCompensator : public df::LagCompensation {
  public:
-  /// Ticks whose models are kept. A client that received none of them is taken to have the oldest.
+  /// Ticks whose models are kept. A client that received none of them is treated as if it had the oldest.
   static constexpr std::uint32_t kTicks = 32;
-  /// A drawn tick is clamped to the present one and this many before it.
+  /// Ticks. A drawn tick is clamped to the present one and at most this many before it.
   static constexpr std::uint32_t kMaxBehind = 8;
 
-  /// Take in one tick, after Publisher::update() with this view. A gap between ticks clears the history.
+  /// Records one tick. Call after Publisher::update() with this view. A gap between ticks clears the history.
   void recordTick(const Publisher& publisher, const df::WorldView& view);
 
-  /// By the published models, drawn characters may be off by what the publisher tolerates: no cell.
+  /// Computed from published models, whose positions may be inexact, but never enough to draw a wrong cell.
   std::optional<df::FixedVector> positionOf(df::ObjectKey object, const df::ViewedTick& seen) const override;
-  /// Right to the cell while what the view follows moves on a straight path. Nothing if the player steers by
-  /// declared controls what their view follows: their client draws both ahead, as they are when the input
-  /// arrives.
+  /// Exact to the cell while the object that the view follows moves in a straight line. Returns nullopt if
+  /// the player steers that object by declared controls, because the client predicts both.
   std::optional<df::FixedVector> viewCornerOf(std::uint32_t player,
                                               const df::ViewedTick& seen) const override;
 
  private:
   struct Known {
-    std::uint32_t since;  ///< the tick from which clients could know it
+    std::uint32_t since;  ///< first tick in which clients could know it
     Motion motion;
   };
   struct History {
-    std::uint32_t generation = 0;  ///< 0: no object
+    std::uint32_t generation = 0;  ///< 0: the slot is empty
     std::uint32_t born = 0;
-    std::deque<Known> motions;  ///< oldest first, never empty while an object is here
+    std::deque<Known> motions;  ///< oldest first; never empty while the slot has an object
   };
 
-  /// A player's view at the end of a tick, and how what it follows moves on, as far as clients know.
+  /// A player's view at the end of a tick, and the published motion of the object it follows.
   struct PlayerView {
     std::uint32_t player;
     df::FixedVector corner;
@@ -57,7 +56,7 @@ class LagCompensator : public df::LagCompensation {
     std::uint32_t tick = 0;
     df::FixedVector size;
     df::FixedBox boundary;
-    std::vector<PlayerView> players;  ///< by player
+    std::vector<PlayerView> players;  ///< sorted by player id
   };
 
   std::uint32_t baseOf(const df::ViewedTick& seen) const;
@@ -66,18 +65,18 @@ class LagCompensator : public df::LagCompensation {
   void recordModel(std::uint32_t slot, const Publisher::Model& model, bool moved);
   void clearHistory(std::uint32_t slot);
 
-  std::vector<History> m_histories;  ///< by slot
+  std::vector<History> m_histories;  ///< indexed by slot
   std::array<Views, kTicks + 1> m_views;
   std::uint32_t m_tick = 0;
   bool m_has_ticks = false;
 };
 
-/// Which tick each of the last snapshots to one client was of.
+/// The tick of each of the last snapshots to one client.
 class SnapshotTicks {
  public:
-  /// Snapshot `number` of `tick` was sent.
+  /// Records that snapshot `number` of `tick` was sent.
   void recordSent(std::uint32_t number, std::uint32_t tick) { m_sent[number % kKept] = {number, tick}; }
-  /// The tick of this snapshot; nothing for one that was not sent, or long ago.
+  /// Returns the tick of this snapshot; nullopt if it was not among the last kKept sent.
   std::optional<std::uint32_t> tickOf(std::uint32_t number) const {
     const Sent& sent = m_sent[number % kKept];
     return number != 0 && sent.number == number ? std::optional(sent.tick) : std::nullopt;

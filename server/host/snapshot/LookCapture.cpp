@@ -14,7 +14,7 @@ CellPosition cellOfCommand(const df::DrawCommand& command) {
   return {df::cellOf(command.position.x), df::cellOf(command.position.y)};
 }
 
-/// Append a glyph unless it lies too far away to be described.
+/// Appends a glyph unless it is too far away to be encoded.
 void append(Appearance& out, std::int64_t dx, std::int64_t dy, const df::DrawCommand& command) {
   if (std::max(std::abs(dx), std::abs(dy)) > kMaxGlyphOffset || out.size() >= kMaxGlyphs) return;
   out.push_back({static_cast<std::int32_t>(dx), static_cast<std::int32_t>(dy), command.ch, command.color});
@@ -35,8 +35,8 @@ bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position
 
 Appearance captureAppearance(df::FixedVector position, std::span<const df::DrawCommand> commands) {
   constexpr int kShift = df::kFixedBits - kGlyphUnitBits;
-  // Unsigned, because two legal positions may lie farther apart than the type reaches. The wrapped offset is
-  // far beyond kMaxGlyphOffset then, as the true one is.
+  // Unsigned, because two legal positions may be farther apart than the type can hold. The wrapped offset is
+  // then far beyond kMaxGlyphOffset, like the true one.
   const auto offset = [](df::Fixed to, df::Fixed from) {
     constexpr std::uint64_t kHalf = std::uint64_t{1} << (kShift - 1);
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from) +
@@ -63,7 +63,7 @@ Appearance captureCells(df::FixedVector position, std::span<const df::DrawComman
 }
 
 Sequence fitToRecord(Appearance appearance) {
-  constexpr std::size_t kMaxBits = 128;  // more than any glyph takes
+  constexpr std::size_t kMaxBits = 128;  // upper bound of the bits of a glyph
   Sequence fitted{appearance};
   while (appearance.size() * kMaxBits > 8 * kMaxLookBytes && encodedBits(fitted) > 8 * kMaxLookBytes) {
     appearance.resize(appearance.size() - (appearance.size() / 8 + 1));

@@ -1,4 +1,4 @@
-// From what draw() put on the screen to a look, and back: does a published look draw the same cells?
+// Converts what draw() put on the screen to a look, and checks whether a look draws what draw() did.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,19 @@
 
 namespace naiad {
 
-/// Would `look`, at `tick` and `position`, put exactly these characters into exactly these cells?
+/// True if `look`, at `tick` and `position`, puts exactly these characters into exactly these cells.
 bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position,
                   std::span<const df::DrawCommand> commands);
 
-/// The appearance of an object at `position` that drew `commands`: offsets rounded to 1/256 cell, which is
-/// what was meant where game code went through floats.
+/// Returns the appearance of an object at `position` that drew `commands`. Offsets are rounded to 1/256 cell,
+/// which removes the rounding errors of game code that computes in floats.
 Appearance captureAppearance(df::FixedVector position, std::span<const df::DrawCommand> commands);
 
-/// As above, with offsets in whole cells from the cell that `position` lies in: right at this position
-/// whatever the rounding.
+/// Like captureAppearance(), but with offsets in whole cells from the cell of `position`. It draws the right
+/// cells at this position, whatever the rounding.
 Appearance captureCells(df::FixedVector position, std::span<const df::DrawCommand> commands);
 
-/// A sequence of this alone, with characters cut off its end until it fits kMaxLookBytes.
+/// Returns a sequence of this appearance alone, without the last characters if it would exceed kMaxLookBytes.
 Sequence fitToRecord(Appearance appearance);
 
 }  // namespace naiad

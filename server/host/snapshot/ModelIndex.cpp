@@ -7,7 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// Put the slot into the list, or take it out.
+/// Adds the slot to the list or removes it.
 void setListed(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_listed, bool should_be) {
   if (is_listed == should_be) return;
   is_listed = should_be;
@@ -16,7 +16,7 @@ void setListed(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_l
   slots.pop_back();
 }
 
-/// Does it move by more than a cell in a tick, or may it soon?
+/// True if it moves by more than a cell in a tick, or is accelerated and may soon.
 bool isFast(const Motion& motion) {
   const auto above = [](df::Fixed v) { return v > df::kFixedOne || v < -df::kFixedOne; };
   return motion.acceleration != df::FixedVector{} || above(motion.velocity.x) || above(motion.velocity.y);

@@ -1,5 +1,4 @@
-// The published models by place: those near a rectangle of cells, and those too wide or fast to have one
-// place.
+// The published models by place: those near a rectangle of cells, and those too wide or fast for the grid.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +11,27 @@ namespace naiad {
 
 class ModelIndex {
  public:
-  /// The lists that a model is in; kept beside the model.
+  /// The lists that contain a model; stored with the model.
   struct Membership {
     bool wide = false;
     bool fast = false;
   };
 
-  /// The model was born or died, or its reach changed. `position`: of its object.
+  /// Call when the model was born or died, or its reach changed. `position`: of its object.
   void fileModel(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
                  Membership& membership);
-  /// The object has moved.
+  /// Call when the object has moved.
   void fileMove(std::uint32_t slot, df::FixedVector position, const Membership& membership) {
     if (!membership.wide) m_grid.put(slot, {df::cellOf(position.x), df::cellOf(position.y)});
   }
-  /// The model died or has another motion.
+  /// Call when the model died or has another motion.
   void fileMotion(std::uint32_t slot, const PublishedModel& model, Membership& membership);
-  /// The index knows the speed of all models that are not fast; to be called for each that changed.
+  /// Updates the maximum speed of the models that are not fast. Call for each changed model.
   void noteSpeed(const PublishedModel& model, const Membership& membership);
 
-  /// Call `visit(slot)` for every live model of which something may be drawn in `rect` within so many ticks,
-  /// and for some around it, but those well inside `inner` may be left out. Models that are wide or faster
-  /// than a cell per tick are visited wherever they are; some models twice.
+  /// Calls `visit(slot)` for every live model that may be drawn in `rect` within this many ticks, and for
+  /// some others. May skip models well inside `inner`. Visits wide models and those faster than a cell per
+  /// tick wherever they are; some models twice.
   template <class Visit>
   void forEachNear(const CellRect& rect, std::uint32_t ticks, const CellRect& inner, Visit visit) const {
     const std::int64_t x = m_reach + cellsIn(ticks, m_speed.x);
@@ -44,16 +43,16 @@ class ModelIndex {
   }
 
  private:
-  /// Cells covered at this speed, rounded up.
+  /// Cells covered in `ticks` at this speed, rounded up.
   static std::int64_t cellsIn(std::uint32_t ticks, df::Fixed speed) {
     return (std::int64_t{ticks} * speed >> df::kFixedBits) + 1;
   }
 
-  InterestGrid m_grid;                ///< of those that are not wide
-  std::vector<std::uint32_t> m_wide;  ///< models that reach farther than kWide, and the loose one
+  InterestGrid m_grid;                ///< models that are not wide
+  std::vector<std::uint32_t> m_wide;  ///< models with a reach above kWide, and kLooseSlot
   std::vector<std::uint32_t> m_fast;  ///< models that move by more than a cell per tick, or are accelerated
-  std::int32_t m_reach = 0;           ///< of those that are not wide, the farthest so far
-  df::FixedVector m_speed;            ///< of those that are not fast, the highest so far on each axis
+  std::int32_t m_reach = 0;           ///< highest reach so far of the models that are not wide
+  df::FixedVector m_speed;            ///< highest speed so far on each axis of the models that are not fast
 };
 
 }  // namespace naiad

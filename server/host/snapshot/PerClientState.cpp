@@ -12,9 +12,9 @@ namespace naiad {
 
 namespace {
 
-/// Cells by which a window exceeds the view, at least.
+/// Minimum number of cells by which a window exceeds the view.
 constexpr std::int64_t kMargin = 8;
-/// Orders farther than this from the window's take too many bits.
+/// Orders farther than this from the window's order take too many bits.
 constexpr std::uint64_t kFarOrder = 1 << 14;
 
 bool covers(std::int32_t from, std::int32_t bits, std::int32_t low, std::int32_t extent) {
@@ -25,7 +25,7 @@ std::int32_t bitsFor(std::int32_t extent) {
   return static_cast<std::int32_t>(std::bit_width(static_cast<std::uint32_t>(extent + kMargin - 1)));
 }
 
-/// The id of the object, whose birth was sent or is pending; kNone if it has none.
+/// The id of the object whose birth was sent or is pending; kNone if it has none.
 std::uint32_t idOf(df::ObjectKey object, const KnownObjects& known) {
   const std::uint32_t id = object.generation != 0 ? known.find(object.slot) : KnownObjects::kNone;
   const bool same = id != KnownObjects::kNone && known.at(id).generation == object.generation;
@@ -42,7 +42,7 @@ std::uint32_t OriginChoice::updateWindow(CellPosition view_corner, const WorldRe
       newest_order - newest.order < kFarOrder) {
     return 0;
   }
-  // A slot that is unconfirmed may be set again, since no snapshot names it yet.
+  // An unconfirmed slot may be set again, because no snapshot uses it yet.
   const bool pending = m_newest != m_slot;
   if (!pending) m_newest = m_newest % kOriginSlots + 1;
   Origin& origin = m_origins[m_newest];
@@ -80,7 +80,7 @@ bool AckedControl::implies(const ControlRecord& actual, const df::ControlTable& 
   return m_model == actual;
 }
 
-// ---- what is pending --------------------------------------------------------------------------------------
+// ---- pending parts ----------------------------------------------------------------------------------------
 
 void PerClientState::applyTick(const Publisher& publisher, const df::PlayerFacts& player) {
   applyPlayer(player);
@@ -91,7 +91,7 @@ void PerClientState::applyTick(const Publisher& publisher, const df::PlayerFacts
   applyOrigin(publisher);
 }
 
-// Strings and tables are copied only when they change.
+// Copies strings and tables only when they change.
 void PerClientState::applyPlayer(const df::PlayerFacts& player) {
   m_player.id = player.id;
   m_player.followed = player.followed;
@@ -158,13 +158,13 @@ void PerClientState::queueCorrections(const Publisher& publisher, const KnownObj
   queueControl(publisher.tick(), known);
 }
 
-// Null if the client does not know the followed object.
+// Returns null if the client does not know the followed object.
 const Motion* PerClientState::followedMotion(const Publisher& publisher, const KnownObjects& known) const {
   if (idOf(m_player.followed, known) == KnownObjects::kNone) return nullptr;
   return &publisher.find(m_player.followed.slot)->state.motion;
 }
 
-// The view is a model too: it is sent where following the published object would show the wrong cells.
+// The view is also a model: it is sent when following the published object would show the wrong cells.
 void PerClientState::queueView(const Publisher& publisher, const KnownObjects& known) {
   const Motion* motion = followedMotion(publisher, known);
   ViewRecord actual{m_player.view_corner, motion != nullptr, 0, 0};
@@ -207,7 +207,7 @@ ControlRecord PerClientState::controlNow(std::uint32_t tick, const KnownObjects&
   return now;
 }
 
-// The state of the steered object is sent where the client could not have computed it.
+// The state of the steered object is sent when the client could not have computed it.
 void PerClientState::queueControl(std::uint32_t tick, const KnownObjects& known) {
   const df::ControlTable* p_table = m_player.steering.p_table.get();
   if (p_table == nullptr) {
@@ -218,7 +218,7 @@ void PerClientState::queueControl(std::uint32_t tick, const KnownObjects& known)
   if (!m_acked_control.implies(m_control, *p_table)) markPending(kControl);
 }
 
-// ---- sending it -------------------------------------------------------------------------------------------
+// ---- sending ----------------------------------------------------------------------------------------------
 
 void PerClientState::writeInput(SnapshotHeader& header) const {
   const State& input = m_states[kInput];
@@ -230,7 +230,7 @@ void PerClientState::writeInput(SnapshotHeader& header) const {
 
 bool PerClientState::write(SnapshotWriter& writer, std::uint32_t number, std::size_t limit, bool repeats) {
   const std::uint32_t before = m_pending;
-  if (isPending(kInput)) markSent(kInput, number, repeats);  // the header names it
+  if (isPending(kInput)) markSent(kInput, number, repeats);  // it is in the header
   for (std::uint32_t left = m_pending; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     const std::size_t max_bits = i == kTable ? 8 * m_table.size() + 16 : kMaxBits;
@@ -278,7 +278,7 @@ void PerClientState::queueRepeats() {
 }
 
 void PerClientState::confirmArrival(std::uint32_t number, bool probe) {
-  // All snapshots since the first name the input, until one is known to have arrived.
+  // Every snapshot since the first carries the input in its header, until one is known to have arrived.
   State& input = m_states[kInput];
   if (!probe && input.sent != 0 && !isNewer(input.sent, number)) input.arrived = true;
   for (std::size_t i = 0; i < kCount; ++i) {

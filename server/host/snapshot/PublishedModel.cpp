@@ -7,10 +7,10 @@ namespace naiad {
 
 namespace {
 
-/// The reach of a view object, so that it is of interest to every client wherever its view is.
+/// The reach of a view object. It makes the object interesting to every client, wherever its view is.
 constexpr std::int32_t kOnEveryView = 1 << 20;
 
-/// An upper bound of the cells that a motion covers in `ticks`.
+/// Returns an upper bound of the cells that a motion covers in `ticks`.
 std::int64_t cellsCovered(df::Fixed velocity, df::Fixed acceleration, std::int64_t ticks) {
   constexpr std::int64_t kFar = 1 << 30;
   constexpr std::int64_t kFine = df::kFixedOne >> 8;

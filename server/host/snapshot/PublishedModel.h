@@ -1,4 +1,4 @@
-// One slot of the published world, and the cells in which it may be drawn.
+// One slot of the published world, and the cells in which its model may be drawn.
 #pragma once
 
 #include <cstdint>
@@ -9,33 +9,33 @@
 
 namespace naiad {
 
-/// The slot under which characters drawn outside any object's draw() are published.
+/// Slot of the published characters that were drawn outside any object's draw().
 inline constexpr std::uint32_t kLooseSlot = kMaxSlots - 1;
 
 struct PublishedModel {
-  /// A model that reaches more cells than this is in every client's interest.
+  /// Cells. A model with a greater reach is in every client's interest.
   static constexpr std::int32_t kWide = 24;
 
   std::uint32_t generation = 0;
   bool alive = false;
   ObjectState state;
-  std::uint64_t look_sum = 0;  ///< of the sequence; 0 if it is one character or none
-  bool recurs = false;         ///< the look was published before, or changes by itself: worth a name
-  std::int32_t reach = 0;      ///< cells from its own that its characters may be drawn in, at most
+  std::uint64_t look_sum = 0;  ///< checksum of the sequence; 0 if it has at most one character
+  bool recurs = false;         ///< the look was published before or is animated, so naming it saves bytes
+  std::int32_t reach = 0;      ///< upper bound of the distance of its characters from its position, in cells
 };
 
-/// The cells in which something of a model may be drawn.
+/// The cells in which any part of a model may be drawn.
 struct ModelOutlook {
   std::uint32_t generation = 0;  ///< 0: the slot is empty
-  CompactRect soon;              ///< now, or at the end of some ticks
-  CompactRect later;             ///< at any time in these and some more
+  CompactRect soon;              ///< now, or exactly `soon` ticks later
+  CompactRect later;             ///< now and until `later` ticks later, and some more
 };
 
-/// As PublishedModel::reach, from its look and body.
+/// Computes PublishedModel::reach from the model's look and body.
 std::int32_t reachOf(const PublishedModel& model);
-/// The cells in which something of the model may be drawn from `tick` to `ticks` later, and some more.
+/// Returns cells that include all in which the model may be drawn from `tick` to `tick + ticks`.
 CellRect sweepOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t ticks);
-/// `soon`, `later`: ticks from `tick`.
+/// Computes the outlook. `soon`, `later`: in ticks from `tick`.
 ModelOutlook outlookOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t soon,
                        std::uint32_t later);
 

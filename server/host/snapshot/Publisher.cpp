@@ -11,18 +11,18 @@ namespace naiad {
 
 namespace {
 
-/// Above this number of looks, those not entered for kForgetAfter ticks are forgotten.
+/// Looks. Above this number, those not entered for kForgetAfter ticks are dropped.
 constexpr std::size_t kMaxRemembered = 16'384;
 constexpr std::uint32_t kForgetAfter = 9'000;
-/// Sequences kept to be shared, whether an object still has them or not.
+/// Shared sequences, including those that no object has any more.
 constexpr std::size_t kMaxShared = 2'048;
 
-/// Paths are fitted for at least so many ticks, and after a turn for at most so many.
+/// Ticks. A path is fitted for at least kShortestHorizon, and after a turn for at most kHorizonAfterTurn.
 constexpr std::uint32_t kShortestHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
-/// A path that outlives its model's horizon gets a new one of so many times its age.
+/// A path that outlives its model's horizon is fitted again, for its age times this.
 constexpr std::uint32_t kPatience = 8;
-/// With more distinct offsets than this a fit is slow and rarely finds coarse numbers.
+/// With more distinct offsets, a fit is slow and rarely finds coarse numbers.
 constexpr std::size_t kMaxOffsets = 6;
 
 }  // namespace
@@ -43,7 +43,7 @@ void LookCatalogue::enterLook(PublishedModel& model, std::uint32_t tick) {
   if (m_last_used.size() > kMaxRemembered) m_last_used.clear();
 }
 
-// Objects that look the same share one copy, since every tick compares it with what they draw.
+// Objects with equal looks share one copy, because every tick compares it with what they draw.
 void LookCatalogue::share(Sequence& sequence) {
   if (sequence.empty()) return;
   if (m_sequences.size() >= kMaxShared) m_sequences.clear();
@@ -166,7 +166,7 @@ bool Publisher::isExact(const Tracked& tracked) const {
   return m_exact.contains({static_cast<std::uint32_t>(&tracked - m_models.data()), model.generation});
 }
 
-// An object that a player begins to follow may have had a coarse model.
+// An object that a player just began to follow may have a coarse model.
 void Publisher::keepExact(df::ObjectKey key) {
   if (key.slot >= m_models.size()) return;
   Tracked& tracked = m_models[key.slot];
@@ -174,13 +174,13 @@ void Publisher::keepExact(df::ObjectKey key) {
   const Motion truth = truthNow(tracked);
   if (rebase(tracked.model.state.motion, m_tick) == truth) return;
   tracked.model.state.motion = truth;
-  // In the next tick at the latest, but not in this one, in which it may still turn out not to be drawn.
+  // Examine it in the next tick at the latest; in this tick if that is due, because it may not be drawn.
   if (isNewer(m_examine_at[key.slot], m_tick + 1)) m_examine_at[key.slot] = m_tick + 1;
   tracked.off_views = m_tick;
   markChanged(key.slot, tracked, kMotion);
 }
 
-// Solids that were published before any client predicted.
+// Corrects the solids that were published before any client predicted.
 void Publisher::keepSolidsExact() {
   for (std::uint32_t slot = 0; slot < m_models.size(); ++slot) {
     const Tracked& tracked = m_models[slot];
@@ -188,11 +188,11 @@ void Publisher::keepSolidsExact() {
   }
 }
 
-// Find coarser numbers for a motion that was just copied from the world.
+// Finds coarser numbers for a motion that was just copied from the world.
 void Publisher::fitModel(Tracked& tracked) {
   if (&tracked == &m_loose || isExact(tracked)) return;
   const Sequence& sequence = tracked.model.state.look.sequence;
-  std::array<df::FixedVector, kMaxOffsets> offsets{};  // the position's own cell, first of all
+  std::array<df::FixedVector, kMaxOffsets> offsets{};  // starts with the position's own cell
   std::size_t count = 1;
   const auto add = [&](std::int32_t dx, std::int32_t dy) {
     constexpr int kShift = df::kFixedBits - kGlyphUnitBits;
@@ -221,7 +221,7 @@ void Publisher::fitModel(Tracked& tracked) {
       fitMotion(tracked.model.state.motion, std::span(offsets).first(count), horizon);
 }
 
-// To be called when the object's reach or place in the index may have changed.
+// Call when the object's reach or its place in the index may have changed.
 void Publisher::fileModel(std::uint32_t slot, Tracked& tracked) {
   tracked.model.reach = reachOf(tracked.model);
   m_index.fileModel(slot, tracked.model, tracked.truth.position, tracked.membership);
@@ -253,7 +253,7 @@ void Publisher::applyFacts(const df::ObjectFacts& facts) {
   m_index.fileMove(facts.key.slot, truth.position, tracked->membership);
   if (model.state.body != body) {
     model.state.body = body;
-    fileModel(facts.key.slot, *tracked);  // it may be a view object from now on
+    fileModel(facts.key.slot, *tracked);  // it may have become a view object
     markChanged(facts.key.slot, *tracked, kBody);
   }
   if (model.state.look.altitude != facts.altitude) {

@@ -1,11 +1,11 @@
-// The published models: one of each object, the same for all clients.
+// The published models: one per object, shared by all clients.
 //
 // Clients extrapolate a model exactly as the publisher does, so the publisher knows what is on their screens.
 // After each tick it compares that with the world. It changes a model only where the model would draw a wrong
-// cell, or where a look or a body changed, so objects in straight flight cost nothing.
+// cell, or where a look or a body changed. So objects in straight flight cost nothing.
 //
-// A model says what an object draws, not its position to the last bit: MotionFit finds numbers that take few
-// bits and draw the same cells for as long as the path may be expected to last.
+// A model determines which cells an object draws, not its exact position. MotionFit finds numbers that take
+// few bits and draw the right cells for as long as the path is expected to last.
 #pragma once
 
 #include <algorithm>
@@ -26,11 +26,10 @@
 
 namespace naiad {
 
-/// The objects whose published positions are exact to the bit, as a client's view or prediction needs them.
+/// Objects whose published positions must be exact, because views or predictions depend on them.
 class ExactObjects {
  public:
-  /// Take in one tick: the objects that players follow or steer. Returns whether any player steers by
-  /// declared controls.
+  /// Updates the objects that players follow or steer. Returns true if any player has declared controls.
   bool updatePlayers(std::span<const df::PlayerFacts> players) {
     m_keys.clear();
     bool controls = false;
@@ -51,47 +50,47 @@ class ExactObjects {
     return false;
   }
 
-  /// Solid objects that stand still are exact, too.
+  /// Sets whether solid objects that stand still are exact, too.
   void setSolids(bool exact) {
     m_solids_are_new = m_solids_are_new || (exact && !m_solids);
     m_solids = exact;
   }
   bool hasSolids() const { return m_solids; }
-  /// True once after setSolids(): those published before are still coarse.
+  /// True once after setSolids(true) takes effect: the solids published before are still coarse.
   bool takeNewSolids() { return std::exchange(m_solids_are_new, false); }
 
  private:
   static bool isBefore(df::ObjectKey a, df::ObjectKey b) { return a.slot < b.slot; }
 
-  std::vector<df::ObjectKey> m_keys;  ///< by slot
+  std::vector<df::ObjectKey> m_keys;  ///< sorted by slot
   bool m_solids = false;
   bool m_solids_are_new = false;
 };
 
-/// The looks that were published lately: which of them recur, and one copy of each in memory.
+/// The looks published recently: which of them recur, and one shared copy of each.
 class LookCatalogue {
  public:
-  /// The model has a new look: compute its sum, find out whether it recurs, and share its memory.
+  /// Call when the model has a new look: computes look_sum and `recurs`, and shares the look's memory.
   void enterLook(PublishedModel& model, std::uint32_t tick);
 
  private:
   void share(Sequence& sequence);
 
-  std::unordered_map<std::uint64_t, std::uint32_t> m_last_used;  ///< by sum: the tick of the last enterLook()
-  std::unordered_map<std::uint64_t, Sequence> m_sequences;       ///< by sum: some of those that are published
+  std::unordered_map<std::uint64_t, std::uint32_t> m_last_used;  ///< enterLook() tick of each checksum
+  std::unordered_map<std::uint64_t, Sequence> m_sequences;       ///< some published looks, by checksum
 };
 
-/// Values by slot that are the same for all clients in a tick, computed when the first client asks.
+/// Values per slot that all clients share for one tick, computed on first use.
 template <class Value>
 class TickCache {
  public:
-  /// Forget all values.
+  /// Drops all values.
   void clear() { ++m_round; }
-  /// Null if it was not put there since the last clear().
+  /// Null if no value was put there since the last clear().
   const Value* find(std::size_t index) const {
     return index < m_entries.size() && m_entries[index].round == m_round ? &m_entries[index].value : nullptr;
   }
-  /// `size`: more than any index until the next clear(). The reference is valid until the next put().
+  /// Stores a value. `size` exceeds all indices until the next clear(). Valid until the next put().
   const Value& put(std::size_t index, std::size_t size, Value value) {
     m_entries.resize(size);
     m_entries[index] = {m_round, std::move(value)};
@@ -107,10 +106,10 @@ class TickCache {
   std::uint32_t m_round = 1;
 };
 
-/// Finds out whether all views move slowly enough to predict what enters them.
+/// Detects views that move too fast to predict which objects enter them.
 class ViewMoves {
  public:
-  /// Take in one tick. Returns whether a view has appeared or moved by more than a cell, or was resized.
+  /// Records one tick. Returns true if a view has appeared, moved by more than a cell, or was resized.
   bool updateViews(const df::WorldView& view) {
     bool jumped = view.players.size() != m_corners.size();
     m_corners.resize(view.players.size());
@@ -126,7 +125,7 @@ class ViewMoves {
   }
 
  private:
-  std::vector<df::FixedVector> m_corners;  ///< a tick ago
+  std::vector<df::FixedVector> m_corners;  ///< corners in the previous tick
   std::int32_t m_width = 0;
   std::int32_t m_height = 0;
 };
@@ -135,7 +134,7 @@ class Publisher {
  public:
   using Model = PublishedModel;
   using Outlook = ModelOutlook;
-  /// What an update changed about a slot; groups 0: the object is gone.
+  /// A slot that an update changed. groups 0: the object is gone.
   struct Change {
     std::uint32_t slot = 0;
     std::uint8_t groups = 0;
@@ -143,16 +142,16 @@ class Publisher {
   };
   static constexpr std::uint32_t kSweep = 16;
 
-  /// Take in one tick of the world. Then `changes()` lists what is new for clients.
+  /// Processes one tick of the world. Afterwards changes() lists what is new for clients.
   void update(const df::WorldView& view);
 
   std::uint32_t tick() const { return m_tick; }
   const std::vector<Change>& changes() const { return m_changes; }
-  /// The same, indexed for searches.
+  /// The changes, indexed for searches.
   const ChangeIndex& changeIndex() const { return m_change_index; }
   /// The model in `slot`; null if the slot is empty.
   const Model* find(std::uint32_t slot) const;
-  /// Call `visit(slot, model)` for every live model, in slot order.
+  /// Calls `visit(slot, model)` for every live model, in slot order.
   template <class Visit>
   void forEach(Visit visit) const {
     for (std::uint32_t slot = 0; slot < m_models.size(); ++slot) {
@@ -160,56 +159,55 @@ class Publisher {
     }
     if (m_loose.model.alive) visit(kLooseSlot, m_loose.model);
   }
-  /// The cells in which the model in `slot` may be drawn, now, in `soon` ticks and up to `later` ticks. The
-  /// results for the last pair of numbers are cached; the reference is valid until the next update() or
-  /// outlook().
+  /// Returns where the model in `slot` may be drawn: now, in `soon` ticks, and up to `later` ticks. Cached
+  /// for the last pair of numbers. The reference is valid until the next update() or outlook().
   const Outlook& outlook(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const {
     const Outlook* cached = soon == m_soon && later == m_later ? m_outlooks.find(cacheIndex(slot)) : nullptr;
     return cached != nullptr ? *cached : computeOutlook(slot, soon, later);
   }
-  /// The motion of the live model in `slot`, at tick() and encoded. Valid until the next call.
+  /// Returns the encoded motion, at tick(), of the live model in `slot`. Valid until the next call.
   const SharedMotion& sharedMotion(std::uint32_t slot) const {
     const SharedMotion* cached = m_motions.find(cacheIndex(slot));
     return cached != nullptr ? *cached : shareMotionOf(slot);
   }
   const WorldRecord& world() const { return m_world; }
-  /// ModelIndex::forEachNear() among the models.
+  /// Calls ModelIndex::forEachNear().
   template <class Visit>
   void forEachNear(const CellRect& rect, std::uint32_t ticks, const CellRect& inner, Visit visit) const {
     m_index.forEachNear(rect, ticks, inner, visit);
   }
 
-  /// All slots but the loose one are below this.
+  /// An upper bound: all slots except kLooseSlot are below this.
   std::size_t slotCount() const { return m_models.size(); }
-  /// Live models.
+  /// Number of live models.
   std::size_t liveCount() const { return m_live; }
-  /// The highest creation order published so far.
+  /// Highest creation order published so far.
   std::uint64_t newestOrder() const { return m_newest_order; }
 
-  /// Positions of solid objects that stand still are exact, since clients predict moves among them. Set with
-  /// the first player who has controls.
+  /// Sets whether solid objects that stand still have exact positions, because clients predict moves among
+  /// them. Set automatically for the first player with controls.
   void setExactSolids(bool exact) { m_exact.setSolids(exact); }
 
-  /// Models corrected because they would have drawn a wrong cell, since the start.
+  /// Number of models corrected because they would have drawn a wrong cell, since the start.
   std::uint64_t correctionCount() const { return m_corrections; }
-  /// Objects left out because their slot is beyond kMaxSlots.
+  /// Number of reports of objects that were ignored because their slot is beyond kMaxSlots.
   std::uint64_t refusedCount() const { return m_refused; }
 
  private:
   struct Tracked {
     Model model;
     Motion truth;           ///< position and velocity as last reported
-    Motion path;            ///< at the beginning of its present straight path
-    std::uint32_t run = 0;  ///< ticks that the previous path lasted
+    Motion path;            ///< motion at the start of the present straight path
+    std::uint32_t run = 0;  ///< duration of the previous path, in ticks
     ModelIndex::Membership membership;
     bool shown = true;
     std::uint32_t drawn = 0;      ///< newest tick in which its draw() ran
-    std::uint32_t off_views = 0;  ///< until this tick its look cannot enter a view
+    std::uint32_t off_views = 0;  ///< its look cannot enter a view before this tick
     std::uint8_t changed = 0;
-    bool touched = false;  ///< in m_changes already
+    bool touched = false;  ///< already in m_changes
   };
 
-  /// In the caches, where the loose one is the last.
+  /// Index in the caches; kLooseSlot is the last.
   std::size_t cacheIndex(std::uint32_t slot) const { return std::min<std::size_t>(slot, m_models.size()); }
   const SharedMotion& shareMotionOf(std::uint32_t slot) const;
   const Outlook& computeOutlook(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
@@ -236,7 +234,7 @@ class Publisher {
   void finishChange(Change& change);
 
   std::vector<Tracked> m_models;
-  std::vector<std::uint32_t> m_examine_at;  ///< by slot: the tick in which correctUndrawn() must examine it
+  std::vector<std::uint32_t> m_examine_at;  ///< tick of the next correctUndrawn() of each slot
   ViewMoves m_views;
   Tracked m_loose;
   std::vector<df::DrawCommand> m_off_view;  ///< scratch
@@ -249,7 +247,7 @@ class Publisher {
   std::size_t m_live = 0;
   mutable TickCache<Outlook> m_outlooks;
   mutable TickCache<SharedMotion> m_motions;
-  mutable std::uint32_t m_soon = 0;  ///< of m_outlooks
+  mutable std::uint32_t m_soon = 0;  ///< argument of m_outlooks
   mutable std::uint32_t m_later = 0;
   WorldRecord m_world;
   std::uint32_t m_tick = 0;

@@ -1,5 +1,4 @@
-// The Publisher's looks: what was drawn becomes a published look, and a look that is no longer drawn is
-// removed.
+// The Publisher's looks: publishes what was drawn, and removes looks that are no longer drawn.
 #include <algorithm>
 #include <cstdlib>
 
@@ -12,7 +11,7 @@ namespace naiad {
 
 namespace {
 
-/// Would any glyph of the appearance fall into any player's view?
+/// True if any glyph of the appearance falls into any player's view.
 bool landsInAView(const Appearance& appearance, df::FixedVector position, const df::WorldView& view) {
   return std::any_of(view.players.begin(), view.players.end(), [&](const df::PlayerFacts& player) {
     const std::int64_t left = df::cellOf(player.view_corner.x);
@@ -25,7 +24,7 @@ bool landsInAView(const Appearance& appearance, df::FixedVector position, const 
   });
 }
 
-/// Ticks in which the model, outside of all views now, cannot enter one, if views move by at most a cell per
+/// Number of ticks that the model, now outside all views, stays outside if views move at most a cell per
 /// tick.
 std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, const df::WorldView& view) {
   constexpr std::int64_t kFar = 1 << 20;
@@ -46,7 +45,7 @@ std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, c
   return free <= 0 ? 0 : static_cast<std::uint32_t>(free / (speed + 1));
 }
 
-/// An object that stands still and shows nothing is not examined for so many ticks.
+/// Ticks until an object that stands still and shows nothing is examined again.
 constexpr std::uint32_t kNeverExamine = 1u << 20;
 }  // namespace
 
@@ -55,13 +54,13 @@ void Publisher::applyDrawing(const df::WorldView& view, const df::DrawnObject& d
   Tracked& tracked = m_models[drawn.key.slot];
   if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
   tracked.drawn = tracked.off_views = m_tick;
-  m_examine_at[drawn.key.slot] = m_tick + 1;  // unless it is drawn again
+  m_examine_at[drawn.key.slot] = m_tick + 1;  // examined then, unless it is drawn again
   std::span<const df::DrawCommand> commands{view.commands.data() + drawn.first, drawn.count};
   if (drawn.on_view) commands = relativeToView(commands, view.corner);
   correctLook(drawn.key.slot, tracked, commands, declared);
 }
 
-// Commands drawn in the world's own view, relative to its corner, as every view has them.
+// Converts commands drawn in the world's own view to positions relative to its corner, as in every view.
 std::span<const df::DrawCommand> Publisher::relativeToView(std::span<const df::DrawCommand> drawn,
                                                            df::FixedVector corner) {
   m_off_view.assign(drawn.begin(), drawn.end());
@@ -76,7 +75,7 @@ void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<cons
   const df::FixedVector modelled = positionAt(state.motion, m_tick);
   if (isSameCell(modelled, truth) && drawsTheSame(state.look, m_tick, modelled, drawn)) return;
 
-  // The usual cause is a path that turned: try the known look at the true position before making a new one.
+  // Usually a path turned: try the known look at the true position before making a new one.
   if (!isSameCell(modelled, truth) || drawsTheSame(state.look, m_tick, truth, drawn)) {
     state.motion = truthNow(tracked);
     markChanged(slot, tracked, kMotion);
@@ -84,7 +83,7 @@ void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<cons
     if (drawsTheSame(state.look, m_tick, truth, drawn)) return;
   }
   const Look before = state.look;
-  // A declared look counts if it is what was drawn: the object's own draw() may have added to it.
+  // A declared look is used if it matches what was drawn: the object's own draw() may have drawn more.
   if (declared != nullptr && drawsTheSame(*declared, m_tick, truth, drawn)) {
     state.look.sequence = declared->sequence;
     state.look.selector = declared->selector;
@@ -95,8 +94,7 @@ void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<cons
   } else {
     captureLook(slot, tracked, drawn);
   }
-  // A drawing that is too large for a record is cut the same way each time, so that it is not a change each
-  // time.
+  // A drawing too large for a record is cut in a deterministic way, so it does not change every tick.
   if (state.look != before) markChanged(slot, tracked, kLook);
 }
 
@@ -127,7 +125,7 @@ void Publisher::applyLoose(const df::WorldView& view) {
   }
   if (loose.empty() && !m_loose.model.alive) return;
   if (!m_loose.model.alive) {
-    // Below all objects, and never moving: each glyph's offset is its place.
+    // Below all objects and motionless: each glyph's offset is its position.
     m_loose.model = {1, true, {0, {m_tick, loose.front().position, {}, {}}, {{}, 0}, {}}};
     m_loose.model.state.body.solidness = df::SPECTRAL;
     m_loose.truth = m_loose.model.state.motion;
@@ -159,7 +157,7 @@ void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::W
     markChanged(slot, tracked, kMotion);
     ++m_corrections;
   }
-  // draw() did not run, so nothing may show. Outside of every view the look may stay, unseen.
+  // draw() did not run, so nothing may show. Outside all views the look may stay, unseen.
   const Appearance* appearance = state.look.select(m_tick);
   if (appearance == nullptr) return;
   if (tracked.shown && tracked.changed == 0 && isNewer(tracked.off_views, m_tick)) return;

@@ -1,5 +1,4 @@
-// The checksums that a client's replica has after each of the last snapshots, to be compared with the
-// client's own.
+// The checksums of a client's replica after its last snapshots, to compare with the client's own.
 #pragma once
 
 #include <array>
@@ -13,37 +12,36 @@ namespace naiad {
 
 class SentChecksums {
  public:
-  /// `first`: number of the first snapshot to come.
+  /// `first`: number of the next snapshot.
   explicit SentChecksums(std::uint32_t first = 1) : m_clean_from(first) {}
 
-  /// A replica that has all snapshots up to `number` has this checksum.
+  /// Records the checksum of a replica that has all snapshots up to `number`.
   void recordSent(std::uint32_t number, std::uint64_t checksum) { at(number) = {number, checksum}; }
-  /// The newest snapshot carries all that was pending.
+  /// Call when snapshot `number`, the newest, carries everything pending.
   void recordComplete(std::uint32_t number) {
     if (!m_repairing) return;
     m_clean_from = number;
     m_repairing = false;
   }
-  /// The snapshot was not sent after all.
+  /// Call when the newest snapshot is not sent after all.
   void removeNewest(std::uint32_t number) { at(number) = {}; }
-  /// The snapshot was lost. `pending`: what it carried is pending again, or still. `newest`: number of the
-  /// newest snapshot.
+  /// Call when the snapshot was lost. `pending`: its contents are pending. `newest`: newest snapshot's
+  /// number.
   void recordLost(const Flight::Snapshot& snapshot, bool pending, std::uint32_t newest) {
     m_repairing = m_repairing || pending;
-    // Where nothing is missing, newer snapshots have carried the same.
+    // If nothing is pending, newer snapshots have already carried the contents.
     if (!snapshot.empty && isNewer(newest, m_clean_from)) m_clean_from = newest;
     Moment& moment = at(snapshot.number);
     if (moment.number == snapshot.number)
       moment.fate = snapshot.empty ? Moment::kNotMissed : Moment::kRepaired;
   }
 
-  /// Is this the checksum of a replica that has the snapshots in `acks`, all of which are settled? Nothing if
-  /// too little is known of that moment.
+  /// True if this is the checksum of a replica that has the snapshots in `acks`, after acknowledge(). Returns
+  /// nullopt if too little is known about that moment.
   std::optional<bool> matches(const AckWindow& acks, std::uint64_t checksum) const {
     const std::uint32_t number = acks.newest;
     if (m_repairing || isNewer(m_clean_from, number)) return std::nullopt;
-    // Every snapshot that is missing must be known to be lost, and its contents sent again since. Those older
-    // than the window are.
+    // Each missing snapshot must be known lost and its contents sent again. Those before the window are.
     const Moment* acknowledged = nullptr;
     for (const Moment& moment : m_moments) {
       const std::uint32_t behind = number - moment.number;
@@ -59,17 +57,18 @@ class SentChecksums {
 
  private:
   static constexpr std::size_t kMaxMoments = 2 * Flight::kMaxSnapshots;
-  /// The replica after a snapshot.
+  /// The state of the replica after a snapshot.
   struct Moment {
     std::uint32_t number = 0;
     std::uint64_t checksum = 0;
-    enum : std::uint8_t { kUnknown, kNotMissed, kRepaired } fate = kUnknown;  ///< of a lost snapshot
+    enum : std::uint8_t { kUnknown, kNotMissed, kRepaired } fate = kUnknown;  ///< set for lost snapshots
   };
   Moment& at(std::uint32_t number) { return m_moments[number % kMaxMoments]; }
 
-  std::array<Moment, kMaxMoments> m_moments;  ///< by number, modulo their count
-  std::uint32_t m_clean_from;                 ///< from here on, all that was lost before has been sent again
-  bool m_repairing = false;                   ///< what was lost is pending
+  std::array<Moment, kMaxMoments> m_moments;  ///< indexed by number modulo kMaxMoments
+  std::uint32_t m_clean_from;                 ///< since this snapshot, everything lost before has been sent
+                                              ///< again
+  bool m_repairing = false;                   ///< lost contents are pending
 };
 
 }  // namespace naiad

@@ -10,7 +10,7 @@ class SlotMap {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-  /// The id filed under `slot`; kNone if there is none.
+  /// Returns the id stored for `slot`; kNone if none.
   std::uint32_t find(std::uint32_t slot) const {
     if (m_entries.empty()) return kNone;
     for (std::size_t i = home(slot);; i = next(i)) {
@@ -18,11 +18,11 @@ class SlotMap {
       if (m_entries[i].slot == kNone) return kNone;
     }
   }
-  /// Have memory fetched: find() will be asked for `slot`.
+  /// Prefetches memory for a later find(slot).
   void prefetch(std::uint32_t slot) const {
     if (!m_entries.empty()) __builtin_prefetch(&m_entries[home(slot)]);
   }
-  /// `slot` must not be filed.
+  /// Adds `slot`, which must not be in the map.
   void insert(std::uint32_t slot, std::uint32_t id) {
     if (2 * (m_count + 1) > m_entries.size()) grow();
     std::size_t i = home(slot);
@@ -30,11 +30,11 @@ class SlotMap {
     m_entries[i] = {slot, id};
     ++m_count;
   }
-  /// `slot` must be filed.
+  /// Removes `slot`, which must be in the map.
   void erase(std::uint32_t slot) {
     std::size_t hole = home(slot);
     while (m_entries[hole].slot != slot) hole = next(hole);
-    // Close the gap: entries behind it that could not be found any more move up.
+    // Move later entries into the hole if they could no longer be found.
     for (std::size_t i = next(hole); m_entries[i].slot != kNone; i = next(i)) {
       const std::size_t wanted = home(m_entries[i].slot);
       const bool reachable = hole < i ? wanted > hole && wanted <= i : wanted > hole || wanted <= i;

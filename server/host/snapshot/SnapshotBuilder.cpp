@@ -13,27 +13,27 @@ namespace naiad {
 
 namespace {
 
-/// A tick of waiting counts as much as being so many cells nearer.
+/// A tick of waiting counts like being this many cells nearer.
 constexpr double kCellsPerTick = 8;
-/// For repeating, a cell per tick of speed counts as much as being so many cells nearer.
+/// For repeats, a cell per tick of speed counts like being this many cells nearer.
 constexpr double kCellsPerSpeed = 20;
 /// Deaths are short, and each removes a ghost.
 constexpr double kDeathUrgency = 1e6;
 constexpr double kOwnUrgency = 1e5;
 
-/// The objects that the view follows and that the player steers.
+/// True for the object that the view follows and the one that the player steers.
 bool isOwn(const KnownObjects::Known& known, const df::PlayerFacts& player) {
   const df::ObjectKey key{known.slot, known.generation};
   return player.followed == key || player.steering.object == key;
 }
 
-/// How urgently one client needs the record of an object, in cells of distance from the middle of its view.
+/// Urgency of an object's record for one client, in cells of distance from the middle of its view.
 class Urgency {
  public:
   Urgency(const ClientReplica& replica, const Publisher& publisher)
       : m_replica(replica), m_publisher(publisher) {}
   double of(std::uint32_t id) const {
-    // What is on the view, near its middle or has waited long comes first.
+    // Objects on the view, near its middle, or waiting for long come first.
     const KnownObjects::Known& known = m_replica.objects.at(id);
     const df::PlayerFacts& player = m_replica.state.player();
     if (known.life == KnownObjects::Life::kDying) return kDeathUrgency;
@@ -51,7 +51,7 @@ class Urgency {
     const double dy = 2 * (df::toCells(at.y) - df::toCells(focus.y));  // cells are twice as high as wide
     return waited - std::sqrt(dx * dx + dy * dy);
   }
-  /// Of repeating the record before a loss is known: an object that moves fast is soon wrong.
+  /// Urgency of repeating the record before a loss is known: a fast object is soon wrong.
   double ofRepeating(std::uint32_t id) const {
     const KnownObjects::Known& known = m_replica.objects.at(id);
     if (known.life == KnownObjects::Life::kDying) return of(id);
@@ -64,7 +64,7 @@ class Urgency {
   const Publisher& m_publisher;
 };
 
-/// An upper bound for the record of any object in this state.
+/// Returns an upper bound of the bits of an object's record in its present state.
 std::size_t maxBits(std::uint32_t id, const ClientReplica& replica, const Publisher& publisher) {
   constexpr std::size_t kLifeBits = 112;
   constexpr std::size_t kMotionBits = 448;
@@ -81,11 +81,11 @@ std::size_t maxBits(std::uint32_t id, const ClientReplica& replica, const Publis
   return bits + kLookBits + kFrameBits * sequence.size() + kGlyphBits * sequence.glyphCount();
 }
 
-/// Of a record without its state or its motion.
+/// Placeholders in a record without state or motion.
 const ObjectState kNoState;
 const SharedMotion kNoMotion;
 
-/// Does a record of so many bits exceed a snapshot of `bytes` even alone?
+/// True if a record of `bits` does not fit into a snapshot of `bytes`, even alone.
 bool isTooLarge(std::size_t bits, std::size_t bytes) {
   return bits + PacketLimits::kMaxOverheadBits > 8 * bytes;
 }
@@ -129,7 +129,7 @@ void PendingQueue::fill(const ClientReplica& replica, const Publisher& publisher
   m_ranked.clear();
   const Urgency urgency(replica, publisher);
   for (const std::uint32_t id : m_ids) m_ranked.emplace_back(urgency.of(id), id);
-  // Equal urgency: by id, so that a run is the same everywhere.
+  // Ties are ordered by id, so that runs are deterministic.
   std::sort(m_ranked.begin(), m_ranked.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
   });
@@ -159,7 +159,7 @@ void SnapshotBuilder::writeObjects(const Publisher& publisher, const PacketLimit
   const auto last_id = static_cast<std::uint32_t>(objects.idCount());
   while (!m_queue.empty() && !m_p_flight->large) {
     const std::uint32_t id = m_queue.front();
-    if (objects.at(id).pending == 0) {  // an earlier snapshot of the tick carries it
+    if (objects.at(id).pending == 0) {  // an earlier snapshot of this tick carries it
       m_queue.pop();
       continue;
     }
@@ -170,7 +170,7 @@ void SnapshotBuilder::writeObjects(const Publisher& publisher, const PacketLimit
       if (!m_p_flight->large) {
         m_writer.drop();
         if (!too_large) break;
-        m_queue.defer();  // to a snapshot of its own, on the stream
+        m_queue.defer();  // it needs its own snapshot, on the stream
         if (limits.large) break;
         continue;
       }

@@ -1,4 +1,4 @@
-// Writes what is pending for one client into snapshots.
+// Writes the pending state and objects of one client into snapshots.
 #pragma once
 
 #include <cstddef>
@@ -16,18 +16,18 @@
 
 namespace naiad {
 
-/// Redundancy: on a line that loses packets, records are sent again in the next tick, before a loss is known.
-/// Short ones are sent once more in the tick after, since lines sometimes lose two packets in a row.
+/// Redundancy for lines that lose packets: records are sent again in the next tick, before a loss is known.
+/// Short ones are sent a third time in the tick after, because lines sometimes lose two packets in a row.
 class RedundantResend {
  public:
-  /// Of all records repeated in a tick; the first one may be longer.
+  /// Total bits of the records repeated in a tick. The first one may exceed it.
   static constexpr std::size_t kBits = 768;
-  /// A record of at most so many bits is repeated twice.
+  /// Records of at most this many bits are repeated twice.
   static constexpr std::size_t kShortBits = 32;
 
-  /// A record was just written. Of the records that are to be repeated, those of the highest urgency are.
+  /// Call for each record written. The records with the highest urgency are repeated first.
   void addRecord(const KnownObjects::Sent& sent, std::size_t bits, double urgency);
-  /// Begin the next tick: records that are unconfirmed are pending again, within the budget.
+  /// Starts the next tick: marks unconfirmed records as pending again, within kBits.
   void requeueRecords(KnownObjects& known, std::uint32_t tick);
 
  private:
@@ -38,19 +38,19 @@ class RedundantResend {
     int repeats = 0;
   };
 
-  std::vector<Record> m_next;     ///< for the next tick
-  std::vector<Record> m_current;  ///< repeated in this one
+  std::vector<Record> m_next;     ///< to repeat in the next tick
+  std::vector<Record> m_current;  ///< repeated in this tick
 };
 
 /// The order in which one client's pending objects are written, the most urgent first.
 class PendingQueue {
  public:
-  /// Take all pending ids: by id if one snapshot of `limit` bytes holds them all, else by urgency.
+  /// Adds all pending ids: by id if one snapshot of `limit` bytes holds them all, otherwise by urgency.
   void fill(const ClientReplica& replica, const Publisher& publisher, std::size_t limit);
   bool empty() const { return m_ids.empty(); }
   std::uint32_t front() const { return m_ids.back(); }
   void pop() { m_ids.pop_back(); }
-  /// Take the front out until restoreDeferred().
+  /// Removes the front until restoreDeferred().
   void defer() {
     m_deferred.push_back(m_ids.back());
     m_ids.pop_back();
@@ -68,26 +68,25 @@ class PendingQueue {
 
 class SnapshotBuilder {
  public:
-  /// The senders of a thread build one after the other, so that they share one builder, which stays in the
-  /// cache.
+  /// Returns the builder that all senders of a thread share, one after the other. It stays in the cache.
   static SnapshotBuilder& ofThread();
 
-  /// Queue the pending objects of one client for the snapshots of a tick, which have `limit` bytes each.
+  /// Queues the pending objects of one client for the snapshots of a tick. `limit`: bytes of each snapshot.
   void queueObjects(const ClientReplica& replica, const Publisher& publisher, std::size_t limit) {
     m_queue.fill(replica, publisher, limit);
   }
-  /// Begin a snapshot of the client. What is written is marked as sent in `replica` and listed in `flight`,
-  /// which it must outlive. Records to repeat go to `redundancy`, unless it is null.
+  /// Starts a snapshot. Everything written is marked as sent in `replica` and listed in `flight`; both must
+  /// outlive the snapshot. Records to repeat go to `redundancy`, unless it is null.
   void beginSnapshot(const SnapshotHeader& header, ClientReplica& replica, Flight::Snapshot& flight,
                      RedundantResend* redundancy = nullptr);
-  /// Write what is pending beside objects, as far as it fits into `limit` bytes.
+  /// Writes the pending state other than objects, as far as it fits into `limit` bytes.
   void writeState(std::size_t limit);
-  /// Write queued objects until the snapshot is full.
+  /// Writes queued objects until the snapshot is full.
   void writeObjects(const Publisher& publisher, const PacketLimits& limits);
   void finish(bool complete, std::string& bytes);
 
  private:
-  /// What is staged in the writer.
+  /// The record that is staged in the writer.
   struct Record {
     std::uint32_t id = 0;
     std::size_t bits = 0;
@@ -101,7 +100,7 @@ class SnapshotBuilder {
   SnapshotWriter m_writer;
   PendingQueue m_queue;
   SnapshotHeader m_header;
-  ClientReplica* m_p_replica = nullptr;  ///< these three: of the snapshot that was begun
+  ClientReplica* m_p_replica = nullptr;  ///< this and the next two belong to the snapshot being written
   Flight::Snapshot* m_p_flight = nullptr;
   RedundantResend* m_p_redundancy = nullptr;
 };

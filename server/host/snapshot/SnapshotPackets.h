@@ -13,21 +13,21 @@ namespace naiad {
 struct SnapshotPacket {
   std::uint32_t number = 0;
   std::uint32_t tick = 0;
-  bool large = false;  ///< exceeds the datagram's limit: for the stream
+  bool large = false;  ///< exceeds the datagram limit, so it needs a stream
   std::string bytes;
 };
 
-/// What a tick may send.
+/// Limits of what one tick may send.
 struct PacketLimits {
-  /// Bits of a snapshot beside the record of its only object, at most.
+  /// Upper bound of the bits of a snapshot besides the record of its only object.
   static constexpr std::size_t kMaxOverheadBits = 256;
 
-  std::size_t packets = 64;                  ///< at most so many
-  std::size_t bytes = kMaxDatagramSnapshot;  ///< of each
+  std::size_t packets = 64;                  ///< maximum number
+  std::size_t bytes = kMaxDatagramSnapshot;  ///< maximum size of each
   bool large = true;                         ///< one of them may exceed `bytes`, up to kMaxSnapshot
 };
 
-/// Memory of cleared packets is used again.
+/// Reuses the memory of cleared packets.
 class SnapshotPackets {
  public:
   SnapshotPacket& add() {

@@ -7,7 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// With less loss than this there is no redundancy.
+/// Redundancy is off if the usual loss is at most this.
 constexpr double kMinLossForRedundancy = 0.003;
 
 }  // namespace
@@ -33,7 +33,7 @@ void SnapshotSender::build(const Publisher& publisher, PacketLimits limits, Pack
   const bool due = isKeepAliveDue();
   m_throttled = m_replica.hasPending();
   if (!m_throttled && !due) return;
-  // With the window full only the keep-alive is sent, so that nothing in flight counts as lost.
+  // If the window is full, only a keep-alive is sent; so no snapshot in flight counts as lost.
   const std::size_t window = m_flight.size() < kMaxInFlight ? kMaxInFlight - m_flight.size() : due ? 1 : 0;
   limits.packets = std::min(limits.packets, window);
   if (limits.packets > 0) SnapshotBuilder::ofThread().queueObjects(m_replica, publisher, limits.bytes);
@@ -50,7 +50,7 @@ void SnapshotSender::build(const Publisher& publisher, PacketLimits limits, Pack
   if (!packets.empty()) m_last_tick = m_tick;
 }
 
-// What is pending at this tick beside changes of objects.
+// Queues pending repeats and corrections; applyTick() queued changes of objects.
 void SnapshotSender::queueRecords(const Publisher& publisher) {
   if (m_resend == Resend::kEveryTick) m_replica.objects.requeueUnconfirmed(m_tick);
   m_replica.state.queueRepeats();
@@ -63,7 +63,7 @@ bool SnapshotSender::isKeepAliveDue() const {
   return static_cast<std::int32_t>(m_tick - m_last_tick) >= static_cast<std::int32_t>(kKeepAlive);
 }
 
-// Fill one snapshot. False if it carries nothing, so that another one would not either.
+// Fills one snapshot. False if it carries nothing; then another one would not either.
 bool SnapshotSender::writeSnapshot(const Publisher& publisher, const PacketLimits& limits, Packet& packet) {
   Flight::Snapshot& flight = m_flight.add(m_next_number);
   SnapshotBuilder& builder = SnapshotBuilder::ofThread();
@@ -98,7 +98,7 @@ void SnapshotSender::settleOldest() {
   });
 }
 
-// The snapshot just written carries nothing and is not sent.
+// Withdraws the snapshot just written, which carries nothing.
 void SnapshotSender::removeNewest() {
   m_next_number = m_flight.newest().number;
   m_flight.removeNewest();
@@ -124,7 +124,7 @@ RedundantResend* SnapshotSender::redundancy() {
 // ---- acknowledgements -------------------------------------------------------------------------------------
 
 void SnapshotSender::acknowledge(const AckWindow& acks) {
-  // A number that was never sent is a lie; believing it would drop what is still pending.
+  // A number that was never sent is forged; accepting it would drop pending state.
   if (isNewer(acks.newest, m_next_number - 1)) return;
   m_flight.removeIf([&](const Flight::Snapshot& snapshot) {
     const bool arrived = acks.has(snapshot.number);
@@ -139,7 +139,7 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
 void SnapshotSender::requeueLost(const Flight::Snapshot& snapshot) {
   const ClientReplica::Requeued requeued = m_replica.requeueLost(snapshot, m_tick);
   m_resent += requeued.objects;
-  // What has changed or died since was pending before; until that is sent, the client lacks what was lost.
+  // State that changed or died since was already pending; until it is sent, the client lacks what was lost.
   const bool pending = requeued.any || (!snapshot.empty && m_replica.hasPending());
   m_checksums.recordLost(snapshot, pending, newestNumber());
 }

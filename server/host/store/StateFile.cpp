@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBusyMillis = 2000;  ///< while another server writes
+constexpr int kBusyMillis = 2000;  ///< how long SQLite waits while another server writes
 
 std::int64_t numberOf(sqlite3* p_database, const char* p_query) {
   StateStatement statement(p_database, p_query);
@@ -86,8 +86,8 @@ void StateFile::fail(const std::string& what) const {
                        (why.empty() ? "." : " (" + why + ")."));
 }
 
-// Made whole beside its place, and put there in one step: a file without its table is a damaged one. Another
-// server's file that has come meanwhile stays. SQLite itself would make one that others can read.
+// Creates the file (0600, unlike SQLite) under another name and links it to its place when it is complete: a
+// file without tables counts as damaged. Keeps a file that another server has created in the meantime.
 void StateFile::make() {
   std::error_code error;
   if (fs::exists(m_file, error)) return;

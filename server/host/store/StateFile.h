@@ -1,5 +1,4 @@
-// A file that lasts beyond a restart: an SQLite database in the server's state folder, of one kind and
-// format.
+// A file for state that survives restarts: an SQLite database in the server's state folder.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +12,26 @@ struct sqlite3_stmt;
 
 namespace naiad {
 
-/// The file is there and cannot be used. what() is one sentence for people.
+/// Thrown if the file exists and cannot be used. what() is a one-sentence message.
 class StateFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A prepared statement. Columns and parameters as SQLite counts them: parameters from 1, columns from 0.
+/// A prepared statement. As in SQLite, parameters count from 1 and columns from 0.
 class StateStatement {
  public:
   StateStatement(sqlite3* p_database, const char* p_text);
-  /// Could it be prepared?
+  /// True if the statement was prepared without an error.
   bool isGood() const { return m_statement != nullptr; }
 
-  /// Copies the text.
+  /// Binds a parameter. Copies the text.
   void bind(int place, const std::string& text) const;
   void bind(int place, std::int64_t number) const;
-  /// Whether there is a row; isDone() says whether all have been read.
+  /// Moves to the next row. Returns false after the last row, and on an error (then isDone() is false).
   bool step();
   bool isDone() const { return m_done; }
-  /// Bind and step again.
+  /// Allows the statement to be bound and executed again.
   void reset();
 
   std::string text(int column) const;
@@ -47,33 +46,34 @@ class StateStatement {
   bool m_done = false;
 };
 
-/// One thread at a time. Servers with the same folder may share the file.
+/// Not thread-safe. Servers with a common folder may share the file.
 class StateFile {
  public:
   struct Kind {
-    const char* what;    ///< "file of bans"
+    const char* what;    ///< name in messages, like "file of bans"
     int id;              ///< PRAGMA application_id
     int format;          ///< PRAGMA user_version
-    const char* schema;  ///< statements that make the tables, in one transaction
-    bool has_log;        ///< writers do not wait for readers (PRAGMA journal_mode = WAL)
+    const char* schema;  ///< statements that create the tables, run in one transaction
+    bool has_log;        ///< PRAGMA journal_mode = WAL, so writers do not wait for readers
   };
 
-  /// Nothing is opened or made yet. The kind's texts are literals.
+  /// Does not open or create the file yet. The texts of `kind` must be literals.
   StateFile(std::filesystem::path file, const Kind& kind);
   ~StateFile();
 
-  // All of these throw StateFileError. A file that cannot be read, is damaged, or is of another kind is left
-  // as it is.
+  // The following functions throw StateFileError. They leave a file unchanged that is unreadable, damaged or
+  // of another kind.
 
-  /// False: there is no file. Opens it, and looks it over the first time.
+  /// Opens the file unless it is open, and checks it. Returns false if it does not exist.
   bool openIfThere();
-  /// Make file and folder if need be (0600), then as openIfThere().
+  /// Creates the file (0600) and its folder if necessary, and opens it like openIfThere().
   void openOrMake();
-  /// In an open file. Waits for the disk where something is written.
+  /// Prepares a statement; the file must be open. Executing it waits for the disk if it writes.
   StateStatement prepare(const char* p_text);
-  /// The last change is on disk even if the machine fails now.
+  /// Executes statements. When it returns, changes survive a power failure.
   void run(const char* p_statements);
   bool isOpen() const { return m_database != nullptr; }
+  /// Throws StateFileError: "The KIND FILE `what` (SQLite's error)."
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

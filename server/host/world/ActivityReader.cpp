@@ -14,7 +14,7 @@ bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The names of "5naiad4Ship…", one after the other; the last one. Empty where there is none.
+/// Returns the last name in a sequence of names like "5naiad4Ship"; empty if it has none.
 std::string_view lastOfNames(std::string_view rest) {
   std::string_view last;
   while (!rest.empty() && isDigit(rest.front())) {
@@ -28,7 +28,7 @@ std::string_view lastOfNames(std::string_view rest) {
   return last;
 }
 
-/// A copy, for the writer may still be at work.
+/// Copies a text, because the writer may still be changing it.
 template <std::size_t N>
 std::string_view copyText(const char (&from)[N], char (&to)[N]) {
   std::memcpy(to, from, N);
@@ -67,7 +67,7 @@ void ActivityText::addEscaped(std::string_view text) {
 
 std::string_view classInMangled(std::string_view mangled) {
   std::string_view rest = mangled;
-  if (rest.starts_with('*')) rest.remove_prefix(1);  // of a class that only its own file knows
+  if (rest.starts_with('*')) rest.remove_prefix(1);  // a class local to one source file
   if (rest.starts_with('Z')) {  // a class in a function: the name after that of the function
     std::size_t at = rest.size();
     while (at > 0 && !(rest[at - 1] == 'E' && at < rest.size() && isDigit(rest[at]))) --at;

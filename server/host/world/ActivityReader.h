@@ -1,7 +1,7 @@
-// Reads an ActivityPage after a crash or during a hang: what the game was doing, for lines of the log.
+// Reads an ActivityPage after a crash or during a hang, to log what the game was doing.
 //
-// All that it does is async-signal-safe: it allocates nothing, and follows no pointer of the page. The page
-// may be a stranger's: whatever is in it, the text is short, of printable ASCII, and stays in its line.
+// All functions are async-signal-safe: they allocate nothing, and follow no pointer of the page. The page may
+// be a stranger's: whatever is in it, the text is short, printable ASCII without line breaks.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace naiad {
 
-/// A text in memory of its own; what does not fit is cut off.
+/// A text in a fixed buffer, truncated to its size.
 class ActivityText {
  public:
   std::string_view view() const { return {m_text, m_size}; }
   bool empty() const { return m_size == 0; }
   void add(std::string_view text);
-  /// Control characters and those beyond ASCII as \xNN.
+  /// Adds a text, with control and non-ASCII characters as \xNN.
   void addEscaped(std::string_view text);
 
  private:
@@ -25,14 +25,15 @@ class ActivityText {
   std::size_t m_size = 0;
 };
 
-/// The class's own name, of "N2df9EventStepE" as of "9EventStep"; all of it where it is something else.
+/// Returns the class's own name: "EventStep" of "N2df9EventStepE" or "9EventStep". Returns other forms whole.
 std::string_view classInMangled(std::string_view mangled);
 
-/// ", while Ship handled EventStep" (`verb`: "handled"), ", while Ship ran draw()"; empty if no handler runs.
+/// Returns ", while Ship handled EventStep" (`verb`: "handled"), ", while Ship ran draw()", or "" between
+/// handlers.
 ActivityText describeActivity(const df::ActivityPage& page, std::string_view verb);
 
-/// The last lines of the game's log, oldest first: `back` counts from the newest, which is 0. Empty if there
-/// is none.
+/// Returns one of the last lines of the game's log. `back` counts from the newest, which is 0. Empty if there
+/// are not that many.
 ActivityText logLine(const df::ActivityPage& page, std::size_t back);
 
 }  // namespace naiad

@@ -16,13 +16,13 @@ namespace naiad {
 namespace {
 
 constexpr std::size_t kNoteAlignment = 4;
-constexpr char kHere = 0;  ///< it lies in the file that this code lies in
+constexpr char kHere = 0;  ///< its address is in the file that has this code
 
 std::size_t aligned(std::size_t size) {
   return (size + kNoteAlignment - 1) / kNoteAlignment * kNoteAlignment;
 }
 
-/// Of the notes that lie at `p`; empty if the id is not among them.
+/// Returns the build id among the notes at `p`; empty if it is not there.
 std::string idAmongNotes(const unsigned char* p, std::size_t size) {
   constexpr char kOwner[] = "GNU";
   while (size >= sizeof(ElfW(Nhdr))) {
@@ -44,7 +44,7 @@ std::string idAmongNotes(const unsigned char* p, std::size_t size) {
 std::string idOf(const dl_phdr_info& info) {
   for (int i = 0; i < info.dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = info.dlpi_phdr[i];
-    // Others, as of the processor's properties, are aligned otherwise.
+    // Other notes, like the processor's properties, have another alignment.
     if (part.p_type != PT_NOTE || part.p_align != kNoteAlignment) continue;
     const auto* p_notes = reinterpret_cast<const unsigned char*>(info.dlpi_addr + part.p_vaddr);
     if (std::string id = idAmongNotes(p_notes, part.p_memsz); !id.empty()) return id;

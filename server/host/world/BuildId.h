@@ -1,4 +1,4 @@
-// Which build a file of code is of.
+// The build ids of files of code.
 #pragma once
 
 #include <cstddef>
@@ -6,17 +6,17 @@
 
 namespace naiad {
 
-/// Of an id in hex, at most.
+/// Maximum digits of an id in hex.
 inline constexpr std::size_t kMaxBuildId = 64;
 
-/// Digits of an id that tell it from others in a line for people.
+/// Digits of an id in messages: enough to tell builds apart.
 inline constexpr std::size_t kShownBuildId = 8;
 
-/// The id that the linker wrote into a file that this process has loaded, in hex: another build has another.
-/// `file`: how its name begins, as "libc.so". Empty if there is no such file, or no id in it.
+/// Returns the id that the linker wrote into a file loaded by this process, in hex. Each build has its own.
+/// `file`: the beginning of its name, like "libc.so". Empty if there is no such file, or no id in it.
 std::string buildIdOf(const std::string& file);
 
-/// That of libdragonfly.so, with which this code came. Any thread.
+/// Returns the id of libdragonfly.so, which has this code. Any thread.
 const std::string& ownBuildId();
 
 }  // namespace naiad

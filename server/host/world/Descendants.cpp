@@ -24,8 +24,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kNapMillis = 2;
-constexpr std::chrono::seconds kLongest{20};  ///< a process that waits for a dead disk cannot be ended
-constexpr std::chrono::milliseconds kLongestOthers{500};  ///< players wait meanwhile
+constexpr std::chrono::seconds kLongest{20};  ///< limit: one that waits for a dead disk cannot be ended
+constexpr std::chrono::milliseconds kLongestOthers{500};  ///< players are waiting
 
 std::optional<pid_t> processOf(const char* name) {
   pid_t process = 0;
@@ -34,7 +34,7 @@ std::optional<pid_t> processOf(const char* name) {
   return error == std::errc() && p_read == p_end ? std::optional(process) : std::nullopt;
 }
 
-/// 0: it has none, or has ended.
+/// Returns the parent of a process; 0 if it has none, or has ended.
 pid_t parentOf(pid_t process) {
   const int file = open(("/proc/" + std::to_string(process) + "/stat").c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return 0;
@@ -64,7 +64,7 @@ std::map<pid_t, pid_t> parents() {
 }  // namespace
 
 bool isDescendant(pid_t process) {
-  constexpr int kMaxSteps = 64;  // what is read while it changes may go in circles
+  constexpr int kMaxSteps = 64;  // entries that change while they are read may form a circle
   const pid_t self = getpid();
   for (int step = 0; step < kMaxSteps && process > 1; ++step) {
     process = parentOf(process);
@@ -77,7 +77,7 @@ std::vector<Descendant> findDescendants() {
   const std::map<pid_t, pid_t> parent_of = parents();
   std::vector<Descendant> found;
   for (const auto& [process, parent] : parent_of) {
-    std::size_t steps = 0;  // what was read while they changed may go in circles
+    std::size_t steps = 0;  // entries that changed while they were read may form a circle
     pid_t branch = process;
     pid_t above = parent;
     while (above > 1 && above != getpid() && ++steps < parent_of.size()) {
@@ -93,7 +93,7 @@ std::vector<Descendant> findDescendants() {
 std::vector<pid_t> findChildren() {
   std::vector<pid_t> found;
   const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-  if (file < 0) return found;  // a kernel that was built without
+  if (file < 0) return found;  // the kernel was built without this list
   std::string text;
   char piece[4096];
   for (ssize_t size = 0; (size = read(file, piece, sizeof piece)) > 0;)
@@ -109,7 +109,7 @@ std::vector<pid_t> findChildren() {
   return found;
 }
 
-// With the group that it leads, if it does: what it has started since may be in it still.
+// The group may have processes that the child has started since.
 void endChild(pid_t child) {
   kill(child, SIGKILL);
   kill(-child, SIGKILL);
@@ -118,8 +118,8 @@ void endChild(pid_t child) {
 int endDescendants(pid_t leader) {
   int status = SIGKILL;
   if (leader > 0) {
-    kill(-leader, SIGKILL);  // all of the group at once: none of it can fork on
-    kill(leader, SIGKILL);   // should it have left its group
+    kill(-leader, SIGKILL);  // the whole group at once, so that none can fork on
+    kill(leader, SIGKILL);   // in case it has left its group
   }
   std::set<pid_t> ended;
   bool naps = false;
@@ -137,9 +137,9 @@ int endDescendants(pid_t leader) {
       endChild(one);
       news = true;
     }
-    if (news) continue;  // one that forks and ends has gone on meanwhile
+    if (news) continue;  // a process that forks and ends may have forked again
     poll(nullptr, 0, kNapMillis);
-    if (!std::exchange(naps, true)) continue;  // mostly it was the group alone
+    if (!std::exchange(naps, true)) continue;  // usually the group was all
     for (const Descendant& one : findDescendants()) kill(one.process, SIGKILL);
   }
   return status;

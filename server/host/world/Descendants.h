@@ -1,4 +1,4 @@
-// The processes that descend from this one, and their end.
+// Finds and ends the processes that descend from this one.
 #pragma once
 
 #include <sys/types.h>
@@ -13,28 +13,27 @@ struct Descendant {
   pid_t branch = 0;  ///< the child of this process that it is, or descends from
 };
 
-/// All that are there now, as /proc says. Zombies, too.
+/// Returns all current descendants, as listed in /proc, including zombies.
 std::vector<Descendant> findDescendants();
 
-/// Does this process descend from the present one, as /proc says now? False for the present one itself.
+/// True if `process` descends from this process now, according to /proc. False for this process itself.
 bool isDescendant(pid_t process);
 
-/// Its children, zombies among them, as the kernel lists them for it alone: at once, and however they hide in
-/// /proc. For a process without threads. None on a kernel that keeps no such list.
+/// Returns the children of this process, including zombies, from the kernel's list for this process: in one
+/// step, and even if they hide in /proc. For a process without threads. Empty if the kernel has no such list.
 std::vector<pid_t> findChildren();
 
-/// SIGKILL for this child, which has not been waited for, and for its process group, if it leads one.
+/// Sends SIGKILL to this child, which has not been waited for, and to its process group, if it leads one.
 void endChild(pid_t child);
 
-/// SIGKILL for all descendants, and for the process group of `leader`, until none is left. A descendant
-/// whose parent has ended is a child then, so one that goes from process to process is followed. For a
-/// process without threads that is a child subreaper (PR_SET_CHILD_SUBREAPER): to it come those whose parents
-/// have ended, whatever group or session they have gone to. Return the status of `leader`, a child that has
-/// not been waited for; that of a SIGKILL if it cannot be had. 0: all of them, without a leader.
+/// Sends SIGKILL to all descendants, and to the process group of `leader`, until none is left. For a process
+/// without threads that is a child subreaper (PR_SET_CHILD_SUBREAPER): a descendant whose parent has ended
+/// becomes its child, whatever its group or session, so it cannot escape by forking. Returns the status of
+/// `leader`, a child that has not been waited for; that of a SIGKILL if it cannot be had. `leader` 0: none.
 int endDescendants(pid_t leader);
 
-/// The same for all but these children and what descends from them. False: too many came for that; then all
-/// are to be ended.
+/// Like endDescendants(), except for these children and their descendants. Returns false if that takes too
+/// long; then all must be ended.
 bool endOthers(const std::set<pid_t>& kept);
 
 }  // namespace naiad

@@ -17,7 +17,7 @@ constexpr std::size_t kRightsSize = kMaxPassed * sizeof(int);
 
 using RightsRoom = std::array<char, CMSG_SPACE(kRightsSize)>;
 
-/// All that came, whether they were wanted or not.
+/// Collects all descriptors of a message, expected or not.
 std::size_t takeRights(msghdr& message, std::array<int, kMaxPassed>& found) {
   std::size_t count = 0;
   for (cmsghdr* p = CMSG_FIRSTHDR(&message); p != nullptr; p = CMSG_NXTHDR(&message, p)) {
@@ -51,7 +51,7 @@ bool sendDescriptors(int socket, const void* p_bytes, std::size_t size, std::spa
   return sent == static_cast<ssize_t>(size);
 }
 
-// The kernel closes what does not fit into the message's room and says so: MSG_CTRUNC.
+// The kernel closes descriptors that do not fit into the message's buffer, and sets MSG_CTRUNC.
 int receiveDescriptors(int socket, void* p_bytes, std::size_t size, std::span<int> room, int flags) {
   iovec data{p_bytes, size};
   alignas(cmsghdr) RightsRoom rights{};

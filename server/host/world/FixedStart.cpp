@@ -13,7 +13,7 @@ namespace naiad {
 
 namespace {
 
-/// More than a usual environment takes; a longer one goes on to the next multiple.
+/// Sizes of a usual environment and more; longer ones are padded to the next multiple.
 constexpr std::size_t kEntries = 64;
 constexpr std::size_t kBytes = std::size_t{16} << 10;
 constexpr rlim_t kStack = rlim_t{8} << 20;

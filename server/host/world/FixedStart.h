@@ -1,6 +1,6 @@
-// What a process needs for its addresses to be the same each time, beside the kernel's leave not to randomise
-// them: where the stack begins depends on how long its arguments and environment are, and where libraries lie
-// on the limit of the stack.
+// Gives a process equal addresses in each run. Without randomisation they still depend on two sizes: the
+// start of the stack on the size of arguments and environment, and the place of libraries on the limit of the
+// stack.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace naiad {
 
-/// Bring arguments and environment to a fixed number together and, with the program, to a fixed number of
-/// bytes.
+/// Pads the environment, so that it and the arguments together have a fixed number of entries and, with the
+/// program, of bytes.
 void padEnvironment(const std::string& program, const std::vector<std::string>& arguments,
                     std::vector<std::string>& environment);
 
-/// Would fixAddresses() do? Tried in a process that ends then.
+/// True if fixAddresses() works. Tries it in a process that then ends.
 bool canFixAddresses();
 
-/// Are those of this process?
+/// True if the addresses of this process are fixed.
 bool hasFixedAddresses();
 
-/// For this process, which is about to execute a program: the same addresses each time. False: this kernel,
-/// or whoever has started the server, does not let it.
+/// Fixes the addresses of the program that this process is about to execute. Returns false if the kernel, or
+/// a filter that the server was started with, does not allow it.
 bool fixAddresses();
 
 }  // namespace naiad

@@ -1,8 +1,8 @@
-// What a world prints, and the game's log lines among it, to the log of the server.
+// Passes the output of a world, which includes the game's log lines, to the server's log.
 //
-// A world has the writing end of a pipe as its standard output and error, and no right on the log file: so it
-// can add lines, each marked as the game's, and cannot change what is there. Of more than the rate lines are
-// dropped and counted; a world that prints faster than it is read waits.
+// A world has the writing end of a pipe as its standard output and error, and no right on the log file. So it
+// can add lines, each marked as the game's, and cannot change older ones. Lines above the rate are dropped
+// and counted; a world that prints faster than it is read waits.
 #pragma once
 
 #include <unistd.h>
@@ -26,14 +26,14 @@ class OutputRelay {
   using Clock = std::chrono::steady_clock;
   using Line = std::function<void(const std::string& line)>;
 
-  /// Lines: what a round's start may print, and in the long run.
+  /// Rate limit in lines: per second, and burst for the start of a round.
   static constexpr BucketRate kRate{100, 500};
-  /// Bytes of a line; the rest of it is dropped.
+  /// Maximum bytes of a line; the rest of it is dropped.
   static constexpr std::size_t kMaxLine = 1000;
-  /// Bytes that one update() reads, at most.
+  /// Maximum bytes that one update() reads.
   static constexpr std::size_t kMaxRead = std::size_t{128} << 10;
 
-  /// Takes over the reading end of a pipe, which does not block; below 0: none. An empty `line` drops all.
+  /// Takes over the reading end of a non-blocking pipe; below 0: none. An empty `line` drops all lines.
   OutputRelay(int pipe, Line line) : m_pipe(pipe), m_line(std::move(line)) {}
   ~OutputRelay() {
     if (m_pipe >= 0) ::close(m_pipe);
@@ -41,7 +41,7 @@ class OutputRelay {
   OutputRelay(const OutputRelay&) = delete;
   OutputRelay& operator=(const OutputRelay&) = delete;
 
-  /// Pass on what has come. Once in each tick; waits for nothing.
+  /// Passes on the output so far. Call once in each tick; never waits.
   void update(Clock::time_point now) {
     char piece[16 << 10];
     for (std::size_t done = 0; done < kMaxRead && m_pipe >= 0;) {
@@ -52,7 +52,7 @@ class OutputRelay {
       done += static_cast<std::size_t>(got);
     }
   }
-  /// The same, when the world has ended: the last line may lack its end.
+  /// Like update(), when the world has ended: the last line may lack its end.
   void finish(Clock::time_point now) {
     update(now);
     if (!m_text.empty()) endLine(now);
@@ -85,9 +85,9 @@ class OutputRelay {
 
   int m_pipe;
   Line m_line;
-  std::string m_text;  ///< of the line that is not complete
+  std::string m_text;  ///< the incomplete last line
   TokenBucket m_bucket;
-  std::uint64_t m_dropped = 0;  ///< lines, since the last one that was passed on
+  std::uint64_t m_dropped = 0;  ///< lines dropped since the last one that was passed on
 };
 
 }  // namespace naiad

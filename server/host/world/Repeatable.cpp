@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLibrary = "dragonfly/libdragonfly-repeat.so";  // beside libdragonfly.so
+constexpr const char* kLibrary = "dragonfly/libdragonfly-repeat.so";  // relative to libdragonfly.so's folder
 constexpr std::uintmax_t kMaxHashed = std::uintmax_t{64} << 20;
 
-/// The folder that this code's library was loaded from.
+/// Returns the folder that this code's library was loaded from.
 fs::path ownFolder() {
   Dl_info facts{};
   std::error_code error;

@@ -22,8 +22,8 @@ namespace naiad {
 
 namespace {
 
-// Landlock restricts the files that a world's process can open. Its system calls are called by number, the
-// same on all architectures, because the installed headers may be older than the kernel.
+// Landlock restricts the files that a world's process can open. Its system calls are called by number (equal
+// on all architectures), because the installed headers may be older than the kernel.
 constexpr long kCreateRuleset = 444;
 constexpr long kAddRule = 445;
 constexpr long kRestrictSelf = 446;
@@ -48,7 +48,7 @@ constexpr std::uint64_t kReading = kExecute | kReadFile | kReadDir;
 constexpr std::uint64_t kWriting =
     kReading | kWriteFile | kRemoveDir | kRemoveFile | kMakeDir | kMakeRegular | kRefer | kTruncate;
 
-/// Every right of a version, by the number of bits.
+/// Returns all rights of a version, as bits.
 std::uint64_t rightsOf(int version) {
   if (version >= 5) return (kControlDevice << 1) - 1;
   if (version >= 3) return (kTruncate << 1) - 1;
@@ -76,7 +76,7 @@ inline constexpr int kLandlockScopesSignals = 6;
 
 class LandlockRules {
  public:
-  /// Nothing is allowed. `version`: of landlockVersion(), above 0.
+  /// Allows nothing at first. `version`: of landlockVersion(), above 0.
   explicit LandlockRules(int version) : m_handled(rightsOf(version)) {
     const Ruleset rules{m_handled, 3, 3};
     m_rules = static_cast<int>(syscall(kCreateRuleset, &rules, sizeOf(version), 0));
@@ -88,19 +88,20 @@ class LandlockRules {
   LandlockRules(const LandlockRules&) = delete;
   LandlockRules& operator=(const LandlockRules&) = delete;
 
-  // A file, or a folder with all that is in it. One that is not there, or cannot be reached, is left out.
+  // Each path is a file, or a folder with all its content. Paths that cannot be opened are ignored.
 
-  /// To read, list and execute.
+  /// Allows reading, listing and executing.
   void allowReading(const std::string& path) { allow(path, kReading); }
-  /// The same, and to write, make and remove files and folders there; no links, devices or sockets.
+  /// Like allowReading(), and allows writing, making and removing files and folders, but not links or
+  /// devices.
   void allowWriting(const std::string& path) { allow(path, kWriting); }
-  /// To write into a file that is there.
+  /// Allows writing into an existing file.
   void allowAppending(const std::string& path) { allow(path, kWriteFile); }
-  /// A device file.
+  /// Allows the use of a device file.
   void allowDevice(const std::string& path) { allow(path, kReadFile | kWriteFile | kControlDevice); }
 
-  /// Make them hold, for this thread and all that it starts, for good. PR_SET_NO_NEW_PRIVS has been called.
-  /// Return errno, or 0.
+  /// Enforces the rules for this thread and all that it starts, permanently. PR_SET_NO_NEW_PRIVS must be set.
+  /// Returns errno, or 0.
   int enforce() {
     if (m_error != 0) return m_error;
     return syscall(kRestrictSelf, m_rules, 0) == 0 ? 0 : errno;
@@ -116,13 +117,13 @@ class LandlockRules {
     close(rule.parent);
   }
 
-  std::uint64_t m_handled = 0;  ///< what is refused unless a rule allows it
+  std::uint64_t m_handled = 0;  ///< rights that are refused unless a rule allows them
   int m_rules = -1;
   int m_error = 0;
 };
 
-/// The version of Landlock's interface that this kernel has; 0: none. 3 holds back truncate(), 6 signals to
-/// others.
+/// Returns the kernel's version of Landlock; 0: none. Version 3 restricts truncate(), version 6 signals to
+/// other processes.
 int landlockVersion() {
   const long version = syscall(kCreateRuleset, nullptr, 0, kAskVersion);
   return version > 0 ? static_cast<int>(version) : 0;
@@ -140,7 +141,7 @@ constexpr bool kSanitized = false;
 
 constexpr rlim_t kMaxOpenFiles = 1024;
 constexpr rlim_t kMaxFileSize = rlim_t{1} << 30;
-/// Of the user, threads included: no fewer, for it counts all of the user's, not the world's.
+/// Limit of processes and threads. Not lower, because all of the user's count, not only the world's.
 constexpr rlim_t kMaxProcesses = 4096;
 
 const char* const kSystemFiles[] = {"/etc/ld.so.cache",        "/etc/ld.so.preload",
@@ -150,7 +151,7 @@ const char* const kSystemFiles[] = {"/etc/ld.so.cache",        "/etc/ld.so.prelo
                                     "/sys/devices/system/cpu", "/proc/sys/vm/overcommit_memory"};
 const char* const kDevices[] = {"/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom"};
 
-/// Never more than it is.
+/// Lowers a limit; never raises it.
 void limit(decltype(RLIMIT_CORE) what, rlim_t most) {
   rlimit now{};
   if (getrlimit(what, &now) != 0) return;
@@ -163,12 +164,12 @@ void limitResources(const Sandbox& sandbox) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_NOFILE, kMaxOpenFiles);
   limit(RLIMIT_FSIZE, kMaxFileSize);
-  signal(SIGXFSZ, SIG_IGN);  // a log that is too long is an error for the one who writes, not its end
+  signal(SIGXFSZ, SIG_IGN);  // writing too long a file fails, and does not end the process
   limit(RLIMIT_NPROC, kMaxProcesses);
   if (sandbox.memory != 0 && !kSanitized) limit(RLIMIT_AS, sandbox.memory);
 }
 
-// For a server that root has started: nothing is left of it but the user's id.
+// If root has started the server, only root's user id is kept.
 void dropCapabilities() {
   __user_cap_header_struct asked{_LINUX_CAPABILITY_VERSION_3, 0};
   __user_cap_data_struct had[2] = {};
@@ -176,8 +177,7 @@ void dropCapabilities() {
   prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
   __user_cap_header_struct head{_LINUX_CAPABILITY_VERSION_3, 0};
   const __user_cap_data_struct none[2] = {};
-  // Or root's next program would be given some again, and the kernel take that for a reason to randomise
-  // addresses.
+  // Otherwise root's next program would get capabilities again, and the kernel would randomise its addresses.
   prctl(PR_SET_SECUREBITS, SECBIT_NOROOT | SECBIT_NOROOT_LOCKED, 0, 0, 0);
   syscall(SYS_capset, &head, none);
 }
@@ -214,7 +214,7 @@ std::int32_t tryFilter() {
   return filterCalls(0) == 0 ? 1 : 0;
 }
 
-/// What it finds in a process of its own; 0 if a host that forbids the call ends that process.
+/// Returns the result of `p_find` in a process of its own; 0 if the host ends that process for the call.
 std::int32_t findInTrial(std::int32_t (*p_find)()) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return 0;

@@ -29,16 +29,16 @@ namespace {
 
 #ifdef NAIAD_AUDIT_ARCH
 
-/// x86-64: the numbers of the x32 calls begin here.
+/// First number of the x32 calls on x86-64.
 constexpr std::uint32_t kX32 = 0x4000'0000;
-/// From 424 on a call has the same number on all architectures, whether or not the headers know it.
+/// Calls from 424 on have equal numbers on all architectures. The headers may not know them.
 constexpr std::uint32_t kPidfdSendSignal = 424;
 constexpr std::uint32_t kClone3 = 435;
 constexpr std::uint32_t kOpenat2 = 437;
 constexpr std::uint32_t kFirstUnknown = 463;
 
 constexpr std::uint32_t kRefused[] = {
-    // Sockets: no connections, and no doors.
+    // Sockets: connecting and listening.
     __NR_socket,
     __NR_connect,
     __NR_bind,
@@ -56,9 +56,9 @@ constexpr std::uint32_t kRefused[] = {
     __NR_move_pages,
     __NR_migrate_pages,
     __NR_perf_event_open,
-    __NR_setsid,  // all that a world starts stay in its group, which is ended at once
+    __NR_setsid,  // all processes of a world stay in its group, which is ended at once
     __NR_setpgid,
-    // Memory that counts for nobody's limit, or is another process's, too.
+    // Memory that no limit counts, or that is shared with another process.
     __NR_memfd_create,
     447,  // memfd_secret
     __NR_shmget,
@@ -74,10 +74,10 @@ constexpr std::uint32_t kRefused[] = {
     __NR_msgrcv,
     __NR_mq_open,
     __NR_mq_unlink,
-    // Files by ways past Landlock, and what it does not decide about.
+    // Ways to files that bypass Landlock, and operations that Landlock does not restrict.
     __NR_name_to_handle_at,
     __NR_open_by_handle_at,
-    __NR_fchmod,  // by a descriptor, too: one for reading is enough
+    __NR_fchmod,  // a descriptor for reading is enough
     __NR_fchmodat,
     __NR_fchown,
     __NR_fchownat,
@@ -108,7 +108,7 @@ constexpr std::uint32_t kRefused[] = {
     // The machine.
     __NR_bpf,
     __NR_userfaultfd,
-    425,  // io_uring_setup: opens and connects without a call
+    425,  // io_uring_setup: opens and connects without system calls
     426,
     427,
     __NR_keyctl,
@@ -153,8 +153,8 @@ constexpr std::uint32_t kRefused[] = {
     __NR_syslog,
 };
 
-/// What the descriptors of a terminal would let a world do to it. They end in 16 bits on every architecture
-/// that is built for.
+/// Controls with which a world could change a terminal. They have equal numbers on all supported
+/// architectures.
 constexpr std::uint32_t kRefusedControls[] = {
     0x5402,      0x5403,      0x5404,       // TCSETS, TCSETSW, TCSETSF
     0x5406,      0x5407,      0x5408,       // TCSETA, TCSETAW, TCSETAF
@@ -165,7 +165,7 @@ constexpr std::uint32_t kRefusedControls[] = {
     0x8901,      0x8902,  // FIOSETOWN, SIOCSPGRP: signals to others
 };
 
-/// What a descriptor for reading lets the owner of a file do to it, for good.
+/// Controls with which a file's owner can change it permanently, by a descriptor for reading.
 constexpr std::uint32_t kRefusedFileControls[] = {
     0x4004'6602, 0x4008'6602,  // FS_IOC_SETFLAGS, by 32 and 64 bits
     0x4004'7602, 0x4008'7602,  // FS_IOC_SETVERSION
@@ -183,14 +183,14 @@ constexpr std::uint32_t fails(int error) {
   return SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error);
 }
 
-/// The program, instruction by instruction. The accumulator holds the call's number between its rules.
+/// Writes the program, instruction by instruction. Between rules the accumulator holds the call's number.
 class FilterWriter {
  public:
   void load(std::size_t offset) {
     m_code.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));
   }
   void loadNumber() { load(offsetof(seccomp_data, nr)); }
-  /// The low half of an argument: kernels read ints from it.
+  /// Loads the low half of an argument: kernels read ints from it.
   void loadArgument(std::size_t n) { load(offsetof(seccomp_data, args) + n * sizeof(std::uint64_t)); }
   void loadArgumentHigh(std::size_t n) {
     load(offsetof(seccomp_data, args) + n * sizeof(std::uint64_t) + sizeof(std::uint32_t));
@@ -205,7 +205,7 @@ class FilterWriter {
   void ifAtLeast(std::uint32_t value, std::uint32_t verdict) { when(BPF_JGE, value, verdict); }
   void ifAnyOf(std::uint32_t bits, std::uint32_t verdict) { when(BPF_JSET, bits, verdict); }
 
-  /// For the call of this number: what `rule` writes, and if that ends nothing, `verdict`.
+  /// Writes the rule for the call of this number. If `rule` does not end the program, it ends with `verdict`.
   template <class Rule>
   void forCall(std::uint32_t number, std::uint32_t verdict, Rule rule) {
     const std::size_t jump = m_code.size();
@@ -227,7 +227,7 @@ class FilterWriter {
   std::vector<sock_filter> m_code;
 };
 
-/// Calls that may be about another process, but are needed for the own one, named as 0 or by its number.
+/// Allows a call only for this process, named as 0 or by its number.
 void limitToSelf(FilterWriter& out, std::uint32_t call, std::size_t argument, pid_t self) {
   out.forCall(call, fails(EPERM), [&] {
     out.loadArgument(argument);
@@ -236,7 +236,7 @@ void limitToSelf(FilterWriter& out, std::uint32_t call, std::size_t argument, pi
   });
 }
 
-// Where Landlock does not hold signals back, a world's children can send none but to their group.
+// Without Landlock's limit on signals, a world's children can send signals only to their group.
 void limitSignals(FilterWriter& out, pid_t self) {
   out.forCall(__NR_kill, fails(EPERM), [&] {
     out.loadArgument(0);
@@ -250,7 +250,7 @@ void limitSignals(FilterWriter& out, pid_t self) {
   out.ifEqual(__NR_tkill, fails(EPERM));
 }
 
-// An empty file is written without a right to write if it is opened for reading alone.
+// Opening a file for reading with O_TRUNC empties it without a right to write.
 void limitTruncation(FilterWriter& out) {
   const auto limit = [&out](std::uint32_t call, std::size_t flags) {
     out.forCall(call, kAllow, [&] {
@@ -272,7 +272,7 @@ void limitPriorities(FilterWriter& out, pid_t self) {
   limitToSelf(out, __NR_sched_setparam, 0, self);
   limitToSelf(out, __NR_sched_setscheduler, 0, self);
   limitToSelf(out, __NR_sched_setattr, 0, self);
-  // A group or a user of all processes is 0, too.
+  // For groups and users, 0 has a meaning, too, so only processes are allowed.
   const auto limit = [&](std::uint32_t call, std::uint32_t which) {
     out.forCall(call, fails(EPERM), [&] {
       out.loadArgument(1);
@@ -295,7 +295,7 @@ void limitArguments(FilterWriter& out) {
     out.loadArgument(0);
     out.ifAnyOf(kNewNamespaces, fails(EPERM));
   });
-  // A pair of datagram sockets could send to any other socket of this machine that has a name.
+  // A datagram socket of a pair could send to any other socket of this machine that has a name.
   out.forCall(__NR_socketpair, fails(EPERM), [&] {
     out.loadArgument(1);
     out.mask(0xF);
@@ -307,14 +307,14 @@ void limitArguments(FilterWriter& out) {
     for (const std::uint32_t control : kRefusedControls) out.ifEqual(control, fails(EPERM));
     for (const std::uint32_t control : kRefusedFileControls) out.ifEqual(control, fails(EPERM));
   });
-  // Signals to others, and a lease, which holds up whoever opens the file.
+  // Refuses signals to others, and a lease, which delays other processes that open the file.
   out.forCall(__NR_fcntl, kAllow, [&] {
     out.loadArgument(1);
     out.ifEqual(F_SETOWN, fails(EPERM));
     out.ifEqual(15, fails(EPERM));  // F_SETOWN_EX
     out.ifEqual(F_SETLEASE, fails(EPERM));
   });
-  // It ends with its keeper, whatever it prefers, and does not hide from it.
+  // The world must end with its keeper, and must not hide from it.
   out.forCall(__NR_prctl, kAllow, [&] {
     out.loadArgument(0);
     out.forCall(PR_SET_PDEATHSIG, fails(EPERM), [&] {
@@ -326,7 +326,7 @@ void limitArguments(FilterWriter& out) {
       out.ifEqual(1, kAllow);
     });
   });
-  // By a path, the times of any file; without one, of an open file.
+  // Refuses changing the times of a file by its path; those of an open file may be changed.
   out.forCall(__NR_utimensat, fails(EPERM), [&] {
     out.loadArgument(1);
     out.forCall(0, fails(EPERM), [&] {
@@ -352,7 +352,7 @@ std::vector<sock_filter> makeSystemCallFilter(const FilterScene& scene) {
 #endif
   for (const std::uint32_t call : kRefused) out.ifEqual(call, fails(EPERM));
   if (!scene.traces_itself) out.ifEqual(__NR_ptrace, fails(EPERM));
-  out.ifEqual(kClone3, fails(ENOSYS));  // their arguments cannot be looked at
+  out.ifEqual(kClone3, fails(ENOSYS));  // a filter cannot read their arguments
   out.ifEqual(kOpenat2, fails(ENOSYS));
   out.ifAtLeast(kFirstUnknown, fails(ENOSYS));
   limitArguments(out);
@@ -374,7 +374,7 @@ std::vector<sock_filter> makeSystemCallFilter(const FilterScene& /*scene*/) {
 int installSystemCallFilter(std::vector<sock_filter> filter) {
   if (filter.empty()) return ENOSYS;
   const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
-  // Not by seccomp(), which services of systemd are not allowed by its usual list of calls.
+  // Avoids seccomp(), which systemd's usual list of calls does not allow to services.
   return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0 ? 0 : errno;
 }
 

@@ -10,7 +10,7 @@ namespace naiad {
 
 namespace {
 
-/// The letter of /proc/PID/stat behind the program's name, which may have anything in it.
+/// Returns the state letter of /proc/PID/stat. It follows the program's name, which may contain anything.
 char stateOf(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string line;
@@ -19,7 +19,7 @@ char stateOf(pid_t process) {
   return name_end != std::string::npos && name_end + 2 < line.size() ? line[name_end + 2] : '\0';
 }
 
-// Who waits for a disk, or for memory that was paged out, would run.
+// A process that waits for a disk, or for memory that was paged out, counts as running.
 ProcessLook::Doing doingOf(char state) {
   if (state == 't') return ProcessLook::kDebugged;
   if (state == 'T') return ProcessLook::kStopped;

@@ -1,9 +1,8 @@
-// How long a world has kept a tick waiting by what it does itself: the measure of a game that hangs.
+// Measures how long a world itself has delayed a tick, to tell whether its game hangs.
 //
-// On a machine under load a process that would run does not get to; one in a debugger does nothing at all.
-// Neither is the game's fault, and neither counts: only what it computes, and the time that it waits for
-// something of its own. One that a signal has stopped has longer, but not for ever: it may have sent that
-// signal itself.
+// On a loaded machine a process may have to wait for a processor, and in a debugger it does nothing. Neither
+// is the game's fault, so only computing, and waiting for something that the game asked for, counts in full.
+// A process stopped by a signal has longer, but not unlimited time: it may have sent that signal itself.
 #pragma once
 
 #include <sys/types.h>
@@ -13,35 +12,35 @@
 
 namespace naiad {
 
-/// What a process is doing, as the kernel says.
+/// The state of a process, as the kernel reports it.
 struct ProcessLook {
   enum Doing {
-    kRuns,      ///< it computes, would do so, or waits for a disk
-    kWaits,     ///< for something that it asked for: a time, a lock, bytes
-    kStopped,   ///< by a signal
-    kDebugged,  ///< stopped by a debugger, which a world in its sandbox cannot be its own
+    kRuns,      ///< it computes, waits for a processor, or waits for a disk
+    kWaits,     ///< it waits for something it asked for: a time, a lock, bytes
+    kStopped,   ///< stopped by a signal
+    kDebugged,  ///< stopped by a debugger, which a sandboxed world cannot be itself
   } doing = kRuns;
-  std::chrono::nanoseconds cpu{0};  ///< of all its threads, since its start
+  std::chrono::nanoseconds cpu{0};  ///< processor time of all its threads since its start
 };
 
-/// Nothing if there is no such process, or the kernel does not say.
+/// Returns the state of a process; nullopt if it does not exist, or the kernel does not say.
 std::optional<ProcessLook> lookAtProcess(pid_t process);
 
-/// Of one tick. Time is passed in.
+/// Adds up the time of one tick. Time is passed in.
 class TickEffort {
  public:
   using Nanos = std::chrono::nanoseconds;
 
-  /// Ticks that end sooner are not looked into: all of it counts.
+  /// Time of a tick that counts in full, without a look at the process.
   static constexpr Nanos kUnseen = std::chrono::milliseconds(50);
-  /// Of the time in which a process would run and does not get to, or is stopped, so much counts: one part in
-  /// ten. It would be waited for without end else.
+  /// One part in this many of the time in which a process is stopped, or waits for a processor, counts. If
+  /// none did, it would be waited for without end.
   static constexpr int kStarvedPart = 10;
 
-  /// Another tick.
+  /// Begins another tick.
   void restart() { *this = TickEffort(); }
-  /// `passed` since the last call; `look` says what the process does now, and is called once the tick takes
-  /// longer than kUnseen.
+  /// Adds the time `passed` since the last call. `look` returns the state of the process, and is called once
+  /// the tick takes longer than kUnseen.
   template <class Look>
   void add(Nanos passed, Look look) {
     m_passed += passed;
@@ -52,11 +51,12 @@ class TickEffort {
       count(passed, look());
     }
   }
-  /// What counts.
+  /// Returns the time that counts.
   Nanos counted() const { return m_counted; }
-  /// The part of it that no load, signal or debugger can have caused: computing, and waiting for something.
+  /// Returns the part of it that no load, signal or debugger can have caused: computing, and waiting for
+  /// something.
   Nanos own() const { return m_own; }
-  /// For how long it has been stopped.
+  /// Returns how long it has been stopped.
   Nanos stopped() const { return m_stopped; }
 
  private:
@@ -66,7 +66,7 @@ class TickEffort {
   Nanos m_counted{0};
   Nanos m_own{0};
   Nanos m_stopped{0};
-  std::optional<Nanos> m_cpu;  ///< at the last look
+  std::optional<Nanos> m_cpu;  ///< ProcessLook::cpu at the last look
 };
 
 }  // namespace naiad

@@ -10,8 +10,8 @@ namespace naiad {
 namespace {
 
 enum RecordKind : std::uint8_t {
-  kRecordedTurn = 0,     ///< with the flags and players of the turn before
-  kRecordedNewTurn = 1,  ///< with its own
+  kRecordedTurn = 0,     ///< has the flags of the turn before
+  kRecordedNewTurn = 1,  ///< has flags of its own
   kRecordedResult = 2,
   kRecordedPicture = 3,
   kRecordedSession = 4,
@@ -133,7 +133,7 @@ void dropKeys(WorldTurn& turn) {
   });
 }
 
-// The frame's length is taken off, and the record's, which is shorter, put in its place.
+// Replaces the frame's length by the record's, which is shorter.
 void TurnRecordWriter::append(std::string& out) {
   const std::string_view record = std::string_view(m_fields).substr(kWorldFrameHead);
   ByteWriter(out).varint(record.size());
@@ -193,7 +193,7 @@ std::optional<TurnRecord> TurnRecordReader::next() {
     const std::string_view rest = std::string_view(m_bytes).substr(m_at);
     ByteReader head(rest);
     const std::uint64_t size = head.varint();
-    if (!head.ok()) {  // cut off in the middle of the length, or never one
+    if (!head.ok()) {  // incomplete, or not a varint
       m_bad = rest.size() >= 10;
       return std::nullopt;
     }
@@ -245,7 +245,7 @@ std::optional<TurnRecord> TurnRecordReader::read(std::string_view record) {
   } else if (kind == kRecordedDrop) {
     found = InputsDropped();
   } else if (in.ok()) {
-    return std::nullopt;  // unknown
+    return std::nullopt;  // unknown kind
   }
   if (in.isWhole()) return found;
   m_bad = true;

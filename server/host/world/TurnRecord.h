@@ -1,10 +1,10 @@
-// What goes into a world and what comes of it, as its process gets it and its journal keeps it: a stream of
-// records, each a length and its fields.
+// The inputs and results of a world as a stream of records. The world's process gets the turns, and the
+// journal stores the whole stream.
 //
 //   record  size of the rest (varint) | kind (1) | fields
 //
-// A turn is what the world is sent before a tick, an answer what came of it. Records of unknown kinds are
-// skipped.
+// A turn is sent to the world before a tick; a result says how the tick ended. Readers skip records of
+// unknown kinds.
 #pragma once
 
 #include <cstddef>
@@ -22,73 +22,73 @@
 
 namespace naiad {
 
-/// What a journal keeps of a player's session, so that the player comes back after the server was killed.
-/// Of a token, only its SHA-256 is kept (ResumeTokens.h). No address, no rights of an admin.
+/// A player's session in the journal, so that the player can reconnect after the server was killed. Of a
+/// token only its SHA-256 is stored (ResumeTokens.h); addresses and rights of admins are not stored.
 struct KeptSession {
   std::uint32_t player = 0;
-  bool over = false;  ///< the player has left; the fields below say nothing
+  bool over = false;  ///< the player has left; the fields below are unused
   bool muted = false;
-  std::string name = {};  ///< kMaxKeptName bytes at most
+  std::string name = {};  ///< at most kMaxKeptName bytes
   df::Color color = df::COLOR_DEFAULT;
-  std::string newest = {};    ///< hash of the token that was issued last; empty: there is none
-  std::string redeemed = {};  ///< hash of the one before, if it is still good
+  std::string newest = {};    ///< hash of the token issued last; empty: none
+  std::string redeemed = {};  ///< hash of the token before, if it is still valid
 };
 inline constexpr std::size_t kMaxKeptName = 256;
-inline constexpr std::size_t kKeptHash = 32;  ///< bytes
+inline constexpr std::size_t kKeptHash = 32;  ///< bytes of a token's hash
 
-/// Inputs, and a tick.
+/// The inputs of a tick, and what its answer must have.
 struct WorldTurn {
-  std::vector<df::InputQueue::Input> inputs;  ///< in the order they came
-  bool watched = false;                       ///< the answer is to have a view
-  bool wants_truth = false;                   ///< and pictures
+  std::vector<df::InputQueue::Input> inputs;  ///< ordered by arrival
+  bool watched = false;                       ///< the answer must have a view
+  bool wants_truth = false;                   ///< the answer of a watched turn must have pictures
   bool ends_game = false;
-  bool checked = false;            ///< the answer is to have a hash of the state
-  std::uint32_t heard_player = 0;  ///< only their input comes; 0: all players' does
-  std::uint32_t pictured = 0;      ///< only their picture is wanted; 0: all players' are
+  bool checked = false;            ///< the answer must have a hash of the state
+  std::uint32_t heard_player = 0;  ///< only this player's input is used; 0: all players'
+  std::uint32_t pictured = 0;      ///< only this player's picture is rendered; 0: all players'
 };
 
-/// A turn as a world is sent it.
+/// A turn as it is sent to a world.
 struct SentTurn {
   WorldTurn turn;
-  std::string record;  ///< the same bytes that the journal stores; empty: the turn is too long for a record
+  std::string record;  ///< its bytes, also in the journal; empty: too long for a record
 };
 
-/// The keys and clicks that wait for a world (Round::kMaxInputs), joins, leaves and scores.
+/// Maximum inputs of a turn: keys and clicks that waited (Round::kMaxInputs), joins, leaves and scores.
 inline constexpr std::size_t kMaxTurnInputs = std::size_t{1} << 16;
 
-/// How the tick of the last turn ended.
+/// Result of the last turn's tick.
 struct TickResult {
-  std::uint8_t check = 0;  ///< eight bits of WorldAnswer::hash; 0 if there is none
+  std::uint8_t check = 0;  ///< eight bits of WorldAnswer::hash; 0 without has_check
   bool has_check = false;
   bool game_over = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState()
 };
 
-/// What a player saw after the last turn.
+/// A player's picture after the last turn.
 struct RecordedPicture {
   std::uint32_t player = 0;
   df::Canvas canvas;
 };
 
-/// The world ended in the last turn, and another one had it without its keys and clicks.
+/// Marks that the world crashed or hung in the last turn, which its successor got without keys and clicks.
 struct InputsDropped {};
-/// Joins and leaves stay.
+/// Removes keys and clicks from a turn. Joins and leaves stay.
 void dropKeys(WorldTurn& turn);
 
 using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture, KeptSession, InputsDropped>;
 
-/// Eight bits of a hash of an answer.
+/// Returns the highest eight bits of an answer's hash.
 std::uint8_t checkOf(std::uint64_t answer_hash);
 
-/// Spells records. Turns are spelled by what is other than in the turn before.
+/// Encodes records. The flags of a turn are written only if they differ from those of the turn before.
 class TurnRecordWriter {
  public:
   TurnRecordWriter() = default;
-  /// Goes on with a stream whose last turn was this.
+  /// Continues a stream whose last turn was `last`.
   explicit TurnRecordWriter(const WorldTurn& last);
-  /// Append one to `out`. False, and nothing is appended: more than kMaxTurnInputs.
+  /// Appends a turn to `out`. Returns false, and appends nothing, if it has more than kMaxTurnInputs inputs.
   bool write(const WorldTurn& turn, std::string& out);
-  /// The next turn says all its flags, whatever the one before had: what begins with it can be read alone.
+  /// Writes all flags of the next turn, so that the stream can be read from there.
   void repeatFlags() { m_repeats_flags = true; }
   void write(const TickResult& result, std::string& out);
   void write(const RecordedPicture& picture, std::string& out);
@@ -103,19 +103,19 @@ class TurnRecordWriter {
   std::string m_fields;
 };
 
-/// Bytes of a record without its length, at most: a whole turn, or a picture.
+/// Maximum bytes of a record without its length: a whole turn, or a picture.
 inline constexpr std::size_t kMaxTurnRecord = std::size_t{8} << 20;
 
-/// Reads a stream of them, which may come in pieces.
+/// Reads a stream of records, which may come in pieces.
 class TurnRecordReader {
  public:
-  /// The next bytes of the stream.
+  /// Adds the next bytes of the stream.
   void add(std::string_view bytes) { m_bytes.append(bytes); }
-  /// The next record; nothing if there is no whole one left, or isBad().
+  /// Returns the next record; nullopt if none is complete, or isBad().
   std::optional<TurnRecord> next();
-  /// Something was malformed; nothing can be read any more.
+  /// True if something was malformed; nothing can be read any more.
   bool isBad() const { return m_bad; }
-  /// All that was added has been read.
+  /// True if all bytes that were added have been read.
   bool atEnd() const { return m_at == m_bytes.size(); }
 
  private:
@@ -128,10 +128,10 @@ class TurnRecordReader {
   bool m_bad = false;
 };
 
-/// A message to a world's process, appended to `out`: a turn's record, whether a copy is to be made behind it
-/// (WorldCopies.h), and tick.
+/// Appends a message to a world's process to `out`: a turn's record, and whether a copy is to be made after
+/// its tick (WorldCopies.h).
 void appendTurnMessage(std::string_view record, bool copied, std::string& out);
-/// Its fields, by the reader that has had those of all turns before. Nothing: it is malformed.
+/// Reads the fields of such a message, after all earlier turns. Returns nullopt if they are malformed.
 std::optional<WorldTurn> readTurnMessage(std::string_view fields, TurnRecordReader& records, bool& copied);
 
 }  // namespace naiad

@@ -22,21 +22,21 @@ constexpr df::Fixed cells(std::int64_t count) {
   return count << df::kFixedBits;
 }
 
-/// Beyond what legal positions, and characters drawn beside them, come to.
+/// Larger than legal positions, and than those of characters drawn near them.
 constexpr df::Fixed kMaxPosition = cells(2'010'000'000);
-/// Of a view, so that two are not too far apart to be subtracted.
+/// Limit of a view's corner, so that two corners can be subtracted.
 constexpr df::Fixed kMaxCorner = cells(1'000'000'000);
 constexpr std::int64_t kMaxOrder = (std::int64_t{1} << 48) - 1;
 constexpr std::int64_t kLastCharacter = 0x10FFFF;
 constexpr std::size_t kMaxText = 4 * std::size_t{kMaxViewWidth};
 constexpr std::size_t kMaxLabel = 256;
 constexpr std::size_t kMaxNote = 4 * kMaxChatLength;
-/// More than a frame has room for, but for keys of those that vanish.
+/// More than fit in a frame, except for the keys of Objects that vanish.
 constexpr std::size_t kMaxObjects = kMaxSlots;
 constexpr std::size_t kMaxVanished = 4 * std::size_t{kMaxSlots};
 constexpr std::int64_t kMaxShake = 1000;
 constexpr std::int64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
-/// More than any sequence takes that a snapshot could carry.
+/// More bytes than any sequence has that fits in a snapshot.
 constexpr std::size_t kMaxSequence = std::size_t{1} << 20;
 
 std::uint32_t numberOf(const std::unordered_map<const void*, std::uint32_t>& numbers, const void* p_thing,
@@ -56,7 +56,7 @@ bool isEncodable(const Look& look) {
          look.sequence.glyphCount() <= kMaxGlyphs && look.selector.fits(look.sequence.size());
 }
 
-/// The same look in a world whose tick numbers are higher by `later`.
+/// Returns the selector for a world whose tick numbers are higher by `later`.
 Selector delayed(Selector selector, std::uint32_t later) {
   if (selector.kind == Selector::kClock || selector.kind == Selector::kClockOnce) selector.start += later;
   if (selector.kind == Selector::kAngle) selector.angle -= static_cast<std::uint32_t>(selector.spin) * later;
@@ -65,7 +65,7 @@ Selector delayed(Selector selector, std::uint32_t later) {
 
 }  // namespace
 
-/// What each part consists of: the same function writes and reads it.
+/// The fields of each part. One function both writes and reads them.
 struct ViewFields {
   template <class F, class T>
   static void key(F& f, T& key) {
@@ -196,7 +196,7 @@ struct ViewFields {
     f.number(view.shake_y, -kMaxShake, kMaxShake);
   }
 
-  // What has numbers. A number that is new is one more than the last.
+  // Parts with numbers. A new number is one more than the last.
 
   static void table(FieldWriter& out, ViewWriter& known,
                     const std::shared_ptr<const df::ControlTable>& p_table) {
@@ -244,7 +244,7 @@ struct ViewFields {
     }
     if (in.ok()) sequence = known.m_sequences[number];
   }
-  // Looks that a snapshot could not carry are left out: the characters that draw() drew count anyway.
+  // Looks that do not fit in a snapshot are omitted, because the characters that draw() drew are sent anyway.
   static void looks(FieldWriter& out, ViewWriter& known, const df::WorldView& view) {
     std::vector<df::PublishedLook> encodable;
     for (const df::PublishedLook& look : view.looks) {
@@ -269,7 +269,7 @@ struct ViewFields {
       published.p_look = std::make_shared<const Look>(std::move(look));
     });
   }
-  /// What is right only together.
+  /// True if the parts of a view match each other.
   static bool fits(const df::WorldView& view) {
     for (const df::DrawnObject& drawn : view.drawn) {
       if (std::uint64_t{drawn.first} + drawn.count > view.commands.size()) return false;

@@ -1,7 +1,7 @@
-// A WorldView <-> the fields of a frame (WorldFrame.h).
+// Writes a WorldView to the fields of a frame (WorldFrame.h), and reads it.
 //
-// Each tick's frame has everything, but for what many ticks share: sequences of looks and tables of controls
-// are written once, with a number, and later by that number.
+// Each tick's frame is complete, except for data that many ticks share: a sequence of a look or a table of
+// controls is written once, with a number, and later as that number.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 namespace naiad {
 
-/// With more numbers than that of one kind, both ends forget them before the next view.
+/// Above this many numbers of one kind, both ends forget them before the next view.
 inline constexpr std::size_t kMaxViewNumbers = 4096;
 
-/// Players of a world, at most, with those who are just leaving it.
+/// Maximum players of a world, including those who are just leaving.
 inline constexpr std::size_t kMaxViewPlayers = 32'768;
 
 class ViewWriter {
@@ -27,7 +27,7 @@ class ViewWriter {
 
  private:
   friend struct ViewFields;
-  /// Numbers by address; what has one is kept, so that its address is not used again.
+  /// Numbers by address. What has a number is kept, so that its address is not reused.
   std::unordered_map<const void*, std::uint32_t> m_sequences;
   std::vector<Sequence> m_kept_sequences;
   std::unordered_map<const void*, std::uint32_t> m_tables;
@@ -36,9 +36,9 @@ class ViewWriter {
 
 class ViewReader {
  public:
-  /// `later`: is added to the tick numbers of views.
+  /// `later` is added to the tick numbers of views.
   explicit ViewReader(std::uint32_t later = 0) : m_later(later) {}
-  /// The reader fails where anything is wrong; `view` and this are good for nothing then.
+  /// Makes `in` fail if anything is wrong; `view` and this must not be used then.
   void read(FieldReader& in, df::WorldView& view);
 
  private:

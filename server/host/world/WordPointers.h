@@ -1,4 +1,4 @@
-// Words as posix_spawn() takes them: arguments, an environment.
+// Arguments and environments in the form for posix_spawn().
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace naiad {
 
-/// One pointer into each word, and a null one at the end. Valid as long as `words` is and stays as it is.
+/// Returns a pointer to each word, then a null one. Valid as long as `words` is unchanged.
 inline std::vector<char*> pointersTo(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);

@@ -13,9 +13,9 @@ namespace naiad {
 
 namespace {
 
-/// 0: they cannot be counted.
+/// Returns the number of threads; 0 if they cannot be counted.
 std::size_t countThreads(pid_t process) {
-  constexpr nlink_t kOwnLinks = 2;  // "." and the one in the folder above
+  constexpr nlink_t kOwnLinks = 2;  // "." and the entry in the parent folder
   struct stat facts {};
   if (stat(("/proc/" + std::to_string(process) + "/task").c_str(), &facts) != 0) return 0;
   return facts.st_nlink > kOwnLinks ? facts.st_nlink - kOwnLinks : 0;
@@ -51,8 +51,8 @@ bool WorldCopies::send(int descriptor) const {
   return sendDescriptors(m_orders, &byte, 1, {&descriptor, 1}, MSG_DONTWAIT);
 }
 
-// A copy has one thread, whatever the others hold: of a game with threads none is good, nor are those from
-// before it was seen.
+// A copy has one thread, and locks of the others stay locked. So a game with threads has no usable copies,
+// and those made before the threads were noticed are dropped, too.
 bool WorldCopies::order(pid_t world) {
   update();
   dropOrdered();
@@ -67,7 +67,7 @@ bool WorldCopies::order(pid_t world) {
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return false;
   const bool sent = send(ends[1]);
   ::close(ends[1]);
-  ++m_failures;  // until it speaks
+  ++m_failures;  // until the copy reports
   sent ? m_ordered = ends[0] : ::close(ends[0]);
   return sent;
 }
@@ -77,20 +77,20 @@ void WorldCopies::add(CopiedState state) {
   m_copies.push_back({std::exchange(m_ordered, -1), -1, std::move(state)});
 }
 
-/// False: it has ended, or was never made.
+/// Reads a copy's message. Returns false if the copy has ended, or was never made.
 bool WorldCopies::hear(WorldCopy& copy) {
   std::int32_t process = 0;
   const bool is_known = copy.process > 0;
   char* p_to = reinterpret_cast<char*>(&process);
   const ssize_t got = ::recv(copy.socket, p_to, sizeof process, MSG_DONTWAIT | (is_known ? MSG_PEEK : 0));
   if (got < 0) return errno == EAGAIN || errno == EINTR;
-  if (is_known || got != sizeof process || process <= 0) return false;  // it speaks out of turn
+  if (is_known || got != sizeof process || process <= 0) return false;  // an unexpected message
   copy.process = process;
   m_failures = 0;
   return true;
 }
 
-// The older ones go once the newest is there.
+// Drops older copies when kKept newer ones are ready.
 void WorldCopies::update() {
   for (std::size_t i = m_copies.size(); i-- > 0;) {
     if (!hear(m_copies[i])) drop(i);

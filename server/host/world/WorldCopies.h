@@ -1,12 +1,12 @@
-// The copies of a world's process, as the front has them: which there are, and where they are in the round.
+// The copies of a world's process, and their places in the round. The front is the server's process.
 //
-// The front orders a copy by one end of a new pair of sockets, which it sends over a socket beside the
-// world's, before the turn behind which the copy is to be made (WorldTurn::copied). So a world never has to
-// make a socket. The copy writes its process id, and waits (CopyMaker). Two are kept, for the newer one may
-// be sick already.
+// To order a copy, the front makes a pair of sockets and sends one end to the world (kWorldCopies), before
+// the turn after which the copy is to be made (appendTurnMessage()). So a world never has to make a socket.
+// The copy writes its process id, and waits (CopyMaker). Two copies are kept, because the newer one may
+// already have the state that leads to a crash.
 //
-// A world may be a stranger's program: what it says of a copy is not believed (the keeper lets only a child
-// of its own go on), and one that makes none is soon not asked any more.
+// A world may be a stranger's program, so its statements are not trusted: the keeper resumes only a copy that
+// is its own child. A world that makes no copies is soon not asked any more.
 #pragma once
 
 #include <sys/types.h>
@@ -23,50 +23,51 @@
 
 namespace naiad {
 
-/// Where a world was: answers are differences to what was sent before.
+/// Place of a copy in the round, and the views before it, because answers are differences to them.
 struct CopiedState {
-  std::uint32_t next_tick = 1;  ///< by the host's numbers
+  std::uint32_t next_tick = 1;  ///< in the host's numbers
   ViewReader views;
   df::WorldView view;
 };
 
 struct WorldCopy {
-  int socket = -1;     ///< our end of its socket; whoever has this closes it
-  pid_t process = -1;  ///< as it says; below 0: it has not yet
+  int socket = -1;     ///< our end of its socket, to be closed by the owner
+  pid_t process = -1;  ///< process id that the copy sent; below 0: not yet
   CopiedState state;
 };
 
 class WorldCopies {
  public:
   static constexpr std::size_t kKept = 2;
-  /// Orders in a row without a copy, and there are no more.
+  /// After this many orders in a row without a copy, none are ordered any more.
   static constexpr int kMaxFailures = 3;
 
-  /// `orders`: our end of the socket beside the world's, which this closes; below 0: no copies.
+  /// `orders`: our end of the socket for orders, closed by this; below 0: no copies.
   explicit WorldCopies(int orders) : m_orders(orders) {}
-  /// All copies that have not been taken end.
+  /// Ends all copies that have not been taken.
   ~WorldCopies();
   WorldCopies(const WorldCopies&) = delete;
   WorldCopies& operator=(const WorldCopies&) = delete;
 
-  /// Can any be ordered?
+  /// True if copies can be ordered.
   bool isOn() const { return m_orders >= 0; }
-  /// Why not any more, once, in words.
+  /// Returns why no copies can be ordered any more, once, in words.
   std::optional<std::string> takeProblem() { return std::exchange(m_problem, std::nullopt); }
 
-  /// Order one of `world`, a process, for the turn that is sent next. False: there is to be none.
+  /// Orders a copy of the process `world` for the turn that is sent next. Returns false if there will be
+  /// none.
   bool order(pid_t world);
-  /// The world has answered that turn, and was so then.
+  /// Call when the world has answered that turn; `state` is its state then.
   void add(CopiedState state);
-  /// Read what copies say. Once in each tick.
+  /// Reads the messages of copies. Call once in each tick.
   void update();
-  /// The newest, for the one that lets it go on; nothing: there is none. It is not kept any more.
+  /// Removes and returns the newest copy, to be resumed by the caller; nullopt without copies.
   std::optional<WorldCopy> takeNewest();
-  /// Is there one that could go on?
+  /// True if a copy is ready to take over.
   bool hasCopy() const { return !processes().empty(); }
-  /// All copies end; more can be ordered.
+  /// Ends all copies; more can be ordered.
   void clear();
-  /// Those that are kept.
+  /// Returns the processes of the copies.
   std::vector<pid_t> processes() const;
 
  private:
@@ -77,7 +78,7 @@ class WorldCopies {
   bool hear(WorldCopy& copy);
 
   int m_orders;
-  int m_ordered = -1;  ///< our end for the copy of the turn that is under way
+  int m_ordered = -1;  ///< our end for the copy of the current turn
   int m_failures = 0;
   std::vector<WorldCopy> m_copies;  ///< newest last
   std::optional<std::string> m_problem;

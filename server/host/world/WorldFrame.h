@@ -7,10 +7,10 @@
 //   template <class Fields, class T>          // a FieldWriter and a const T, or a FieldReader and a T
 //   void visit(Fields& f, T& facts) { f.flag(facts.shown); f.number(facts.id, 1, 9); … }
 //
-// so a new field is one line. A text and a list have a longest length, which bounds what a frame makes its
-// reader keep and do. Both ends are of one build, so there are no versions: the first frame says of which
-// (BuildId.h), and a world of another is ended. But a world runs a game's code: a reader checks every number,
-// and a writer clamps each to its range, so that no game is refused for a coordinate.
+// A new field is then one line. Texts and lists have a maximum length, which bounds the memory and time that
+// a frame costs its reader. Both ends have one build, so there are no versions: the first frame names the
+// build (BuildId.h), and a world of another build is ended. But a world runs a game's code: a reader checks
+// every number. A writer clamps each number to its range, so that no game is refused because of a coordinate.
 #pragma once
 
 #include <algorithm>
@@ -27,22 +27,22 @@
 
 namespace naiad {
 
-/// Bytes of a frame's fields, at most.
+/// Maximum bytes of a frame's fields.
 inline constexpr std::size_t kMaxWorldFrame = std::size_t{16} << 20;
-/// Of its length.
+/// Bytes of a frame's length.
 inline constexpr std::size_t kWorldFrameHead = 4;
 
-/// Complete only after finish(): a view of a world is thousands of numbers a tick, which go straight into
-/// memory that is there.
+/// Writes the fields of a frame, which is complete only after finish(). A view of a world has thousands of
+/// numbers a tick, which are written straight into allocated memory.
 class FieldWriter {
  public:
-  /// Begins a frame in `out`, whose memory is used again.
+  /// Begins a frame in `out`, and reuses its memory.
   explicit FieldWriter(std::string& out) : m_out(out) {
     if (m_out.size() < kFirstSize) m_out.resize(kFirstSize);
     m_p_next = m_out.data() + kWorldFrameHead;
     m_p_end = m_out.data() + m_out.size();
   }
-  /// Complete it. False: it is too long to be sent.
+  /// Completes the frame. Returns false if it is too long to be sent.
   bool finish() {
     m_out.resize(size());
     const std::size_t fields = m_out.size() - kWorldFrameHead;
@@ -55,24 +55,24 @@ class FieldWriter {
     *room(1) = value ? 1 : 0;
     ++m_p_next;
   }
-  /// Any integer or enumeration, from `least` to `most`.
+  /// Writes an integer or enumeration, clamped to `least` to `most`.
   template <class T>
   void number(T value, std::int64_t least, std::int64_t most) {
     varint(static_cast<std::uint64_t>(std::clamp(static_cast<std::int64_t>(value), least, most) - least));
   }
   void number(std::uint32_t value) { varint(value); }
-  /// 64 bits within ±`most`.
+  /// Writes 64 bits, clamped to ±`most`.
   void fixed(df::Fixed value, df::Fixed most) {
     storeLittleEndian(static_cast<std::uint64_t>(std::clamp(value, -most, most)), room(8));
     m_p_next += 8;
   }
-  /// At most so many bytes.
+  /// Writes a text, truncated to `most` bytes.
   void text(std::string_view value, std::size_t most) {
     value = value.substr(0, most);
     varint(value.size());
     m_p_next = std::copy(value.begin(), value.end(), room(value.size()));
   }
-  /// The first `most` of them, each by `visit(*this, element)`.
+  /// Writes the first `most` elements, each by `visit(*this, element)`.
   template <class T, class Visit>
   void list(const std::vector<T>& values, std::size_t most, Visit visit) {
     const std::size_t count = std::min(values.size(), most);
@@ -86,13 +86,13 @@ class FieldWriter {
   static constexpr std::size_t kMaxVarint = 10;
 
   std::size_t size() const { return static_cast<std::size_t>(m_p_next - m_out.data()); }
-  /// Where the next `count` bytes go.
+  /// Returns the place of the next `count` bytes.
   char* room(std::size_t count) {
     if (static_cast<std::size_t>(m_p_end - m_p_next) < count) grow(count);
     return m_p_next;
   }
   void grow(std::size_t count) {
-    // Frames of a world are nearly as long as the one before, whose size is there already.
+    // A frame is nearly as long as the one before, whose memory is reused.
     const std::size_t used = size();
     m_out.resize(m_out.size() + m_out.size() / 8 + kFirstSize + count);
     m_p_next = m_out.data() + used;
@@ -115,16 +115,16 @@ class FieldWriter {
   char* m_p_end = nullptr;
 };
 
-/// Fails at the first thing that is wrong, and stays failed.
+/// Reads the fields of a frame. Fails at the first error, and stays failed.
 class FieldReader {
  public:
-  /// Without the length.
+  /// `fields`: the frame without its length.
   explicit FieldReader(std::string_view fields) : m_bytes(fields) {}
   bool ok() const { return m_bytes.ok(); }
-  /// All was read, and was good.
+  /// True if everything was read, and was valid.
   bool isWhole() const { return m_bytes.ok() && m_bytes.atEnd(); }
   void fail() { m_bytes.fail(); }
-  /// Fail unless so.
+  /// Fails if `so` is false.
   void require(bool so) {
     if (!so) m_bytes.fail();
   }
@@ -144,7 +144,7 @@ class FieldReader {
     fail();
   }
   void text(std::string& value, std::size_t most) { value = m_bytes.bytes(m_bytes.upTo(most)); }
-  /// Fails before the list grows if it is to have more than `most`.
+  /// Fails, before the list grows, if it would have more than `most` elements.
   template <class T, class Visit>
   void list(std::vector<T>& values, std::size_t most, Visit visit) {
     values.clear();
@@ -157,7 +157,7 @@ class FieldReader {
   ByteReader m_bytes;
 };
 
-/// A coordinate pair within ±`most` each.
+/// Visits a pair of coordinates within ±`most`.
 template <class Fields, class T>
 void visitVector(Fields& f, T& vector, df::Fixed most) {
   f.fixed(vector.x, most);

@@ -56,7 +56,7 @@ void WorldInProcess::tick(const SentTurn& turn) {
   reportTick();
 }
 
-// The view keeps the number of the last tick that was watched.
+// Not taken from the view, which has the number of the last watched tick.
 std::uint32_t WorldInProcess::nextTick() const {
   return static_cast<std::uint32_t>(m_world.getStepCount()) + 1;
 }

@@ -12,14 +12,14 @@ class World;
 
 namespace naiad {
 
-/// Let the world have what is in the turn.
+/// Passes the inputs and flags of a turn to the world.
 void applyTurn(const WorldTurn& turn, df::World& world);
-/// What came of it in the tick that followed.
+/// Returns the results of the tick that followed, and removes them from the world.
 WorldAnswer takeAnswer(const WorldTurn& turn, df::World& world);
 
 class WorldInProcess : public WorldPort {
  public:
-  /// `world` must live until this is gone.
+  /// `world` must outlive this.
   explicit WorldInProcess(df::World& world) : m_world(world) {}
   ~WorldInProcess() override;
   WorldInProcess(const WorldInProcess&) = delete;
@@ -35,7 +35,7 @@ class WorldInProcess : public WorldPort {
 
  private:
   df::World& m_world;
-  std::optional<LagCompensator> m_lag_compensator;  ///< while the game wants it
+  std::optional<LagCompensator> m_lag_compensator;  ///< while the game uses it
 };
 
 }  // namespace naiad

@@ -29,13 +29,13 @@ namespace naiad {
 
 namespace {
 
-/// Alive or not: it has not been waited for.
+/// True if `process` is a child that has not been waited for, alive or not.
 bool isChild(pid_t process) {
   siginfo_t facts{};
   return process > 0 && waitid(P_PID, static_cast<id_t>(process), &facts, WEXITED | WNOHANG | WNOWAIT) == 0;
 }
 
-/// Has it ended? Others that have are waited for.
+/// Waits for all children that have ended. Returns true, and the status, if `world` is among them.
 bool takeEnd(pid_t world, int& status) {
   int how = 0;
   for (pid_t child = 0; (child = waitpid(-1, &how, WNOHANG)) > 0;) {
@@ -46,19 +46,19 @@ bool takeEnd(pid_t world, int& status) {
   return false;
 }
 
-/// A world that makes copies, and its keeper's part in what follows when it ends: the front says which copy
-/// is the world from then on, and all other descendants of the keeper end.
+/// Supervises a world that makes copies. When it ends, the front says which copy becomes the world, and the
+/// keeper's other descendants end, except for copies that are kept.
 class Succession {
  public:
-  /// How long a keeper waits for the front's word after a world's end.
+  /// Time limit of the front's order after a world's end.
   static constexpr int kWordMillis = 1'000;
 
   /// `world`: a child of this process, which has no threads and is a child subreaper. `front`: the keeper's
-  /// socket. `children`: readable when one has ended.
+  /// socket. `children`: readable when a child has ended.
   Succession(pid_t world, int front, int children) : m_world(world), m_front(front), m_children(children) {}
 
-  /// Until the front wants no world any more, or has gone. Each end of a world is reported but the last one.
-  /// Return the world that is left; 0: it has ended, and m_status says how.
+  /// Runs until the front does not need the world any more, or has gone. Reports each end of a world except
+  /// the last. Returns the world that is left; 0: it has ended, and status() says how.
   pid_t run() {
     while (waitForEnd()) {
       m_world = 0;
@@ -71,11 +71,11 @@ class Succession {
     }
     return m_world;
   }
-  /// Of the last world that has ended, as of waitpid().
+  /// Returns the status of the last world that has ended, as of waitpid().
   int status() const { return m_status; }
 
  private:
-  /// False: the front wants no world any more.
+  /// Waits for the world's end. Returns false if the front does not need the world any more.
   bool waitForEnd() {
     pollfd either[2] = {{m_front, POLLIN | POLLRDHUP, 0}, {m_children, POLLIN, 0}};
     while (!takeEnd(m_world, m_status)) {
@@ -92,7 +92,7 @@ class Succession {
     }
     return true;
   }
-  /// False: the front has closed its end.
+  /// Returns false if the front has closed its end.
   bool takeOrder(KeeperOrder& order) const {
     return recv(m_front, &order, sizeof order, MSG_DONTWAIT) == sizeof order;
   }
@@ -100,7 +100,7 @@ class Succession {
     do {
       pollfd readable{m_front, POLLIN, 0};
       if (poll(&readable, 1, kWordMillis) <= 0 || !takeOrder(order)) return false;
-    } while (order.kind == KeeperOrder::kEndWorld);  // it had just ended
+    } while (order.kind == KeeperOrder::kEndWorld);  // it had already ended
     return true;
   }
   bool report(KeeperEnd::Kind what) const {
@@ -114,25 +114,25 @@ class Succession {
   int m_status = 0;
 };
 
-constexpr int kFailure = STDERR_FILENO + 3;  ///< in the world's process, until its program is executed
+constexpr int kFailure = STDERR_FILENO + 3;  ///< the world's, for errors before it executes its program
 constexpr int kFirstFree = kFailure + 1;
-constexpr int kFront = STDERR_FILENO + 1;  ///< in the launcher: its end of the front's socket
+constexpr int kFront = STDERR_FILENO + 1;  ///< the launcher's end of the front's socket
 
-/// Everything that was open, but this; from then on it is `to`.
+/// Moves `descriptor` to `to`, and closes all others above it.
 void keepOnly(int descriptor, int to) {
   if (descriptor != to) dup2(descriptor, to);
   fcntl(to, F_SETFD, FD_CLOEXEC);
   close_range(static_cast<unsigned>(to) + 1, ~0u, 0);
 }
 
-/// Those that end a server in order are for the front alone.
+/// Ignores the signals that end a server in order: only the front handles them.
 void ignoreSignals() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGUSR1, SIGUSR2, SIGTSTP})
     signal(number, SIG_IGN);
   signal(SIGCHLD, SIG_DFL);
 }
 
-/// A descriptor that is readable when a child has ended.
+/// Returns a descriptor that is readable when a child has ended.
 int watchChildren() {
   sigset_t child;
   sigemptyset(&child);
@@ -141,7 +141,7 @@ int watchChildren() {
   return signalfd(-1, &child, SFD_CLOEXEC | SFD_NONBLOCK);
 }
 
-/// Should memory run out, a world's is to be freed before the front's.
+/// Raises the OOM score: if memory runs out, worlds are killed before the front.
 void standInFront() {
   const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
@@ -149,7 +149,7 @@ void standInFront() {
   close(file);
 }
 
-/// Nothing if the front has gone.
+/// Receives an order and its descriptors. Returns nullopt if the front has gone.
 std::optional<WorldDescriptors> receiveOrder(int from, WorldOrder& order) {
   WorldDescriptors::List list;
   list.fill(-1);
@@ -168,7 +168,7 @@ std::optional<WorldDescriptors> receiveOrder(int from, WorldOrder& order) {
   _exit(127);
 }
 
-/// From 3 to 6 are what this is about, so that none of them is closed before it is copied.
+/// Moves a descriptor above the fixed numbers, so that none is overwritten before it is copied.
 int moveUp(int descriptor) {
   return fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree);
 }
@@ -239,13 +239,13 @@ Sandbox sandboxOf(const WorldProgram& program, const WorldOrder& order) {
 
 // ---- the keeper -------------------------------------------------------------------------------------------
 
-/// False once the front has closed it.
+/// Returns false if the front has closed its end.
 template <class Message>
 bool sendTo(int front, const Message& message) {
   return send(front, &message, sizeof message, MSG_NOSIGNAL) == sizeof message;
 }
 
-/// Has this child ended? It is not waited for. Others that have are.
+/// True if this child has ended; it is not waited for. Others that have ended are.
 bool hasEnded(pid_t world) {
   siginfo_t facts{};
   while (waitid(P_ALL, 0, &facts, WEXITED | WNOHANG | WNOWAIT) == 0 && facts.si_pid != 0) {
@@ -313,7 +313,7 @@ class Launcher {
     prctl(PR_SET_CHILD_SUBREAPER, 1);
   }
 
-  /// Until the front has gone.
+  /// Runs until the front has gone.
   void run() {
     pollfd either[2] = {{kFront, POLLIN, 0}, {m_children, POLLIN, 0}};
     while (true) {
@@ -340,7 +340,7 @@ class Launcher {
     descriptors.closeAll();
   }
 
-  // A keeper that was killed leaves its world's processes, which come here one after the other.
+  // The descendants of a killed keeper become children of this process, one after the other.
   void waitForChildren() {
     signalfd_siginfo facts{};
     [[maybe_unused]] const ssize_t got = read(m_children, &facts, sizeof facts);

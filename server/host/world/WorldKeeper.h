@@ -1,4 +1,4 @@
-// The launcher's and the keepers' side of a WorldLauncher: what their processes do.
+// The code of the launcher's and the keepers' processes (WorldLauncher.h).
 #pragma once
 
 #include <array>
@@ -8,15 +8,15 @@
 
 namespace naiad {
 
-/// What the front sends for each world: the other ends, and where the world's output goes.
+/// The descriptors that the front sends for each world.
 struct WorldDescriptors {
   int world = -1;
   int keeper = -1;
   int output = -1;
   int page = -1;
-  int copies = -1;  ///< of a world that makes copies
+  int copies = -1;  ///< only for a world that makes copies
 
-  /// As they are sent: those that are there.
+  /// Returns them in the order in which they are sent; only the first count() exist.
   static constexpr std::size_t kMost = 5;
   using List = std::array<int, kMost>;
   List list() const { return {world, keeper, output, page, copies}; }
@@ -24,8 +24,7 @@ struct WorldDescriptors {
   void closeAll() const;
 };
 
-/// In a forked process: what it is from now on. `front`: says when worlds are wanted, and ends it when it
-/// closes.
+/// Runs the launcher in a forked process. `front`: the socket of its orders; the process ends when it closes.
 [[noreturn]] void runLauncher(int front, const WorldProgram& program);
 
 }  // namespace naiad

@@ -22,7 +22,7 @@ namespace naiad {
 
 namespace {
 
-constexpr int kStartMillis = 10'000;  ///< of the launcher
+constexpr int kStartMillis = 10'000;  ///< limit of the launcher's start
 
 void require(bool good, const char* what) {
   if (!good) throw std::system_error(errno, std::generic_category(), what);
@@ -53,8 +53,8 @@ std::pair<Descriptor, Descriptor> socketPair(int type, const char* what) {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// For what a world prints: we read without waiting, and it waits for us. It never has our own output, which
-/// it could cut off or read from: a file or a terminal.
+/// Makes the pipe for a world's output: the world blocks when it is full, the reader never does. The world
+/// does not get our own output, a file or terminal that it could truncate or read.
 std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
   int ends[2];
   require(pipe2(ends, O_CLOEXEC) == 0, what);
@@ -63,7 +63,7 @@ std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
   return pair;
 }
 
-/// Memory of an ActivityPage's size for good: a world that cut it off would end its reader by SIGBUS.
+/// Makes memory for an ActivityPage, sealed because a world that shrank it would end its reader by SIGBUS.
 Descriptor sharedPage(const char* what) {
   Descriptor page(memfd_create("df-activity", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   require(page.get() >= 0 && ftruncate(page.get(), sizeof(df::ActivityPage)) == 0 &&
@@ -77,7 +77,7 @@ bool sendOrder(int to, const WorldOrder& order, const WorldDescriptors& descript
   return sendDescriptors(to, &order, sizeof order, std::span(list).first(descriptors.count()));
 }
 
-/// False: too late, or the other end was closed.
+/// Returns false after a timeout, or if the other end was closed.
 template <class Message>
 bool receive(int from, Message& message) {
   pollfd readable{from, POLLIN, 0};

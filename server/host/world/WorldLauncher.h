@@ -1,15 +1,15 @@
-// Starts the processes of worlds, and sees to it that none of theirs is left when they end.
+// Starts the processes of worlds, and makes sure that all their descendants end with them.
 //
 //   front ── launcher ── keeper ── world ── what the world starts
 //
-// The launcher is a small copy of the front from before it had keys, passwords of players or threads. It
-// makes a keeper for each world. The keeper starts the world in its sandbox, and is the subreaper of all that
-// descends from it. When the world has ended, or the front closes or shuts down its end of the keeper's
-// socket, by whatever death, the keeper ends all of them, also those that left the world's process group.
-// Worlds cannot signal or trace any of the three.
+// The front is the server's process. The launcher is forked from it before it has keys, passwords of players
+// or threads, and forks a keeper for each world. The keeper starts the world in its sandbox, and is the
+// subreaper of its descendants. When the world has ended, or when the front closes or shuts down its end of
+// the keeper's socket, by whatever death, the keeper ends all of them, including those that left the world's
+// process group. Worlds cannot signal or trace any of the three.
 //
-// On the keeper's socket the front reads KeeperStart, then one KeeperEnd. Of a world that makes copies of
-// itself (WorldOrder::copies) there are more: two for each world that ends and is followed by a copy.
+// On the keeper's socket the front reads KeeperStart, then one KeeperEnd. If the world makes copies
+// (WorldOrder::copies), there are two more for each world that ends and is replaced by a copy.
 #pragma once
 
 #include <sys/types.h>
@@ -25,50 +25,50 @@
 
 namespace naiad {
 
-/// The process of a world.
+/// The program that worlds run.
 struct WorldProgram {
   std::string program;                   ///< an absolute path
-  std::vector<std::string> arguments;    ///< its name first
-  std::vector<std::string> environment;  ///< "NAME=value"; WorldStart.h adds the socket's number
+  std::vector<std::string> arguments;    ///< program name first
+  std::vector<std::string> environment;  ///< "NAME=value"; the socket is added (WorldStart.h)
   std::string directory;
   Sandbox sandbox;
-  std::string preload = {};  ///< for LD_PRELOAD of worlds that are to be repeatable (Repeatable.h)
-  std::chrono::milliseconds hang_time{1000};  ///< of one tick; then the game hangs (WorldProcess.h)
-  int nice = 0;                               ///< added to that of this process, for the world and its keeper
+  std::string preload = {};  ///< LD_PRELOAD of worlds that are to be repeatable (Repeatable.h)
+  std::chrono::milliseconds hang_time{1000};  ///< limit of a tick; after it the game hangs (WorldProcess.h)
+  int nice = 0;                               ///< added to the nice value of this process
 };
 
 struct StartedWorld {
-  int socket = -1;  ///< our end of the world's; the caller's to close
-  int keeper = -1;  ///< of the keeper's; the caller's to close, which ends the world
-  int output = -1;  ///< what it prints, for an OutputRelay; the caller's to close
-  int page = -1;    ///< memory that it shares with us, an ActivityPage; the caller's to close
-  int copies = -1;  ///< for orders of copies (WorldCopies.h), if it is to make any; the caller's to close
-  std::chrono::milliseconds hang_time{1000};  ///< as its WorldProgram has it
-  bool hashes = false;   ///< its answers are to be hashed: the order is of a world that can be repeated
-  bool repeats = false;  ///< it is executed again: what it prints was printed
+  int socket = -1;  ///< our end of the world's socket
+  int keeper = -1;  ///< our end of the keeper's socket; closing it ends the world
+  int output = -1;  ///< pipe of its output, for an OutputRelay
+  int page = -1;    ///< shared memory with an ActivityPage
+  int copies = -1;  ///< socket for orders of copies (WorldCopies.h); -1: it makes none
+  std::chrono::milliseconds hang_time{1000};  ///< as in WorldProgram
+  bool hashes = false;                        ///< hash its answers, because it is repeatable
+  bool repeats = false;                       ///< a replay: its output was printed before
 };
 
-/// The world's program is executed, or cannot be.
+/// Sent when the world's program was executed, or could not be.
 struct KeeperStart {
-  std::int32_t error = 0;  ///< errno; then nothing was started
+  std::int32_t error = 0;  ///< errno; if not 0, nothing was started
   std::int32_t process = -1;
 };
 
 struct KeeperEnd {
   enum Kind : std::int32_t {
-    kAll,    ///< all that the world had started has ended, and the keeper ends
-    kWorld,  ///< copies are there, and the keeper waits for a KeeperOrder that says which of them goes on
-    kRest,   ///< the copy of that order goes on, and of the world before nothing is left
+    kAll,    ///< all descendants of the world have ended, and the keeper ends
+    kWorld,  ///< the world has ended; the keeper waits for a KeeperOrder with its successor
+    kRest,   ///< the copy of that order runs, and nothing of the old world is left
   };
-  std::int32_t status = 0;  ///< of the world that ended last, as of waitpid()
+  std::int32_t status = 0;  ///< status of the world that ended last, as of waitpid()
   std::int32_t kind = kAll;
 };
 
-/// To the keeper of a world that makes copies.
+/// An order to the keeper of a world that makes copies.
 struct KeeperOrder {
   enum Kind : std::int32_t {
-    kEndWorld,  ///< end the process of the world alone: it hangs
-    kGoOn,      ///< the world has ended: `process` is the world from now on, and all but `kept` end
+    kEndWorld,  ///< end only the world's process: it hangs
+    kGoOn,      ///< the world has ended: `process` replaces it, and all but `kept` end
   } kind = kEndWorld;
   std::int32_t process = 0;
   std::array<std::int32_t, 3> kept{};  ///< other copies; 0: none
@@ -76,19 +76,19 @@ struct KeeperOrder {
 
 class WorldLauncher {
  public:
-  /// Starts the launcher: better before this process has threads, much memory and secrets. Throws
+  /// Starts the launcher, if possible before this process has threads, much memory and secrets. Throws
   /// std::system_error.
   explicit WorldLauncher(WorldProgram program);
-  /// Its keepers and worlds stay as long as their sockets are open.
+  /// Ends the launcher. Keepers and worlds stay as long as their sockets are open.
   ~WorldLauncher();
   WorldLauncher(const WorldLauncher&) = delete;
   WorldLauncher& operator=(const WorldLauncher&) = delete;
 
-  /// Start a world with an empty standard input, and a pipe for its standard output and error; with a session
-  /// of its own: a Ctrl-C in the terminal is for the front. Does not wait: the keeper says what comes of it.
-  /// Throws std::system_error if there is no launcher any more.
+  /// Starts a world with an empty standard input, a pipe as its output, and a session of its own, so that
+  /// Ctrl-C in the terminal reaches only the front. Does not wait: the keeper reports the result. Throws
+  /// std::system_error if the launcher has gone.
   StartedWorld start(const WorldOrder& order = {}) const;
-  /// As found out by the launcher; all of it if there is no sandbox.
+  /// Returns the features that the launcher found. Without a sandbox only `addresses` is set.
   const SandboxSupport& support() const { return m_support; }
 
  private:

@@ -45,7 +45,7 @@ void visitReady(F& f, T& ready) {
   f.list(ready.files, kMaxReadFiles, [](F& in, auto& file) { visitFile(in, file); });
 }
 
-/// Flags in one number, the first lowest.
+/// Visits flags as one number, the first in the lowest bit.
 template <class... Flags>
 void visitFlags(FieldWriter& out, const Flags&... flags) {
   std::uint32_t bits = 0;

@@ -1,11 +1,10 @@
 // The messages between a host and a world in a process of its own, as frames (WorldFrame.h).
 //
-//   world → host   ready: what the game has set up      once, when it has come to GM.run()
-//   host → world   turn: its record, and tick (TurnRecord.h)
-//   world → host   answer: how the tick ended; a turn has one answer
+//   world → host   ready: the game's settings           once, when it has come to GM.run()
+//   host → world   turn: its record (TurnRecord.h); the world then ticks
+//   world → host   answer: the result of the tick; each turn has one answer
 //
-// When the game is over, the world's process closes its end and exits; so it does when the host closes its
-// own.
+// When the game is over, or the host has closed its end, the world's process closes its own end and exits.
 #pragma once
 
 #include <cstdint>
@@ -25,41 +24,41 @@
 
 namespace naiad {
 
-/// What the game has set up for players who join.
+/// Settings of the game, for the players that will join.
 struct WorldReady {
   int window_width = 80;
   int window_height = 24;
-  int frame_millis = 33;  ///< as df-config.txt writes it, up to kMaxFrameMillis
+  int frame_millis = 33;  ///< frame time of df-config.txt in ms, at most kMaxFrameMillis
   bool compat = false;
   std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
-  std::vector<ReadFile> files;    ///< that the game has read so far, if it is to be repeatable
-  bool fixed_addresses = false;   ///< of this process (FixedStart.h)
-  bool runs_empty = false;        ///< it ticks without players, too
+  std::vector<ReadFile> files;    ///< files read by the game so far, if it is to be repeatable
+  bool fixed_addresses = false;   ///< this process has fixed addresses (FixedStart.h)
+  bool runs_empty = false;        ///< the world ticks without players, too
 };
 inline constexpr int kMaxFrameMillis = 1000;
 
-/// What one player sees.
+/// The picture of one player.
 struct WorldPicture {
   std::uint32_t player = 0;
   df::Canvas canvas;
 };
 
-/// How a tick ended.
+/// The result of a tick.
 struct WorldAnswer {
   bool game_over = false;
   std::vector<std::uint32_t> leavers;
   bool has_view = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
-  std::vector<WorldPicture> pictures;       ///< by player
+  std::vector<WorldPicture> pictures;       ///< sorted by player
   std::vector<df::AddedScore> scores = {};  ///< at most HighScoreLimits::kMaxAddedInTick
   std::vector<df::SentPlayer> sent = {};    ///< at most GameRoomLimits::kMaxSentInTick
-  std::uint64_t hash = 0;                   ///< of its bytes, for who has read them; 0: there is none
+  std::uint64_t hash = 0;                   ///< hash of its bytes, set by the reader; 0: none
 };
 
-// Writers make `frame` a whole frame. False: it would be too long. Readers return nothing if anything is
-// missing, out of range or left over.
+// Writers fill `frame` with a whole frame, and return false if it would be too long. Readers return nullopt
+// if anything is missing, out of range or left over.
 
-// Parts of records (TurnRecord.h), too.
+// Records (TurnRecord.h) use these functions, too.
 template <class F, class Text, class Number>
 void visitScore(F& f, Text& table, Text& name, Number& points) {
   f.text(table, df::HighScoreLimits::kMaxTableName);
@@ -69,19 +68,19 @@ void visitScore(F& f, Text& table, Text& name, Number& points) {
 void visitPicture(FieldWriter& out, const df::Canvas& canvas);
 void visitPicture(FieldReader& in, df::Canvas& canvas);
 
-/// It begins with the build that has written it.
+/// Writes the ready message, which begins with the build id of its writer.
 void writeReady(const WorldReady& ready, std::string& frame);
-/// Of which build (BuildId.h) the world is that has sent this. That alone may be read of another build: what
-/// follows in its frames may be anything.
+/// Returns the build id (BuildId.h) of the world that sent a ready message. Only this can be read from
+/// another build, whose frames may have any other content.
 std::optional<std::string> readBuild(std::string_view fields);
 std::optional<WorldReady> readReady(std::string_view fields);
 
-/// `p_view` if the answer has one.
+/// Writes an answer. `p_view`: its view; null: none.
 bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWriter& views,
                  std::string& frame);
-/// `view` is filled if the answer has one.
+/// Reads an answer. Fills `view` if the answer has one.
 std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views, df::WorldView& view);
-/// The same without the view, of which nothing is checked.
+/// Like readAnswer(), without the view, which is not checked.
 std::optional<WorldAnswer> readAnswerHead(std::string_view fields);
 
 }  // namespace naiad

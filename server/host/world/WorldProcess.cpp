@@ -25,13 +25,13 @@ namespace naiad {
 
 namespace {
 
-/// The time between two checks counts up to this: if the host itself was held up, the world was not late.
+/// Maximum time that one check adds: if the host itself was late, the world was not.
 constexpr std::chrono::milliseconds kMaxBetweenChecks{100};
 
-/// In a handler, and not by GM.setGameOver().
+/// The game called exit() in a handler, instead of GM.setGameOver().
 constexpr const char* kExited = "called exit()";
 
-/// For a keeper to end a world with all that it has started.
+/// Time limit for a keeper to end a world and its descendants.
 constexpr int kKillMillis = 5'000;
 
 std::string nameOf(int signal) {
@@ -39,14 +39,14 @@ std::string nameOf(int signal) {
   return p_name != nullptr ? "SIG" + std::string(p_name) : std::to_string(signal);
 }
 
-/// "1", "0.25".
+/// Returns a text like "1" or "0.25".
 std::string secondsText(std::chrono::nanoseconds time) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", std::chrono::duration<double>(time).count());
   return text;
 }
 
-/// Ours to read alone. Null if there is none.
+/// Maps the page read-only. Returns null if there is none.
 const df::ActivityPage* mapPage(int file) {
   if (file < 0) return nullptr;
   void* p_memory = mmap(nullptr, sizeof(df::ActivityPage), PROT_READ, MAP_SHARED, file, 0);
@@ -85,12 +85,12 @@ WorldProcess::~WorldProcess() {
   if (m_p_page != nullptr) munmap(const_cast<df::ActivityPage*>(m_p_page), sizeof *m_p_page);
 }
 
-// The keeper takes it as the end of the host.
+// The keeper handles this like the end of the host.
 void WorldProcess::kill() {
   ::shutdown(m_keeper, SHUT_WR);
 }
 
-/// Nothing yet, or never: without its keeper a world does not live.
+/// Returns nullopt if nothing has come, or if the keeper has ended: without it a world does not live.
 template <class Message>
 std::optional<Message> WorldProcess::takeFromKeeper(int patience_millis) {
   pollfd readable{m_keeper, POLLIN, 0};
@@ -131,10 +131,10 @@ void WorldProcess::waitForKeeper() {
   while (m_keeper_is != Keeper::kEnded && Clock::now() < end) readKeeper(kKillMillis);
 }
 
-// ---- down -------------------------------------------------------------------------------------------------
+// ---- sending turns ----------------------------------------------------------------------------------------
 
 void WorldProcess::tick(const SentTurn& turn) {
-  if (m_state >= State::kEnding) return;  // one of those sent ahead has failed
+  if (m_state >= State::kEnding) return;  // a turn sent ahead has failed
   if (!std::exchange(m_began, true)) {
     m_later = m_next_tick - 1;
     m_views.emplace(m_later);
@@ -171,7 +171,7 @@ std::uint32_t WorldProcess::currentTick() const {
   return m_next_tick - std::max(m_unanswered, 1u);
 }
 
-// ---- up ---------------------------------------------------------------------------------------------------
+// ---- reading answers --------------------------------------------------------------------------------------
 
 void WorldProcess::readHead() {
   m_in.resize(kWorldFrameHead);
@@ -222,7 +222,7 @@ void WorldProcess::onFrame() {
   if (!starts) reportTick();
 }
 
-// An upgrade has replaced files from which this process's worlds are started, but not what this process is.
+// After an upgrade, new worlds start from the new files, but this process still runs the old build.
 void WorldProcess::takeReady() {
   const auto build = readBuild(m_in);
   if (build && *build != ownBuildId())
@@ -252,7 +252,7 @@ void WorldProcess::fail(WorldEnd::Why why, const std::string& text) {
   killWorld();
 }
 
-// Its copies stay, if it may be followed by one.
+// Keeps the copies, if there are any, because one may take over.
 void WorldProcess::killWorld() {
   if (!m_copies.isOn()) return kill();
   const KeeperOrder order{KeeperOrder::kEndWorld};
@@ -348,10 +348,10 @@ std::chrono::nanoseconds WorldProcess::cpuTime() const {
   return look ? look->cpu : std::chrono::nanoseconds(0);
 }
 
-// The keeper waits a second for this, so the host is not to sleep meanwhile.
+// The keeper waits only a second for this, so the host must not sleep before it.
 std::optional<std::uint32_t> WorldProcess::goOnWithCopy() {
   if (m_state != State::kEnded) return std::nullopt;
-  readKeeper(0);  // it may have given up waiting
+  readKeeper(0);  // the keeper may have given up waiting
   while (auto copy = m_keeper_is == Keeper::kEnded ? std::nullopt : m_copies.takeNewest()) {
     if (!orderToGoOn(*copy)) {
       ::close(copy->socket);
@@ -374,7 +374,7 @@ bool WorldProcess::orderToGoOn(const WorldCopy& copy) {
 }
 
 void WorldProcess::become(WorldCopy copy) {
-  m_self = std::make_shared<WorldProcess*>(this);  // handlers of the socket before have nothing to say
+  m_self = std::make_shared<WorldProcess*>(this);  // ignores handlers of the old socket
   m_socket.assign(asio::local::stream_protocol(), copy.socket);
   m_process = copy.process;
   m_keeper_is = Keeper::kClearing;
@@ -409,7 +409,7 @@ WorldEnd WorldProcess::endOf(int status) const {
   return {WorldEnd::kGameOver, m_unanswered > 0 && !m_expected && WIFEXITED(status) ? kExited : "is over"};
 }
 
-// By the host's numbers, as the log's other lines have them.
+// Uses the host's tick numbers, like other lines of the log.
 std::string WorldProcess::when() const {
   if (!m_began) return {};
   const std::string number = std::to_string(currentTick());

@@ -1,8 +1,8 @@
 // A world in a process of its own, over a Unix socket (WorldMessages.h). The other end is a WorldServer.
 //
-// A world that does not answer in time, or sends a malformed frame, is killed; one that crashes has ended.
-// The host goes on without it. Of a tick only that time counts which is the world's own doing (TickEffort.h):
-// a machine under load and a debugger do not make a game hang.
+// A world that does not answer in time, or sends a malformed frame, is killed; the host continues without it.
+// Only the time of a tick that the world itself caused counts (TickEffort.h): a loaded machine or a debugger
+// does not make a game hang.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -24,35 +24,36 @@
 
 namespace naiad {
 
-/// WorldAnswer::hash of an answer's fields.
+/// Returns the WorldAnswer::hash of an answer's fields.
 std::uint64_t hashAnswer(std::string_view fields);
 
 class WorldProcess : public WorldPort {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// So many times StartedWorld::hang_time for an answer, and it is killed: a game may load something once in
-  /// a while. After one time takeWarning() says that it hangs; then it is killed at once if setImpatient()
-  /// and a copy is ready, and all of that time is surely its own doing (TickEffort::own()).
+  /// Time limit of an answer, in multiples of StartedWorld::hang_time; it is generous because games load
+  /// files in handlers. After one hang_time takeWarning() reports a hang. If setImpatient() is set, a copy is
+  /// ready, and all of that time is certainly the world's own (TickEffort::own()), the world is killed then
+  /// already.
   static constexpr int kPatience = 5;
-  /// From the start of the process to GM.run(), and for the first tick.
+  /// Time limit from the start of the process to GM.run(), and minimum limit of the first tick.
   static constexpr std::chrono::seconds kStartTime{30};
-  /// From the end of the game to that of its process: what main() does after GM.run().
+  /// Time limit from the end of the game to that of its process, for what main() does after GM.run().
   static constexpr std::chrono::seconds kEndTime{1};
-  /// Of turnsAhead(): some milliseconds of most games.
+  /// Value of turnsAhead(): some milliseconds of most games.
   static constexpr std::uint32_t kTurnsAhead = 32;
 
-  /// Takes over the process and the descriptors. `home` runs its handlers. `print`: gets the lines that it
-  /// prints, from checkProcess(); empty: they are dropped.
+  /// Takes over the process and the descriptors. `home` runs its handlers. `print` gets the lines that the
+  /// world prints, from checkProcess(); empty: they are dropped.
   WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print = {});
-  /// Kills it and all that it has started, if it has not ended.
+  /// Kills the world and all its descendants, if they have not ended.
   ~WorldProcess() override;
   WorldProcess(const WorldProcess&) = delete;
   WorldProcess& operator=(const WorldProcess&) = delete;
 
   bool isReady() const override { return m_state == State::kReady && m_keeper_is != Keeper::kStarting; }
   void tick(const SentTurn& turn) override;
-  /// Before the first tick: that of the host's. From there on it counts its own.
+  /// Returns the host's tick number before the first tick. From there on the world counts its own ticks.
   std::uint32_t nextTick() const override { return m_next_tick; }
   std::uint32_t turnsAhead() const override { return kTurnsAhead; }
   const df::WorldView& view() const override { return m_view; }
@@ -60,35 +61,35 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> end() const override { return m_end; }
   void close(const WorldTurn& rest = {}) override;
 
-  /// A line for the log, once: the tick does not end.
+  /// Returns a line for the log if the tick does not end, once.
   std::optional<std::string> takeWarning() { return std::exchange(m_warning, std::nullopt); }
-  /// Where a copy is ready to go on, a tick that seems to hang is not waited for.
+  /// Sets whether a tick that seems to hang is ended early if a copy is ready.
   void setImpatient(bool impatient) { m_impatient = impatient; }
-  /// Did the last tick seem to hang, and came to its end?
+  /// True if the last tick seemed to hang, but ended.
   bool wasSlow() const { return m_was_slow; }
-  /// That its process has taken, of all processors; 0: unknown.
+  /// Returns the processor time of its process; 0: unknown.
   std::chrono::nanoseconds cpuTime() const;
-  /// What it prints from now on was not printed before.
+  /// Ends a replay: from now on its output is printed.
   void endRepetition();
-  /// It is not to go on: it ends as one that crashed.
+  /// Ends the world as if it had crashed.
   void giveUp(const std::string& why) { fail(WorldEnd::kCrashed, why); }
 
-  // Copies of its process: one goes on where the world has crashed or hangs.
+  // Copies of its process: one takes over if the world has crashed or hangs.
 
-  /// Keep a copy of the world as it is after the next tick, beside the one before. False: there will be none.
+  /// Orders a copy of the world after the next tick, in addition to the last one. False: there will be none.
   bool keepCopy();
-  /// May one be asked for? While the keeper ends what is left of a world before, it would end the copy, too.
+  /// True if a copy may be ordered: not while the keeper ends the rest of a world, and the copy with it.
   bool canKeepCopy() const { return m_keeper_is == Keeper::kWatching; }
-  /// Those that are kept end.
+  /// Ends all copies.
   void dropCopies() { m_copies.clear(); }
-  /// Why there are none any more, once, in words.
+  /// Returns why there are no copies any more, once, in words.
   std::optional<std::string> takeCopyProblem() { return m_copies.takeProblem(); }
-  /// After end(): the newest copy is the world from now on, as it was after its tick: return how many it has
-  /// had since the world's first. What it prints is dropped until endRepetition(). Nothing: there is none
-  /// left, and no process of the world is.
+  /// Makes the newest copy the world, as it was after its tick. Call after end(). Returns how many ticks it
+  /// has had since the world's first; nullopt if no copy, and no process of the world, is left. Its output is
+  /// dropped until endRepetition().
   std::optional<std::uint32_t> goOnWithCopy();
 
-  /// What the game has set up by GM.run(); nothing before.
+  /// Returns the game's settings; nullopt before GM.run().
   const std::optional<WorldReady>& ready() const { return m_ready; }
 
  private:
@@ -96,14 +97,14 @@ class WorldProcess : public WorldPort {
     kStarting,
     kReady,
     kTicking,
-    kEnding,  ///< the socket is closed, or will be, and the process comes to its end
+    kEnding,  ///< the socket is closed, or will be, and the process is ending
     kEnded,
   };
   enum class Keeper : std::uint8_t {
     kStarting,
     kWatching,
-    kClearing,  ///< ends what is left of the world before
-    kEnded,     ///< and with it all that the world had started
+    kClearing,  ///< ends the rest of the previous world
+    kEnded,     ///< has ended all descendants of the world, and itself
   };
 
   void beginTick();
@@ -125,7 +126,7 @@ class WorldProcess : public WorldPort {
   std::chrono::nanoseconds patience() const;
   bool isGivenUpEarly() const;
   bool isInFirstTick() const { return currentTick() == m_later + 1; }
-  /// The one that the world is at, or was at last.
+  /// Returns the tick that the world is in, or was in last.
   std::uint32_t currentTick() const;
   void countTime(Clock::time_point now);
   void warnOfHang();
@@ -139,39 +140,39 @@ class WorldProcess : public WorldPort {
   int m_keeper;  ///< the socket of its keeper
   OutputRelay::Line m_print;
   OutputRelay m_output;
-  const df::ActivityPage* m_p_page = nullptr;  ///< null: there is none
+  const df::ActivityPage* m_p_page = nullptr;  ///< null: none
   const std::chrono::nanoseconds m_hang_time;
   Keeper m_keeper_is = Keeper::kStarting;
-  pid_t m_process = -1;  ///< as the keeper says
+  pid_t m_process = -1;  ///< as reported by the keeper
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
-  std::optional<int> m_status;        ///< once it has ended
+  std::optional<int> m_status;        ///< as of waitpid(), once it has ended
   std::optional<WorldEnd> m_failure;  ///< why it was killed
   std::optional<WorldEnd> m_end;
   Clock::time_point m_checked_at;
-  std::chrono::nanoseconds m_waited{0};  ///< in this state; time between two checks counts up to a limit
-  TickEffort m_effort;                   ///< of the tick that is under way
+  std::chrono::nanoseconds m_waited{0};  ///< time in this state; checks add a limited time each
+  TickEffort m_effort;                   ///< effort of the current tick
   std::uint32_t m_next_tick = 1;
   std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
   bool m_impatient = false;
-  bool m_warned = false;      ///< of this tick, that it hangs
-  bool m_was_slow = false;    ///< m_warned of the tick before
-  bool m_stop_noted = false;  ///< of this tick, that it is stopped
+  bool m_warned = false;      ///< a hang of this tick was reported
+  bool m_was_slow = false;    ///< a hang of the tick before was reported
+  bool m_stop_noted = false;  ///< a stop in this tick was reported
   std::optional<std::string> m_warning;
-  bool m_expected = false;         ///< to end: the game is over, or the host closed it
-  const bool m_hashes;             ///< its answers
-  std::uint32_t m_unanswered = 0;  ///< turns that were sent
+  bool m_expected = false;         ///< the end is expected: the game is over, or the host closed it
+  const bool m_hashes;             ///< answers are hashed
+  std::uint32_t m_unanswered = 0;  ///< turns that were sent and not answered
   std::string m_unsent;
-  std::string m_out;  ///< that is being sent
+  std::string m_out;  ///< bytes being sent
   bool m_sending = false;
   std::string m_in;
   std::optional<ViewReader> m_views;
   df::WorldView m_view;
   WorldCopies m_copies;
-  bool m_copied = false;  ///< behind the next turn, or the one under way
-  bool m_repeats;         ///< what it prints was printed
-  std::shared_ptr<WorldProcess*> m_self = std::make_shared<WorldProcess*>(this);  ///< handlers may come later
+  bool m_copied = false;  ///< a copy is made after the next turn, or the current one
+  bool m_repeats;         ///< a replay: its output was printed before
+  std::shared_ptr<WorldProcess*> m_self = std::make_shared<WorldProcess*>(this);  ///< handlers may run later
 };
 
 }  // namespace naiad

@@ -34,21 +34,21 @@ bool isSocket(int descriptor) {
   return fstat(descriptor, &facts) == 0 && S_ISSOCK(facts.st_mode);
 }
 
-/// Below 0: there is none. Does not wait: the front has sent it before the turn that speaks of it.
+/// Returns a descriptor; below 0: none. Does not wait: the front sends it before the turn that needs it.
 int receiveDescriptor(int from) {
   char byte = 0;
   int number = -1;
   return receiveDescriptors(from, &byte, 1, {&number, 1}, MSG_DONTWAIT) == 1 ? number : -1;
 }
 
-// Not by fork(): what a library has asked to be called then is for programs that go on in both. The front
-// looks for threads before it orders a copy, so no lock is held by one that is missing in it.
+// Avoids fork(), whose handlers (pthread_atfork) are for programs that continue in both processes. The front
+// looks for threads before it orders a copy, so no missing thread holds a lock in the copy.
 long forkBesideItself() {
   return syscall(SYS_clone, static_cast<unsigned long>(CLONE_PARENT | SIGCHLD), nullptr, nullptr, nullptr,
                  nullptr);
 }
 
-/// False: it is not wanted any more.
+/// Waits until the copy is to take over. Returns false if it is not needed any more.
 bool waitForTurn(int socket) {
   char byte = 0;
   ssize_t got = 0;
@@ -60,10 +60,11 @@ void beCopy(int socket, int world_socket, pid_t keeper) {
   constexpr std::size_t kLongestName = 16;
   char name[kLongestName] = {};
   prctl(PR_GET_NAME, name);
-  prctl(PR_SET_NAME, "df-copy");  // for who looks at the list of processes
+  prctl(PR_SET_NAME, "df-copy");  // shown in lists of processes
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != keeper) _exit(0);
-  setsid();  // what ends the world's group leaves its copies; in a sandbox, where it is refused, it does not
+  // Copies survive the end of the world's process group, except in a sandbox, which refuses setsid().
+  setsid();
   close(world_socket);
   const std::int32_t self = getpid();
   if (send(socket, &self, sizeof self, MSG_NOSIGNAL) != sizeof self || !waitForTurn(socket)) _exit(0);
@@ -106,7 +107,7 @@ CopyMaker::~CopyMaker() {
   if (m_orders >= 0) close(m_orders);
 }
 
-// A world that died before it could make the copy has left the order to the one that goes on in its place.
+// A world that died before it made the copy left its order to its successor, so the newest order counts.
 int CopyMaker::takeOrder() const {
   int newest = -1;
   for (int next = 0; (next = receiveDescriptor(m_orders)) >= 0;) {
@@ -124,7 +125,7 @@ std::optional<int> CopyMaker::makeCopy(int world_socket) const {
     beCopy(socket, world_socket, keeper);
     return socket;
   }
-  close(socket);  // if there is no copy, the front sees that no process has it
+  close(socket);  // if there is no copy, the front sees that its end is closed
   return std::nullopt;
 }
 
@@ -179,7 +180,7 @@ void WorldServer::run(df::World& world) {
   close();
 }
 
-// The copy comes here when it is to go on: in the same place, with another socket.
+// The copy returns here when it takes over, with another socket.
 void WorldServer::makeCopy() {
   if (const auto socket = m_copies.makeCopy(m_socket)) m_socket = *socket;
 }

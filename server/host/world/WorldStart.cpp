@@ -24,7 +24,7 @@ bool parseWhole(std::string_view text, Number& number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// As much memory however long it is: what comes later in a world's process lies at the same addresses then.
+// Reserves a fixed amount of memory, so that later allocations in a world's process have equal addresses.
 std::string workingDirectory() {
   char path[PATH_MAX];
   std::string text;
@@ -63,9 +63,9 @@ std::optional<int> takeWorldSocket() {
   if (p_said == nullptr) return std::nullopt;
   int socket = -1;
   const bool good = parseWhole(p_said, socket) && socket > STDERR_FILENO;
-  unsetenv(kVariable);  // programs that the game starts are no worlds
+  unsetenv(kVariable);  // programs that the game starts are not worlds
   if (!good || fcntl(socket, F_SETFD, FD_CLOEXEC) != 0) return std::nullopt;
-  fcntl(kWorldCopies, F_SETFD, FD_CLOEXEC);  // mostly there is none
+  fcntl(kWorldCopies, F_SETFD, FD_CLOEXEC);  // usually it does not exist
   return socket;
 }
 

@@ -1,4 +1,4 @@
-// How a process knows that it is a world's: one end of a Unix socket, whose descriptor its environment names.
+// The start of a world's process. Its environment names the descriptor of a Unix socket to its host.
 // WorldLauncher.h starts such processes.
 #pragma once
 
@@ -15,31 +15,30 @@ namespace naiad {
 /// The socket's descriptor in a world's process.
 inline constexpr int kWorldSocket = STDERR_FILENO + 1;
 
-/// That of the memory which it shares with its host: an ActivityPage.
+/// Descriptor of the memory shared with the host: an ActivityPage.
 inline constexpr int kWorldPage = kWorldSocket + 1;
 
-/// That of the socket by which it is asked for copies (CopyMaker), if it is. Far from those that a game
-/// opens, which have the same numbers with and without.
+/// Descriptor of the socket for orders of copies (CopyMaker), if there are any. It is high, so that the
+/// descriptors that a game opens have equal numbers with and without it.
 inline constexpr int kWorldCopies = 100;
 
-/// What the environment of a world's process has for takeWorldSocket().
+/// Returns the environment entry for takeWorldSocket().
 std::string worldSocketEntry();
 
-/// What it has for takeWorldSeed().
+/// Returns the environment entry for takeWorldSeed().
 std::string worldSeedEntry(std::uint64_t seed);
 
-/// In a world's process: the seed that its front gave it. Nothing in others, and when it was asked for
-/// before.
+/// Returns the seed that the front gave this world, once; nullopt in other processes.
 std::optional<std::uint64_t> takeWorldSeed();
 
-/// In a world's process: its end of the socket. Nothing in others, and when it was asked for before.
+/// Returns this world's end of the socket, once; nullopt in other processes.
 std::optional<int> takeWorldSocket();
 
-/// In a world's process, after takeWorldSocket() had one: the page for World::setActivityPage(), which stays
-/// for ever. Null if there is none, which costs its host a word in the log.
+/// Maps the page for World::setActivityPage(), for the life of the process. Call after takeWorldSocket()
+/// returned a socket. Returns null if there is no page; then the host's log has fewer details.
 df::ActivityPage* openWorldPage();
 
-/// The working directory of when this library was loaded: a game's main() may go elsewhere.
+/// Returns the working directory at the time this library was loaded. A game's main() may change it.
 const std::string& firstDirectory();
 
 }  // namespace naiad
