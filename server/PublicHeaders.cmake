@@ -1,7 +1,7 @@
-# The headers that are installed, and nothing else: what games name, and in detail/ what those cannot do without. A test
-# compiles each of them alone against the installed tree. What a game includes by the name of a public header is a file
-# of a few lines that the build makes: it sets the game's one-letter macros aside (detail/LettersBegin.h), includes the
-# header itself, from text/, and brings them back.
+# All installed headers: those that games include, and in detail/ those that these need. A test compiles each of them
+# alone against the installed tree. For each public header the build generates a wrapper of that name with a few lines:
+# it undefines the game's one-letter macros (detail/LettersBegin.h), includes the header itself from text/, and restores
+# the macros.
 set(naiad_public_headers
   server/engine/effects/Debris.h
   server/engine/effects/Fader.h
@@ -89,7 +89,8 @@ set(naiad_public_headers
   shared/values/Solidness.h
   shared/values/Vector.h
   shared/values/Version.h)
-# Physics in a folder behind: it has a Field.h, too, and other names that a game may want for itself.
+# The physics headers are in a folder that comes later in the search order, because games may have headers with their
+# names, like Field.h.
 set(naiad_physics_headers
   server/physics/body/Body.h
   server/physics/body/BodyDrawing.h
@@ -130,14 +131,14 @@ set(naiad_detail_headers
   server/engine/world/WorldView.h
   shared/values/Dialect.h)
 
-# Made by the build, in detail/: what sets macros of one letter aside, and brings them back.
+# Generated in detail/: the headers that undefine and restore one-letter macros.
 set(naiad_letter_headers
   LettersBegin.h LettersEnd.h)
-# Likewise: each brings detail/EventNetworks.h.
+# Generated: each includes detail/EventNetworks.h.
 set(naiad_event_network_headers
   EventCustomNetwork.h EventKeyboardNetwork.h EventMouseNetwork.h EventNetworkAccept.h EventNetworkClose.h EventNetworkConnect.h
   EventNetworkCreate.h EventNetworkCustom.h EventNetworkDelete.h EventNetworkGameOver.h EventNetworkSync.h)
-# Likewise in SFML/: each brings Sfml.h.
+# Generated in SFML/: each includes Sfml.h.
 set(naiad_sfml_headers
   Audio.hpp Graphics.hpp System.hpp Window.hpp
   Audio/Music.hpp Audio/Sound.hpp Audio/SoundBuffer.hpp Audio/SoundSource.hpp

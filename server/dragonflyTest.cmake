@@ -1,8 +1,8 @@
 # dragonfly_test(NAME SOURCES... GAME SOURCES...)
 #
-# A test for ctest that plays a game: a program with a main() that uses GameTest.h. The sources behind GAME are the
-# game's; they are built as a module, whose path the test has as DRAGONFLY_GAME. It runs in the folder of the
-# CMakeLists.txt that calls this, where sprites and sounds are, and has 60 seconds.
+# Adds a ctest test that plays a game: a program with a main() that uses GameTest.h. The sources after GAME are the
+# game's. They are built as a module, whose path is defined as DRAGONFLY_GAME in the test. The test runs in the folder
+# of the calling CMakeLists.txt, where sprites and sounds are, with a timeout of 60 seconds.
 function(dragonfly_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "GAME")
   if(NOT arg_GAME)

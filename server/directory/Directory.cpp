@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kMaxTurn{250};
 
-/// Servers that come and go are seen soon, in each of their intervals a few times.
+/// Returns the time between updates: several in each heartbeat interval, so that changes are noticed soon.
 std::chrono::milliseconds turnOf(const DirectorySettings& settings) {
   return std::min(kMaxTurn, settings.interval / 4);
 }
@@ -41,8 +41,8 @@ ServerIdentity identityOf(const DirectorySettings& settings) {
 
 }  // namespace
 
-/// The file of a list of servers: replaced in one step, by a thread of its own, so that a disk that stalls
-/// delays no player.
+/// The file of the server list. A thread of its own replaces it atomically, so a slow disk does not delay
+/// players.
 class Directory::ListFile {
  public:
   /// Writes the first text. Throws std::runtime_error if that fails.
@@ -51,7 +51,7 @@ class Directory::ListFile {
       throw std::runtime_error("The list " + m_path + " cannot be written: " + problem);
     m_thread = std::thread([this] { run(); });
   }
-  /// Removes the file: a list that is not kept up leads to servers that are gone.
+  /// Removes the file, because an outdated list would lead to servers that are gone.
   ~ListFile() {
     {
       const std::lock_guard lock(m_mutex);
@@ -64,7 +64,7 @@ class Directory::ListFile {
   ListFile(const ListFile&) = delete;
   ListFile& operator=(const ListFile&) = delete;
 
-  /// Written soon, if it is another one. Does not wait. Any thread.
+  /// Writes the text soon, if it has changed. Does not block. Any thread.
   void setText(std::string text) {
     {
       const std::lock_guard lock(m_mutex);
@@ -75,14 +75,14 @@ class Directory::ListFile {
     m_wake.notify_one();
   }
 
-  /// What is new about writing, as a line of the log; else empty. Any thread.
+  /// Returns a log line, once, if writing has begun to fail or works again; else empty. Any thread.
   std::string takeNews() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_news, std::string());
   }
 
  private:
-  static constexpr std::chrono::seconds kAgain{2};  ///< after a failure
+  static constexpr std::chrono::seconds kAgain{2};  ///< retry interval after a failure
 
   void run() {
     std::unique_lock lock(m_mutex);
@@ -101,7 +101,7 @@ class Directory::ListFile {
     }
   }
 
-  /// Empty if it was written.
+  /// Writes the text. Returns the error; empty on success.
   std::string writeProblem(const std::string& text) const {
     try {
       publishFile(m_path, text);
@@ -111,7 +111,7 @@ class Directory::ListFile {
     return "";
   }
 
-  // A full disk is said once, and once more when it is over.
+  // Reports a failure (like a full disk) once, and once when writing works again.
   void noteResult(const std::string& problem) {
     const bool failing = !problem.empty();
     if (std::exchange(m_failing, failing) == failing) return;
@@ -124,10 +124,10 @@ class Directory::ListFile {
   std::condition_variable m_wake;
   std::string m_text;
   std::string m_news;
-  bool m_has_text = false;  ///< that is not written yet
+  bool m_has_text = false;  ///< m_text is not written yet
   bool m_failing = false;
   bool m_stopping = false;
-  std::thread m_thread;  ///< last: it uses the others
+  std::thread m_thread;  ///< last member, because it uses the others
 };
 
 Directory::Directory(DirectorySettings settings, LogLine log)
@@ -147,7 +147,7 @@ void Directory::openLobby() {
   m_lobby.emplace(m_context, *m_settings.lobby, m_identity->tls(), m_fleet.servers());
 }
 
-// With a key that cannot be read the old one stays.
+// Reopens the log and reloads the lobby's key. If the key cannot be read, keeps the old one.
 void Directory::reload() {
   LineLog::reopenAll();
   if (!m_lobby) return;
@@ -180,7 +180,7 @@ void Directory::takeTurn(Time now) {
   if (const std::string line = m_file->takeNews(); !line.empty()) m_log(line);
 }
 
-/// Servers that fill up are said where there is room.
+/// Tells servers that are nearly full to which server they can redirect players.
 void Directory::sendOn(Time now) {
   if (now - m_said_room < m_settings.interval) return;
   m_said_room = now;

@@ -1,6 +1,6 @@
-// The directory of a fleet: listens on the bus to servers that say they are there, writes a list of them for
-// the web (FleetList.h), sends players to them (Lobby.h), and says to those that fill up where there is room
-// (BusPayloads.h).
+// The directory of a fleet: receives the servers' heartbeats from the bus, writes a list of servers for the
+// web (FleetList.h), redirects players to them (Lobby.h), and names other servers to those that are nearly
+// full (BusPayloads.h).
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -22,34 +22,33 @@
 
 namespace naiad {
 
-/// What a directory is given, beside its log.
 struct DirectorySettings {
   BusSettings bus;
-  std::chrono::milliseconds interval = Presence::kInterval;  ///< in which its servers say that they are there
+  std::chrono::milliseconds interval = Presence::kInterval;  ///< heartbeat interval of the servers
   std::string list;                                          ///< file for the list of servers; empty: none
-  std::optional<LobbySettings> lobby;                        ///< nothing: none
+  std::optional<LobbySettings> lobby;                        ///< nullopt: no lobby
   std::string identity;     ///< folder of the lobby's key; empty: the user's (ServerIdentity.h)
-  std::string certificate;  ///< PEM file, in place of that folder; empty: none
-  std::string key;          ///< the same
+  std::string certificate;  ///< PEM file, used instead of `identity`; empty: none
+  std::string key;          ///< PEM file of the certificate's private key
 };
 
-/// All of it happens in run(), on the thread that calls it.
+/// Works only in run(), on the thread that calls it.
 class Directory {
  public:
   /// Throws std::runtime_error if the list cannot be written, ListenError, and TlsError for the lobby's key.
-  /// The bus has no complaint (busComplaint()).
+  /// The bus settings must be valid (busComplaint()).
   Directory(DirectorySettings settings, LogLine log);
   ~Directory();
   Directory(const Directory&) = delete;
   Directory& operator=(const Directory&) = delete;
 
-  /// SIGINT and SIGTERM stop it; SIGHUP opens the log again, and reads the lobby's key. A
-  /// second one of the first two has its usual effect.
+  /// Installs signal handlers: SIGINT and SIGTERM stop the directory, and a second one of them has its
+  /// default effect. SIGHUP reopens the log and reloads the lobby's key.
   void heedSignals();
-  /// Serve until a signal comes.
+  /// Serves until a signal stops it.
   void run();
 
-  /// Of the lobby; nothing without one.
+  /// The lobby's port and key; nullopt without a lobby.
   std::optional<std::uint16_t> port() const;
   std::optional<Fingerprint> fingerprint() const;
 

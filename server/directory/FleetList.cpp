@@ -9,7 +9,7 @@
 namespace naiad {
 namespace {
 
-/// Servers behind so much are listed without their rooms: clients read 1 MiB (ListDownload.h).
+/// After this many bytes, servers are listed without their rooms: clients read 1 MiB (ListDownload.h).
 constexpr std::size_t kMaxTextWithRooms = 500'000;
 
 std::uint32_t freePlaces(const Presence& server) {
@@ -62,8 +62,7 @@ void FleetWatch::update(Time now) {
       logNews(message.subject.substr(presenceSubject("").size()) + " is there", now);
   }
   if (m_bus->isConnected()) m_connected_at = now;
-  // Servers cannot be heard without a bus, so their time does not run; it does once that has lasted for too
-  // long.
+  // No heartbeats arrive without the bus, so no server expires unless the bus is down longer than kBlind.
   const bool is_blind = m_connected_at != now;
   if (is_blind && now - m_connected_at < kBlind) return m_servers.forgiveSilence(now);
   for (const std::string& id : m_servers.removeSilent(now)) logNews(id + " is gone", now);
@@ -152,7 +151,7 @@ bool FleetList::isOfKind(const Entry& entry, const Wish& wish) {
   return wish.room.empty() && (wish.game.empty() || there.game == wish.game);
 }
 
-// Rooms are in the order of the server: without a wish players begin where they begin there.
+// Rooms are in the server's order. Without a wish, the first one with a free place is chosen.
 const PresenceRoom* FleetList::findRoom(const Entry& entry, const Wish& wish) {
   const PresenceRoom* p_best = nullptr;
   for (const PresenceRoom& room : entry.presence.rooms) {

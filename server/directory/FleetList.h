@@ -1,7 +1,7 @@
-// The servers that have said on the bus that they are there, and which of them a player is sent to.
+// The servers of a fleet, known by their heartbeats on the bus, and the choice of a server for a player.
 //
-// What they say may be wrong in any way: it is read strictly (BusPayloads.h), counts only under the name that
-// its subject has, and ends by itself.
+// Heartbeats are untrusted: they are parsed strictly (BusPayloads.h), must have the name of their subject,
+// and expire.
 #pragma once
 
 #include <algorithm>
@@ -23,25 +23,25 @@
 
 namespace naiad {
 
-// A list of servers for the web, as dfclient --list-url reads it: an array of what dfserver --status-file
-// writes.
+// The list of servers for the web, read by dfclient --list-url: an array of objects like those that dfserver
+// --status-file writes.
 
-/// Servers in a list; with all of them it stays below the 1 MiB that a client takes.
+/// Maximum number of servers in a list, so that its text stays below the 1 MiB that clients read.
 inline constexpr std::size_t kMaxListedServers = 500;
 
-/// The link to a server, or to a room of it; empty if it is not known where it is, or which key it has.
+/// Returns the link to a server, or to a room of it; empty if its address or key is unknown.
 std::string linkOf(const Presence& server, const std::string& room = "");
 
-/// A JSON array (RFC 8259), one object to a line, ASCII: the servers that let players in and have a link. If
-/// there are too many, those with most free places; rooms are left out of what would be too long with them.
+/// Returns the open servers that have a link as an ASCII JSON array (RFC 8259), one object per line. If there
+/// are too many, lists those with the most free places. Omits rooms when the text gets too long.
 std::string serverListText(std::vector<Presence> servers);
 
 struct FleetCounters {
-  std::uint64_t heard = 0;       ///< that a server is there
-  std::uint64_t unreadable = 0;  ///< what no server writes
-  std::uint64_t foreign = 0;     ///< under another name than its own
-  std::uint64_t crowded = 0;     ///< of servers beyond the most
-  std::uint64_t expired = 0;     ///< servers that said nothing more
+  std::uint64_t heard = 0;       ///< valid heartbeats
+  std::uint64_t unreadable = 0;  ///< heartbeats that cannot be parsed
+  std::uint64_t foreign = 0;     ///< heartbeats with another name than their subject
+  std::uint64_t crowded = 0;     ///< heartbeats of new servers while kMaxServers are known
+  std::uint64_t expired = 0;     ///< servers removed because their heartbeats stopped
 };
 
 /// Not thread-safe. Time is passed in.
@@ -51,42 +51,42 @@ class FleetList {
 
   static constexpr std::size_t kMaxServers = 4096;
 
-  /// `interval`: between two times that a server says it is there; silent for three of them, it is gone.
+  /// `interval`: heartbeat interval of the servers. A server that is silent for three intervals is gone.
   explicit FleetList(std::chrono::milliseconds interval = Presence::kInterval) : m_life(3 * interval) {}
 
-  /// What was said under this subject. True if the server is new.
+  /// Handles a heartbeat. Returns true if the server is new.
   bool put(const std::string& subject, std::string_view payload, Time now);
-  /// Remove the servers whose time is over; their names.
+  /// Removes the servers whose heartbeats have stopped. Returns their names.
   std::vector<std::string> removeSilent(Time now);
-  /// The bus was gone: silence so far means nothing.
+  /// Restarts the timeouts of all servers. For outages of the bus, during which no heartbeats arrive.
   void forgiveSilence(Time now);
 
-  /// What a player wants, and what cannot be theirs.
+  /// A player's requirements.
   struct Wish {
     std::string game;            ///< empty: any
-    std::uint32_t protocol = 0;  ///< that the client speaks
-    std::string not_id = {};     ///< the server that sends them on
-    std::string room = {};       ///< by name; empty: any
+    std::uint32_t protocol = 0;  ///< protocol version of the client
+    std::string not_id = {};     ///< the server that redirects the player; excluded
+    std::string room = {};       ///< name of a room; empty: any
   };
-  /// Where a player is sent.
+  /// The target of a redirect.
   struct Place {
-    const Presence* p_server = nullptr;  ///< null: there is none
-    std::string room = {};               ///< of that server; empty: it has said nothing of rooms
+    const Presence* p_server = nullptr;  ///< null: none
+    std::string room = {};               ///< room of the server; empty: the server has no named rooms
     explicit operator bool() const { return p_server != nullptr; }
   };
-  /// A server that lets the player in: it is open, without a password, known by address and key, on a port
-  /// that no system service has, and has a free place. The fullest below three quarters, for players look for
-  /// company, else the one with most places. Of a server with rooms, a room of that game or name which has a
-  /// free place, chosen in the same way; without such a wish the first one that has. The place is taken from
-  /// then on, until the server has counted the player.
+  /// Chooses a server for a player and reserves a place on it until the server has counted the player. The
+  /// server must be open, have no password, a known address and key, an unprivileged port and a free place.
+  /// Prefers the fullest server below three quarters, because players look for company, else the one with the
+  /// most free places. On a server with rooms, chooses a room of the wished game in this way,
+  /// the wished room, or, without a wish, the first one with a free place.
   Place choose(const Wish& wish);
 
-  /// The same for the players of a server that is about to be full: the one with most places, and none is
-  /// taken.
+  /// Like choose(), for players of a server that is nearly full: chooses the server with the most free
+  /// places, and reserves nothing.
   Place roomiest(const Wish& wish) const;
-  /// Is there a server for such players, be it full or closed?
+  /// True if any server fits the wish, even if it is full or closed.
   bool plays(const Wish& wish) const;
-  /// Those of which three quarters are taken, or which let no players in.
+  /// Returns the servers that are at least three quarters full, or closed.
   std::vector<Presence> crowded() const;
 
   std::vector<Presence> servers() const;
@@ -94,29 +94,30 @@ class FleetList {
   const FleetCounters& counters() const { return m_counters; }
 
  private:
-  /// Players: since the server was heard, and in the intervals before, for they may still be on their way.
+  /// Number of redirected players since the last heartbeat, and in the two intervals before, because they may
+  /// not have arrived yet.
   using Sent = std::array<std::uint32_t, 3>;
-  /// Of a server, or of a room.
+  /// The load of a server or a room.
   struct Load {
     std::uint32_t taken = 0;
     std::uint32_t places = 0;
     std::uint32_t free() const { return places - std::min(taken, places); }
     bool isCalm() const { return taken < places / 4 * 3; }
-    /// For a player who looks for company.
+    /// True if this is the better choice for a player looking for company.
     bool isBetterThan(const Load& other) const;
   };
   struct Entry {
     Presence presence;
     Time heard{};
     Sent sent{};
-    std::map<std::string, Sent> sent_to;  ///< by room
+    std::map<std::string, Sent> sent_to;  ///< key: room
     Load load() const;
     Load load(const PresenceRoom& room) const;
   };
   static bool isOfKind(const Entry& entry, const Wish& wish);
-  /// The room that is wished for; null: none has a free place.
+  /// Returns the room to choose for the wish; null if no fitting room has a free place.
   static const PresenceRoom* findRoom(const Entry& entry, const Wish& wish);
-  /// Of what the player is sent to; nothing: it has no place for them.
+  /// Returns the load of the server or room that fits the wish; nullopt if it has no place for the player.
   static std::optional<Load> loadFor(const Entry& entry, const Wish& wish);
   static Place placeIn(const Entry& entry, const Wish& wish);
 
@@ -125,25 +126,25 @@ class FleetList {
   FleetCounters m_counters;
 };
 
-/// The least port to which a player is sent: below are services of the system.
+/// Lowest port to which players are redirected, because lower ones belong to system services.
 inline constexpr std::uint16_t kLeastFleetPort = 1024;
 
-/// Keeps the list of a fleet's servers by what the bus brings. Not thread-safe. Time is passed in.
+/// Updates a FleetList with the messages of the bus. Not thread-safe. Time is passed in.
 class FleetWatch {
  public:
   using Time = FleetList::Time;
 
-  /// While the bus is gone the list stays as it was, for so long: the servers play on, and players still find
-  /// them.
+  /// Longest outage of the bus during which the list stays unchanged: the servers still run, and players
+  /// still find them.
   static constexpr std::chrono::minutes kBlind{10};
-  /// Lines about servers that come and go: names may come from a server that only pretends.
+  /// Limit of log lines about servers that come and go, because names may be faked.
   static constexpr BucketRate kNewsRate{5, 100};
 
-  /// `bus` listens to presence. `log`: a line for people. `interval`: as FleetList's.
+  /// `bus` must subscribe to presence. `interval`: heartbeat interval of the servers.
   FleetWatch(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log, Time now,
              std::chrono::milliseconds interval = Presence::kInterval);
 
-  /// Some times a second.
+  /// Handles new messages and removes silent servers. Call it several times per heartbeat interval.
   void update(Time now);
 
   FleetList& servers() { return m_servers; }

@@ -62,13 +62,13 @@ std::optional<LobbyAnswer> answerHello(std::string_view frame, FleetList& server
 }
 
 struct Lobby::State : std::enable_shared_from_this<State> {
-  /// A connection that has not said hello, or whose answer is on its way.
+  /// A connection that has not sent its hello, or whose answer is being sent.
   struct Guest {
     Guest(asio::io_context& context, std::unique_ptr<ReliableChannel> stream)
         : channel(std::move(stream)), deadline(context) {}
     std::unique_ptr<ReliableChannel> channel;
     asio::steady_timer deadline;
-    bool is_limited = true;  ///< counts as one without a hello
+    bool is_limited = true;  ///< counts in `limit`: no hello yet
   };
   using Id = HalfOpenLimit::Id;
 
@@ -132,7 +132,7 @@ void Lobby::State::meet(std::unique_ptr<ReliableChannel> channel) {
       {[this, id](std::string_view frame) { hear(id, frame); }, [this, id](CloseReason) { dismiss(id); }});
 }
 
-/// The oldest connection without a hello, of the most crowded prefix, goes for a new one.
+/// Evicts the oldest connection without a hello of the most crowded prefix, if a new one needs its place.
 bool Lobby::State::makeRoom(const AddressPrefix& prefix) {
   for (auto verdict = limit.judge(prefix); verdict.kind != HalfOpenLimit::Verdict::Kind::kFits;
        verdict = limit.judge(prefix)) {
@@ -145,7 +145,7 @@ bool Lobby::State::makeRoom(const AddressPrefix& prefix) {
 
 void Lobby::State::hear(Id id, std::string_view frame) {
   const auto found = guests.find(id);
-  if (found == guests.end() || !found->second.is_limited) return;  // more than a hello
+  if (found == guests.end() || !found->second.is_limited) return;  // ignore frames after the hello
   Guest& guest = found->second;
   release(id, guest);
   const auto answer = answerHello(frame, servers);
@@ -167,7 +167,7 @@ void Lobby::State::release(Id id, Guest& guest) {
   guest.deadline.cancel();
 }
 
-// The channel may be the caller.
+// The caller may be the channel itself, so it is destroyed later.
 void Lobby::State::dismiss(Id id) {
   const auto found = guests.find(id);
   if (found == guests.end()) return;

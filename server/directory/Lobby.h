@@ -1,8 +1,8 @@
-// The lobby of a fleet: a server on which there is nothing to play. It hears a client's hello, and answers
-// with the server that has a place for the player.
+// The lobby of a fleet: a server without a game. It answers a client's hello with a redirect to a server that
+// has a free place.
 //
-// Strangers cost as little as at a dfserver: half-open connections, handshakes of an address, and connections
-// without a hello are limited in the same way.
+// Its limits are those of a dfserver: half-open connections, handshakes per address, and connections without
+// a hello.
 #pragma once
 
 #include <asio/ts/netfwd.hpp>
@@ -20,40 +20,39 @@
 
 namespace naiad {
 
-/// What the lobby of a fleet says to a client: where to go.
+/// The lobby's answer to a client.
 struct LobbyAnswer {
   enum class Kind { kSentOn, kNoPlace, kNoGame };
   Kind kind;
-  std::string frame;  ///< for the client
+  std::string frame;  ///< the message to the client
 };
 
-/// To the first frame of a client; nothing if that is no hello. A place is taken on the server to which it is
-/// sent.
+/// Answers a hello and reserves a place on the chosen server. Returns nullopt if the frame is not a hello.
 std::optional<LobbyAnswer> answerHello(std::string_view frame, FleetList& servers);
 
 struct LobbySettings {
   std::string address = "::";                   ///< numeric
   std::uint16_t port = 0;                       ///< 0: any free one
-  std::chrono::milliseconds hello_time{5'000};  ///< after which a connection without a hello is ended
-  int max_per_address = 64;  ///< players who come at once from one IPv4 address or IPv6 /64
+  std::chrono::milliseconds hello_time{5'000};  ///< timeout of a connection without a hello
+  int max_per_address = 64;  ///< simultaneous new players from one IPv4 address or IPv6 /64
 };
 
 struct LobbyCounters {
   std::uint64_t hellos = 0;
-  std::uint64_t sent_on = 0;    ///< to a server
-  std::uint64_t no_place = 0;   ///< to none: asked to come again
-  std::uint64_t no_game = 0;    ///< no server plays what they want
-  std::uint64_t malformed = 0;  ///< what is no hello
-  std::uint64_t late = 0;       ///< no hello in time
-  std::uint64_t crowded = 0;    ///< hung up on: too many connections without a hello
+  std::uint64_t sent_on = 0;    ///< redirected to a server
+  std::uint64_t no_place = 0;   ///< asked to retry: no free place
+  std::uint64_t no_game = 0;    ///< refused: no server fits the hello
+  std::uint64_t malformed = 0;  ///< dropped: the first frame is not a hello
+  std::uint64_t late = 0;       ///< dropped: no hello in time
+  std::uint64_t crowded = 0;    ///< dropped: too many connections without a hello
 };
 
-/// Thread: the one that runs the context, which must outlive it, as `servers` must.
+/// Thread: the one that runs the context. `context` and `servers` must outlive the Lobby.
 class Lobby {
  public:
-  static constexpr std::size_t kMaxGuests = 1024;  ///< connections without a hello
+  static constexpr std::size_t kMaxGuests = 1024;  ///< maximum connections without a hello
 
-  /// Listens from now on. Throws ListenError.
+  /// Begins to listen. Throws ListenError.
   Lobby(asio::io_context& context, const LobbySettings& settings, std::shared_ptr<const TlsContext> tls,
         FleetList& servers);
   ~Lobby();
@@ -61,7 +60,7 @@ class Lobby {
   Lobby& operator=(const Lobby&) = delete;
 
   std::uint16_t port() const;
-  /// For connections from now on.
+  /// Sets the TLS context for new connections.
   void setTls(std::shared_ptr<const TlsContext> tls);
   const LobbyCounters& counters() const;
   const TcpListener::Counters& streams() const;

@@ -1,5 +1,5 @@
-// dfdir: the directory of a fleet. It hears on the bus which servers there are, writes the list of them, and
-// sends players to them.
+// dfdir: the directory of a fleet. It learns from the bus which servers there are, writes a list of them, and
+// redirects players to them.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -32,7 +32,7 @@ constexpr const char* kHelp =
     "that game). It has a key as servers have.\n\n"
     "Exit codes: 2 wrong usage; 4 it cannot listen; 5 a file cannot be read or written.\n";
 
-/// Half-open connections, guests and its own.
+/// Limit of open files: half-open connections, guests and the program's own.
 constexpr std::size_t kOpenFiles = 4096;
 
 struct CommandLine {
@@ -44,7 +44,7 @@ struct CommandLine {
   std::string log_file;
 };
 
-/// ADDRESS:PORT into the settings of the lobby.
+/// Stores ADDRESS:PORT in the settings of the lobby.
 std::string storeListen(const std::string& text, naiad::DirectorySettings& settings) {
   const auto where = naiad::NumericEndpoint::parse(text);
   if (!where) return "ADDRESS:PORT is wanted, like 0.0.0.0:9875 or [::]:9875; port 0 is any free one";
@@ -111,7 +111,7 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
                          "Append log lines to this file instead of stderr")};
 }
 
-/// What is missing or does not go together; nothing if all is well.
+/// Returns a message about missing or conflicting options; empty if they are valid.
 std::string problemOf(const naiad::DirectorySettings& settings) {
   if (settings.bus.url.empty()) return "--bus is wanted: the NATS server of the fleet";
   if (settings.list.empty() && !settings.lobby)
@@ -121,7 +121,7 @@ std::string problemOf(const naiad::DirectorySettings& settings) {
   return naiad::busComplaint(settings.bus);
 }
 
-/// Also printed, for who starts it.
+/// Returns the link to the lobby that is printed and logged.
 std::string lobbyLink(const CommandLine& line, const naiad::Directory& directory) {
   const bool is_any = line.settings.lobby->address == "::" || line.settings.lobby->address == "0.0.0.0";
   const std::string given = !line.link_host.empty() ? line.link_host : is_any ? "127.0.0.1" : "";

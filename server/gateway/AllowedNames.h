@@ -1,9 +1,9 @@
-// By which names browsers may reach the gateway, and whose pages may open a WebSocket.
+// The host names by which browsers may reach the gateway, and the origins that may open a WebSocket.
 //
-// A page of a stranger can have its own name resolved to 127.0.0.1 (DNS rebinding) and so reach what listens
-// on loopback; the browser then sends that name as Host (RFC 9110 7.2). And every page may open a WebSocket
-// to every host; the browser then says whose page it is (Origin, RFC 6455 10.2). Both are held against a
-// list.
+// A malicious page can make its own name resolve to 127.0.0.1 (DNS rebinding) and so reach servers on
+// loopback; the browser then sends that name as Host (RFC 9110 7.2). And every page may open a WebSocket to
+// every host; the browser then sends the page's Origin (RFC 6455 10.2). Both headers are checked against
+// lists.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,17 @@
 
 namespace naiad {
 
-/// http://HOST[:PORT] or https://HOST[:PORT], without anything behind it but one '/'.
+/// An origin: http://HOST[:PORT] or https://HOST[:PORT].
 struct WebOrigin {
   bool is_secure = false;
   std::string host;  ///< lower case; IPv6 in brackets, as in a URL
   std::uint16_t port = 0;
 
+  /// Parses an origin; one '/' may follow it. Returns nullopt if invalid.
   static std::optional<WebOrigin> parse(std::string_view text);
-  /// As browsers write it: without the scheme's own port.
+  /// Returns the origin as browsers write it: without the scheme's default port.
   std::string text() const;
-  /// The part of it that is in Host.
+  /// Returns the value of the Host header: HOST[:PORT].
   std::string hostText() const;
 };
 
@@ -32,9 +33,9 @@ class AllowedNames {
   void add(const WebOrigin& origin);
   bool isEmpty() const { return m_hosts.empty(); }
 
-  /// A Host header, in any case, with or without the scheme's own port.
+  /// True if the Host header is allowed. Ignores case; the scheme's default port may be omitted.
   bool allowsHost(std::string_view host) const;
-  /// An Origin header.
+  /// True if the Origin header is allowed.
   bool allowsOrigin(std::string_view origin) const;
 
  private:

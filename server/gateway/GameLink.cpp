@@ -7,10 +7,10 @@
 namespace naiad {
 namespace {
 
-/// Between two attempts, twice as long after each.
+/// First and longest pause between attempts; it doubles after each.
 constexpr std::chrono::milliseconds kFirstRetryDelay{50};
 constexpr std::chrono::milliseconds kLastRetryDelay{800};
-/// A server that many reach at once hangs up on some of them: they come again for as long as dfclient would.
+/// Time for retries, as in dfclient: a server with many simultaneous connects drops some of them.
 constexpr std::chrono::seconds kPatience{4};
 
 }  // namespace
@@ -48,7 +48,7 @@ void GameLink::connect() {
 void GameLink::onConnected(error_code error) {
   // The header fits into the socket's empty buffer as a whole.
   if (!error) m_socket.write_some(boost::asio::buffer(m_header), error);
-  // As many as may wait are waiting there, or it hung up at once.
+  // Temporary errors: the server's backlog is full, or the server closed the connection at once.
   const bool for_now = error == boost::asio::error::try_again || error == boost::asio::error::broken_pipe ||
                        error == boost::asio::error::connection_reset;
   if (for_now && connectAgain()) return;
@@ -85,7 +85,7 @@ void GameLink::close() {
   m_socket.close(ignored);
   if (!m_stream) return;
   if (std::exchange(m_is_open, false)) {
-    m_stream->flush();  // what the browser said last, as far as the server takes it
+    m_stream->flush();  // the browser's last messages, if the server accepts them without waiting
     m_stream->shutDownSend();
   }
   m_stream->close();

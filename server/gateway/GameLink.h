@@ -1,5 +1,4 @@
-// The stream to the one dfserver that this gateway leads to: its visitors' socket (VisitorHeader.h), then
-// TLS.
+// The stream to this gateway's dfserver: TLS over the server's visitors' socket (VisitorHeader.h).
 #pragma once
 
 #include <array>
@@ -17,39 +16,40 @@
 
 namespace naiad {
 
-/// Which server that is.
+/// The server behind the gateway.
 struct GameServer {
   std::string socket;  ///< path of its visitors' socket
-  ShortKey key;        ///< that it has to prove
+  ShortKey key;        ///< key that the server must prove to have
   std::shared_ptr<const TlsContext> tls;
 };
 
-/// One attempt, one use. Make it with std::make_shared; handlers under way share it. No byte is written but
-/// the header and OpenSSL's own until the server has proved its key.
+/// A link for one use. Make it with std::make_shared: pending handlers share it. Until the server has proved
+/// its key, only the header and the TLS handshake are sent.
 ///
 /// Thread: the one that runs the io_context.
 class GameLink : public std::enable_shared_from_this<GameLink> {
  public:
   enum class End { kOpen, kUnreachable, kWrongKey };
-  /// Called once from the event loop, unless closed before. `problem`: why not, for the log.
+  /// Called once from the event loop, unless closed before. `problem`: reason of a failure, for the log.
   using Done = std::function<void(End end, const std::string& problem)>;
 
   GameLink(GatewayExecutor executor, const GameServer& server);
 
-  /// For a visitor from there; `header` is what the server is to read first. A server that hangs up before it
-  /// has proved a key is tried again for a few seconds. There is no time limit: the caller closes it.
+  /// Connects. The server first reads `header`, which has the visitor's address. If the server closes the
+  /// connection before it has proved its key, retries for a few seconds. The caller must enforce a time
+  /// limit.
   void open(std::string header, Done done);
-  /// After End::kOpen: for bytes both ways.
+  /// The stream for both directions, after End::kOpen.
   SecureSocket& stream() { return *m_stream; }
   bool isOpen() const { return m_is_open; }
-  /// Hang up, in order where that can be. Operations under way fail.
+  /// Closes the link, with a TLS shutdown if it is open. Pending operations fail.
   void close();
 
  private:
   using Local = boost::asio::local::stream_protocol;
 
   void connect();
-  /// A little later. False if that has gone on for long enough.
+  /// Retries after a pause. Returns false if the time for retries is over.
   bool connectAgain();
   void onConnected(error_code error);
   void onHandshake(error_code error);
@@ -64,7 +64,7 @@ class GameLink : public std::enable_shared_from_this<GameLink> {
   std::string m_header;
   std::chrono::milliseconds m_retry_delay{};
   std::chrono::steady_clock::time_point m_retry_until;
-  Done m_done;  // empty: over
+  Done m_done;  // empty: finished or closed
   bool m_is_open = false;
 };
 

@@ -44,7 +44,8 @@ std::string urlHost(const boost::asio::ip::address& address) {
   return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
 }
 
-/// The names that the address itself has. A numeric one leads nowhere else, whatever a name server says.
+/// Returns the origins of the listening address itself. They are safe: numeric names need no name server, and
+/// localhost never leaves the machine.
 std::vector<WebOrigin> ownOrigins(const tcp::endpoint& endpoint, bool has_tls) {
   std::vector<WebOrigin> origins;
   if (!endpoint.address().is_unspecified())
@@ -169,7 +170,7 @@ void Gateway::Loop::meet(Peer peer) {
     ++state->counters.too_often;
     return;
   }
-  // The place comes before the connection, whose memory is saved where there is none.
+  // The place is taken first, so that no memory is used for a connection that gets none.
   const auto slot = std::make_shared<std::weak_ptr<WebConnection>>();
   auto place = state->newcomers.take(visitor.prefix, [slot] {
     if (const auto connection = slot->lock()) connection->hangUp();
@@ -197,7 +198,7 @@ void Gateway::Loop::heedSignals() {
   signals.async_wait([this](error_code error, int signal) {
     if (error) return;
     if (signal != SIGHUP) {
-      signals.clear();  // the next one has its usual effect
+      signals.clear();  // the next signal has its default effect
       return stop();
     }
     LineLog::reopenAll();

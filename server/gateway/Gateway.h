@@ -1,4 +1,4 @@
-// The gateway for browsers: serves the page, and leads WebSockets to one dfserver.
+// The gateway for browsers: serves the page and connects WebSockets to one dfserver.
 #pragma once
 
 #include <cstddef>
@@ -15,45 +15,45 @@
 
 namespace naiad {
 
-/// It cannot listen there, or with this certificate; what() is a sentence.
+/// Thrown if the gateway cannot listen or cannot use its certificate. what() is a one-sentence message.
 class GatewayError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// All of it happens in run(), on the thread that calls it. Other calls are for that thread or for a time
-/// when none is in run(), but for post().
+/// Works only in run(), on the thread that calls it. Call the other functions, except post(), on that thread
+/// or while no thread is in run().
 class Gateway {
  public:
-  /// Listens from now on; what comes waits for run(). Plain HTTP is for loopback addresses alone. Throws
-  /// GatewayError, and PageError (PageFiles.h).
+  /// Begins to listen; connections wait for run(). Plain HTTP is allowed on loopback addresses only. Throws
+  /// GatewayError and PageError (PageFiles.h).
   Gateway(GatewaySettings settings, LogLine log);
-  /// Hangs up on everybody.
+  /// Closes all connections at once.
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;
 
-  /// "127.0.0.1:8080" or "[::]:443" into the settings. False if it is none: a numeric address is wanted.
+  /// Parses a numeric address like "127.0.0.1:8080" or "[::]:443" into the settings. False if it is invalid.
   static bool parseListen(std::string_view text, GatewaySettings& settings);
 
   std::uint16_t port() const;
-  /// What players type: "http://127.0.0.1:8080/#KEY", the given origins first.
+  /// Returns the URLs for players, like "http://127.0.0.1:8080/#KEY", the given origins first.
   std::vector<std::string> addresses() const;
   const GatewayCounters& counters() const;
-  /// Connections and WebSockets that there are.
+  /// Number of current connections and WebSockets.
   std::size_t guests() const;
 
-  /// SIGINT and SIGTERM stop it; SIGHUP opens the log again and reads the certificate. A second one of the
-  /// first two has its usual effect.
+  /// Installs signal handlers: SIGINT and SIGTERM call stop(), and a second one of them has its default
+  /// effect. SIGHUP reopens the log and reloads the certificate.
   void heedSignals();
-  /// Serve until stop() was called and everybody has gone.
+  /// Serves until stop() was called and all connections have ended.
   void run();
-  /// Call this in run(). Any thread.
+  /// Calls `job` in run(). Any thread.
   void post(std::function<void()> job);
-  /// Read certificate and key again, for connections from now on. Where they cannot be used, the old ones
-  /// stay, and a line of the log says why.
+  /// Reloads certificate and key for new connections. If they cannot be used, keeps the old ones and logs the
+  /// reason.
   void reloadCertificate();
-  /// Listen no more, close WebSockets with 1001, and log the counters.
+  /// Stops listening, closes WebSockets with code 1001, and logs the counters.
   void stop();
 
  private:

@@ -9,8 +9,8 @@ namespace {
 constexpr std::size_t kStreamsOfAPlayer = 2;
 constexpr std::size_t kMaxShownName = 100;  // characters
 
-/// A page has some ten files, for which browsers open six connections: a class that opens it at once, and
-/// then 16 connections a second from one address.
+/// A page has some ten files, for which browsers open six connections. The burst allows a class to open it at
+/// once; then 16 connections a second are allowed from one address.
 constexpr PrefixAllowance::Rates kArrivals{{16, 1024}, {64, 4096}, std::nullopt};
 
 std::string serverJson(const GatewaySettings& settings) {
@@ -43,7 +43,7 @@ Newcomers::Place Newcomers::take(const AddressPrefix& prefix, HangUp hang_up) {
   for (auto verdict = m_limit.judge(prefix); verdict.kind != Kind::kFits; verdict = m_limit.judge(prefix)) {
     if (verdict.kind != Kind::kEndFirst) return {};
     ++m_ended;
-    const HangUp end = m_hang_ups.at(verdict.id);  // a copy: it is erased meanwhile
+    const HangUp end = m_hang_ups.at(verdict.id);  // a copy, because the call erases it
     end();
   }
   return {*this, admit(prefix, std::move(hang_up)), prefix};

@@ -1,4 +1,4 @@
-// What the connections of one gateway share.
+// The state that the connections of a gateway share.
 #pragma once
 
 #include <chrono>
@@ -24,18 +24,18 @@
 
 namespace naiad {
 
-/// The connections that are no players' yet: they read a page, or have not said what they want.
+/// Limits the connections that do not play yet (HalfOpenLimit.h).
 ///
-/// HalfOpenLimit.h has the rule. A connection is silent while it has sent no whole request, while it waits
-/// between two, and as a WebSocket without a hello; the oldest silent one of the most crowded prefix ends
-/// where there is no place. While an answer is sent it is never ended for another one.
+/// A connection is silent until it has sent a whole request, between requests, and as a WebSocket without a
+/// hello. If no place is free, the oldest silent connection of the most crowded prefix is ended. A connection
+/// is never ended for another one while an answer is sent to it.
 ///
 /// Not thread-safe. Must outlive its places.
 class Newcomers {
  public:
   using HangUp = std::function<void()>;
 
-  /// A place that is given back at its end.
+  /// A place for a connection. Released by its destructor.
   class Place {
    public:
     Place() = default;
@@ -48,9 +48,9 @@ class Newcomers {
     ~Place();
 
     explicit operator bool() const { return m_owner != nullptr; }
-    /// A whole request has come. False if its prefix has its share of the places: hang up.
+    /// Marks the connection as busy after a whole request. False: its prefix has too many places; close it.
     [[nodiscard]] bool setBusy();
-    /// It waits for something to be said; it counts as the youngest.
+    /// Marks the connection as silent, and as the youngest one.
     void setSilent();
 
    private:
@@ -70,13 +70,13 @@ class Newcomers {
 
   explicit Newcomers(HalfOpenLimit::Limits limits) : m_limit(limits) {}
 
-  /// A place for one more connection from there; `hang_up` ends it, and gives its place back before it
-  /// returns. None if all are taken by those that may not be ended.
+  /// Returns a place for a connection from this prefix. `hang_up` must end the connection and release its
+  /// place before it returns. Returns an empty place if none can be freed.
   Place take(const AddressPrefix& prefix, HangUp hang_up);
-  /// Another way to end it from now on: it has become something else.
+  /// Replaces the function that ends the connection, for one that became a WebSocket.
   void replace(const Place& place, HangUp hang_up) { m_hang_ups[place.m_id] = std::move(hang_up); }
 
-  /// Connections that were ended for another one.
+  /// Number of connections that were ended for another one.
   std::uint64_t ended() const { return m_ended; }
 
  private:
@@ -88,16 +88,16 @@ class Newcomers {
   std::uint64_t m_ended = 0;
 };
 
-/// How many WebSockets play: in all, and from one IPv4 address or IPv6 /64.
+/// Limits the WebSockets that play: in all, and from one IPv4 address or IPv6 /64.
 /// Not thread-safe. Must outlive its places.
 class VisitorPlaces {
  public:
-  /// A place that is given back with its last holder; null: none.
+  /// A place. The last copy releases it; null: none.
   using Place = std::shared_ptr<VisitorPlaces>;
 
   VisitorPlaces(std::size_t in_all, std::size_t per_prefix) : m_in_all(in_all), m_per_prefix(per_prefix) {}
 
-  /// None if all places are taken, or those of this prefix.
+  /// Returns null if no place is free, in all or for this prefix.
   Place take(const AddressPrefix& prefix) {
     if (m_count >= m_in_all) return {};
     std::size_t& here = m_by_prefix[prefix];
@@ -122,29 +122,28 @@ class VisitorPlaces {
 
 class Guests;
 
-/// What is connected to the gateway: a browser that reads the page, or one stream of a player.
+/// A connection to the gateway: a browser that reads the page, or one stream of a player.
 ///
-/// Each has one time by which something has to have come. They are compared in one sweep, so that no message
-/// costs a timer.
-/// Make it with std::make_shared; the handlers under way keep it alive.
+/// Each has one deadline. A periodic sweep checks all of them, so messages need no timers of their own.
+/// Make it with std::make_shared: pending handlers keep it alive.
 class Guest : public std::enable_shared_from_this<Guest> {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// `guests` are kept as long as this.
+  /// Keeps `guests` alive.
   explicit Guest(std::shared_ptr<Guests> guests);
   virtual ~Guest();
   Guest(const Guest&) = delete;
   Guest& operator=(const Guest&) = delete;
 
-  /// Its time is over.
+  /// Called when the deadline has passed.
   virtual void onDeadline() = 0;
-  /// The gateway ends: leave, saying so where that can be.
+  /// Ends the connection because the gateway stops, with a goodbye if possible.
   virtual void endService() = 0;
-  /// End at once; its places are given back when this returns.
+  /// Ends the connection at once. Its places are released when this returns.
   virtual void hangUp() = 0;
 
-  /// Ten times a second. Calls onDeadline() when it is time.
+  /// Called ten times a second. Calls onDeadline() when the deadline has passed.
   virtual void onSweep(Time now) {
     if (m_deadline <= now) onDeadline();
   }
@@ -162,7 +161,7 @@ class Guest : public std::enable_shared_from_this<Guest> {
   Time m_deadline = Time::max();
 };
 
-/// All of them.
+/// All connections of a gateway.
 class Guests {
  public:
   void sweep(Guest::Time now) {
@@ -178,7 +177,7 @@ class Guests {
 
  private:
   friend class Guest;
-  /// They keep themselves alive; one that is going has nothing left to end.
+  /// Returns all guests, to keep them alive in a loop. Skips guests that are being destroyed.
   std::vector<std::shared_ptr<Guest>> list() const {
     std::vector<std::shared_ptr<Guest>> all;
     all.reserve(m_all.size());
@@ -199,11 +198,11 @@ inline Guest::~Guest() {
   m_guests->m_all.erase(this);
 }
 
-/// Thread: the gateway's. Guests keep it as long as they live.
+/// Thread: the gateway's. Guests keep it alive.
 struct GatewayState : std::enable_shared_from_this<GatewayState> {
   GatewayState(GatewaySettings given, const AllowedNames& allowed, LogLine line);
 
-  /// For a Guest.
+  /// Returns `guests`, for the constructor of a Guest.
   std::shared_ptr<Guests> sharedGuests() { return {shared_from_this(), &guests}; }
 
   const GatewaySettings settings;
@@ -211,7 +210,7 @@ struct GatewayState : std::enable_shared_from_this<GatewayState> {
   const PageFiles page;
   const HttpAnswers answers;
   const GameServer server;
-  std::shared_ptr<const TlsContext> tls;  ///< with browsers; null: plain HTTP
+  std::shared_ptr<const TlsContext> tls;  ///< TLS for browsers; null: plain HTTP
   GatewayCounters counters;
   ClientLog log;
   PrefixAllowance arrivals;

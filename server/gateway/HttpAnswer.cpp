@@ -37,7 +37,7 @@ std::string statusLine(int status) {
   return "HTTP/1.1 " + std::to_string(status) + " " + std::string(reason) + "\r\n";
 }
 
-/// "Date: Sun, 06 Nov 1994 08:49:37 GMT" (RFC 9110 5.6.7), whatever the locale is.
+/// Returns "Date: Sun, 06 Nov 1994 08:49:37 GMT" (RFC 9110 5.6.7) for the current time, in any locale.
 std::string dateLine() {
   static constexpr const char* kDays[] = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
   static constexpr const char* kMonths[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
@@ -51,7 +51,7 @@ std::string dateLine() {
   return line;
 }
 
-/// "gzip" in Accept-Encoding, and not with a weight of 0 (RFC 9110 12.5.3).
+/// True if Accept-Encoding has "gzip" with a weight above 0 (RFC 9110 12.5.3).
 bool takesGzip(const WebRequest& request) {
   for (const auto& coding : http::ext_list(request[http::field::accept_encoding])) {
     if (!boost::beast::iequals(coding.first, "gzip")) continue;
@@ -107,7 +107,7 @@ HttpAnswer HttpAnswers::answer(const WebRequest& request) const {
 }
 
 HttpAnswer HttpAnswers::fileAnswer(const WebRequest& request, const PageFile& file) const {
-  // Another form of the content has another tag, though the difference is only in its packing.
+  // The compressed form needs a tag of its own, although the content is equal (RFC 9110 8.8.3).
   const bool packs = !file.packed.empty() && takesGzip(request);
   std::string tag = file.tag;
   if (packs) tag.insert(tag.size() - 1, "-gz");
@@ -123,11 +123,11 @@ HttpAnswer HttpAnswers::fileAnswer(const WebRequest& request, const PageFile& fi
   return result;
 }
 
-/// With a body the length is added; without one it is said in `headers`, or there is none to say.
+/// Makes an answer. Adds Content-Length if there is a body; else `headers` may have it.
 HttpAnswer HttpAnswers::make(const WebRequest& request, int status, std::string_view headers,
                              std::string_view body) const {
   HttpAnswer result;
-  // Another method may have sent what is not read.
+  // A request with another method may have a body, which is not read.
   result.keeps_connection = request.keep_alive() && status != kOtherMethod;
   result.is_refusal = status >= 400;
   result.head = statusLine(status) + dateLine() + m_common_text;

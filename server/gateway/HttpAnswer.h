@@ -1,7 +1,7 @@
-// What the gateway answers to a request for a file: a function of the request, the page and the settings.
+// The gateway's answers to HTTP requests. An answer depends only on the request, the page and the settings.
 //
-// HTTP/1.1 (RFC 9110, 9112). Every answer has the headers that keep a browser from running, framing or
-// leaking anything else than the page.
+// HTTP/1.1 (RFC 9110, 9112). Every answer has the headers that keep a browser from running foreign scripts,
+// and from framing or leaking the page.
 #pragma once
 
 #include <boost/beast/http/empty_body.hpp>
@@ -21,39 +21,40 @@ using WebRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
 struct HttpAnswer {
   std::string head;              ///< status line and headers, with the empty line
-  std::string text;              ///< the body, of answers that are made
-  std::string_view content;      ///< the body, of files: it belongs to PageFiles
+  std::string text;              ///< body of a generated answer
+  std::string_view content;      ///< body of a file, owned by PageFiles
   bool keeps_connection = true;  ///< another request may follow
-  bool is_refusal = false;       ///< a status of 400 and more
+  bool is_refusal = false;       ///< status 400 or above
 
   std::string_view body() const { return text.empty() ? content : std::string_view(text); }
 };
 
-/// What answers have in common. Immutable.
+/// Makes the answers of a gateway. Immutable.
 class HttpAnswers {
  public:
-  /// `server_json`: for GET /server. `page` and `names` must outlive this.
+  /// `server_json`: answer to GET /server. `page` and `names` must outlive this.
   HttpAnswers(const PageFiles& page, const AllowedNames& names, std::string server_json, bool has_tls);
 
-  /// To a request that was read, and is no WebSocket's.
+  /// Returns the answer to a request that is not a WebSocket upgrade.
   HttpAnswer answer(const WebRequest& request) const;
-  /// A status with a sentence for people; the connection ends after it.
+  /// Returns an error with a message; the connection ends after it.
   HttpAnswer refusal(int status, std::string_view sentence) const;
-  /// May this one become a WebSocket? Null if so, else the status and a sentence to refuse it with.
+  /// The status and message of a refused request.
   struct Refusal {
     int status;
     std::string_view sentence;
   };
+  /// Returns null if the request may become a WebSocket, else the refusal.
   const Refusal* judgeUpgrade(const WebRequest& request) const;
 
   using Header = std::pair<std::string_view, std::string_view>;
-  /// Those of every answer.
+  /// Returns the headers that every answer has.
   const std::vector<Header>& commonHeaders() const { return m_common; }
-  /// The path of a request, without a query.
+  /// Returns the path of a request, without its query.
   static std::string_view pathOf(const WebRequest& request);
 
  private:
-  /// As judgeUpgrade(), of every request.
+  /// Like judgeUpgrade(), for the checks of every request: HTTP version and Host.
   const Refusal* judgeHost(const WebRequest& request) const;
   HttpAnswer fileAnswer(const WebRequest& request, const PageFile& file) const;
   HttpAnswer make(const WebRequest& request, int status, std::string_view headers,

@@ -17,14 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFiles = 64;
-constexpr std::size_t kMaxBytes = std::size_t{64} << 20;  // of all of them
-constexpr std::size_t kTagBytes = 12;                     // of a SHA-256
-constexpr int kGzip = 15 + 16;  // zlib's number for that format, with its largest window
+constexpr std::size_t kMaxBytes = std::size_t{64} << 20;  // total of all files
+constexpr std::size_t kTagBytes = 12;                     // length of a tag, a part of a SHA-256
+constexpr int kGzip = 15 + 16;  // zlib's windowBits: largest window (15), gzip format (+16)
 
 struct TypeOfName {
   std::string_view ending;
   std::string_view type;
-  bool packs;  // or is packed already
+  bool packs;  // false: the format is already compressed
 };
 constexpr std::array<TypeOfName, 11> kTypes{{{".html", "text/html; charset=utf-8", true},
                                              {".css", "text/css; charset=utf-8", true},
@@ -53,7 +53,7 @@ std::string tagOf(const std::string& content) {
   return "\"" + hexText({hash.data(), kTagBytes}) + "\"";
 }
 
-/// Empty where it does not become smaller.
+/// Returns the content compressed with gzip; empty if that does not save space.
 std::string packed(const std::string& content) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)

@@ -1,4 +1,4 @@
-// The files of the page, read once: what a browser asks for is looked up in a table and never on the disk.
+// The files of the page, read once at the start. Requests are looked up in a table, never on disk.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +12,25 @@ namespace naiad {
 
 struct PageFile {
   std::string type;     ///< Content-Type
-  std::string tag;      ///< ETag, in its quotes: of the content (RFC 9110 8.8.3)
-  std::string content;  ///< as it is on the disk
-  std::string packed;   ///< gzip; empty where that saves nothing
+  std::string tag;      ///< ETag with its quotes, a hash of the content (RFC 9110 8.8.3)
+  std::string content;  ///< the file, uncompressed
+  std::string packed;   ///< the file compressed with gzip; empty if that saves no space
 };
 
-/// The page cannot be read; what() is a sentence.
+/// Thrown if the page cannot be read. what() is a one-sentence message.
 class PageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Immutable. Memory: the files and what they pack into, 64 MiB of files at most.
+/// Immutable. Memory: the files (64 MiB at most) and their compressed forms.
 class PageFiles {
  public:
-  /// Every regular file of `folder`, not of folders in it, whose name has letters, digits, '.', '_' and '-'
-  /// and begins with no dot. index.html is wanted, and is "/", too. Throws PageError.
+  /// Reads the regular files of `folder` (not of subfolders) whose names consist of letters, digits, '.', '_'
+  /// and '-' and do not begin with a dot. index.html is required; it is served as "/", too. Throws PageError.
   explicit PageFiles(const std::filesystem::path& folder);
 
-  /// By the path of a URL, "/page.js". Null if there is none.
+  /// Returns the file for a URL path like "/page.js"; null if it does not exist.
   const PageFile* find(std::string_view path) const;
   std::size_t size() const { return m_files.size(); }
 

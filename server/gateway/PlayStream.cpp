@@ -15,21 +15,21 @@ namespace {
 
 namespace websocket = boost::beast::websocket;
 
-constexpr std::size_t kMaxUnsent = 4096;  // bytes towards a browser, with which the server is read
-/// Bytes that the kernel keeps towards a browser, sent and not acknowledged ones among them: what a snapshot
-/// may wait behind. Enough for 300 kB/s at a round trip of 200 ms.
+constexpr std::size_t kMaxUnsent = 4096;  // the server is read only while at most this many bytes are unsent
+/// Send buffer towards a browser in bytes, including data in flight. A new snapshot may have to wait behind
+/// it. Enough for 300 kB/s at a round trip of 200 ms.
 constexpr int kSendBuffer = 32 * 1024;
-/// Of pings and unasked pongs; browsers send none.
+/// Rate limit of pings and unsolicited pongs; browsers send none.
 constexpr BucketRate kControls{1, 16};
-/// Messages of a browser that are there together are sent together, up to so many bytes.
+/// Available messages of a browser are sent to the server together, up to this many bytes.
 constexpr std::size_t kMaxGathered = 2048;
-/// Room behind the largest message: Beast wants some to read an empty last fragment into.
+/// Space behind the largest message: Beast needs some to read an empty last fragment.
 constexpr std::size_t kSlack = 64;
 
-/// A binary message of one frame, unmasked as a server's are (RFC 6455 5.2).
+/// Queues a binary message of one frame, unmasked as required for servers (RFC 6455 5.2).
 void putMessage(SecureSocket& socket, std::string_view payload) {
   constexpr std::size_t kMaxShort = 125;
-  constexpr char kTwoBytes = 126;  // of length follow
+  constexpr char kTwoBytes = 126;  // two bytes of length follow
   static_assert(kMaxServerFrame <= 0xffff);
   std::array<char, 4> header{static_cast<char>(0x82)};  // final, binary
   const bool is_short = payload.size() <= kMaxShort;
@@ -72,18 +72,18 @@ void PlayStream::accept(const WebRequest& request) {
 
 void PlayStream::prepareSocket() {
   SecureSocket& socket = m_socket.next_layer();
-  // Files are sent with the kernel's own sizes. From now on, what waits here is a picture that gets old.
+  // Small buffers from now on, because queued snapshots get old. Files were sent with the kernel's defaults.
   setNumber(socket, IPPROTO_TCP, TCP_NODELAY, 1);
   setNumber(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, static_cast<int>(kMaxUnsent));
   setNumber(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
-  // Beast sets a timer again for each message; a sweep does the same for less: onSweep().
+  // No timeouts of Beast, because it resets a timer for each message. onSweep() is cheaper.
   m_socket.set_option(
       websocket::stream_base::timeout{websocket::stream_base::none(), websocket::stream_base::none(), false});
   m_socket.set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
     for (const auto& [name, value] : m_gateway.answers.commonHeaders())
       response.set(boost::beast::string_view(name.data(), name.size()),
                    boost::beast::string_view(value.data(), value.size()));
-    response.set(boost::beast::http::field::server, "dfweb");  // or Beast names itself
+    response.set(boost::beast::http::field::server, "dfweb");  // instead of Beast's name
     if (response.result() == boost::beast::http::status::switching_protocols)
       response.set(boost::beast::http::field::sec_websocket_protocol,
                    boost::beast::string_view(kSubprotocol.data(), kSubprotocol.size()));
@@ -95,7 +95,7 @@ void PlayStream::prepareSocket() {
       [this](websocket::frame_type kind, boost::beast::string_view) { onControl(kind); });
 }
 
-/// Each costs an answer. Called while a read is under way, so the connection ends a little later.
+/// Limits control frames, because pings need answers. Closes only the socket: the pending read ends the rest.
 void PlayStream::onControl(websocket::frame_type kind) {
   noteLife();
   if (kind == websocket::frame_type::close ||
@@ -119,13 +119,13 @@ void PlayStream::onSweep(Time now) {
 }
 
 void PlayStream::ping() {
-  noteLife();  // so much time for the answer
+  noteLife();  // the answer must come within ping_time, too
   m_is_pinged = true;
   if (std::exchange(m_ping_waits, true)) return;
   m_socket.async_ping({}, [self = sharedFrom(this)](error_code) { self->m_ping_waits = false; });
 }
 
-// Up.
+// Browser to server.
 
 void PlayStream::readUp() {
   noteLife();
@@ -138,7 +138,7 @@ void PlayStream::readUp() {
 
 void PlayStream::onUp(error_code error, std::size_t size) {
   m_is_reading_up = false;
-  m_ping_at = Time::max();  // nothing is heard while nothing is read
+  m_ping_at = Time::max();  // no pings while nothing is read, because no answer could be seen
   if (error) {
     if (error != websocket::error::closed &&
         error.category() == websocket::make_error_code(websocket::error::closed).category())
@@ -188,7 +188,7 @@ void PlayStream::onLink(GameLink::End end, const std::string& problem) {
   close(PlayClose::kWrongKey, "The game's server is not the one that this page leads to.");
 }
 
-/// The message as a frame, to be sent.
+/// Queues the browser's message for the server as a frame.
 void PlayStream::putUp() {
   std::array<char, kFrameHeaderSize> header{};
   writeFrameHeader(header, m_up.size());
@@ -196,7 +196,7 @@ void PlayStream::putUp() {
   m_link->stream().put({static_cast<const char*>(m_up.data().data()), m_up.size()});
 }
 
-/// The next message may be there already. If so it is reported before what is posted now.
+/// Delays the write while further messages are available: they are handled before the job posted here.
 void PlayStream::gatherUp() {
   if (m_server_waits || (m_link->stream().keptBytes() > kMaxGathered && !flushUp())) return;
   readUp();
@@ -214,14 +214,14 @@ void PlayStream::onGathered() {
   if (!m_server_waits) flushUp();
 }
 
-/// True if all is sent. Else it goes on when the server has read, and then reads the browser's next message.
+/// Returns true if all data was sent. Else continues when the server has read, then reads the browser again.
 bool PlayStream::flushUp() {
   SecureSocket& stream = m_link->stream();
   ++m_gateway.counters.writes_up;
   const bool is_there = stream.flush();
   if (is_there && stream.keptBytes() == 0) return true;
   m_server_waits = true;
-  if (!is_there) return false;  // reading says how it ended
+  if (!is_there) return false;  // the pending read of the server reports the end
   stream.asyncWaitForRoom([self = sharedFrom(this)](error_code error) {
     if (error || self->m_phase != Phase::kPlaying) return;
     self->m_server_waits = false;
@@ -230,7 +230,7 @@ bool PlayStream::flushUp() {
   return false;
 }
 
-// Down.
+// Server to browser.
 
 void PlayStream::readDown() {
   m_link->stream().async_read_some(boost::asio::buffer(m_down),
@@ -250,7 +250,7 @@ void PlayStream::onDown(error_code error, std::size_t size) {
 }
 
 void PlayStream::writeDown() {
-  if (!m_socket.is_open()) return;  // Beast closes it; the read that is under way says how that ends
+  if (!m_socket.is_open()) return;  // Beast is closing it; the pending read reports the end
   SecureSocket& socket = m_socket.next_layer();
   while (const auto frame = m_frames.next()) {
     ++m_gateway.counters.messages_down;
@@ -307,7 +307,7 @@ void PlayStream::close(PlayClose code, std::string_view reason) {
   if (m_link) m_link->close();
   m_close.code = static_cast<std::uint16_t>(code);
   m_close.reason.assign(reason.begin(), reason.end());
-  if (m_socket.is_open()) sendClose();  // else when the upgrade is answered
+  if (m_socket.is_open()) sendClose();  // else accept() does it after the upgrade
 }
 
 void PlayStream::sendClose() {

@@ -1,20 +1,19 @@
-// One WebSocket (RFC 6455), which carries one stream of a player: each binary message is the payload of one
-// frame (Framing.h), in both directions.
+// A WebSocket (RFC 6455) that carries one stream of a player. Each binary message is the payload of one frame
+// (Framing.h), in both directions.
 //
-// The server is connected when the browser has sent its first message, a hello; until then the WebSocket is
-// one of the newcomers. Then
+// The gateway connects to the server when the browser has sent its first message, a hello. Until then the
+// WebSocket counts as one of the newcomers. Then data flows like this:
 //
-//   down   dfserver -> at most 4 KiB read -> messages, in one write -> wait until at most 4 KiB are unsent
-//          towards the browser -> the next. So the server notices a slow browser, and skips snapshots,
-//          instead of old ones waiting here.
-//   up     those of the browser's messages that are there -> frames, in one write -> dfserver -> the next.
+//   down   Read at most 4 KiB from dfserver, write the complete messages at once, and wait until at most
+//          4 KiB are unsent to the browser before the next read. So the server notices a slow browser and
+//          skips snapshots, instead of old snapshots queueing here.
+//   up     Read all available messages of the browser, and write them to dfserver as frames, at once.
 //
-// Nothing waits for more to come. Down at most one frame and 4 KiB are held, up one frame and 2 KiB, beside
-// what the sockets hold.
+// Data is never held back to wait for more. The buffers hold at most one frame and 4 KiB down, and one frame
+// and 2 KiB up, apart from the sockets' own.
 //
-// Beast reads, and writes what is about the WebSocket itself: answers to pings, and the close. Messages to
-// the browser are written here, for Beast would write each for itself: their form is one header (RFC
-// 6455 5.2).
+// Beast reads, and writes the answers to pings and the close. Messages to the browser are written here,
+// because Beast would write each of them separately. They have a simple header (RFC 6455 5.2).
 #pragma once
 
 #include <array>
@@ -38,7 +37,7 @@ class PlayStream : public Guest {
  public:
   PlayStream(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor, Newcomers::Place place);
 
-  /// Answer the upgrade, which was judged, and go on.
+  /// Accepts an upgrade request that was checked, and begins to relay.
   void accept(const WebRequest& request);
 
   void onSweep(Time now) override;
@@ -82,19 +81,19 @@ class PlayStream : public Guest {
   VisitorPlaces::Place m_place;
   std::shared_ptr<GameLink> m_link;
   Phase m_phase = Phase::kHello;
-  boost::beast::flat_buffer m_up;  // one message
+  boost::beast::flat_buffer m_up;  // a message from the browser
   bool m_is_reading_up = false;
-  bool m_server_waits = false;         // it takes no more: nothing is read meanwhile
-  bool m_is_gathering = false;         // onGathered() is about to come,
-  bool m_has_gathered = false;         // and there was a message since it was asked for
-  std::array<char, kReadSize> m_down;  // pieces of the server's stream
-  FrameReader m_frames;                // cuts them
+  bool m_server_waits = false;         // the server accepts no more data, so the browser is not read
+  bool m_is_gathering = false;         // a call of onGathered() is posted
+  bool m_has_gathered = false;         // a message has come since that call was posted
+  std::array<char, kReadSize> m_down;  // data from the server
+  FrameReader m_frames;                // splits it into frames
   boost::beast::websocket::close_reason m_close;
   bool m_close_sent = false;
-  Time m_ping_at = Time::max();  // while the browser is read and silent
-  bool m_is_pinged = false;      // since it was heard last
-  bool m_ping_waits = false;     // to be sent
-  TokenBucket m_controls;        // pings and pongs of the browser
+  Time m_ping_at = Time::max();  // time of the next ping; max while the browser is not read
+  bool m_is_pinged = false;      // a ping was sent since the browser's last sign of life
+  bool m_ping_waits = false;     // a ping is still being sent
+  TokenBucket m_controls;        // limit of the browser's pings and pongs
 };
 
 }  // namespace naiad

@@ -17,12 +17,12 @@ namespace net = boost::asio;
 
 namespace {
 
-constexpr std::size_t kMaxIdle = 1024;    // bytes of memory for what is kept, while nothing is
-constexpr std::size_t kRecordExtra = 64;  // bytes of TLS around a record, at most
+constexpr std::size_t kMaxIdle = 1024;    // maximum capacity in bytes of an empty output buffer
+constexpr std::size_t kRecordExtra = 64;  // maximum bytes that TLS adds to a record
 
 }  // namespace
 
-/// Stays where it is when the socket moves, for OpenSSL points to it.
+/// Allocated separately, because OpenSSL points to it and the socket may be moved.
 struct SecureSocket::Tls {
   struct Free {
     void operator()(SSL* ssl) const { SSL_free(ssl); }
@@ -32,7 +32,7 @@ struct SecureSocket::Tls {
 };
 
 SecureSocket::SecureSocket(Socket socket) : m_socket(std::move(socket)) {
-  error_code ignored;  // a socket that is gone fails later
+  error_code ignored;  // a closed socket fails at the next operation
   m_socket.non_blocking(true, ignored);
 }
 
@@ -47,7 +47,7 @@ bool SecureSocket::startTls(ssl_ctx_st* context, Role role) {
   BIO* const bio = tls->ssl ? tls->bio.make() : nullptr;
   if (!bio) return false;
   SSL_set_bio(tls->ssl.get(), bio, bio);  // owns it
-  SSL_set_read_ahead(tls->ssl.get(), 1);  // header and rest of a record by one call of the kernel
+  SSL_set_read_ahead(tls->ssl.get(), 1);  // reads the header and the rest of a record with one system call
   if (role == Role::kServer) {
     tls->bio.guard.emplace();
     SSL_set_accept_state(tls->ssl.get());
@@ -115,7 +115,7 @@ void SecureSocket::close() {
   m_socket.close(ignored);
 }
 
-/// One for all connections, for what is put into it is sealed at once.
+/// A buffer for all connections of the thread. One is enough, because its contents are encrypted at once.
 std::span<char> SecureSocket::flatBytes() {
   static thread_local std::array<char, kFlatSize> bytes;
   return bytes;
@@ -123,7 +123,7 @@ std::span<char> SecureSocket::flatBytes() {
 
 bool SecureSocket::holdsInput() const {
   return m_tls &&
-         SSL_has_pending(m_tls->ssl.get()) == 1;  // a part of a record counts: it is tried once in vain
+         SSL_has_pending(m_tls->ssl.get()) == 1;  // also for a partial record, which costs one vain attempt
 }
 
 SecureSocket::Progress SecureSocket::judge(std::pair<error_code, std::size_t> written) {
@@ -161,7 +161,7 @@ SecureSocket::Progress SecureSocket::tryWriteTls(std::span<const char> bytes) {
   return judgeTls(result, size);
 }
 
-/// Below TLS: what comes is not looked at.
+/// Reads and discards raw bytes, below TLS.
 SecureSocket::Progress SecureSocket::tryDrain(std::size_t& drained) {
   std::array<char, 4096> bytes;
   error_code error;

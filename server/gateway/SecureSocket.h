@@ -1,8 +1,8 @@
-// A connected socket of Boost.Asio, with or without TLS, as the streams that Beast and Asio's composed
-// operations want (AsyncReadStream and AsyncWriteStream).
+// A connected Boost.Asio socket with or without TLS, which models AsyncReadStream and AsyncWriteStream for
+// Beast and for Asio's composed operations.
 //
 // OpenSSL reads from and writes to the socket itself (SocketBio.h). boost::asio::ssl::stream would hold 68
-// KiB of buffers for each connection; this one holds none while it is quiet.
+// KiB of buffers per connection; this class holds none while the connection is idle.
 #pragma once
 
 #include <boost/asio/buffer.hpp>
@@ -27,73 +27,71 @@ namespace naiad {
 
 using boost::system::error_code;
 
-/// The executor of everything in the gateway, by its type: calls through it are direct.
+/// The executor of the gateway. Using the concrete type avoids the virtual calls of any_io_executor.
 using GatewayExecutor = boost::asio::io_context::executor_type;
 
-/// Thread: the one that runs the io_context. At most one read and one write are under way at a time; the
-/// socket must stay where it is while one is.
+/// Thread: the one that runs the io_context. At most one read and one write may be pending. The object must
+/// not be moved while one is.
 class SecureSocket {
  public:
   using Socket = boost::asio::basic_stream_socket<boost::asio::generic::stream_protocol, GatewayExecutor>;
   using executor_type = GatewayExecutor;
   enum class Role { kClient, kServer };
 
-  /// Takes a connected socket and makes it non-blocking. Without TLS until startTls().
+  /// Takes a connected socket and makes it non-blocking. Uses no TLS until startTls().
   explicit SecureSocket(Socket socket);
   ~SecureSocket();
   SecureSocket(SecureSocket&&) noexcept;
   SecureSocket& operator=(SecureSocket&&) noexcept;
 
-  /// TLS from now on; asyncHandshake() comes next. False if out of memory. A server refuses a hello of more
-  /// than 4 KiB (SocketBio.h).
+  /// Switches to TLS; call asyncHandshake() next. Returns false if out of memory. A server rejects a client
+  /// hello of more than 4 KiB (SocketBio.h).
   bool startTls(ssl_ctx_st* context, Role role);
   bool hasTls() const { return m_tls != nullptr; }
-  /// Under TLS: the other end has closed the connection, or it broke; as opposed to what it said being wrong.
+  /// True with TLS if the peer closed the connection or it broke; false after a TLS error.
   bool hasEnded() const;
-  /// For a client after its handshake: the key that the other end proved to hold; nothing if it did not agree
-  /// to `protocol` by ALPN.
+  /// Returns the key that the peer proved to have, for a client after the handshake. Returns nullopt if the
+  /// peer did not agree to `protocol` by ALPN.
   std::optional<Fingerprint> provenKey(std::string_view protocol) const;
 
   executor_type get_executor() { return m_socket.get_executor(); }
   Socket& socket() { return m_socket; }
-  /// Has the kernel more than `limit` bytes that it did not send to the other end yet? No if it does not
-  /// know. It is asked only if more than that was written since it was asked last.
+  /// True if the kernel has more than `limit` bytes that it has not sent to the peer; false if it does not
+  /// know. Asks the kernel only if more than `limit` bytes may have been written since the last time.
   bool hasUnsent(std::size_t limit);
 
-  /// Keep these bytes, and send them with the next flush(): behind the writes that are under way, before
-  /// later ones, and never within one. So what others write on this socket (Beast's control frames) stays
-  /// whole.
+  /// Queues these bytes for the next flush(). They are sent after pending writes and before later ones, never
+  /// in the middle of one, so other writes on this socket (Beast's control frames) stay intact.
   void put(std::string_view bytes) { m_kept.append(bytes); }
-  /// Bytes kept and not handed to the kernel yet.
+  /// Number of queued bytes that the kernel does not have yet.
   std::size_t keptBytes() const { return m_kept.size() - m_kept_begin; }
-  /// Send what is kept, in one piece and as far as that goes without waiting; the rest is tried with the next
-  /// write, or flush(). False if the connection has ended.
+  /// Sends the queued bytes as far as possible without waiting. The next write or flush() sends the rest.
+  /// Returns false if the connection has ended.
   bool flush();
-  /// Tell the other end that nothing more comes, as far as that goes without waiting.
+  /// Tells the peer that no more data comes, if that is possible without waiting.
   void shutDownSend();
-  /// End the connection at once. Operations under way fail. Harmless if it has ended.
+  /// Ends the connection at once. Pending operations fail. Does nothing if it has ended.
   void close();
 
-  /// Signature of the token: void(error_code). Bring TLS to the point where bytes can flow.
+  /// Performs the TLS handshake. Signature of the token: void(error_code).
   template <class Token>
   auto asyncHandshake(Token&& token) {
     return start<void(error_code)>(Step<HandshakeTry>{*this, {}, m_is_server}, std::forward<Token>(token));
   }
-  /// Signature: void(error_code). Send the end, and throw away what still comes, so that no reset overtakes
-  /// what was sent last. Ends with the other end's, after kMaxDrained bytes, or by close().
+  /// Calls shutDownSend() and discards input, so that no reset overtakes the last data sent. Ends when the
+  /// peer closes, after kMaxDrained bytes, or at close(). Signature of the token: void(error_code).
   template <class Token>
   auto asyncDrain(Token&& token) {
     shutDownSend();
     return start<void(error_code)>(Step<DrainTry>{*this, {}, true}, std::forward<Token>(token));
   }
-  /// Signature: void(error_code). Until the kernel holds so little that it takes more to send
-  /// (TCP_NOTSENT_LOWAT).
+  /// Waits until the kernel accepts more data (TCP_NOTSENT_LOWAT). Signature of the token: void(error_code).
   template <class Token>
   auto asyncWaitForRoom(Token&& token) {
     return m_socket.async_wait(Socket::wait_write, std::forward<Token>(token));
   }
-  /// As Asio's streams have them; eof if the other end said that this was all, connection_reset if it went
-  /// without saying so under TLS.
+  /// Like those of Asio's streams. A read ends with eof after an orderly shutdown by the peer, and with
+  /// connection_reset if the peer left without a TLS shutdown.
   template <class Buffers, class Token>
   auto async_read_some(const Buffers& buffers, Token&& token) {
     return start<void(error_code, std::size_t)>(Step<ReadTry<Buffers>>{*this, {buffers}, !holdsInput()},
@@ -108,7 +106,7 @@ class SecureSocket {
  private:
   struct Tls;
   enum class Outcome { kDone, kWantsRead, kWantsWrite };
-  /// What one attempt came to: with kDone an error or a number of bytes.
+  /// The result of an attempt. With kDone, it has an error or a number of bytes.
   struct Progress {
     Outcome outcome = Outcome::kDone;
     std::size_t bytes = 0;
@@ -116,7 +114,7 @@ class SecureSocket {
   };
 
   static constexpr std::size_t kMaxDrained = std::size_t{256} * 1024;
-  static constexpr std::size_t kFlatSize = std::size_t{16} * 1024;  // a TLS record
+  static constexpr std::size_t kFlatSize = std::size_t{16} * 1024;  // maximum data of a TLS record
   static constexpr std::size_t kNeverAsked = std::size_t{1} << 40;
 
   struct HandshakeTry {
@@ -156,23 +154,23 @@ class SecureSocket {
     }
     Progress write(SecureSocket& socket) {
       if (!socket.hasTls()) return socket.judge(socket.writePlain(buffers));
-      // One record of what lies in several places. A later attempt begins with the same bytes, as OpenSSL
-      // wants.
+      // Copies the buffers together, to make one record of them. A retry copies equal bytes, as OpenSSL
+      // requires.
       const std::size_t size =
           boost::asio::buffer_copy(boost::asio::buffer(flatBytes().data(), flatBytes().size()), buffers);
       return size == 0 ? Progress{} : socket.tryWriteTls(flatBytes().first(size));
     }
   };
 
-  /// Tries, waits for the socket, tries again; completes never before the call that started it has returned.
+  /// Tries, waits for the socket, and tries again. Never completes before the initiating call has returned.
   template <class Try>
   struct Step {
     SecureSocket& socket;
     Try attempt;
-    bool waits_first;  // for input: most of the time there is none yet, and room for output is
+    bool waits_first;  // true for reads, because usually no input is there yet; false for writes
     bool begun = false;
-    Progress early{};     // what came of the first attempt,
-    bool posted = false;  // which waits to be reported
+    Progress early{};     // result of the first attempt
+    bool posted = false;  // `early` is to be reported
 
     template <class Self>
     void operator()(Self& self, error_code failed = {}) {
@@ -239,14 +237,14 @@ class SecureSocket {
 
   Socket m_socket;
   std::unique_ptr<Tls> m_tls;
-  bool m_is_server = false;     // of TLS: it waits for the client's hello before OpenSSL takes memory
-  bool m_is_mid_write = false;  // a part of a write was sent: its rest comes next
+  bool m_is_server = false;     // TLS server: wait for the client's hello before OpenSSL allocates memory
+  bool m_is_mid_write = false;  // a part of a write was sent; the rest must come next
   std::string m_kept;
-  std::size_t m_kept_begin = 0;              // of it, so much was sent
-  std::size_t m_unsent_bound = kNeverAsked;  // no more than this is unsent
+  std::size_t m_kept_begin = 0;              // bytes of m_kept that were sent
+  std::size_t m_unsent_bound = kNeverAsked;  // upper bound of the kernel's unsent bytes
 };
 
-// What Beast's WebSockets ask of the stream below them: how it ends, in order and at once.
+// Functions that Beast's WebSockets require of the stream below them: immediate and orderly close.
 void beast_close_socket(SecureSocket& socket);
 void teardown(boost::beast::role_type role, SecureSocket& socket, error_code& error);
 template <class Handler>

@@ -14,12 +14,12 @@ namespace {
 
 namespace http = boost::beast::http;
 
-constexpr std::uint32_t kMaxHead = 8 * 1024;  // bytes of a request
-constexpr int kMaxRequests = 100;             // on one connection
-/// For an answer to be read: so long, and a second more for each of so many bytes.
+constexpr std::uint32_t kMaxHead = 8 * 1024;  // bytes of a request's head
+constexpr int kMaxRequests = 100;             // requests on one connection
+/// Time for the browser to read an answer: kAnswerTime and 1 s per kAnswerRate bytes.
 constexpr std::chrono::seconds kAnswerTime{30};
 constexpr std::size_t kAnswerRate = std::size_t{16} * 1024;
-constexpr std::size_t kMaxQuoted = 100;  // bytes of a header in the log
+constexpr std::size_t kMaxQuoted = 100;  // maximum bytes of a header in the log
 
 bool isOfHttp(error_code error) {
   return error.category() == http::make_error_code(http::error::bad_method).category();
@@ -98,7 +98,7 @@ void WebConnection::onUpgrade() {
                              std::chrono::steady_clock::now());
     return refuse(refusal->status, refusal->sentence);
   }
-  // Frames may follow the answer, and none come before it.
+  // A client must not send frames before the answer to its upgrade.
   if (m_buffer.size() > 0) return refuse(400, "A WebSocket says nothing before it is open.\n");
   m_is_over = true;
   m_place.setSilent();

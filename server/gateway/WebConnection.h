@@ -1,4 +1,4 @@
-// A browser's connection until it ends or becomes a WebSocket: TLS if there is any, requests, answers.
+// A browser's connection until it ends or becomes a WebSocket: TLS (if configured), requests and answers.
 #pragma once
 
 #include <boost/beast/core/flat_buffer.hpp>
@@ -12,13 +12,13 @@
 
 namespace naiad {
 
-/// Memory: 8 KiB of a request's head, at most, and OpenSSL's of one connection.
+/// Memory: at most 8 KiB for a request's head, and OpenSSL's for one connection.
 /// Thread: the gateway's.
 class WebConnection : public Guest {
  public:
   WebConnection(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor);
 
-  /// `place`: its own among the newcomers.
+  /// Begins to serve. `place`: the connection's place among the newcomers.
   void start(Newcomers::Place place);
 
   void onDeadline() override;

@@ -1,4 +1,4 @@
-// dfweb: the gateway for browsers. It serves the page, and leads its WebSockets to one dfserver.
+// dfweb: the gateway for browsers. It serves the page and connects its WebSockets to one dfserver.
 #include <sys/un.h>
 
 #include <cstdio>
@@ -26,7 +26,7 @@ constexpr const char* kHelp =
     "SIGINT end it, and players read so. It sees what players type, passwords and chat among it.\n\n"
     "Exit codes: 2 wrong usage; 3 there is no page; 4 it cannot listen; 5 a file cannot be written.\n";
 
-/// Descriptors beside those of connections.
+/// Descriptors that are not connections.
 constexpr std::size_t kOwnFiles = 64;
 
 struct WebOptions {
@@ -59,7 +59,7 @@ std::string storeLink(const std::string& text, naiad::GatewaySettings& settings)
   return settings.link->room.empty() ? "" : "no server has rooms yet: leave out what is behind the /";
 }
 
-/// Where the page is installed, or built.
+/// Returns the folder of the installed page, else that of the build tree.
 fs::path ownPage() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -110,7 +110,7 @@ std::vector<naiad::Option> optionsOf(WebOptions& web) {
                          "Append log lines to this file instead of stderr")};
 }
 
-/// What is missing or does not go together; nothing if all is well.
+/// Returns a message about missing or conflicting options; empty if they are valid.
 std::string problemOf(const naiad::GatewaySettings& settings) {
   if (settings.visitors.empty()) return "--visitors is wanted: the visitors' socket of the server.";
   if (settings.visitors.size() >= sizeof(sockaddr_un::sun_path))
@@ -120,7 +120,7 @@ std::string problemOf(const naiad::GatewaySettings& settings) {
   return "";
 }
 
-/// Two descriptors for each WebSocket, one for each newcomer.
+/// Raises the limit of open files: two for each WebSocket, one for each newcomer.
 void allowFiles(const naiad::GatewaySettings& settings, const naiad::LogLine& log) {
   const std::size_t wanted = 4 * settings.max_visitors + settings.max_newcomers + kOwnFiles;
   const std::size_t allowed = naiad::allowOpenFiles(wanted);

@@ -1,1 +1,1 @@
-"""dragonfly-adopt: takes a folder with a game for the published Dragonfly, and tries to build and run it with Naiad."""
+"""dragonfly-adopt: builds and runs a game for the published Dragonfly with Naiad."""

@@ -1,4 +1,4 @@
-"""For what is left: whose fault it is, and which line to change."""
+"""Judges the remaining errors: whose fault each is, and what to change."""
 import os
 import re
 
@@ -30,7 +30,7 @@ _MAIN_ADVICE = "programs begin in WinMain() on Windows alone: write int main()"
 
 
 def missing_name(text):
-    """The name that a message misses, or None."""
+    """Returns the name that is missing according to a compiler message, or None."""
     for pattern in _NAMED:
         match = pattern.search(text)
         if match:
@@ -46,9 +46,8 @@ def missing_file(text):
 class Blame:
     """Judges errors of the compiler and the linker.
 
-    with_engine(unit) compiles a unit against the engine's headers that came in the folder, and returns its diagnostics, or
-    None if there are none; `own_engine` says that these are of an engine of the author's own. `main_code` is that of the
-    program's main file.
+    with_engine(unit) compiles a unit against the engine headers in the folder and returns its diagnostics; None if there are no
+    such headers. `own_engine`: the author wrote that engine. `main_code`: code of the program's main file.
     """
 
     def __init__(self, naiad, own_engine, engine_text, with_engine, main_code=""):
@@ -57,7 +56,7 @@ class Blame:
         self._checked = {}
 
     def error(self, unit, diagnostic, line=""):
-        """(whose fault it is, what to do about it) for an error of the compiler in this line."""
+        """Returns (whose fault, what to do) for a compiler error in this line."""
         file, name = missing_file(diagnostic.text), missing_name(diagnostic.text)
         if file:
             return self._file(os.path.basename(file.replace("\\", "/")), file)
@@ -80,7 +79,7 @@ class Blame:
         return THEIRS, _advice(diagnostic.text, name)
 
     def _is_engines(self, name, text):
-        """Whether the published engine has the name that a message misses."""
+        """Returns whether the published engine has the missing name of a message."""
         owner = re.search(r"'(?:class |struct |const )*(?:df::)?(\w+)[ *&]*' has no member|call to '(?:df::)?(\w+)::", text)
         if owner:
             one = owner.group(1) or owner.group(2)
@@ -105,13 +104,13 @@ class Blame:
         if unit.name not in self._checked:
             self._checked[unit.name] = self._with_engine(unit)
         found = self._checked[unit.name]
-        # Where the check itself stops at a file that is not there, it says nothing of the rest.
+        # If the check stopped at a missing file, it proves nothing about the other lines.
         if found is None or any(one.kind == "fatal error" for one in found):
             return False
         return not any(one.is_error and (one.file, one.line) == (diagnostic.file, diagnostic.line) for one in found)
 
     def symbol(self, symbol):
-        """The same for a symbol that no object defines."""
+        """Like error(), for a symbol that no object defines."""
         plain = re.sub(r"\(.*", "", symbol).replace("[abi:cxx11]", "")
         parts = [part for part in re.split(r"::|\s", plain) if part]
         name = parts[-1] if parts else plain
@@ -140,7 +139,7 @@ def _instead(name):
 
 
 def _advice(text, name):
-    """What a student can do about an error of their own."""
+    """Returns advice for an error that is the author's own."""
     for pattern, advice in (
             (r"is ambiguous", f"write ::{name or 'X'} for the game's own, or take out `using namespace`"),
             (r"marked 'override', but does not override",
@@ -160,7 +159,7 @@ def _advice(text, name):
 
 
 def networks(sources, names):
-    """The sources that bring a network of their own: (file, line) of each first include."""
+    """Returns (file, line) of the first network include of each source that has one."""
     found = []
     for name in names:
         for number, line in enumerate(sources.text(name).split("\n"), 1):

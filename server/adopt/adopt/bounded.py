@@ -1,4 +1,4 @@
-"""Commands with a deadline, a limit of what they print, and nothing left behind. Never through a shell."""
+"""Runs commands with a deadline and limited output, leaving no processes behind. Never uses a shell."""
 import os
 import resource
 import selectors
@@ -6,16 +6,16 @@ import signal
 import subprocess
 import time
 
-MAX_OUTPUT = 1 << 20  # bytes that are kept; the rest is read and thrown away
+MAX_OUTPUT = 1 << 20  # bytes that are kept; the rest is discarded
 
 
 class Stalled(Exception):
-    """Something of this program itself takes too long; the text says what."""
+    """Raised when a phase of this program takes too long. The text names the phase."""
 
 
 def phase(what, seconds):
-    """From now on `what` must not take longer than this, until the next phase (0 seconds: no limit). The patterns and loops
-    that read a stranger's text have limits of their own; this one is for what those forget."""
+    """Begins a phase that must not take longer than `seconds` (0: no limit). A safety net: code that reads untrusted text has
+    limits of its own."""
     def stop(*_):
         raise Stalled(f"{what} takes more than {seconds:g} s")
 
@@ -24,28 +24,27 @@ def phase(what, seconds):
 
 
 class Result:
-    """What became of a command: its exit code (negative: the signal), what it printed and whether that was `cut`, whether the
-    deadline ended it."""
+    """The result of a command: exit code (negative: signal), output, whether the output was `cut`, and whether it timed out."""
 
     def __init__(self, code, output, timed_out, cut=False):
         self.code, self.output, self.timed_out, self.cut = code, output, timed_out, cut
 
 
 def limit_self():
-    """Limits that compilers inherit: a source that asks for endless memory or output must not take the machine down."""
+    """Limits this process and the compilers it starts, because a source can make a compiler use endless memory or disk."""
     for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_FSIZE, 1 << 30), (resource.RLIMIT_AS, 3 << 30)):
         limit_to(what, most, for_good=False)
 
 
 def limit_to(what, most, for_good=True):
-    """Limits a resource to `most`, or to less where the system gives less. Not for good: a program may raise it again."""
+    """Limits a resource to `most`, or to the system's limit if that is lower. Not `for_good`: a program may raise it again."""
     hard = resource.getrlimit(what)[1]
     soft = most if hard == resource.RLIM_INFINITY else min(most, hard)
     resource.setrlimit(what, (soft, soft if for_good else hard))
 
 
 def run(argv, cwd=None, env=None, timeout=120.0):
-    """Runs argv without input, in a process group of its own, which is ended with it."""
+    """Runs argv without input, in a process group of its own, and kills the group at its end."""
     process = subprocess.Popen(argv, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, start_new_session=True)
     kept, timed_out = bytearray(), False
@@ -75,7 +74,7 @@ def run(argv, cwd=None, env=None, timeout=120.0):
 
 
 def end_group(group):
-    """Ends every process of a group at once."""
+    """Kills all processes of a group."""
     try:
         os.killpg(group, signal.SIGKILL)
     except (ProcessLookupError, PermissionError):

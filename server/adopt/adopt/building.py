@@ -1,4 +1,4 @@
-"""Compiles and links a game, treating its copy on the way."""
+"""Compiles and links a game, and fixes its copy ("treats" it) until it compiles."""
 import os
 import re
 
@@ -8,15 +8,15 @@ from .includes import Includes, header_folders
 from .naiad import system_headers
 from .treatments import Treatments
 
-MAX_ROUNDS = 12  # of treating and compiling again
-# What is missing from the folder or the engine is so whatever the standard.
+MAX_ROUNDS = 12  # maximum rounds of treating and compiling again
+# Errors about missing files or engine members, which no other C++ standard would fix.
 _IN_EVERY_STANDARD = re.compile(r"No such file or directory|file not found|'(?:const )?(?:class |struct )?df::\w+' has no member named|"
                                 r"no member named '\w+' in 'df::\w+'")
-MAX_LINKS = 6  # of looking for sources that no list names
+MAX_LINKS = 6  # maximum attempts to link with further sources
 
 
 class Building:
-    """The build of a game's program: its `units`, the `compiler`, what the `includes` and `treatments` changed."""
+    """The build of a game's program: its `units`, its `compiler`, and the changes of the copy (`includes`, `changes`)."""
 
     def __init__(self, game, compiler, say):
         self._game, self._say = game, say
@@ -28,7 +28,7 @@ class Building:
             self.compiler.definitions += game.program.source_list.definitions
         self._treatments = Treatments(game.sources, self.compiler, game.naiad)
         self.units = [Unit(name) for name in game.program.sources]
-        self.said = None  # by the linker, if it failed
+        self.said = None  # output of the linker, if it failed
         self._given_up = set()  # sources that do not compile
 
     @property
@@ -40,7 +40,7 @@ class Building:
         return [unit for unit in self.units if unit.object is None]
 
     def build(self):
-        """Returns whether there is a program."""
+        """Builds the program. Returns whether that succeeded."""
         self._compile(self.units)
         self._link()
         if self.broken:
@@ -52,14 +52,14 @@ class Building:
         return not self.broken and self.said is None
 
     def _compile(self, pending):
-        """Compiles these, and treats them until nothing changes; then with -fpermissive, then as older C++."""
+        """Compiles and treats these units until nothing changes. Retries failed ones with -fpermissive, then as older C++."""
         self._treat(pending)
         helped = self._retry("permissive", True,
                              lambda unit: unit.errors and all("[-fpermissive]" in one.text for one in unit.errors))
         for standard in STANDARDS[1:]:
             helped += self._retry("standard", standard, lambda unit: any(one.line for one in unit.errors) and
                                   not any(_IN_EVERY_STANDARD.search(one.text) for one in unit.errors))
-        if helped:  # the compiler may have stopped before it came to functions without a return
+        if helped:  # the compiler may only now have reached functions without a return
             self._treat(self._treatments.treat(helped))
 
     def _treat(self, pending):
@@ -76,7 +76,7 @@ class Building:
                 pending = list(dict.fromkeys(pending + self.broken))
 
     def _retry(self, option, value, fits):
-        """Compiles what failed with another option, and keeps that where it helps. Returns these units."""
+        """Compiles failed units with another option, and keeps the option where it helps. Returns the units that it helped."""
         before = {unit: (unit.diagnostics, getattr(unit, option)) for unit in self.broken if fits(unit)}
         for unit in before:
             setattr(unit, option, value)
@@ -91,7 +91,7 @@ class Building:
         return [unit for unit in before if unit.object]
 
     def _link(self):
-        """Links; sources that no list names and that define what is missing are taken."""
+        """Links. If symbols are missing, adds sources that define them, although no list names them."""
         for _ in range(MAX_LINKS):
             if self.broken:
                 return
@@ -105,7 +105,7 @@ class Building:
             self._compile(units)
 
     def _definers(self, symbols):
-        """Sources outside of the program that define these symbols."""
+        """Returns sources outside of the program that define these symbols."""
         taken = {unit.name for unit in self.units} | self._given_up
         code = {name: self._game.sources.code(name) for name in self._game.all_sources if name not in taken}
         others = [name for name, text in code.items() if not re.search(r"\bmain\s*\(", text)]
@@ -116,7 +116,7 @@ class Building:
         return found
 
     def _leave_out_what_nothing_needs(self):
-        """A source that does not compile may be one that is no longer used; lists name such, too."""
+        """Drops the sources that do not compile, if the program links without them. Lists may name unused sources."""
         bad, all_units = self.broken, self.units
         if self.units[0] in bad:
             return
@@ -131,7 +131,7 @@ class Building:
             self._game.report.add("left out", unit.name, f"it does not compile, and nothing needs it ({first})")
 
     def build_examined(self, program):
-        """Builds it again with an address sanitizer. Returns whether that went well."""
+        """Builds the program again with an address sanitizer. Returns whether that succeeded."""
         self.compiler.extra = ["-fsanitize=address", "-fno-omit-frame-pointer"]
         self.compiler.objects += "-examined"
         os.makedirs(self.compiler.objects, exist_ok=True)
@@ -141,7 +141,7 @@ class Building:
 
 
 def undefined(said):
-    """[(symbol, place)] of what the linker did not find, each symbol once."""
+    """Returns [(symbol, place)] of the symbols that the linker did not find, each once."""
     found = {}
     for line in said.splitlines():
         match = re.search(r"^(?:/\S*ld: )?(?P<place>.*?):? ?undefined reference to [`'](?P<symbol>.+)'", line)
@@ -151,7 +151,7 @@ def undefined(said):
 
 
 def _definition(symbol):
-    """What the definition of a symbol looks like in a source."""
+    """Returns a pattern that finds the definition of a symbol in a source."""
     table = re.match(r"(?:vtable|typeinfo|VTT|non-virtual thunk) (?:for|to) (.*)", symbol)
     plain = re.sub(r"\(.*|<.*|\[abi:\w+\]", "", table.group(1) if table else symbol).strip()
     parts = [re.escape(part) for part in plain.split("::")[-2:]]

@@ -1,4 +1,4 @@
-"""Compiling and linking, and what the compiler said."""
+"""Compiles and links, and parses the compiler's messages."""
 import concurrent.futures
 import os
 import re
@@ -11,12 +11,12 @@ from .bounded import run
 _LINE = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? "
                    r"(?P<kind>fatal error|error|warning|note): (?P<text>.*)$")
 _WITHIN = re.compile(r"^.+?: (?:In|At) (?P<within>.*):$")
-MAX_LINE = 4000  # characters of a message: templates have endless names
-STANDARDS = ("gnu++20", "gnu++17", "gnu++14")  # what dragonfly::dragonfly asks for, then what games were written in
+MAX_LINE = 4000  # maximum characters of a message: names of templates can be endless
+STANDARDS = ("gnu++20", "gnu++17", "gnu++14")  # that of dragonfly::dragonfly, then older ones that games were written for
 
 
 class Diagnostic:
-    """One message: where, what, and the notes that belong to it. `within` is the function that it is in, as g++ names it."""
+    """A compiler message with its place and notes. `within`: the enclosing function, as g++ names it."""
 
     def __init__(self, file, line, column, kind, text, within):
         self.file, self.line, self.column, self.kind, self.text, self.within = file, line, column, kind, text, within
@@ -32,7 +32,7 @@ class Diagnostic:
 
 
 def parse(output):
-    """The diagnostics of a compiler's output, with paths as the copy has them."""
+    """Parses a compiler's output into diagnostics, with paths relative to the copy."""
     found, within = [], ""
     for line in output.splitlines():
         line = line[:MAX_LINE]
@@ -52,7 +52,7 @@ def parse(output):
 
 
 def _is_clang(program):
-    """Not by where a link leads: /usr/lib/ccache/clang++ is ccache, and c++ may be either."""
+    """Returns whether the program is clang. Links do not tell: /usr/lib/ccache/clang++ is ccache, and c++ may be either."""
     if "clang" in os.path.basename(program):
         return True
     try:
@@ -62,12 +62,12 @@ def _is_clang(program):
 
 
 class Unit:
-    """One source of the program: how it is compiled, and what came of it."""
+    """A source of the program, with its compile options and the result of compiling it."""
 
     def __init__(self, name):
         self.name, self.standard, self.permissive = name, STANDARDS[0], False
-        self.forced = []  # headers that are included before all else
-        self.permitted = []  # errors that are none with -fpermissive
+        self.forced = []  # headers to include before the source (-include)
+        self.permitted = []  # errors that -fpermissive suppressed
         self.object, self.output, self.diagnostics, self.timed_out = None, "", [], False
 
     @property
@@ -75,14 +75,14 @@ class Unit:
         return [one for one in self.diagnostics if one.is_error]
 
     def again(self):
-        """The same source with the same options, not yet compiled."""
+        """Returns an uncompiled unit with this source and these options."""
         other = Unit(self.name)
         other.standard, other.permissive, other.forced = self.standard, self.permissive, self.forced
         return other
 
 
 class Compiler:
-    """Compiles units of a copy at the same time, as many as there are processors."""
+    """Compiles the units of a copy in parallel, one per processor."""
 
     def __init__(self, program, root, objects, naiad, folders, seconds=120, total_seconds=900):
         self.program, self.root, self.objects, self.naiad, self.folders = program, root, objects, naiad, folders
@@ -90,12 +90,12 @@ class Compiler:
         self.definitions, self.extra = [], []
         self.is_gcc = not _is_clang(program)
         self._launcher = [found] if (found := shutil.which("ccache")) else []
-        # Paths are relative to the copy, so that the same folder is found in ccache wherever its copy lies.
+        # Paths are relative to the copy, so that ccache knows a folder again although its copy lies elsewhere.
         self._environment = {**os.environ, "LC_ALL": "C", "CCACHE_BASEDIR": root, "CCACHE_NOHASHDIR": "1"}
         os.makedirs(objects, exist_ok=True)
 
     def compile(self, units, progress=lambda done, all: None):
-        """Compiles these units again."""
+        """Compiles these units. Calls progress(done, all) after each."""
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
             for count, _ in enumerate(pool.map(self._compile, units), 1):
                 progress(count, len(units))
@@ -111,7 +111,7 @@ class Compiler:
         unit.timed_out, unit.output, unit.diagnostics = False, result.output, parse(result.output)
         if result.code != 0:
             unit.object = None
-            if not unit.errors:  # the compiler itself failed
+            if not unit.errors:  # the compiler failed without an error message
                 said = result.output.strip().splitlines()
                 unit.diagnostics.append(Diagnostic(unit.name, 0, 1, "error", said[-1] if said else "the compiler crashed", ""))
 
@@ -133,19 +133,19 @@ class Compiler:
         for folder in self.folders:
             command += ["-iquote", "./" + folder]
         command += ["-I", self.naiad.include, "-I", os.path.join(self.naiad.include, "physics")]
-        return command + ["-c", "-x", "c++", "./" + unit.name, "-o", self._object(unit)]  # also Hero.Cpp
+        return command + ["-c", "-x", "c++", "./" + unit.name, "-o", self._object(unit)]  # -x: for names like Hero.Cpp
 
     def link(self, units, program):
-        """Links the objects. Returns what the linker said, or None if it went well."""
+        """Links the objects. Returns the linker's output on failure, else None."""
         result = run([self.program] + self.extra + [unit.object for unit in units] +
                      ["-L", self.naiad.lib, "-ldragonfly", "-Wl,-rpath," + self.naiad.lib, "-pthread", "-o", program],
                      self.root, self._environment, self.seconds)
         return None if result.code == 0 and not result.timed_out else result.output
 
     def check_with(self, unit, include):
-        """The diagnostics of a unit against another engine's headers; None if the compiler did not come to the end of it, or
-        those headers do not compile themselves, for then a line without an error says nothing."""
-        forced, unit.forced = unit.forced, []  # ours
+        """Returns the diagnostics of a unit compiled against another engine's headers. Returns None if the compiler did not reach
+        the end or those headers do not compile, because then lines without an error prove nothing."""
+        forced, unit.forced = unit.forced, []  # these are Naiad's headers
         command = [word for word in self._command(unit, max_errors=0) if word != "-c"]
         unit.forced = forced
         at = command.index("-I")

@@ -1,17 +1,17 @@
-"""What of a folder is the engine and not the game: copies of the published engine's headers, or an engine of one's own."""
+"""Finds the files of a folder that belong to an engine: copies of the published headers, or an engine of the author's own."""
 import os
 import re
 
 from .folder import is_source
 from .text import code_only, decoded
 
-# Headers of early releases, which the list of published names does not have.
+# Headers of early releases, which are not in the list of published names.
 EARLY_HEADERS = {"justification", "solidness", "keyboard", "sentry", "gameobject"}
-WITHOUT_CLASS = {"utility", "splash"}  # these have functions alone
-# An engine of one's own has sources of these; a game has none of them.
+WITHOUT_CLASS = {"utility", "splash"}  # headers that have only functions
+# Files that an engine of the author's own has, and a game never has.
 CORE = {"gamemanager", "worldmanager", "displaymanager", "inputmanager", "logmanager", "resourcemanager", "objectlist",
         "objectlistiterator"}
-# A course has its students write these themselves, over the published engine.
+# Files that students of a course write themselves on top of the published engine.
 NETWORK = re.compile(r"(networkmanager|networknode|eventnetwork\w*|event\w*network|sentry)$")
 _OPENS_DF = re.compile(r"(?<!using )\bnamespace\s+df\s*\{")
 _USES_DF = re.compile(r"\b(namespace\s+df|df\s*::)")
@@ -22,12 +22,12 @@ def stem(name):
 
 
 def published_stems(names):
-    """The stems of the published engine's headers. Naiad has more of its own, whose names a game may use: Player, World, Random."""
+    """Returns the stems of the published engine's headers. A game may have names of Naiad's own headers: Player, World, Random."""
     return {stem(name) for name in names if name.endswith(".h")} | EARLY_HEADERS
 
 
 def _blocks(text):
-    """What stands in the blocks `namespace df { … }` of a code text."""
+    """Yields the contents of the blocks `namespace df { … }`."""
     end = 0
     for begin in _OPENS_DF.finditer(text):
         if begin.start() < end:
@@ -42,16 +42,16 @@ def _blocks(text):
 
 
 def _defines(text, name):
-    """Whether a class, an enumeration or a namespace of this name (any case) is defined, not only announced, in namespace df."""
+    """Returns whether namespace df defines (not only declares) a class, enumeration or namespace of this name, in any case."""
     defined = re.compile(r"\b(?:class|struct|enum|namespace)\s+(?:class\s+)?" + re.escape(name) + r"\b[^;{}()]{0,500}\{", re.I)
     return any(defined.search(block) for block in _blocks(text))
 
 
 class EngineCopies:
-    """Which files of the copy belong to an engine.
+    """Finds the `files` of the copy that belong to an engine.
 
-    `files` they are, `own` says that sources of an engine are among them: it was made by the author, and may have changed
-    what the published one has. `without_namespace`: the game speaks to an engine outside of namespace df.
+    `own`: they include sources of an engine, so the author wrote it and it may differ from the published one.
+    `without_namespace`: no file uses namespace df.
     """
 
     def __init__(self, root, code_files, published):
@@ -63,7 +63,7 @@ class EngineCopies:
         brings_network = not self.own and any(is_source(name) and NETWORK.match(stem(name)) for name in code_files)
         candidates = [name for name in code_files if stem(name) in known and not (brings_network and NETWORK.match(stem(name)))]
         headers = [name for name in candidates if not is_source(name) and self._is_engines_header(name, texts[name])]
-        # A source goes with its header: where the header is the game's, so is the source.
+        # A source belongs where its header belongs: to the engine or to the game.
         games = {stem(name) for name in code_files if not is_source(name)} - {stem(name) for name in headers}
         sources = [name for name in candidates if is_source(name) and self._is_engines_source(name, texts[name], games)]
         self.files = sorted(headers + sources)
@@ -88,7 +88,7 @@ class EngineCopies:
             return code_only(decoded(file.read())[0])
 
     def folders(self):
-        """{folder: how many files of it are an engine's}"""
+        """Returns {folder: number of its files that belong to an engine}."""
         count = {}
         for name in self.files:
             folder = os.path.dirname(name) or "."

@@ -1,4 +1,4 @@
-"""Reads what an address sanitizer printed."""
+"""Parses the report of an address sanitizer."""
 import re
 
 _WHAT = re.compile(r"ERROR: AddressSanitizer: ([\w-]+)(.*)")
@@ -7,11 +7,11 @@ _WORDS = {"SEGV": "a bad pointer", "heap-use-after-free": "used after it was del
           "stack-buffer-overflow": "beyond the end of an array", "global-buffer-overflow": "beyond the end of an array",
           "stack-overflow": "a function calls itself without end", "FPE": "a division by zero", "ABRT": "abort()",
           "attempting double-free": "deleted twice"}
-MAX_LINE = 1000  # characters: a line of a game is a stranger's
+MAX_LINE = 1000  # maximum characters of a line, because a game's output is untrusted
 
 
 def frame_of(printed, files):
-    """("file:line", what happened) of the innermost function of the game in a report, or None."""
+    """Returns ("file:line", error) of the innermost function of the game in a report, or None."""
     what = _WHAT.search(printed)
     if not what:
         return None

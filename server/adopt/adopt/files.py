@@ -1,12 +1,12 @@
-"""What a game loads: where it must be started so that its sprites are found, and which of them are not there."""
+"""Checks the files that a game loads: finds the folder to start it in, and the files that are missing."""
 import os
 import re
 
 _NAMED = re.compile(r'"([^"\n]{1,200}\.(?:txt|spr|wav|ogg|mp3|flac|csv|json|dat|map|lvl))"')
 _LOADED = re.compile(r'\bload(?:Sprite|Sound|Music)\s*\(\s*"([^"\n]{1,200})"')
 _REFUSED = re.compile(r"Sprite [^:]*: (?P<file>[^:]+?)(?::(?P<line>\d+))?: (?P<text>.*)")
-MAX_NAMED, MAX_FOLDERS = 2000, 500  # of a folder's game: names of files, and folders in which they may lie
-MAX_LINE = 2000  # characters of a log's line
+MAX_NAMED, MAX_FOLDERS = 2000, 500  # maximum file names, and folders to look for them in
+MAX_LINE = 2000  # maximum characters of a log line
 
 
 def _plain(path):
@@ -14,7 +14,7 @@ def _plain(path):
 
 
 def run_folder(files, sources, program):
-    """The folder, from the top of the copy, from which most of what the sources name is found."""
+    """Returns the folder, relative to the copy, in which most of the files named in the sources are found."""
     named = sorted({_plain(path) for name in sources.files for path in _NAMED.findall(sources.text(name))})[:MAX_NAMED]
     there = {name.lower() for name in files}
     folders = {""}
@@ -34,8 +34,8 @@ def run_folder(files, sources, program):
 
 
 def missing_files(files, sources, names, folder):
-    """[(file, line, path, where it lies instead)] of what code, and no comment, loads by a name and lies nowhere that Naiad
-    looks. Where it lies: the one file of that name, as seen from the folder, or ""."""
+    """Returns [(file, line, path, actual path)] of files that code loads and that are not where Naiad looks. The actual path
+    is that of the only file of this name, relative to `folder`, or ""."""
     there = {name.lower() for name in files}
     by_base = {}
     for name in files:
@@ -56,7 +56,7 @@ def missing_files(files, sources, names, folder):
 
 
 def refused_sprites(log, folder):
-    """[(file, line, text)] of sprites that the engine logged as refused, not of what compat took as the published engine does."""
+    """Returns [(file, line, text)] of sprites that the engine rejected, without those accepted in compatibility mode."""
     found = {}
     for line in log.splitlines():
         match = _REFUSED.search(line[:MAX_LINE])

@@ -1,4 +1,4 @@
-"""A private copy of a stranger's folder. The folder is only read; nothing of it is followed, opened or copied without limit."""
+"""Makes a private copy of an untrusted folder. Only reads the folder, with limits for everything."""
 import os
 import re
 import stat
@@ -6,7 +6,7 @@ import stat
 MIB = 1 << 20
 SOURCES = (".cpp", ".cc", ".cxx", ".c++")
 HEADERS = (".h", ".hpp", ".hh", ".hxx", ".inl", ".ipp")
-# What version control, editors and build systems leave behind.
+# Products of version control, editors and build systems.
 JUNK_FOLDERS = {"__macosx", ".git", ".svn", ".hg", ".vs", ".idea", ".vscode", "cmakefiles", "node_modules", ".ds_store"}
 JUNK_FOLDER = re.compile(r"cmake-build-|sfml([-_ .]?\d.*)?$|.*\.(dsym|app|tlog)$", re.I)
 JUNK_FILE = re.compile(r"(\._.*|\.ds_store|thumbs\.db|desktop\.ini)$|.*\.(o|obj|pdb|ilk|idb|ipch|pch|sdf|suo|exe|dll|so|dylib|lib|a|"
@@ -14,7 +14,7 @@ JUNK_FILE = re.compile(r"(\._.*|\.ds_store|thumbs\.db|desktop\.ini)$|.*\.(o|obj|
 
 
 class Limits:
-    """How much of a folder is taken. Student games have some hundred files and a few MiB, most of it sound."""
+    """Limits of a copy. Student games have some hundred files and a few MiB, most of it sound."""
 
     def __init__(self, entries=20000, depth=24, file_bytes=64 * MIB, total_bytes=512 * MIB, source_bytes=MIB):
         self.entries, self.depth = entries, depth
@@ -22,11 +22,11 @@ class Limits:
 
 
 class FolderError(Exception):
-    """The folder cannot be read at all."""
+    """Raised if the folder cannot be read at all."""
 
 
 class Copy:
-    """What was copied: `files` by their paths from the top, and what was left out as (path, reason)."""
+    """The result of copying: `files` as paths relative to the copy, and `left_out` as (path, reason)."""
 
     def __init__(self, root):
         self.root, self.files, self.left_out, self.bytes, self.entries = root, [], [], 0, 0
@@ -62,7 +62,7 @@ def copy_folder(source, target, limits=None):
 
 
 def drop_broken_links(copy):
-    """Of what a link leads to something may have been left out."""
+    """Removes links whose targets were not copied, and links to other sources."""
     inside, kept = os.path.realpath(copy.root) + os.sep, []
     for path in copy.files:
         full, reason = copy.path(path), None
@@ -98,7 +98,7 @@ def _copy_level(copy, limits, descriptor, top, prefix, depth):
 
 
 def _copy_entry(copy, limits, descriptor, top, path, name, depth):
-    """Copies one entry. Returns why not, or None."""
+    """Copies one entry. Returns the reason if it was not copied, else None."""
     if any(ord(character) < 32 or ord(character) == 127 for character in name):
         return "a name with control characters"
     try:
@@ -136,7 +136,7 @@ def _copy_subfolder(copy, limits, descriptor, top, path, name, depth):
 
 
 def _copy_link(copy, descriptor, top, path, name):
-    """A relative link that stays inside is made again; it leads to the copy's own file then."""
+    """Copies a relative link that stays inside the folder. The new link leads to the copied file."""
     try:
         text = os.readlink(name, dir_fd=descriptor)
     except OSError as error:
@@ -154,7 +154,7 @@ def _copy_link(copy, descriptor, top, path, name):
 def _copy_file(copy, limits, descriptor, path, name):
     most = limits.source_bytes if is_code(name) else limits.file_bytes
     try:
-        # O_NONBLOCK: should it have become a pipe since it was looked at, this does not wait.
+        # O_NONBLOCK: does not block if the file has been replaced by a pipe since it was checked.
         file = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=descriptor)
     except OSError as error:
         return f"cannot be read: {error.strerror}"

@@ -1,4 +1,4 @@
-"""What is known of the folder: its copy, its sources, the program that they make."""
+"""The game in the folder: its copy, its sources, and the program that they make."""
 import os
 import shutil
 
@@ -12,11 +12,11 @@ from .report import MAX_ROWS
 from .text import Sources
 
 ARCHIVES = (".zip", ".rar", ".7z", ".tar", ".gz", ".tgz")
-PROGRAM = "naiad-game"  # the name of what is built
+PROGRAM = "naiad-game"  # file name of the built program
 
 
 class Game:
-    """A folder taken in. The copy lies in `tree`, files of an engine in `engine_tree`; `report` has what is said of it."""
+    """A game's folder. The copy is in `tree`, without the files of an engine, which are in `engine_tree`."""
 
     def __init__(self, folder, scratch, naiad, report, limits):
         self.folder, self.scratch, self.naiad, self.report, self._limits = folder, scratch, naiad, report, limits
@@ -28,7 +28,7 @@ class Game:
         return os.path.join(self.tree, PROGRAM)
 
     def take_in(self):
-        """Copies the folder, and puts aside what of it is an engine."""
+        """Copies the folder and moves the files of an engine to `engine_tree`."""
         copy = copy_folder(self.folder, self.tree, self._limits)
         self._archives = [name for name, _ in copy.left_out if name.lower().endswith(ARCHIVES)]
         self.engine = EngineCopies(self.tree, [name for name in copy.files if is_code(name)], self.naiad.published)
@@ -37,7 +37,7 @@ class Game:
             shutil.move(copy.path(name), os.path.join(self.engine_tree, name))
         gone = set(self.engine.files)
         copy.files = [name for name in copy.files if name not in gone]
-        drop_broken_links(copy)  # some may have led to the engine
+        drop_broken_links(copy)  # links to the files just moved
         self.files = copy.files
         self._say_left_out(copy.left_out)
         for folder, count in sorted(self.engine.folders().items())[:MAX_ROWS]:
@@ -48,7 +48,7 @@ class Game:
             self.report.add("treated", name, "was in UTF-16, is in UTF-8 now")
 
     def _say_left_out(self, left_out):
-        """Files that a build or a system made are one row; what might be missed has a row each."""
+        """Reports files that were not copied: products of builds and systems in one row, others in a row each."""
         usual, rest = [], []
         for one in left_out:
             (usual if one[1].startswith(("a product", "a folder of a system")) else rest).append(one)
@@ -60,7 +60,7 @@ class Game:
             self.report.add("left out", "", f"{len(usual)} product{'s' * (len(usual) > 1)} of builds, editors and systems, such as {usual[0][0]}")
 
     def choose_program(self, main):
-        """Chooses the program: that of `main`, or the likeliest. Returns whether there is one."""
+        """Chooses the program: that of `main`, or the most likely one. Returns whether there is one."""
         self.all_sources = [name for name in self.sources.files if is_source(name)]
         if not self.all_sources:
             unpack = f": unpack {self._archives[0]} first" if self._archives else ""

@@ -1,4 +1,4 @@
-"""#include lines that Windows takes and Linux does not: backslashes, other case, paths to an engine that is not there."""
+"""Fixes #include lines that work only on Windows: backslashes, wrong case, paths to an engine that is not there."""
 import os
 import re
 
@@ -6,13 +6,13 @@ from .folder import is_source
 from .programs import is_aside
 
 _INCLUDE = re.compile(r'^(\s*#\s*include\s*)(["<])([^">]+)[">](.*)$', re.S)
-MAX_FOLDERS = 200  # in which headers are looked for
-# Visual Studio's own, of no meaning elsewhere.
+MAX_FOLDERS = 200  # maximum folders to search for headers
+# Headers of Visual Studio, which games do not need elsewhere.
 _DROPPED = {"stdafx.h", "pch.h", "targetver.h", "tchar.h", "sdkddkver.h", "crtdbg.h", "afxwin.h", "resource.h", "vld.h"}
 
 
 class Includes:
-    """Rewrites the include lines of the game's sources, each on its own line."""
+    """Rewrites the include lines of the game's sources. Adds and removes no lines."""
 
     def __init__(self, sources, folders, naiad, system_folders):
         self._sources, self._folders, self._naiad, self._system = sources, folders, naiad, system_folders
@@ -25,7 +25,7 @@ class Includes:
             self._ours.setdefault(name.lower(), name)
 
     def treat(self):
-        """Returns [(file, line number, before, after, why)]."""
+        """Rewrites the lines. Returns [(file, line number, before, after, why)]."""
         done = []
         for name in self._sources.files:
             for number, line in enumerate(self._sources.text(name).split("\n"), 1):
@@ -61,7 +61,7 @@ class Includes:
         return f'{begin}"{found}"{rest}', why
 
     def _is_systems(self, here, path):
-        """Whether <path> is found as it stands: C++'s, or Naiad's where the game has no file of that name."""
+        """Returns whether <path> needs no change: a system header, or Naiad's if the game has no file of that name."""
         if path.startswith("SFML/") or any(os.path.exists(os.path.join(folder, path)) for folder in self._system):
             return True
         return path in self._naiad.headers and not any(place.lower() in self._by_lower for place in self._places(here, path))
@@ -70,8 +70,8 @@ class Includes:
         return [os.path.normpath(os.path.join(folder, path)) for folder in [here] + self._folders]
 
     def _goal(self, here, path):
-        """How the file that is meant is written, and whether it is ours; None if there is no such file. The game's own come
-        first, in any case: where it has a Player.h, it does not mean Naiad's."""
+        """Returns (path to write, whether it is Naiad's header), or None if there is no such file. The game's files come first:
+        a game with a Player.h of its own, in any case, does not mean Naiad's."""
         places = self._places(here, path)
         if any(place in self._names for place in places):
             return path, False
@@ -92,12 +92,12 @@ class Includes:
 
     @staticmethod
     def _spelt(path, real, here):
-        """The path as it was written, in the case of the file."""
+        """Returns the written path with the upper and lower case of the file."""
         return real[len(real) - len(path):] if real.lower().endswith(path.lower()) else os.path.relpath(real, here or ".")
 
 
 def included_sources(sources):
-    """{source: the files that include it}. Such a source is compiled with them."""
+    """Returns {source: the files that include it}. Such a source is compiled as a part of them."""
     by_lower = {name.lower(): name for name in sources.files if is_source(name)}
     found = {}
     for name in sources.files:
@@ -112,7 +112,7 @@ def included_sources(sources):
 
 
 def header_folders(sources, program):
-    """The folders with headers, the program's own first, those of tests and leftovers last."""
+    """Returns the folders with headers, the program's own first, those of tests and leftovers last."""
     home = os.path.dirname(program.main)
     folders = {os.path.dirname(name) for name in sources.files if not is_source(name)}
     return sorted(folders, key=lambda folder: (folder != home, is_aside(folder), folder.count("/"), folder))[:MAX_FOLDERS]

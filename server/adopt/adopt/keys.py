@@ -1,23 +1,23 @@
-"""Random keys for a game: a script for dfbot, with the keys that the game's sources name."""
+"""Makes random scripts for dfbot with the keys that a game's sources name."""
 import random
 import re
 
 _NAMED = re.compile(r"\bKeyboard\s*::\s*(?:Key\s*::\s*)?([A-Z][A-Z0-9]*)\b")
 _USUAL = ["SPACE", "RETURN", "LEFTARROW", "RIGHTARROW", "UPARROW", "DOWNARROW", "W", "A", "S", "D"]
-_BEGIN = ["P", "SPACE", "RETURN"]  # what title screens ask for
+_BEGIN = ["P", "SPACE", "RETURN"]  # keys that usually start a game from its title screen
 _END = {"Q", "ESCAPE"}
 _KNOWN = re.compile(r"([A-Z]|NUM[0-9]|F([1-9]|1[0-2])|SPACE|RETURN|TAB|BACKSPACE|(LEFT|RIGHT|UP|DOWN)ARROW|PERIOD|COMMA|SLASH|MINUS|"
                     r"(LEFT|RIGHT)SHIFT|(LEFT|RIGHT)CONTROL)$")
 
 
 def keys_of(texts):
-    """The keys that sources name, those left out that usually end a game."""
+    """Returns the keys that the sources name, except those that usually end a game."""
     found = {name for text in texts for name in _NAMED.findall(text)}
     return sorted(name for name in found if _KNOWN.match(name) and name not in _END)
 
 
 def random_script(named, seed, ticks, width=80, height=24):
-    """A script of about `ticks` ticks. The same seed gives the same script."""
+    """Returns a script of about `ticks` ticks, determined by the seed."""
     dice = random.Random(seed)
     lines = [f"wait 5; press {key}; wait 10" for key in _BEGIN]
     pool = named * 3 + _USUAL if named else _USUAL

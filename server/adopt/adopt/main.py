@@ -1,4 +1,4 @@
-"""dragonfly-adopt: the order of things, and the command line."""
+"""dragonfly-adopt: the command line and the sequence of steps."""
 import argparse
 import os
 import re
@@ -20,8 +20,8 @@ from .trial import ScriptError
 from .verdicts import Verdicts
 
 RUNS, FAILS, USAGE = 0, 1, 2
-READ_SECONDS = 120  # for what takes one or two with a student's folder
-BUILD_SECONDS = 1800  # of which the compiler gets 900
+READ_SECONDS = 120  # time limit; a student's folder takes one or two
+BUILD_SECONDS = 1800  # time limit, of which the compiler gets 900
 
 DESCRIPTION = """\
 Builds and runs a game that was written for the published Dragonfly engine (4.2 to 4.22), or says what is in its way.
@@ -48,7 +48,7 @@ Example: dragonfly-adopt ~/games/asteroids --keep ~/games/asteroids-naiad
 
 
 class Usage(Exception):
-    """Wrong usage; the text is the sentence."""
+    """Raised for wrong usage. The text is the message."""
 
 
 def _parser():
@@ -112,7 +112,7 @@ def _progress(quiet):
     last = [""]
 
     def say_once(text):
-        step = re.sub(r" \d+ of ", " ", text)  # into a file: a line for each step
+        step = re.sub(r" \d+ of ", " ", text)  # not a terminal: one line for each step
         if text and step != last[0]:
             sys.stderr.write(step + "\n")
         last[0] = step
@@ -120,7 +120,7 @@ def _progress(quiet):
 
 
 def adopt(game, compiler, options, say):
-    """One folder from copy to verdict, which is in the game's report."""
+    """Copies, builds and runs a game. The verdict is in the game's report."""
     program = None
     try:
         program = _judge(game, compiler, options, say)
@@ -136,7 +136,7 @@ def adopt(game, compiler, options, say):
 
 
 def _judge(game, compiler, options, say):
-    """Returns the program: (the folder of the copy to start it in, the command), or None."""
+    """Builds and runs the game. Returns (folder of the copy to start it in, command), or None if it does not build."""
     bounded.phase("reading the folder", READ_SECONDS)
     say("copying")
     game.take_in()
@@ -152,27 +152,27 @@ def _judge(game, compiler, options, say):
     if not built:
         return None
     game.report.result = "builds"
-    bounded.phase("running it", 2 * options.seconds + BUILD_SECONDS)  # and where it crashes it is built and run again
+    bounded.phase("running it", 2 * options.seconds + BUILD_SECONDS)  # after a crash it is built and run again
     running = Running(game, building, options, say)
     running.run()
     return running.folder, os.path.join(os.path.relpath(".", running.folder or "."), PROGRAM)
 
 
 def _print(report, as_json):
-    """Returns whether it could be written."""
+    """Prints the report. Returns whether it could be written."""
     try:
         (report.write_json if as_json else report.write)(sys.stdout)
         sys.stdout.flush()
         return True
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python writes the rest when it ends
-        if not isinstance(error, BrokenPipeError):  # as of `| head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python flushes the rest when it exits
+        if not isinstance(error, BrokenPipeError):  # expected with `| head`
             sys.stderr.write(f"dragonfly-adopt: {error}\n")
         return False
 
 
 def main(include, lib, bin_folder, names, arguments=None):
-    """Runs the command line. The folders are those of the installation."""
+    """Runs the command line and returns the exit code. The folders are those of the installation."""
     arguments = sys.argv[1:] if arguments is None else arguments
     parser = _parser()
     options = parser.parse_args(arguments)
@@ -182,7 +182,7 @@ def main(include, lib, bin_folder, names, arguments=None):
     except Usage as error:
         sys.stderr.write(f"dragonfly-adopt: {error}\nTry dragonfly-adopt --help.\n")
         return USAGE
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))  # so that the scratch folder goes, too
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))  # so that the scratch folder is removed
     bounded.limit_self()
     say = _progress(options.quiet)
     scratch = tempfile.mkdtemp(prefix="dragonfly-adopt-")

@@ -1,4 +1,4 @@
-"""dragonfly-mark: builds and plays each game of a folder of games, and says how it went."""
+"""dragonfly-mark: builds and plays each game in a folder of games, and reports the results."""
 import argparse
 import concurrent.futures
 import csv
@@ -13,8 +13,8 @@ from .bounded import end_group
 from .text import shown
 
 MARKED, INCOMPLETE, USAGE = 0, 1, 2
-MAX_TEXT = 200  # characters of a finding in the list
-_SPARE_SECONDS = 2400  # for building and running again; dragonfly-adopt has limits of its own below that
+MAX_TEXT = 200  # maximum characters of a finding in the list
+_SPARE_SECONDS = 2400  # time limit apart from playing; dragonfly-adopt's own limits are lower
 
 DESCRIPTION = """\
 Builds and plays the games in a folder of folders, one for each student, by dragonfly-adopt: from a private copy, with the book's
@@ -34,7 +34,7 @@ Example: dragonfly-mark handed-in --report marks.md
 
 
 class Verdict:
-    """What came of one folder: its `name`, a `result` of dragonfly-adopt's, `text`: what was seen; `rows`: of its report."""
+    """The result of one folder: its `name`, dragonfly-adopt's `result`, the main finding as `text`, the report's `rows`."""
 
     def __init__(self, name, result, text, rows=()):
         self.name, self.result, self.text, self.rows = name, result, text, rows
@@ -45,9 +45,9 @@ class Verdict:
 
 
 def verdict_of(name, answer):
-    """From dragonfly-adopt's JSON."""
+    """Makes a verdict of dragonfly-adopt's JSON."""
     rows, reason = answer["rows"], answer["reason"]
-    if reason.startswith("not run:"):  # its sandbox, not the game
+    if reason.startswith("not run:"):  # the sandbox failed, not the game
         return Verdict(name, "not judged", reason, rows)
     ran = next((row["text"] for row in rows if row["what"] == "ran"), "")
     left = next((": ".join(part for part in (row["where"], row["text"]) if part) for row in rows if row["what"] == "left"), "")
@@ -77,7 +77,7 @@ def mark(adopt, folder, name, options):
 
 
 def write_report(file, verdicts):
-    """A Markdown table, then what was found in each."""
+    """Writes a Markdown table, then the findings of each folder."""
     cell = lambda text: shown(text, 400).replace("|", "\\|")
     file.write("| game | result | seen |\n|---|---|---|\n")
     for one in verdicts:
@@ -94,7 +94,7 @@ def write_report(file, verdicts):
 
 
 def _plain(text):
-    """Text that Markdown takes for nothing else."""
+    """Escapes text so that Markdown shows it unchanged."""
     return re.sub(r"([<>`*_\[\]|])", r"\\\1", shown(text, 600))
 
 
@@ -114,7 +114,7 @@ def _parser():
 
 
 def _fault(options):
-    """What is wrong with the command line, or None."""
+    """Returns a message about wrong usage, or None."""
     if not os.path.isdir(options.folder):
         return f"{options.folder}: no such folder"
     if not 0 < options.seconds <= 3600:
@@ -127,7 +127,7 @@ def _fault(options):
 
 
 def main(adopt, arguments=None):
-    """Runs the command line. `adopt` is the path of dragonfly-adopt."""
+    """Runs the command line and returns the exit code. `adopt` is the path of dragonfly-adopt."""
     options = _parser().parse_args(arguments)
     fault = _fault(options)
     names = [] if fault else sorted(entry.name for entry in os.scandir(options.folder)
@@ -153,7 +153,7 @@ def main(adopt, arguments=None):
             with open(options.csv, "w", encoding="utf-8", newline="") as file:
                 table = csv.writer(file)
                 table.writerow(("game", "result", "seen"))
-                # A spreadsheet runs what begins with one of these.
+                # A spreadsheet would execute a cell that begins with one of these.
                 safe = lambda text: "'" + text if text[:1] in ("=", "+", "-", "@") else text
                 table.writerows([safe(shown(text, 400)) for text in (one.name, one.result, one.text)] for one in verdicts)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""What Visual Studio's templates and its library write, as C++ and Linux have it: int _tmain(int argc, _TCHAR *argv[])."""
+"""Replaces names of Visual Studio's templates and library with standard ones: int _tmain(int argc, _TCHAR *argv[])."""
 import re
 
 from .treatments import Change
@@ -6,14 +6,14 @@ from .treatments import Change
 _WORDS = {"_tmain": "main", "wmain": "main", "_TCHAR": "char", "TCHAR": "char", "__int64": "long long", "__forceinline": "inline",
           "_stricmp": "strcasecmp", "stricmp": "strcasecmp", "_strnicmp": "strncasecmp", "_strdup": "strdup", "_snprintf": "snprintf"}
 _TEXT = r'\b_T(?:EXT)?\s{0,20}\(\s{0,20}("(?:\\.|[^"\\])*")\s{0,20}\)'
-# Looks for leaks of memory, and says them in Visual Studio's window.
+# Calls that report memory leaks in Visual Studio's window. They are removed.
 _LEAKS = r"\b_Crt\w+\s{0,20}\([^();]{0,300}\)(?=\s{0,20};)"
 _DEFINED = r"#\s*define\s+(\w+)|\btypedef\s[^;]{0,200}\b(\w+)\s*;|\b(?:int|char)[ \t*]{1,20}(_?str\w+|_snprintf)\s*\("
 _ANY = re.compile(r"\b(?:_T|_TEXT|_Crt\w+|" + "|".join(_WORDS) + r")\b")
 
 
 def treat(sources):
-    """Returns what was changed. Names that the game defines itself are its own."""
+    """Replaces the names, except those that the game defines itself. Returns the changes."""
     own = {match.group(match.lastindex) for _, _, match in sources.find(_DEFINED)}
     pattern = _pattern(own)
     changes = []
@@ -30,7 +30,7 @@ def treat(sources):
 
 
 def _pattern(own):
-    words = "|".join(word for word in _WORDS if word not in own) or r"(?!)"  # (?!) fits nothing
+    words = "|".join(word for word in _WORDS if word not in own) or r"(?!)"  # (?!) matches nothing
     texts = r"(?!)()" if own & {"_T", "_TEXT"} else _TEXT
     leaks = r"(?!)" if any(name.startswith("_Crt") for name in own) else _LEAKS
     return re.compile(rf"\b(?P<word>{words})\b|(?P<leaks>{leaks})|{texts}")
@@ -38,7 +38,7 @@ def _pattern(own):
 
 def _as_cpp(pattern, line, code):
     def one(match):
-        if code[match.start()] == " ":  # in a comment or a text
+        if code[match.start()] == " ":  # in a comment or string
             return match.group()
         if match.group("word"):
             return _WORDS[match.group("word")]

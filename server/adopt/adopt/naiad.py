@@ -1,4 +1,4 @@
-"""What of Naiad this program needs: headers, library, dfbot; and the names that the headers declare in namespace df."""
+"""The installed Naiad: its headers, library and dfbot, and the names that the headers declare in namespace df."""
 import os
 import re
 import subprocess
@@ -14,7 +14,7 @@ _NOT_NAMES = {"if", "for", "while", "return", "switch", "operator", "public", "p
 
 
 class Installation:
-    """An installed Naiad, or one in its build folder."""
+    """A Naiad in an installation or in its build folder."""
 
     def __init__(self, include, lib, bin_folder, names_file):
         self.include, self.lib, self.bin = include, lib, bin_folder
@@ -25,7 +25,7 @@ class Installation:
             self._index(header)
 
     def _index(self, header):
-        # Most headers only bring the one of the same name in text/, with the game's macros of one letter set aside.
+        # Most headers only include their namesake in text/, after undefining the game's one-letter macros.
         inner = os.path.join(self.include, "text", header)
         with open(inner if os.path.exists(inner) else os.path.join(self.include, header), encoding="utf-8") as file:
             text = code_only(file.read())
@@ -43,17 +43,17 @@ class Installation:
             self._where[own] = header
 
     def header_of(self, name):
-        """The header that declares a name of namespace df, or None."""
+        """Returns the header that declares a name of namespace df, or None."""
         header = self._where.get(name)
         return os.path.join(self.include, header) if header else None
 
     def scope_of(self, enumerator):
-        """The scoped enumeration that alone has this enumerator, or None."""
+        """Returns the scoped enumeration of this enumerator; None if there is not exactly one."""
         scopes = self._scoped.get(enumerator, ())
         return next(iter(scopes)) if len(scopes) == 1 else None
 
     def was_published(self, name, classes=()):
-        """Whether the published engine has a name: a class, a constant, a header; with classes, a member of one of them."""
+        """Returns whether the published engine has this class, constant or header; with `classes`, a member of one of them."""
         if classes:
             return any(f"{one}::{name}" in self.published for one in classes)
         return name in self.published or any(one.endswith("::" + name) and one.split("::")[0][:1].isupper() and name.isupper()
@@ -66,7 +66,7 @@ def _published(path):
 
 
 def system_headers(compiler):
-    """The folders in which the compiler looks for <headers>."""
+    """Returns the folders in which the compiler looks for <headers>."""
     try:
         said = subprocess.run([compiler, "-E", "-v", "-x", "c++", os.devnull], capture_output=True, timeout=30, check=False,
                               stdin=subprocess.DEVNULL, env={**os.environ, "LC_ALL": "C"}).stderr.decode("utf-8", "replace")

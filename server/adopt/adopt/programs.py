@@ -1,4 +1,4 @@
-"""Which sources make a program, and which program of several is the game."""
+"""Finds the sources of each program, and the program that is the game."""
 import os
 import re
 
@@ -9,35 +9,35 @@ _RUN = re.compile(r"(?:\bGM\s*\.|->|\.|::)\s*run\s*\(")
 _ASIDE = re.compile(r"(^|[/ _-])(tests?|testing|unit-?tests?|old|backup|tutorial|examples?|"
                     r"saucer[-_ ]?shoot|template|unused|archive)"
                     r"([/ _.-]|$)", re.I)
-# What Explorer, Finder and students name a second copy, behind the name of the first.
+# Names of second copies, as Explorer, Finder and students make them of the first name.
 _COPY = re.compile(r"(.+?)(?: - copy(?: \(\d+\))?| copy(?: \d+)?| ?\(\d+\)|[-_. ](?:old|bak|backup|orig|copy))$", re.I)
-MAX_PROGRAMS = 24  # that are looked at; a folder has rarely more than three
+MAX_PROGRAMS = 24  # maximum considered; a folder rarely has more than three
 
 
 class Program:
-    """One program: its `main` file, its sources with main first, the list they come from (or None), what it leaves out."""
+    """A program: its `main` file, its `sources` with main first, their `source_list` or None, and `left_out` as (file, reason)."""
 
     def __init__(self, main, sources, source_list, left_out):
         self.main, self.sources, self.source_list, self.left_out = main, sources, source_list, left_out
 
 
 def is_aside(name):
-    """Whether a file or folder is named as tests, tutorials and leftovers are."""
+    """Returns whether the name of a file or folder looks like a test, tutorial or leftover."""
     return _ASIDE.search(name) is not None
 
 
 def mains(sources, code):
-    """The files with a main()."""
+    """Returns the files with a main()."""
     return [name for name in sources if _MAIN.search(code(name))]
 
 
 def has_run(names, code):
-    """Whether some file calls run(), as a game must."""
+    """Returns whether any file calls run(), as a game must."""
     return any(_RUN.search(code(name)) for name in names)
 
 
 def programs(sources, lists, code, included=None):
-    """The programs of a folder, the likeliest game first. included: {source: the files that include it}."""
+    """Returns the programs of a folder, the most likely game first. included: {source: the files that include it}."""
     all_mains = mains(sources, code)
     found = [_program(main, all_mains, sources, lists, included or {}) for main in all_mains[:MAX_PROGRAMS]]
 
@@ -64,7 +64,8 @@ def _program(main, all_mains, sources, lists, included):
 
 
 def _around(main, others, sources, included):
-    """Without a list: all sources but those of other programs and tests, second copies, and those that others include."""
+    """Returns (sources, left out) of a program without a list: all sources except those of other programs and tests, second
+    copies, and those that other files include."""
     home = os.path.dirname(main)
     foreign = {os.path.dirname(other) for other in others} - {home}
     foreign = {folder for folder in foreign if not (home + "/").startswith(folder + "/") and folder}
@@ -95,7 +96,7 @@ def _around(main, others, sources, included):
 
 
 def _first_of(name):
-    """Of what a second copy looks like: "Hero - Copy.cpp" is of Hero.cpp. "" if it looks like none."""
+    """Returns the original of a second copy, like Hero.cpp of "Hero - Copy.cpp"; "" if the name does not look like a copy."""
     root, extension = os.path.splitext(name)
     copy = _COPY.match(os.path.basename(root))
     return os.path.join(os.path.dirname(name), copy.group(1) + extension) if copy else ""

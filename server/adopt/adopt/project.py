@@ -1,6 +1,6 @@
-"""What Makefiles and project files list. These files are read as text and never run.
+"""Finds the sources that Makefiles and project files list. These files are read as text and never executed.
 
-They are a stranger's: no pattern here takes more than linear time, words have a longest length, and there is a most of each kind.
+They are untrusted: all patterns take linear time, and lengths and numbers of words are limited.
 """
 import fnmatch
 import html
@@ -13,8 +13,8 @@ _SEPARATORS = re.compile(r"[\s\"'<>|;,()=:]+")
 _SOURCE_WORD = re.compile(r".+\.(?:cpp|cc|cxx|c\+\+|C)(?!\w)")
 _OBJECT_WORD = re.compile(r"([\w./-]+)\.o(?!\w)")
 MAX_PROJECT_FILE = 1 << 20
-MAX_PROJECT_FILES = 60  # those nearest to the top
-MAX_WORD = 300  # characters of a source's path
+MAX_PROJECT_FILES = 60  # maximum read, those nearest to the top
+MAX_WORD = 300  # maximum characters of a source's path
 MAX_WORDS = 5000
 MAX_PATTERNS = 40
 _DEFINITION = re.compile(r"(?<![^\s\"'(=])-D ?([A-Za-z_]\w{0,60}(?:=[\w.+-]{0,60})?)(?=[\s\"')]|\Z)")
@@ -23,8 +23,8 @@ MAX_DEFINITIONS = 20
 
 
 class SourceList:
-    """What one file lists: `sources` that are there, `missing` that are not, `unread` what would have had to be run. It is
-    `exact` if it names each of them; a pattern takes also what is no longer used. `definitions` are its -DNAME=VALUE."""
+    """The contents of a project file: `sources` that exist, `missing` ones, `unread` calls of programs, `definitions` (-DNAME=
+    VALUE). `exact`: it names each source; with patterns it may include unused ones."""
 
     def __init__(self, file, sources, missing, unread=(), exact=True, definitions=()):
         self.file, self.sources, self.missing, self.unread, self.exact = file, sources, missing, list(unread), exact
@@ -38,7 +38,7 @@ def is_project_file(name):
 
 
 def read_lists(root, files, sources):
-    """What the project files among `files` list, each resolved to files of `sources`, upper and lower case alike."""
+    """Reads the project files among `files`. Their words are resolved to files of `sources`, ignoring case."""
     known = _Known(sources)
     lists = []
     for name in sorted(filter(is_project_file, files), key=lambda one: one.count("/"))[:MAX_PROJECT_FILES]:
@@ -63,7 +63,7 @@ def read_lists(root, files, sources):
 
 
 def _words(name, text):
-    """The sources that a project file names, and its calls of other programs."""
+    """Returns the sources that a project file names, and its calls of other programs."""
     base = os.path.basename(name).lower()
     if base.endswith((".vcxproj", ".vcproj")):
         return _only_sources(html.unescape(word) for word in _visual_studio(text)), []
@@ -74,19 +74,19 @@ def _words(name, text):
     text = re.sub(r"\\\r?\n", " ", re.sub(r"(?m)(?<!\\)#.*$", "", text))
     unread = re.findall(r"\$\((?:shell|eval|call|file|guile)\b[^\n]*", text)
     text = re.sub(r"\$\((?:shell|eval|call|file|guile)\b[^\n]*", " ", text)
-    # Rules that look at sources for other ends than to build the program.
+    # Removes rules that use sources for other purposes than building the program.
     text = re.sub(r"(?m)^\t.*(?:makedepend|-MM|\brm\b|\btar\b|\bzip\b|clang-format).*$", "", text)
     return _expanded(_with_variables(text)), unread
 
 
 def _definitions(text):
-    """What a Makefile has the compiler define, but not for other systems."""
+    """Returns the -D options of a Makefile, except those for other systems."""
     found = _DEFINITION.findall(re.sub(r"(?m)(?<!\\)#.*$", "", text))
     return [f"-D{one}" for one in dict.fromkeys(found) if not _OTHER_SYSTEM.match(one)][:MAX_DEFINITIONS]
 
 
 def _visual_studio(text):
-    """What Visual Studio compiles: items that are not excluded from the build."""
+    """Yields the items of a Visual Studio project that are not excluded from the build."""
     for item in re.split(r"<(?:ClCompile|File)(?=\s)", text)[1:]:
         tag, _, inner = item.partition(">")
         path = re.search(r"(?:Include|RelativePath)\s*=\s*\"([^\"]*)\"", tag)
@@ -98,7 +98,7 @@ def _visual_studio(text):
 
 
 def _with_variables(text):
-    """Variables of one word are put in, once: SRC = src, set(SRC src)."""
+    """Expands variables of one word, once: SRC = src, set(SRC src)."""
     found = re.findall(r"(?m)^[ \t]*([\w.-]+)[ \t]*[:?]?:?=[ \t]*([^\s$()]{1,100})[ \t\r]*$", text)
     found += re.findall(r"\bset\s*\(\s*([\w.-]+)\s+\"?([^\s$()\"]{1,100})\"?\s*\)", text)
     variables = dict(found[:100])
@@ -106,7 +106,7 @@ def _with_variables(text):
 
 
 def _expanded(text):
-    """The words of a Makefile that name sources: themselves, as patterns, or as the objects that are made of them."""
+    """Returns the sources that a Makefile names, including patterns. Without any, derives them from the objects it names."""
     here = "wildcard|CMAKE_CURRENT_SOURCE_DIR|CMAKE_SOURCE_DIR|PROJECT_SOURCE_DIR"
     plain = re.sub(r"\$[({](?:" + here + r")[)}]?", " ./ ", text)
     words = [word for word in _SEPARATORS.split(re.sub(r"\./\s+/?", "./", plain)) if len(word) <= MAX_WORD]
@@ -122,11 +122,11 @@ def _only_sources(words):
 
 
 def _is_pattern(word):
-    return "*" in word and not word.startswith("**/")  # that stands for any folder of Xcode's
+    return "*" in word and not word.startswith("**/")  # "**/" marks a word of an Xcode project: in any folder
 
 
 class _Known:
-    """The sources that there are, to be found by what a list calls them."""
+    """Finds existing sources by the words of project files."""
 
     def __init__(self, sources):
         self._by_lower, self._by_base = {name.lower(): name for name in sources}, {}
@@ -134,7 +134,7 @@ class _Known:
             self._by_base.setdefault(os.path.basename(name).lower(), []).append(name)
 
     def meant(self, folder, word, deep):
-        """The sources that a word of a project file in `folder` means; None if there is none. deep: patterns go into folders."""
+        """Returns the sources that a word of a project file in `folder` means, or None. deep: patterns match in subfolders."""
         word = word.replace("\\", "/")
         path = os.path.normpath(os.path.join(folder, word)).lower()
         if _is_pattern(word):
@@ -142,13 +142,13 @@ class _Known:
             return [name for lower, name in self._by_lower.items() if _fits(lower, pattern, deep)] or None
         if path in self._by_lower:
             return [self._by_lower[path]]
-        # Lists name files where they once were, on another machine.
+        # A list may have an outdated path or one of another machine: look for the base name.
         same = self._by_base.get(os.path.basename(word).lower(), ())
         return same if len(same) == 1 else None
 
 
 def _fits(path, pattern, deep):
-    """Whether a path fits a pattern with *, which stays in its folder unless `deep`. fnmatch never tries what it has tried."""
+    """Returns whether a path matches a pattern with *, which does not match '/' unless `deep`. fnmatch does not backtrack."""
     if deep:
         return fnmatch.fnmatchcase(path, pattern)
     parts, wanted = path.split("/"), pattern.split("/")

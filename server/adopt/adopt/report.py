@@ -1,17 +1,17 @@
-"""What is said at the end: a table for people, or JSON."""
+"""The final report: a text table or JSON."""
 import json
 
 from .text import shown
 
-MAX_ROWS = 12  # of one kind
+MAX_ROWS = 12  # maximum rows of one kind
 _INDENT = 12  # columns before the text
 
 
 class Row:
-    """One entry of the table.
+    """A row of the table.
 
-    what: "program", "left out", "treated", "built", "ran", "left", "note", "kept"; where: file:line, or empty; text: what was
-    done or is wrong; whose: for what is left, whose fault it is; line: the source line; change: what it became, or what to do.
+    what: "program", "left out", "treated", "built", "ran", "left" (an error), "note", "kept"; where: file:line, or empty; text:
+    action or error; whose: whose fault an error is; line: the source line; change: the changed line, or what to do.
     """
 
     def __init__(self, what, where, text, whose, line, change):
@@ -29,7 +29,7 @@ class Report:
         self.rows.append(Row(what, where, text, whose, line, change))
 
     def add_left(self, where, whose, text, change, line=""):
-        """A row for what is left: whose fault it is, and what to do."""
+        """Adds a row for an error that is left: whose fault it is, and what to do."""
         self.add("left", where, text, whose, line, change)
 
     def fail(self, result, reason):
@@ -63,7 +63,7 @@ class Report:
 
 
 def _wrapped(out, text, label=""):
-    """Words in lines of 100 columns, indented as the table is."""
+    """Writes text in lines of 100 columns with the table's indentation."""
     line = label.ljust(_INDENT)
     for word in text.split():
         if len(line) + len(word) > 100 and line.strip():

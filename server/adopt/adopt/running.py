@@ -1,4 +1,4 @@
-"""Runs a game that was built, and says how it went."""
+"""Runs a built game and reports the result."""
 import os
 
 from . import blame as faults
@@ -13,8 +13,8 @@ from .trial import START_SECONDS, Trial
 
 _CRASH_ADVICE = ("look at the pointers of this line: what getSound(), getSprite() or objectWithId() did not find is null, "
                  "and a deleted Object is no more")
-FAILURES = (sandbox.SandboxError, RuntimeError, OSError)  # of the sandbox, and of the copy in it
-_NOTED_LINES = 4  # of what a game printed, and of what was logged
+FAILURES = (sandbox.SandboxError, RuntimeError, OSError)  # failures of the sandbox or of copying into it
+_NOTED_LINES = 4  # lines shown of a game's output, and of its log
 
 
 class Running:
@@ -27,7 +27,7 @@ class Running:
         self._root = os.path.join(game.scratch, "root")
 
     def run(self):
-        """Writes the rows and the result."""
+        """Runs the game. Writes rows and the result into the report."""
         self._say_missing()
         if self._options.seconds == 0:
             self._report.result = "builds; it was not to run"
@@ -102,7 +102,7 @@ class Running:
                 self._report.add("note", name, line)
 
     def _say_crash(self, outcome, trial):
-        """Builds it again with an address sanitizer, which says where."""
+        """Reports the place of a crash, found by building and running the game with an address sanitizer."""
         frame = self._crash_place(trial)
         if frame:
             place, what = frame

@@ -1,8 +1,8 @@
 """A sandbox for a Python function and what it starts: namespaces of its own for users, mounts, processes and network.
 
-What runs in it sees the system's programs and libraries read-only, what it is given read-only, and a small file system in
-memory that is gone with it. Its network is a loopback of its own. It has no capability and cannot get one. When it ends, or
-is ended, every process in it ends. It needs a kernel that lets users make namespaces (Debian 12 does); is_available() says so.
+Processes in it see the system's programs and libraries and the given paths read-only, and a small file system in memory that is
+deleted at the end. The network is a private loopback. They have no capabilities and cannot get any. When the sandbox ends, all its
+processes end. It requires a kernel that lets users create namespaces (Debian 12 does): see why_unavailable().
 """
 import ctypes
 import json
@@ -28,11 +28,11 @@ _PR_SET_PDEATHSIG, _PR_SET_NO_NEW_PRIVS, _PR_CAPBSET_DROP, _PR_SET_DUMPABLE = 1,
 _SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d",
            "/etc/alternatives", "/etc/localtime", "/etc/ssl/openssl.cnf")
 _DEVICES = ("null", "zero", "full", "random", "urandom")
-MEMORY = 4 << 30  # bytes of address space of a process
+MEMORY = 4 << 30  # maximum address space of a process in bytes
 
 
 class SandboxError(Exception):
-    """The kernel does not let this user make a sandbox."""
+    """Raised if the kernel does not let this user make a sandbox."""
 
 
 def _call(name, *arguments):
@@ -63,7 +63,7 @@ def _enter_namespaces():
     user, group = os.geteuid(), os.getegid()
     _call("unshare", _NEWUSER | _NEWNS | _NEWPID | _NEWIPC | _NEWNET | _NEWUTS | _NEWCGROUP)
     _write("/proc/self/setgroups", "deny")
-    # Not as root, also where root asks: a program that is executed as root has all capabilities of its namespace.
+    # Never maps to root, even for root: a program executed as root gets all capabilities of its namespace.
     _write("/proc/self/uid_map", f"1000 {user} 1")
     _write("/proc/self/gid_map", f"1000 {group} 1")
 
@@ -75,7 +75,7 @@ def _read_only(path):
 
 
 def _bind(source, root, writable=False):
-    """Shows a file or folder under the same path; a link (/bin on Debian) is made again."""
+    """Mounts a file or folder under its own path in the sandbox. Copies a link (/bin on Debian)."""
     target = root + source
     os.makedirs(os.path.dirname(target), exist_ok=True)
     if os.path.islink(source):
@@ -92,7 +92,7 @@ def _bind(source, root, writable=False):
 
 
 def _build_root(root, shown, megabytes):
-    """A root of its own: the system, what is shown, and /tmp and /game to write to."""
+    """Builds the root file system: the system, the `shown` paths, and /tmp and /game to write to."""
     _mount(None, "/", None, _REC | _PRIVATE)
     _mount("sandbox", root, "tmpfs", _NOSUID | _NODEV, f"size={megabytes}m,mode=755")
     for path in _SYSTEM:
@@ -108,7 +108,7 @@ def _build_root(root, shown, megabytes):
     try:
         _mount("proc", root + "/proc", "proc", _NOSUID | _NODEV)
     except SandboxError:
-        pass  # in some containers; nothing here needs it
+        pass  # fails in some containers; /proc is not needed
 
 
 def _loopback_up():
@@ -126,7 +126,7 @@ def _change_root(root):
 
 
 def _give_up_rights():
-    """From the next program on there is no capability, and no way to one."""
+    """Makes sure that programs executed from now on have no capabilities and cannot gain any."""
     for capability in range(64):
         _libc.prctl(_PR_CAPBSET_DROP, capability, 0, 0, 0)
     if _libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0:
@@ -134,15 +134,15 @@ def _give_up_rights():
 
 
 def limits(seconds, memory=MEMORY, confined=True):
-    """What a program gets (memory 0: no limit of it); to be called where it is started. Not confined: as many processes as the
-    user may have, for outside of a sandbox the limit counts every thread of the user."""
+    """Sets the limits of a program, in the child before exec. memory 0: no limit. Not `confined`: no limit of processes either,
+    because outside of a sandbox it would count all threads of the user."""
     limit_to(resource.RLIMIT_CORE, 0)
     limit_to(resource.RLIMIT_FSIZE, 32 << 20)
     limit_to(resource.RLIMIT_NOFILE, 256)
     limit_to(resource.RLIMIT_CPU, seconds)
     if confined:
         limit_to(resource.RLIMIT_NPROC, 128)
-    if memory:  # a sanitizer takes all the addresses that there are; it has a limit of its own
+    if memory:  # 0 for a sanitizer, which reserves most of the address space and has a limit of its own
         limit_to(resource.RLIMIT_AS, memory)
     else:
         hard = resource.getrlimit(resource.RLIMIT_AS)[1]
@@ -151,14 +151,14 @@ def limits(seconds, memory=MEMORY, confined=True):
 
 
 def _drop_effective():
-    """Also before the program is executed: this process still has what the namespace gave it."""
+    """Drops the capabilities of this process, which it still has from creating the namespace."""
     header = struct.pack("Ii", 0x20080522, 0)  # version 3, this thread
     _libc.capset(header, struct.pack("6I", 0, 0, 0, 0, 0, 0))
 
 
 def run(function, root, shown, timeout, megabytes=64):
-    """Runs function() as process 1 of a new sandbox whose root is made on the empty folder `root`, and returns what it
-    returned, by way of JSON; None if it did not end within `timeout` seconds. What it may read is `shown`.
+    """Runs function() as process 1 of a new sandbox, with its root mounted on the empty folder `root`. `shown`: paths that it may
+    read. Returns its result, passed as JSON, or None if it did not end within `timeout` seconds.
     """
     reader, writer = os.pipe()
     child = os.fork()
@@ -170,14 +170,14 @@ def run(function, root, shown, timeout, megabytes=64):
     finally:
         os.close(reader)
         try:
-            os.kill(child, signal.SIGKILL)  # and process 1 with it, and all others with that
+            os.kill(child, signal.SIGKILL)  # this also kills process 1, and so all processes of the sandbox
         except ProcessLookupError:
             pass
         os.waitpid(child, 0)
 
 
 def _first_process(function, root, shown, megabytes, reader, writer):
-    """In the child: makes the namespaces, then process 1, and never returns."""
+    """Runs in the child: creates the namespaces, then process 1. Never returns."""
     try:
         os.close(reader)
         os.setsid()
@@ -188,7 +188,7 @@ def _first_process(function, root, shown, megabytes, reader, writer):
             os.wait()
             os._exit(0)
         _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
-        # Process 1 gets no signal that it has no handler for; with its parent's, those in it could end it.
+        # Process 1 gets only signals that it handles. With handlers of its parent, its descendants could end it.
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGALRM):
             signal.signal(number, signal.SIG_DFL)
         _build_root(root, shown, megabytes)
@@ -198,7 +198,7 @@ def _first_process(function, root, shown, megabytes, reader, writer):
         _send(writer, {"result": function()})
     except SandboxError as error:
         _send(writer, {"sandbox": str(error)})
-    except BaseException as error:  # the parent says it
+    except BaseException as error:  # reported by the parent
         _send(writer, {"error": f"{type(error).__name__}: {error}"})
     finally:
         os._exit(0)
@@ -233,7 +233,7 @@ def _answer(reader, timeout):
 
 
 def why_unavailable(root):
-    """Why there is no sandbox for this user, or None if there is one."""
+    """Returns why this user cannot have a sandbox, or None if it works."""
     if not sys.platform.startswith("linux"):
         return "this is not Linux"
     try:

@@ -1,8 +1,8 @@
-"""Sources as lines that can be changed in place: no treatment adds or removes a line, so that numbers stay the student's."""
+"""Sources as lines that can be changed. No treatment adds or removes a line, so line numbers stay those of the author."""
 import os
 import re
 
-# Comments, strings and characters. Each alternative matches to the end of what it begins, closed or not: linear time.
+# Comments, strings and characters. Each alternative also matches if it is not closed, so matching takes linear time.
 _NOT_CODE = re.compile(r'//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:\\.|[^"\\\n])*"?|\'(?:\\.|[^\'\\\n])*\'?', re.S)
 
 
@@ -11,7 +11,7 @@ _NEVER = re.compile(r"[ \t(]*(?:0|false)[ \t\r)]*$")
 
 
 def code_only(text):
-    """The text with comments, strings and what stands behind #if 0 blanked out; lines and columns stay."""
+    """Returns the text with comments, strings and code after #if 0 replaced by blanks. Keeps lines and columns."""
     return _without_dead(_NOT_CODE.sub(lambda match: _blank(match.group()), text))
 
 
@@ -20,8 +20,8 @@ def _blank(text):
 
 
 def _without_dead(code):
-    parts, begin = [], 0  # begin: of what is not yet in parts
-    open_ifs, dead = 0, None  # dead: how many #if were open where the dead part began, and its begin
+    parts, begin = [], 0  # begin: start of the text that is not yet in parts
+    open_ifs, dead = 0, None  # dead: (number of open #if, offset) at the start of a dead part
     for found in _DIRECTIVE.finditer(code):
         word = found.group(1)
         if dead and word in ("else", "elif", "endif") and open_ifs == dead[0]:
@@ -37,13 +37,13 @@ def _without_dead(code):
 
 
 def shown(text, most=160):
-    """A foreign text as it may be printed on a terminal: on one line, without control characters, not too long."""
+    """Makes untrusted text safe to print on a terminal: one line, no control characters, at most `most` characters."""
     text = "".join(character if character.isprintable() else f"\\x{ord(character) & 0xff:02x}" for character in text)
     return text if len(text) <= most else text[:most - 1] + "…"
 
 
 def decoded(data):
-    """The text of a source, without a byte order mark, and the encoding that it had: Visual Studio saves UTF-16, too."""
+    """Returns the text of a source without byte order mark, and its encoding, which with Visual Studio may be UTF-16."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return data.decode("utf-16", "replace"), "UTF-16"
     if data.startswith(b"\xef\xbb\xbf"):
@@ -52,11 +52,11 @@ def decoded(data):
 
 
 class Sources:
-    """The code files of the copy, read once. What is changed is written back by flush(), before another program reads it."""
+    """The code files of the copy, read once. Call flush() to write changes before another program reads the files."""
 
     def __init__(self, root, files):
         self.root, self.files, self.recoded = root, sorted(files), []
-        self._code = {}  # of files that have not been changed since
+        self._code = {}  # cached code_only() texts of files; a change removes its file
         self._changed = set()
         self._lines = {name: self._read(name) for name in self.files}
 
@@ -67,13 +67,13 @@ class Sources:
         if encoding == "UTF-16":
             self.recoded.append(name)
         if encoding != "UTF-8":
-            self._write(name, lines)  # so that the compiler counts the same columns
+            self._write(name, lines)  # the compiler must count columns in the text that is read here
         return lines
 
     def _write(self, name, lines):
         path = os.path.join(self.root, name)
         if os.path.islink(path):
-            os.unlink(path)  # a file of its own from now on
+            os.unlink(path)  # replaces the link by a file
         with open(path, "wb") as file:
             file.write("\n".join(lines).encode("utf-8", "surrogateescape"))
 
@@ -96,13 +96,13 @@ class Sources:
         self._changed.add(name)
 
     def flush(self):
-        """Writes what was changed: once for all lines of a file."""
+        """Writes the files that have changed."""
         for name in self._changed:
             self._write(name, self._lines[name])
         self._changed = set()
 
     def find(self, pattern, names=None):
-        """Yields (file, line number, match) for a regular expression in code lines, comments and strings left out."""
+        """Yields (file, line number, match) of a regular expression in code, without comments and strings."""
         for name in names if names is not None else self.files:
             for number, line in enumerate(self.code(name).split("\n"), 1):
                 for match in re.finditer(pattern, line):

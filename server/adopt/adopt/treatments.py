@@ -1,4 +1,4 @@
-"""What can be changed in the copy so that it compiles, found by what the compiler says. Each change stays on its line."""
+"""Changes the copy so that it compiles, based on the compiler's messages. Each change stays on its line."""
 import re
 
 _NAME = r"'(?:df::)?(?P<name>\w+)(?:<[^']*>)?'"
@@ -27,7 +27,7 @@ _NUMBER = re.compile(r"'(?:virtual |static |constexpr )*(?:unsigned |signed |lon
 
 
 class Change:
-    """One thing that was done: where, the line before and after (or what stands for it), and why."""
+    """A change: its place, the line before and after (or an equivalent, like an option), and the reason."""
 
     def __init__(self, file, line, before, after, why):
         self.file, self.line, self.before, self.after, self.why = file, line, before.strip(), after.strip(), why
@@ -43,7 +43,7 @@ class Treatments:
                        self._missing_header, self._missing_prefix, self._private_base, self._ambiguous)
 
     def treat(self, units):
-        """Treats what these units' diagnostics say. Returns the units to compile again."""
+        """Treats the diagnostics of these units. Returns the units to compile again."""
         definitions = len(self._compiler.definitions)
         again, touched = [], set()
         for unit in units:
@@ -59,8 +59,8 @@ class Treatments:
                 any(one.file in files for one in unit.diagnostics)]
 
     def _treat_unit(self, unit, touched):
-        """Returns the lines that were changed. Lines that another unit changed wait, for their columns may have moved; of one
-        line several unknown names can be treated at once, from right to left."""
+        """Returns the lines that were changed. Skips lines that another unit changed, because their columns may have moved.
+        Several unknown names in a line are treated at once, from right to left."""
         lines = {}
         for diagnostic in sorted(unit.diagnostics, key=lambda one: (one.file, one.line, -one.column)):
             place = diagnostic.file, diagnostic.line
@@ -98,7 +98,7 @@ class Treatments:
         return True
 
     def _at(self, diagnostic):
-        """The line, and what stands before and behind the column (bytes, as compilers count)."""
+        """Returns the line's text before the column and from the column on (in bytes, as compilers count)."""
         data = self._sources.line(diagnostic.file, diagnostic.line).encode("utf-8", "surrogateescape")
         cut = max(diagnostic.column - 1, 0)
         return data[:cut].decode("utf-8", "surrogateescape"), data[cut:].decode("utf-8", "surrogateescape")
@@ -133,7 +133,7 @@ class Treatments:
         return done
 
     def _clang_return_type(self, diagnostic):
-        """clang names no class: the declaration first, then each definition that does not fit it any more."""
+        """Like _return_type(), for clang, which names no class: first the declaration, then definitions that no longer match."""
         match = _CLANG_CONFLICT.search(diagnostic.text)
         if match:
             name, old, goal = match.group("name"), match.group("type"), match.group("goal")
@@ -174,7 +174,7 @@ class Treatments:
         return self._edit(diagnostic, re.sub(r"\bvoid(\s+main\b)", r"int\1", line), "main() returns int")
 
     def _missing_header(self, unit, diagnostic):
-        """A name of the engine or of C++ whose header comes along elsewhere."""
+        """Includes the header of a name that other compilers or engines include indirectly."""
         if not diagnostic.is_error:
             return False
         for pattern in _NOT_IN_DF:
@@ -217,7 +217,7 @@ class Treatments:
         return False
 
     def _is_engines(self, name):
-        """Whether a name without df:: can be the engine's: not where the game has a class of that name."""
+        """Returns whether a name without df:: can be the engine's: the game has no class of that name."""
         if name not in self._engines:
             self._engines[name] = self._naiad.header_of(name) is not None and \
                 not any(self._sources.find(rf"\b(?:class|struct|enum|union)\s+{name}\b(?!\s*;)"))
@@ -256,7 +256,7 @@ class Treatments:
         return self._edit(diagnostic, before + "::" + behind, "the game's own one of two names that are alike")
 
     def undo_returns(self, units):
-        """Takes back a return that does not compile either. Returns whether there was one."""
+        """Undoes added returns that do not compile. Returns whether there was one."""
         undone = False
         for unit in units:
             for diagnostic in unit.errors:

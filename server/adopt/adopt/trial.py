@@ -1,4 +1,4 @@
-"""Runs the built game as a server without a terminal, with a player that presses keys, in the sandbox."""
+"""Runs the built game as a server without a terminal in the sandbox, with players that press keys."""
 import os
 import re
 import shutil
@@ -11,8 +11,8 @@ from .bounded import end_group
 from .keys import random_script
 from .text import shown
 
-START_SECONDS = 20  # until it listens
-END_SECONDS = 8  # until it has ended after SIGTERM
+START_SECONDS = 20  # time limit until the game listens
+END_SECONDS = 8  # time limit until the game has ended after SIGTERM
 MAX_ROUNDS = 20
 _TICKS = re.compile(r"\bbot ok .*\bticks=(\d+) objects=(\d+)")
 _LOG_BYTES = 64 << 10
@@ -21,24 +21,24 @@ _ASAN = "detect_leaks=0:alloc_dealloc_mismatch=0:detect_odr_violation=0:handle_s
 
 
 class ScriptError(Exception):
-    """The keys that were asked for cannot be pressed; the text says why."""
+    """Raised if the script of --keys is invalid. The text has the reason."""
 
 
 class Trial:
-    """How the game is run.
+    """A run of the game.
 
-    tree: the treated copy, with the program in it as `program`; folder: of the copy, where it is started; seconds: how long;
-    players: how many join.
+    tree: the treated copy, which contains `program`; folder: folder of the copy to start it in; seconds: duration; players:
+    number of players that join.
     """
 
     def __init__(self, tree, program, folder, naiad, seconds, seed, keys, named_keys, examined=False, players=1):
         self.tree, self.program, self.folder, self.naiad = tree, program, folder, naiad
         self.seconds, self.seed, self.keys, self.named_keys, self.examined = seconds, seed, keys, named_keys, examined
         self.players = players
-        self.game, self.tmp, self.confined = "/game", "/tmp", True  # as the sandbox has them
+        self.game, self.tmp, self.confined = "/game", "/tmp", True  # paths in the sandbox
 
     def run(self, root, confined=True):
-        """Runs it in a sandbox made on the empty folder `root`, or without. Returns the Outcome."""
+        """Runs the game in a sandbox on the empty folder `root`, or without a sandbox if not `confined`. Returns the Outcome."""
         self.confined = confined
         if not confined:
             self.game = os.path.join(root, "game")
@@ -59,7 +59,7 @@ class Trial:
         return Outcome(**answer)
 
     def inside(self):
-        """In the sandbox, as its process 1. Returns what Outcome takes."""
+        """Runs in the sandbox as process 1. Returns the arguments of Outcome."""
         shutil.copytree(self.tree, self.game, symlinks=True, dirs_exist_ok=True)
         started = time.monotonic()
         ticks = objects = rounds = 0
@@ -70,7 +70,7 @@ class Trial:
             ticks += one.pop("ticks")
             objects = max(objects, one.pop("objects"))
             again = one["state"] == "over" and rounds < MAX_ROUNDS and time.monotonic() - started < self.seconds - 1
-            # A game that is over before anybody could play does not become a better one.
+            # Does not retry a game that ends before a player can join.
             if not again or one["seconds"] < 0.2:
                 return {**one, "ticks": ticks, "objects": objects, "rounds": rounds, "log": self._log(),
                         "printed": _ends(f"{self.tmp}/game.{rounds}.out")}
@@ -97,7 +97,7 @@ class Trial:
             end_group(game.pid)
 
     def _judge(self, game, seconds, number, began):
-        """Plays, ends the game, says how it went."""
+        """Plays and ends the game. Returns the result."""
         port = _wait_for_port(game, f"{self.tmp}/port.{number}")
         if port is None:
             code = game.poll()
@@ -107,14 +107,14 @@ class Trial:
         found = _TICKS.search(said)
         ticks, objects = (int(found.group(1)), int(found.group(2))) if found else (0, 0)
         ended = _end(game, ticks)
-        # The player could not play; of a game that it lost (4), or that did not end in order when asked to, its end says more.
+        # The player failed, and not because the game ended (4). If the game itself failed, that is the result instead.
         if code not in (None, 0, 4) and ended["state"] in ("played", "hangs") and ended["code"] == 0:
             ended = {"state": "refused", "code": code}
         return {**ended, "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
                 "text": _last_line(said) or f"dfbot ended with {code}" if code else ""}
 
     def _play(self, game, port, seconds, number):
-        """What dfbot said, and its exit code; None if it had to be ended."""
+        """Plays with dfbot. Returns its output and exit code; the code is None if it had to be killed."""
         script = f"{self.tmp}/keys"
         with open(script, "w", encoding="utf-8", errors="replace") as file:
             file.write(self.keys or random_script(self.named_keys, self.seed + number - 1, int(seconds * 30) + 30))
@@ -128,7 +128,7 @@ class Trial:
             time.sleep(0.02)  # until one of them ends
         if game.poll() is not None:
             _wait(bot)
-        elif bot.poll() in (1, 4):  # it lost the game, which may be ending
+        elif bot.poll() in (1, 4):  # the bot lost its connection: the game may be ending
             _wait(game)
         code = bot.poll()
         if code is None:
@@ -136,7 +136,7 @@ class Trial:
         return bot.communicate()[0].decode("utf-8", "replace"), code
 
     def _log(self):
-        """What the engine logged: the file that df-config.txt names, or the usual one."""
+        """Returns the engine's log: the file that df-config.txt names, or the default one."""
         name = "dragonfly.log"
         folder = os.path.join(self.game, self.folder)
         try:
@@ -149,11 +149,11 @@ class Trial:
 
 
 class Outcome:
-    """How it went.
+    """The result of a run.
 
-    state: "played" to the end of the time, "over" (the game ended in order), "unplayed" (main() ended without a game),
-    "failed" (main() ended with an error), "crashed", "deaf" (never listened), "hangs", "refused" (its player could not play, and
-    `text` says why).
+    state: "played" (for the whole time), "over" (the game ended normally), "unplayed" (main() ended without a game), "failed"
+    (main() ended with an error), "crashed", "deaf" (never listened), "hangs", "refused" (the player could not play; `text` has the
+    reason).
     """
 
     def __init__(self, state, code=0, seconds=0.0, ticks=0, objects=0, rounds=1, text="", log="", printed="", ended_well=True):
@@ -193,7 +193,7 @@ def _last_line(said):
 
 
 def _end(game, ticks):
-    """Ends the game if it has not ended itself."""
+    """Ends the game if it still runs. Returns its state and exit code."""
     code = game.poll()
     if code is not None:
         state = "over" if code == 0 else "crashed" if code < 0 or code == 77 else "failed"
@@ -210,7 +210,7 @@ def _end(game, ticks):
 
 
 def _ends(path):
-    """Begin and end of a file that the game wrote; it may have made anything of it."""
+    """Returns the beginning and end of a file that the game wrote. Untrusted: it may be a link or a pipe."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError:

@@ -1,4 +1,4 @@
-"""Says of a build what was treated, what is left, and whose fault that is."""
+"""Reports a build: the changes made, the errors left, and whose fault they are."""
 import os
 import re
 
@@ -9,8 +9,8 @@ from .compiler import STANDARDS
 from .folder import is_source
 from .report import MAX_ROWS
 
-MAX_ERRORS = 3  # of one source: the first is the cause of most others
-WHOLE_ENGINE = 10  # headers that a folder has, to count as a copy of the engine that can be compiled against
+MAX_ERRORS = 3  # maximum errors reported of a source: the first usually causes the others
+WHOLE_ENGINE = 10  # minimum headers in a folder for a copy of the engine that sources can be compiled against
 
 
 class Verdicts:
@@ -22,7 +22,7 @@ class Verdicts:
                             game.sources.code(game.program.main) if game.program else "")
 
     def say(self, built):
-        """The rows of a build that went well or did not."""
+        """Writes the rows of a build. `built`: it succeeded."""
         self._say_treated()
         broken, units = self._building.broken, self._building.units
         if not built:
@@ -46,11 +46,11 @@ class Verdicts:
                 with open(os.path.join(self._game.engine_tree, name), encoding="latin-1") as file:
                     texts.append(file.read())
             except OSError:
-                pass  # a link to a file that is the game's
+                pass  # a link to a file of the game, which is not in this tree
         return "\n".join(texts)
 
     def _against_engine(self, unit):
-        """The diagnostics of a unit against the engine's headers that came in the folder; None without such."""
+        """Returns the diagnostics of a unit compiled against the engine headers in the folder; None without such headers."""
         count = {}
         for name in self._game.engine.files:
             if not is_source(name):
@@ -121,6 +121,6 @@ class Verdicts:
 
 
 def _place_of(place):
-    """file:line of what the linker calls a place, if it is one of the game's sources."""
+    """Returns file:line of a place named by the linker; "" if it is not in a source of the game."""
     match = re.match(r"(?:.*/copy/|\./|/game/)?(.+?):(\d+)$", place)
     return f"{os.path.normpath(match.group(1))}:{match.group(2)}" if match and not match.group(1).endswith(".o") else ""

@@ -1,4 +1,4 @@
-// The game: who plays gets a ship.
+// The game: each player gets a ship.
 #include "GameManager.h"
 #include "Ship.h"
 
