@@ -1,4 +1,4 @@
-// Tests with the real nats-server, in a folder of their own.
+// Fixture with the real nats-server in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// dfdir as it is run: the real program, the real nats-server, real dfservers.
+// The program dfdir with the real nats-server and real dfservers.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -1,4 +1,4 @@
-// A bus of a test's own: what is said on it, and whether it is there.
+// A fake bus: published messages, messages to receive, and whether it is connected.
 #pragma once
 
 #include <string>

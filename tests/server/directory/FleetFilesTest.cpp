@@ -1,5 +1,5 @@
-// What deploy/fleet/make-fleet makes: a bus with TLS on which each may say and hear its own, tried with the
-// real nats-server, a real directory and a real server.
+// The files of deploy/fleet/make-fleet: a TLS bus on which each program may use only its own subjects, tested
+// with the real nats-server, directory and server.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// NatsServer has a store of its own.
+/// Removes the store section, because NatsServer sets its own store.
 std::string withoutStore(std::string conf) {
   const std::size_t begin = conf.find("jetstream {");
   return conf.erase(begin, conf.find("}\n", begin) + 2 - begin);
@@ -41,7 +41,7 @@ class FleetFilesTest : public BusFixture {
         NAIAD_SOURCE_DIR "/deploy/fleet/make-fleet " + folder.string() + " " + words + " >/dev/null 2>&1";
     return WEXITSTATUS(::system(command.c_str()));
   }
-  /// The address of the bus in a file, at the port that it has in this test.
+  /// Returns the bus address in a file, with the port of this test.
   std::string urlIn(const fs::path& file) const {
     const std::string text = contentOf(folder / file);
     const std::size_t begin = text.find("tls://");
@@ -104,7 +104,7 @@ TEST_F(FleetFilesTest, WithoutItsAuthorityOrPasswordTheBusIsClosed) {
   const std::string url = urlIn("servers/tron-1.conf");
   const std::string without = "tls://" + url.substr(url.find('@') + 1);
   const auto stranger = connectBus({without, "", folder / "bus" / "ca.pem"});
-  const auto trusting = connectBus({url, "", ""});  // the authorities of the system
+  const auto trusting = connectBus({url, "", ""});  // trusts only the system's authorities
   const auto plain = connectBus({"nats" + url.substr(3), "", ""});
   for (const auto* const p_bus : {&stranger, &trusting, &plain}) {
     EXPECT_TRUE(waitUntil([&] { return (*p_bus)->counters().failures > 0; }));

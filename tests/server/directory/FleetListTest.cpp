@@ -1,4 +1,4 @@
-// Which servers there are, of what comes from the bus, and which of them a player is sent to.
+// The list of servers, built from bus messages, and the choice of a server for a player.
 #include <gtest/gtest.h>
 
 #include <chrono>

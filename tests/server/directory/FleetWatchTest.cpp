@@ -1,4 +1,4 @@
-// A list that is kept by what the bus brings, and without a bus.
+// A server list that follows the bus, and its behaviour without a bus.
 #include <gtest/gtest.h>
 
 #include <chrono>

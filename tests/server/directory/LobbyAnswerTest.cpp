@@ -1,4 +1,4 @@
-// What the lobby answers to hellos, and to what is none.
+// The lobby's answers to hellos and to other frames.
 #include <gtest/gtest.h>
 
 #include <string>

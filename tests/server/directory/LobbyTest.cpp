@@ -1,5 +1,4 @@
-// The lobby of a directory and servers that are full: the real programs, the real nats-server, clients as
-// dfclient has them.
+// A directory's lobby and full servers: the real programs, the real nats-server, and clients like dfclient's.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -52,7 +51,7 @@ class LobbyTest : public BusFixture {
                                                        {"NAIAD_MAX_PLAYERS", std::to_string(places)},
                                                        {"NAIAD_LINK_HOST", "127.0.0.1"}});
   }
-  /// dfdir with a lobby, once it knows so many servers.
+  /// Starts dfdir with a lobby and waits until it knows this many servers.
   void startDirectory(int servers) {
     directory = std::make_unique<RunningProgram>(
         std::vector<std::string>{"dfdir", "--bus", bus.url(), "--bus-interval", kQuickInterval, "--listen",
@@ -128,7 +127,7 @@ TEST_F(LobbyTest, AServerThatIsFullSendsOnToOneThatIsNot) {
   ASSERT_NO_FATAL_FAILURE(startDirectory(2));
   const auto ann = join(small->port(), "ann");
   ASSERT_TRUE(ann->joined());
-  // Until the directory has heard that it is full, and it has heard the directory.
+  // Retries until directory and server have learned of each other's state.
   std::unique_ptr<TestClient> bob;
   for (int tries = 0; tries < 200; ++tries) {
     bob = join(small->port(), "bob");
@@ -151,7 +150,7 @@ TEST_F(LobbyTest, WithoutABusItSendsPlayersOnAsBefore) {
   EXPECT_TRUE(ann->joined()) << ann->connection().sentence();
 }
 
-/// A lobby on a thread of its own, which knows one server.
+/// A lobby on its own thread that knows one server.
 class RunningLobby {
  public:
   RunningLobby(const std::filesystem::path& identity, const LobbySettings& settings, const Presence& server)

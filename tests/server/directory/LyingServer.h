@@ -1,4 +1,4 @@
-// A server with a key of its own that answers each hello with a refusal, as a test wants it.
+// A server with its own key that answers each hello with a refusal of the test's choice.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -15,7 +15,7 @@
 
 namespace naiad::test {
 
-/// On the test's own loop.
+/// Runs on the test's event loop.
 class LyingServer {
  public:
   LyingServer(asio::io_context& context, const std::filesystem::path& identity,
@@ -32,7 +32,7 @@ class LyingServer {
     m_answer.mutable_refused()->set_redirect(redirect);
     m_answer.mutable_refused()->set_redirect_room(room);
   }
-  /// Send players to this port of 127.0.0.1, where that key is said to be.
+  /// Redirects players to this port of 127.0.0.1, claiming that the server there has this key.
   void sendTo(std::uint16_t port, const Fingerprint& key, const std::string& room = "") {
     answer(wire::Refused::REDIRECT, "Go on.", linkTo("127.0.0.1", port, key), room);
   }

@@ -1,9 +1,9 @@
-// --bus-interval of the servers and directories of tests.
+// The --bus-interval of servers and directories in tests.
 #pragma once
 
 namespace naiad::test {
 
-/// Milliseconds: servers come and go within some tenths of a second.
+/// Milliseconds: changes of servers are noticed within some tenths of a second.
 inline constexpr const char* kQuickInterval = "100";
 
 }  // namespace naiad::test

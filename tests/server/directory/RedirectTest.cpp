@@ -1,5 +1,4 @@
-// Clients that are sent to another server: what they do there, and what a server that lies cannot make them
-// do.
+// Redirected clients: how they join the other server, and what a lying server cannot make them do.
 #include <gtest/gtest.h>
 #include <signal.h>
 

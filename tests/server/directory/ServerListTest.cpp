@@ -1,4 +1,4 @@
-// The list of a directory, as a client reads it.
+// A directory's server list, read as by a client.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the engine's tests share: a world of its own for each test, and an Object that logs its events.
+// Fixtures of the engine's tests: a world for each test, and an Object that logs its events.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ namespace df::test {
 
 using Received = std::vector<std::string>;
 
-/// A world that is current during a test, and what it logged.
+/// A world that is current during a test, with its log lines.
 class WorldTest : public ::testing::Test {
  protected:
   WorldTest() : scope(world) {
@@ -39,20 +39,20 @@ class WorldTest : public ::testing::Test {
   void ticks(int n) {
     for (int i = 0; i < n; ++i) world.tick();
   }
-  /// How many log lines contain `text`.
+  /// Returns the number of log lines that contain `text`.
   int logged(const std::string& text) const {
     int count = 0;
     for (const std::string& line : lines) count += line.find(text) != std::string::npos ? 1 : 0;
     return count;
   }
-  /// The event of a key of no player.
+  /// Sends a keyboard event that belongs to no player.
   static void press(Keyboard::Key key, EventKeyboardAction action = KEY_PRESSED) {
     EventKeyboard event;
     event.setKey(key);
     event.setKeyboardAction(action);
     WM.onEvent(&event);
   }
-  /// What `row` of the window shows, without blanks, after each of `ticks` ticks.
+  /// Returns the contents of the window's `row`, without blanks, after each of `ticks` ticks.
   std::string shown(int row, int ticks) {
     std::string all;
     for (int i = 0; i < ticks; ++i) {
@@ -65,7 +65,7 @@ class WorldTest : public ::testing::Test {
   }
 
   std::vector<std::string> lines;
-  Received received;  // "name:event", for Probes that are given this list
+  Received received;  // "name:event", written by the Probes that get this list
   World world;
   World::Scope scope;
 };
@@ -74,7 +74,7 @@ struct PlacedObject : Object {
   explicit PlacedObject(Vector at) { setPosition(at); }
 };
 
-/// An Object that writes "name:event" to a list, then runs the handler that it was given.
+/// An Object that adds "name:event" to a list, then runs its handler.
 class Probe : public Object {
  public:
   using Handler = std::function<void(Probe&, const Event&)>;

@@ -1,4 +1,4 @@
-// The games that ship: their main()s, renamed so that all fit into one program.
+// The main()s of the shipped games, renamed so that all fit into one program.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ int tron_main();
 
 namespace naiad {
 
-/// By name.
+/// Returns the main()s by game name.
 inline const std::map<std::string, int (*)()>& gameMains() {
   static const std::map<std::string, int (*)()> s_mains = {
       {"breakout", breakout_main}, {"bullethell", bullethell_main},

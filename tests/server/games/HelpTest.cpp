@@ -1,4 +1,4 @@
-// What all games have in common.
+// The help of all shipped games.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Runs a game's main() in a world of its own, as dfserver does, and lets a test play it.
+// Runs a game's main() in its own world, as dfserver does, and lets a test play it.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class TestRunner : public df::Runner {
   std::function<void(df::World&)> m_play;
 };
 
-/// From the start of the game to its shutDown(), with this seed. `folder`: of server/games, with what it
+/// Runs the game with this seed until its shutDown(). `folder`: the folder in server/games with the files it
 /// loads.
 inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(df::World&)> play,
                      const std::string& folder = {}) {
@@ -46,7 +46,7 @@ inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(
   game_main();
 }
 
-/// Does the player see this text?
+/// True if the player's picture contains this text.
 inline bool shows(const df::World& world, std::uint32_t player, const std::string& text) {
   return world.picture().renderPlayer(player).text().find(text) != std::string::npos;
 }
@@ -55,14 +55,14 @@ inline void tick(df::World& world, int count) {
   for (int i = 0; i < count; ++i) world.tick();
 }
 
-/// Joins, and waits for that many ticks.
+/// Joins a player "ann" and runs this many ticks. Returns the player's id.
 inline std::uint32_t joinAnn(df::World& world, int ticks = 1) {
   const std::uint32_t ann = world.input().join("ann", df::RED);
   tick(world, ticks);
   return ann;
 }
 
-/// Down and up again before the next tick.
+/// Presses and releases a key before the next tick.
 inline void tap(df::World& world, std::uint32_t player, df::Keyboard::Key key) {
   world.input().key(player, key, df::KEY_PRESSED);
   world.input().key(player, key, df::KEY_RELEASED);

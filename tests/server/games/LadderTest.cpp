@@ -1,5 +1,5 @@
-// What holds for every game that ships: players that press anything at random, come and go as they like, and
-// after 1,000 ticks the very same pictures on every compiler.
+// Properties of all shipped games: players press random keys, join and leave at random, and after 1,000 ticks
+// the pictures are identical on every compiler.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Players that press random keys, join and leave at random; and a hash of what they see.
+// Players that press random keys, join and leave at random, and a hash of their pictures.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace naiad {
 
-/// Some keys, the mouse, a join and a leave, now and then.
+/// Makes random key, mouse, join and leave inputs.
 class RandomPlayers {
  public:
   RandomPlayers(df::World& world, std::uint64_t seed, std::size_t most)
@@ -30,7 +30,7 @@ class RandomPlayers {
           df::Keyboard::SPACE,   df::Keyboard::W,         df::Keyboard::A,         df::Keyboard::S,
           df::Keyboard::D,       df::Keyboard::P,         df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW,
           df::Keyboard::UPARROW, df::Keyboard::DOWNARROW, df::Keyboard::RETURN,    df::Keyboard::N};
-      // One statement each: in which order arguments are worked out is the compiler's choice.
+      // One draw per statement, because the order in which arguments are evaluated is unspecified.
       if (m_random.below(4) == 0) {
         const auto action = static_cast<df::EventKeyboardAction>(m_random.below(3));
         const Key key = kKeys[m_random.below(12)];

@@ -1,5 +1,5 @@
-// What stands behind a gateway in tests, in place of dfserver: a visitors' socket with TLS behind it, which
-// keeps who came and what they said.
+// Stands in for dfserver behind a gateway: a visitors' socket with TLS, which records the addresses and
+// frames of its clients.
 #pragma once
 
 #include <asio/executor_work_guard.hpp>
@@ -27,16 +27,16 @@ namespace naiad::test {
 
 class FakeGame {
  public:
-  /// What to do with a frame; on the game's thread. By default it is sent back.
+  /// Handles a frame on the game's thread. By default, the frame is sent back.
   using OnFrame = std::function<void(ReliableChannel& channel, const std::string& frame)>;
 
-  /// The key is in that folder, or made there; the socket is `socket`.
+  /// Listens on `socket`. The key is in the folder `identity` and created if missing.
   FakeGame(const std::filesystem::path& identity, const std::filesystem::path& socket, OnFrame on_frame = {});
   ~FakeGame();
   FakeGame(const FakeGame&) = delete;
   FakeGame& operator=(const FakeGame&) = delete;
 
-  /// What `job` returns, there.
+  /// Runs `job` on the game's thread and returns its result.
   template <class Job>
   auto onThread(Job job) {
     std::promise<decltype(job())> result;
@@ -45,9 +45,9 @@ class FakeGame {
   }
 
   ShortKey key() const { return ShortKey::of(m_identity.fingerprint()); }
-  /// Addresses of those who came, as "127.0.0.1:50312".
+  /// Returns the addresses of all clients so far, as "127.0.0.1:50312".
   std::vector<std::string> visitors();
-  /// All frames of all of them.
+  /// Returns all frames received from all clients.
   std::vector<std::string> frames();
   std::size_t frameCount() {
     const std::lock_guard lock(m_mutex);
@@ -56,21 +56,21 @@ class FakeGame {
   std::size_t connections() {
     return onThread([this] { return m_channels.size(); });
   }
-  /// Handshakes that are over, whatever came of them.
+  /// Returns how many handshakes have ended, successfully or not.
   std::size_t handshakes() {
     return onThread([this] { return m_handshakes; });
   }
-  /// Hang up on the next ones who come, as a crowded server does.
+  /// Drops the next `count` connections, like a crowded server.
   void hangUpOn(int count) {
     onThread([this, count] { return m_unwanted = count; });
   }
-  /// Send to everybody.
+  /// Sends a frame to all clients.
   void broadcast(const std::string& frame) { broadcast(std::vector<std::string>{frame}); }
-  /// Several at once.
+  /// Sends several frames at once to all clients.
   void broadcast(const std::vector<std::string>& frames);
-  /// End all streams: in order, or without a word, as a process that is killed.
+  /// Ends all streams, either in order or without notice, like a killed process.
   void endAll(bool in_order);
-  /// Call this so often, on the game's thread, with each channel.
+  /// Calls `job` for each channel at this interval, on the game's thread.
   void every(std::chrono::milliseconds period, std::function<void(ReliableChannel&)> job);
 
  private:

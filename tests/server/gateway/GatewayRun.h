@@ -1,4 +1,4 @@
-// A gateway on a free loopback port, in a thread of this process, with a small page.
+// Runs a gateway with a small page on a free loopback port, in a thread of this process.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,20 @@
 
 namespace naiad::test {
 
-/// A folder that goes with it, and in it a page and room for sockets and keys.
+/// A temporary folder with a page and room for sockets and keys.
 class GatewayHome {
  public:
   GatewayHome();
 
   std::filesystem::path path(const std::string& name) const { return m_folder / name; }
-  /// For a gateway to a server with this key, on a free port.
+  /// Returns settings of a gateway on a free port to a server with this key.
   GatewaySettings settings(const ShortKey& key) const;
 
  private:
   TempFolder m_folder;
 };
 
-/// What stands in the page's files.
+/// Contents of the page's files.
 std::string indexText();
 std::string wasmBytes();
 
@@ -64,7 +64,7 @@ class GatewayRun {
       return 0;
     });
   }
-  /// Wait until it has ended by itself.
+  /// Waits until the gateway has ended by itself.
   void join() { m_thread.join(); }
   std::vector<std::string> lines();
 

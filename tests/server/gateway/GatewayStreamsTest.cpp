@@ -1,4 +1,4 @@
-// The other end of a gateway's WebSockets where no browser is: dfclient's and dfbot's.
+// The client's end of a gateway's WebSocket outside a browser, as in dfclient and dfbot.
 #include <gtest/gtest.h>
 
 #include <asio/io_context.hpp>
@@ -26,7 +26,7 @@ class GatewayStreamsTest : public testing::Test {
   GatewayAddress address() const {
     return *GatewayAddress::parse("http://127.0.0.1:" + std::to_string(gateway->port()));
   }
-  /// Waits for the channel, or the sentence that says why there is none.
+  /// Waits for the channel or the error message.
   void open(StreamOpener& streams) {
     error.reset();
     streams.open([this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
@@ -104,7 +104,7 @@ TEST_F(GatewayStreamsTest, AGatewayThatIsKilledWhileMuchIsUnsentIsReportedOnce) 
   open(streams);
   ASSERT_TRUE(channel) << *error;
   channel->send(std::string(100, 'x'));
-  // The game reads nothing, so in the end neither does the gateway, and a write stays under way.
+  // The game reads nothing, so finally the gateway stops reading too, and a write stays pending.
   ASSERT_TRUE(runUntil(context, [&] { return game->frameCount() > 0; }));
   ASSERT_TRUE(runUntil(context, [&] {
     channel->send(std::string(4000, 'x'));

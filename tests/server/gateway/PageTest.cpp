@@ -1,4 +1,4 @@
-// What the gateway for browsers answers to HTTP, and to what is none.
+// The gateway's replies to HTTP requests and to anything else.
 #include <gtest/gtest.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
@@ -15,7 +15,7 @@
 namespace naiad::test {
 namespace {
 
-/// None of these tests gets as far as a server.
+/// No test here reaches a server, so any key will do.
 ShortKey anyKey() {
   return *ShortKey::parse("aaaaaaaaaaaaaaaaaaaaaaaaaa");
 }
@@ -222,7 +222,7 @@ TEST_F(GatewayPage, AHeadThatDribblesEndsInTime) {
   slow.send("GET / HTTP/1.1\r\n");
   while (!slow.isHungUp()) {
     ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
-    slow.send("X");  // a byte now and then keeps no place
+    slow.send("X");  // slow bytes do not extend the time limit
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   EXPECT_TRUE(silent.waitForHangup());
@@ -251,7 +251,7 @@ TEST_F(GatewayPage, WithoutACertificateItIsForThisMachineAlone) {
 }
 
 TEST_F(GatewayPage, HttpsIsHttp11InTls13AndItsCertificateCanBeRenewed) {
-  settings.head_time = std::chrono::seconds(30);  // a handshake under an instrumented build takes its time
+  settings.head_time = std::chrono::seconds(30);  // a handshake in an instrumented build is slow
   const std::string key = makeKeyPem();
   settings.certificate = home.path("web.pem");
   settings.key = home.path("web.key");

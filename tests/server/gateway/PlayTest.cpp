@@ -1,4 +1,4 @@
-// What the gateway for browsers does with WebSockets.
+// The gateway's handling of WebSockets.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
@@ -20,7 +20,7 @@ class GatewayPlay : public testing::Test {
     const auto answer = browser.frame();
     return answer && answer->opcode == 2 && answer->payload == text;
   }
-  /// The code with which a WebSocket is closed that sends this first; `plays`: has said hello before.
+  /// Returns the close code of a WebSocket after `send`; `plays`: after a hello was echoed.
   static int codeAfter(std::uint16_t port, bool plays, const std::function<void(WebClient&)>& send) {
     WebClient browser(port);
     if (!browser.play() || (plays && !echoes(browser, "hello"))) return -2;
@@ -34,7 +34,7 @@ class GatewayPlay : public testing::Test {
     return reply ? reply->status : 0;
   }
 
-  /// A game that sends back what it gets, unless said otherwise, and a gateway to it.
+  /// Starts a game, which echoes frames unless `on_frame` is given, and a gateway to it.
   void start(FakeGame::OnFrame on_frame = {}, const std::function<void(GatewaySettings&)>& change = {}) {
     game = std::make_unique<FakeGame>(home.path("identity"), home.path("visitors"), std::move(on_frame));
     GatewaySettings settings = home.settings(game->key());
@@ -186,7 +186,7 @@ TEST_F(GatewayPlay, WithoutAServerThePageIsToldSo) {
   asio::io_context context;
   asio::local::stream_protocol::acceptor none(
       context, asio::local::stream_protocol::endpoint(home.path("visitors").string()));
-  std::thread rude([&] { none.accept(); });  // and hangs up
+  std::thread rude([&] { none.accept(); });  // accepts and closes the connection
   EXPECT_EQ(codeAfter(gateway->port(), false, hello), 4000);
   rude.join();
   EXPECT_EQ(WebClient(gateway->port()).ask("/")->status, 200);
@@ -332,7 +332,7 @@ TEST_F(GatewayPlay, MessagesThatAreThereTogetherAreSentTogether) {
   EXPECT_EQ(after.writes_down - before.writes_down, 1u);
 }
 
-// Beast writes the answers to pings, the gateway the messages, on a socket that takes neither as a whole.
+// Beast writes the pongs and the gateway writes the messages, to a socket that accepts only parts of either.
 TEST_F(GatewayPlay, AnswersToPingsAreNeverWithinAMessage) {
   constexpr int kMessages = 40;
   constexpr int kPings = 12;
@@ -363,17 +363,17 @@ TEST_F(GatewayPlay, AnswersToPingsAreNeverWithinAMessage) {
   }
 }
 
-// At 256 kbit/s, 400 ms are 12,800 bytes: no more than that may be under way, whatever the game has to say.
+// 400 ms at 256 kbit/s are 12,800 bytes: no more may be in flight, whatever the game sends.
 TEST_F(GatewayPlay, ASlowLineHasFreshPicturesAndNoBacklog) {
   constexpr std::size_t kPicture = 2000;
-  constexpr std::size_t kLine = 32'000;  // bytes a second
+  constexpr std::size_t kLine = 32'000;  // bytes per second
   constexpr std::size_t kMaxUnderWay = kLine * 4 / 10;
-  const auto sent = std::make_shared<std::atomic<std::size_t>>(0);  // the game outlives this test
+  const auto sent = std::make_shared<std::atomic<std::size_t>>(0);  // shared: the game outlives the test
   start(ignore);
   WebClient slow(gateway->port(), "127.0.0.1", 2048);
   ASSERT_TRUE(slow.play());
   slow.sendFrame(2, "hello");
-  // As dfserver: what has not left yet is skipped, not queued.
+  // Like dfserver, skips a picture while the last one is unsent, instead of queueing it.
   game->every(std::chrono::milliseconds(33), [sent](ReliableChannel& channel) {
     if (channel.unsentBytes() > 0) return;
     *sent += kPicture;
@@ -389,9 +389,9 @@ TEST_F(GatewayPlay, ASlowLineHasFreshPicturesAndNoBacklog) {
     if (allowed > received) slow.takeSome(std::min<std::size_t>(allowed - received, 640));
     while (const auto frame = slow.takeFrame()) {
       received += frame->payload.size();
-      if (received > kLine) worst = std::max(worst, *sent - received);  // once the line is full
+      if (received > kLine) worst = std::max(worst, *sent - received);  // once the line is busy
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the line's pace
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // pace of the line
   }
   EXPECT_LE(worst, kMaxUnderWay);
   EXPECT_EQ(gateway->counters().too_slow, 0u);
@@ -421,7 +421,7 @@ TEST_F(GatewayPlay, ABrowserThatSendsFasterThanTheServerReadsIsNotRead) {
     for (int i = 0; i < 5000; ++i)
       browser.sendFrame(2, std::string(kMaxClientFrame, static_cast<char>('a' + i % 26)));
   });
-  // It comes to a stop: the same count, many turns of the loop later.
+  // The count stops growing: it is equal after many turns of the loop.
   std::uint64_t before = 0;
   EXPECT_TRUE(waitUntil([&] {
     const std::uint64_t now = gateway->counters().messages_up;

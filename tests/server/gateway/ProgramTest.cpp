@@ -1,4 +1,4 @@
-// dfweb as it is run: its command line, what it prints, and its end.
+// The program dfweb: its command line, its output and its exit.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 class DfwebProgram : public testing::Test {
  protected:
-  /// The exit code, and whether it said this.
+  /// Expects this exit code and this text in the output.
   static void expectRefusal(std::vector<std::string> words, int code, const std::string& text) {
     words.insert(words.begin(), "dfweb");
     RunningProgram dfweb(words);

@@ -1,7 +1,7 @@
-// What is put into a socket, and what is written to it, arrive whole and in their order, however little of it
-// the kernel takes at a time.
+// Bytes that are put into or written to a SecureSocket arrive complete and in order, even if the kernel
+// accepts little at a time.
 //
-// This source has Boost's Asio, so it can have nothing that includes the standalone one.
+// This source uses Boost's Asio, so it must not include anything that includes the standalone one.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
@@ -23,7 +23,7 @@ namespace {
 namespace net = boost::asio;
 using Local = net::basic_stream_socket<net::local::stream_protocol, GatewayExecutor>;
 
-/// Two that are connected, the first with little room in the kernel.
+/// Two connected sockets, the first with a small send buffer in the kernel.
 class SocketPair {
  public:
   explicit SocketPair(bool has_tls) {
@@ -37,7 +37,7 @@ class SocketPair {
     if (has_tls) shakeHands();
   }
 
-  /// Handlers that are ready.
+  /// Runs the handlers that are ready.
   void turn() {
     m_context.restart();
     m_context.poll();
@@ -66,17 +66,17 @@ class SocketPair {
   std::shared_ptr<const TlsContext> m_client = TlsContext::forClient();
 
  public:
-  std::optional<SecureSocket> from;  // they end before the context
+  std::optional<SecureSocket> from;  // destroyed before m_context
   std::optional<SecureSocket> to;
 };
 
-/// A letter, its length in two bytes, and so many of it.
+/// Returns a record: a letter, a length in two bytes, and this many letters.
 std::string record(char letter, std::size_t length) {
   std::string text{letter, static_cast<char>(length >> 8), static_cast<char>(length & 0xff)};
   return text + std::string(length, letter);
 }
 
-/// Cut off the first one, by its length; empty if it is not there as a whole.
+/// Removes and returns the first record; "" if it is incomplete.
 std::string takeRecord(std::string& text) {
   if (text.size() < 3) return {};
   const std::size_t length =
@@ -93,8 +93,8 @@ INSTANTIATE_TEST_SUITE_P(PlainAndTls, SecureSocketTest, testing::Bool());
 TEST_P(SecureSocketTest, WhatIsPutIsNeverWithinAWriteNorAWriteWithinIt) {
   SocketPair pair(GetParam());
   SplitMix64 random(1);
-  std::deque<std::string> put;      // not received yet: small letters,
-  std::deque<std::string> written;  // and capital ones, one at a time
+  std::deque<std::string> put;      // put, but not yet received: small letters
+  std::deque<std::string> written;  // written, but not yet received: capital letters
   std::string writing;
   std::string received;
   int rounds = 0;

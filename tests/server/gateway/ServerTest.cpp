@@ -1,4 +1,4 @@
-// Browsers at a real dfserver, by way of the gateway.
+// Browsers that play on a real dfserver through the gateway.
 #include <gtest/gtest.h>
 
 #include "GatewayRun.h"

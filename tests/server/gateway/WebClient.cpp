@@ -89,7 +89,7 @@ bool WebClient::isHungUp() {
   }
 }
 
-// HTTP.
+// HTTP functions.
 
 void WebClient::get(const std::string& path, const std::string& lines, const std::string& method) {
   send(method + " " + path + " HTTP/1.1\r\nHost: " + m_host + "\r\n" + lines + "\r\n");
@@ -122,7 +122,7 @@ std::optional<HttpReply> WebClient::reply(bool has_body) {
   return reply;
 }
 
-// WebSockets.
+// WebSocket functions.
 
 void WebClient::requestPlay(const std::string& changes) {
   std::string request = "GET /play HTTP/1.1\r\n" + changes;

@@ -1,5 +1,5 @@
-// A browser's connection that sends whatever bytes a test wants: HTTP, WebSocket frames, or neither.
-// Blocking, with deadlines; plain TCP.
+// A browser's connection that can send any bytes: HTTP, WebSocket frames, or neither. Blocking, with
+// timeouts; plain TCP.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -25,56 +25,55 @@ struct WebFrame {
   int opcode = 0;  ///< 1 text, 2 binary, 8 close, 9 ping, 10 pong
   std::string payload;
 
-  /// Of a close frame; 1005 if it has none.
+  /// Returns the code of a close frame; 1005 if it has none.
   int closeCode() const;
 };
 
 class WebClient {
  public:
-  /// From this loopback address; any address of 127.0.0.0/8 is one. `receive_buffer`: of the kernel, in
-  /// bytes; 0: its own.
+  /// Connects from a loopback address (any in 127.0.0.0/8). `receive_buffer`: size of the kernel's receive
+  /// buffer in bytes; 0: default.
   explicit WebClient(std::uint16_t port, const std::string& from = "127.0.0.1", int receive_buffer = 0);
 
-  /// Errors (the other end hung up) are ignored.
+  /// Sends bytes. Ignores errors, such as a connection closed by the other end.
   void send(std::string_view bytes);
-  /// "GET PATH" with the Host that belongs to the port, and these further lines.
+  /// Sends "GET PATH" with the right Host for the port and these additional header lines.
   void get(const std::string& path, const std::string& lines = "", const std::string& method = "GET");
-  /// The next answer; nothing if the connection ended, or after 30 s. `has_body`: not to HEAD.
+  /// Returns the next reply; nullopt if the connection ended, or after 30 s. `has_body`: false for HEAD.
   std::optional<HttpReply> reply(bool has_body = true);
   std::optional<HttpReply> ask(const std::string& path, const std::string& lines = "") {
     get(path, lines);
     return reply();
   }
 
-  /// The request of a WebSocket; lines in it may be replaced by others of the same name, or left out
-  /// ("Name:").
+  /// Sends a WebSocket request. `changes` replaces headers of the same name; "Name:" removes one.
   void requestPlay(const std::string& changes = "");
-  /// Open a WebSocket as the page does. False if the answer is another.
+  /// Opens a WebSocket as the page does. False if the server refuses it.
   bool play();
   static std::string frameBytes(int opcode, std::string_view payload, bool is_last = true,
                                 bool is_masked = true);
-  /// One frame, masked as browsers do it.
+  /// Sends one frame, masked as browsers do.
   void sendFrame(int opcode, std::string_view payload, bool is_last = true, bool is_masked = true);
   void sendMessage(const wire::ClientMessage& message) { sendFrame(2, message.SerializeAsString()); }
-  /// The next frame; nothing if the connection ended, or after 30 s.
+  /// Returns the next frame; nullopt if the connection ended, or after 30 s.
   std::optional<WebFrame> frame();
-  /// The next binary message; pings are answered. Nothing if the WebSocket was closed.
+  /// Returns the next binary message and answers pings. nullopt if the WebSocket was closed.
   std::optional<wire::ServerMessage> message();
-  /// Read until it is closed: the code, 0 if there was no close frame, -1 after 30 s.
+  /// Reads until the WebSocket is closed. Returns the close code, 0 without close frame, -1 after 30 s.
   int waitForClose();
-  /// Send a hello, and wait for the welcome.
+  /// Sends a hello and waits for the welcome.
   bool join(const std::string& name);
   static wire::ClientMessage hello(const std::string& name);
 
-  /// Read until the other end hangs up. False after 30 s.
+  /// Reads until the other end closes the connection. False after 30 s.
   bool waitForHangup();
-  /// Has the other end hung up, as far as is known now? Throws away what came before that.
+  /// True if the other end is known to have closed the connection. Discards unread bytes.
   bool isHungUp();
-  /// Take at most so many bytes of what has come; how many.
+  /// Reads at most `most` of the bytes that have arrived. Returns how many.
   std::size_t takeSome(std::size_t most);
-  /// What was read and not used yet.
+  /// Bytes that were read but not used yet.
   std::string& unread() { return m_unread; }
-  /// A whole frame in unread(), taken out of it; nothing if there is none.
+  /// Removes and returns the first frame of unread(); nullopt if it is incomplete.
   std::optional<WebFrame> takeFrame();
 
  private:

@@ -1,4 +1,4 @@
-// One number for the bits of many, to compare runs of different compilers.
+// Hashes the exact bits of numbers, to compare runs of different compilers.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// A world of bodies to try things in: a unit is a metre both ways, and times are in seconds.
+// Fixtures with a world of bodies. A unit is a metre on both axes, and times are in seconds.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 
 namespace df::test {
 
-/// A world that is current during a test, with cells twice as high as wide, and what it logged.
+/// A world that is current during a test, with cells twice as high as wide, and its log lines.
 class PhysicsWorld : public testing::Test {
  protected:
   PhysicsWorld() : scope(world) {
@@ -37,7 +37,7 @@ class PhysicsWorld : public testing::Test {
   World::Scope scope;
 
  public:
-  /// A HARD Object without mass.
+  /// Makes a HARD Object without mass.
   static Object* wall(Vector centre, Vector half) {
     auto* p_wall = new Object;
     p_wall->setBox(Box(Vector(-half.x(), -half.y()), 2 * half.x(), 2 * half.y()));
@@ -69,7 +69,7 @@ class PhysicsWorld : public testing::Test {
     p_crate->setTurning();
     return p_crate;
   }
-  /// Gravity of 10 per second², and a floor whose surface is y = 0.
+  /// Sets gravity to 10 units per second² and makes a floor whose surface is y = 0.
   static Object* layFloor(double half_width = 50, double half_height = 5) {
     PM.setGravity(perSecondSquared(Vector(0, 10)));
     return wall(Vector(0, half_height), Vector(half_width, half_height));
@@ -82,11 +82,11 @@ class BodyScene : public PhysicsWorld {
   void ticks(int n) {
     for (int i = 0; i < n; ++i) world.update();
   }
-  /// For the solvers' counters; there is one from the first body on.
+  /// Returns the layer, for the solvers' counters. It exists once there is a body.
   const naiad::physics::BodyLayer& layer() { return *world.findLayer<naiad::physics::BodyLayer>(); }
 
  public:
-  /// Per second.
+  /// Returns the velocity in units per second.
   static Vector speedOf(const Body* p_body) {
     return Vector(30 * p_body->getVelocity().x(), 30 * p_body->getVelocity().y());
   }
@@ -97,7 +97,7 @@ class BodyScene : public PhysicsWorld {
   }
 };
 
-/// A world beside that of the test, current while this is in scope.
+/// A second world, which is current instead of the test's world while this is in scope.
 struct OwnWorld {
   explicit OwnWorld(double aspect = 1) {
     world.log().setSink([](const std::string&) {});
@@ -111,7 +111,7 @@ struct OwnWorld {
   World::Scope scope{world};
 };
 
-/// Records its contact events.
+/// A body that records its contact events.
 class Listener : public Body {
  public:
   struct Note {
@@ -130,7 +130,7 @@ class Listener : public Body {
     }
     return 1;
   }
-  /// Each pair's contacts begin and end by turns. Returns which of them have begun last.
+  /// Checks that begin and end events of each pair alternate. Returns which pairs are in contact.
   std::map<std::pair<const Object*, const Object*>, bool> expectTurns() const {
     std::map<std::pair<const Object*, const Object*>, bool> touches;
     for (const Note& note : notes) {

@@ -1,4 +1,5 @@
-// A spring with a rest length to a fixed point, as a field: in the plane it has no closed form.
+// A force field of a spring with a rest length, attached to a fixed point. In the plane it has no closed
+// form.
 #pragma once
 
 #include "physics/flight/FlightField.h"
@@ -13,12 +14,12 @@ inline Mat22 scaled(const Mat22& m, double s) {
   return {m.xx * s, m.xy * s, m.yx * s, m.yy * s};
 }
 
-/// Pulls towards the field's origin beyond `rest_length`, pushes away within it, and damps the motion along
-/// the spring. Where a rest length of zero will do, SpringFlow is exact and far cheaper. At the origin
-/// itself, where the direction is undefined, it does nothing.
+/// Pulls towards the field's origin beyond `rest_length`, pushes away within it, and damps motion along the
+/// spring. At the origin, where the direction is undefined, the spring has no force. For a rest length of
+/// zero, SpringFlow is exact and far cheaper.
 class ElasticField final : public ForceField {
  public:
-  /// `push` is a constant acceleration on top of it, such as gravity.
+  /// `push` is an additional constant acceleration, such as gravity.
   ElasticField(double stiffness, double damping, double rest_length, Vec2 push)
       : m_stiffness(stiffness), m_damping(damping), m_rest_length(rest_length), m_push(push) {}
 
@@ -52,8 +53,8 @@ inline bool ElasticField::jacobian(Vec2 position, Vec2 velocity, double /*time*/
   const Mat22 across = kIdentity + scaled(along, -1);
   const double radial = dot(velocity, outward);
   const double pull = m_stiffness * (distance - m_rest_length) + m_damping * radial;
-  // The pull changes along the spring by the stiffness and, as the spring turns, by the velocity across; its
-  // direction turns with the position.
+  // Along the spring, the pull changes with the stiffness and, because the spring turns, with the velocity
+  // across it. The pull's direction turns with the position.
   const Vec2 turning = (velocity - radial * outward) / distance;
   by_position = scaled(along, -m_stiffness) + scaled(outer(outward, turning), -m_damping) +
                 scaled(across, -pull / distance);

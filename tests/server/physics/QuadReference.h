@@ -1,4 +1,4 @@
-// Reference solutions in quadruple precision, for tests: slow, simple, and separate from what they judge.
+// Reference solutions in quadruple precision, for tests: slow, simple, and independent of the tested code.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ using QuadVector = std::array<Quad, N>;
 template <int N>
 using QuadSystem = std::function<QuadVector<N>(Quad t, const QuadVector<N>& y)>;
 
-/// Runge and Kutta's classical method with `steps`, 2·steps … steps, extrapolated `levels` times (its error
-/// has all powers of the step from the fourth on). For what is smooth.
+/// Solves a smooth system with the classical Runge-Kutta method, with `steps`, 2·steps, … steps, extrapolated
+/// `levels` times. The error contains all powers of the step size from the fourth on.
 template <int N>
 QuadVector<N> quadSolve(const QuadSystem<N>& f, Quad t0, Quad t1, const QuadVector<N>& start, int steps,
                         int levels = 5) {
@@ -43,7 +43,7 @@ QuadVector<N> quadSolve(const QuadSystem<N>& f, Quad t0, Quad t1, const QuadVect
       for (int i = 0; i < N; ++i) y[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
     }
     Quad factor = 16;
-    for (auto& before : row) {  // row: level − 1, extrapolated 0, 1, 2 … times
+    for (auto& before : row) {  // row: results of level − 1, extrapolated 0, 1, 2, … times
       const QuadVector<N> better = [&] {
         QuadVector<N> z = y;
         for (int i = 0; i < N; ++i) z[i] += (y[i] - before[i]) / (factor - 1);
@@ -58,8 +58,8 @@ QuadVector<N> quadSolve(const QuadSystem<N>& f, Quad t0, Quad t1, const QuadVect
   return row.back();
 }
 
-/// The linearly implicit Euler method with extrapolation (Deuflhard 1985), steps by its own error estimate.
-/// For what is stiff. Takes the Jacobian by differences in quadruple precision.
+/// Solves a stiff system with the extrapolated linearly implicit Euler method (Deuflhard 1985). The error
+/// estimate sets the step size, and the Jacobian comes from differences in quadruple precision.
 template <int N>
 QuadVector<N> quadSolveStiff(const QuadSystem<N>& f, Quad t, Quad end, QuadVector<N> y, Quad tolerance,
                              Quad floor) {
@@ -81,7 +81,7 @@ QuadVector<N> quadSolveStiff(const QuadSystem<N>& f, Quad t, Quad end, QuadVecto
     for (int k = 0; k < kColumns && error > 1; ++k) {
       const int count = k + 2;
       const Quad h = step / count;
-      std::array<QuadVector<N>, N> inverse{}, a{};  // (1 − hJ)⁻¹ by Gauss and Jordan
+      std::array<QuadVector<N>, N> inverse{}, a{};  // (1 − hJ)⁻¹ by Gauss-Jordan elimination
       for (int i = 0; i < N; ++i) {
         for (int j = 0; j < N; ++j) a[i][j] = (i == j) - h * jacobian[i][j];
         inverse[i][i] = 1;
@@ -102,7 +102,7 @@ QuadVector<N> quadSolveStiff(const QuadSystem<N>& f, Quad t, Quad end, QuadVecto
         }
       }
       QuadVector<N> z = y;
-      for (int n = 0; n < count; ++n) {  // autonomous systems only
+      for (int n = 0; n < count; ++n) {  // valid only for autonomous systems
         const auto r = f(t, z);
         for (int i = 0; i < N; ++i) {
           for (int j = 0; j < N; ++j) z[i] += h * inverse[i][j] * r[j];

@@ -1,4 +1,4 @@
-// Shapes of every kind, and slow, obvious results about them.
+// Random shapes of every kind, and slow but simple reference functions for them.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline Rotation anyRotation(SplitMix64& random) {
   return rotationBy(between(random, -3.14, 3.14));
 }
 
-/// The corners of the convex hull, from x to y (A. Andrew's monotone chains).
+/// Returns the corners of the convex hull, counted from x to y (A. Andrew's monotone chains).
 inline std::vector<Vec2> hullOf(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(),
             [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
@@ -41,7 +41,8 @@ inline std::vector<Vec2> hullOf(std::vector<Vec2> points) {
   return hull;
 }
 
-/// Circle, capsule, box, polygon; sharp or rounded; about 1 in size, off its origin now and then.
+/// Returns a circle, capsule, box or polygon, sharp or rounded, of size about 1. Half of them are off their
+/// origin.
 inline ConvexShape anyShape(SplitMix64& random) {
   for (;;) {
     ConvexShape shape;
@@ -49,7 +50,7 @@ inline ConvexShape anyShape(SplitMix64& random) {
     const double radius = random.unit() < 0.5 ? 0 : between(random, 0.01, 0.5);
     ShapeStatus status = ShapeStatus::kTooFew;
     const double kind = random.unit();
-    // Drawn before the calls: compilers evaluate arguments in different orders.
+    // Drawn before the calls, because compilers evaluate arguments in different orders.
     const double first = between(random, 0.1, 1), second = between(random, 0.1, 1);
     if (kind < 0.2) {
       status = makeCircle(first, centre, shape);
@@ -90,14 +91,14 @@ inline bool inCore(const std::vector<Vec2>& core, Vec2 p) {
 }
 
 inline bool crossing(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  // On one line all the products below are rounding.
+  // If all points are on one line, the products below are only rounding errors.
   const double from = std::min(dot(c - a, b - a), dot(d - a, b - a)),
                to = std::max(dot(c - a, b - a), dot(d - a, b - a));
   if (from > lengthSquared(b - a) || to < 0) return false;
   return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
 }
 
-/// Between two cores, by every end against every edge; 0 if they overlap.
+/// Returns the distance of two cores by testing every corner against every edge; 0 if they overlap.
 inline double slowDistance(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   if (inCore(a, b[0]) || inCore(b, a[0])) return 0;
   double best = 1e300;
@@ -111,7 +112,7 @@ inline double slowDistance(const std::vector<Vec2>& a, const std::vector<Vec2>& 
   return best;
 }
 
-/// The gap between the surfaces, or ≤ 0 if they overlap: −radii at the deepest.
+/// Returns the gap between the surfaces; ≤ 0 if they overlap, and −(sum of the radii) if the cores do.
 inline double slowGap(const ConvexShape& a, Rotation qa, const ConvexShape& b, Rotation qb, Vec2 offset) {
   return slowDistance(placed(a, qa, {}), placed(b, qb, offset)) - (a.radius + b.radius);
 }

@@ -1,4 +1,4 @@
-// Numbers for scenes; not for anything else.
+// Simple random numbers for scenes, not for any other use.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@ namespace naiad::physics::test {
 
 struct SceneRandom {
   std::uint64_t state = 1;
-  double operator()() {  // in [0, 1)
+  double operator()() {  // Returns a number in [0, 1).
     state = state * 6364136223846793005u + 1442695040888963407u;
     return static_cast<double>(state >> 11) * 0x1p-53;
   }

@@ -1,4 +1,4 @@
-// Shapes about their own origin.
+// Shapes centred on their own origin.
 #pragma once
 
 #include <gtest/gtest.h>

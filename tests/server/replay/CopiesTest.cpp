@@ -1,5 +1,5 @@
-// Copies of a world's process (WorldCopies.h): one goes on where the world crashes or hangs, and none is
-// left.
+// Copies of a world's process (WorldCopies.h): one resumes where the world crashed or hung, and none is left
+// over.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -31,7 +31,8 @@ bool isAlive(pid_t process) {
   return kill(process, 0) == 0;
 }
 
-/// Rounds of less than RepeatCheck::kDelay ticks have one world; in longer ones another is held against it.
+/// Rounds shorter than RepeatCheck::kDelay ticks have one world; longer ones have a second, which is compared
+/// with it.
 class CopiesTest : public FrailRound {
  protected:
   void SetUp() override {
@@ -40,17 +41,17 @@ class CopiesTest : public FrailRound {
 #endif
     FrailRound::SetUp();
   }
-  /// Those that descend from this process, in the order of their numbers, so of their beginning.
+  /// Returns this process's descendants of this name, by process id, which is their starting order.
   static std::vector<pid_t> find(const std::string& name) {
     return test::processesBelow(getpid(), name);
   }
-  /// What is made on the way has its name and waits, however busy the machine is.
+  /// Plays, and then waits until new copies have their name and sleep, even on a busy machine.
   void play(int ticks) {
     FrailRound::play(ticks);
     EXPECT_TRUE(test::waitUntil(isSettled));
   }
-  // A copy has the name of a world until it takes its own, and a keeper has one world. The worlds are looked
-  // at first, so that a copy is seen under one of its names.
+  // A copy has a world's name until it takes its own, and a keeper has one world. Worlds are listed first, so
+  // that each copy is found under one of its names.
   static bool isSettled() {
     std::set<pid_t> keepers;
     for (const pid_t one : find(kWorld)) {
@@ -59,8 +60,7 @@ class CopiesTest : public FrailRound {
     }
     return std::ranges::all_of(find(kCopy), [](pid_t copy) { return test::stateOf(copy) == 'S'; });
   }
-  /// Plays until there is a copy. After a takeover there is none until the keeper has ended the other
-  /// processes.
+  /// Plays until there is a copy. After a failover this takes until the keeper has ended the other processes.
   void playToACopy() {
     for (int i = 0; i < 1000 && find(kCopy).empty(); ++i) play(1);
     EXPECT_FALSE(find(kCopy).empty());
@@ -69,7 +69,7 @@ class CopiesTest : public FrailRound {
     for (const pid_t one : processes)
       EXPECT_TRUE(test::waitUntil([one] { return !isAlive(one); })) << test::factsOf(one)->name;
   }
-  /// The processes of worlds, keepers and copies.
+  /// Returns the processes of worlds, keepers and copies.
   static std::vector<pid_t> findAll() {
     std::vector<pid_t> all;
     for (const char* name : {kCopy, kWorld, kKeeper}) {
@@ -84,7 +84,7 @@ class CopiesTest : public FrailRound {
   std::size_t count(const std::string& text) const {
     return static_cast<std::size_t>(test::countIn(log, text));
   }
-  /// Press the key, and hold that the world goes on.
+  /// Presses the key and checks that the world continues after a failover.
   void survive(df::Keyboard::Key key) {
     const std::uint32_t next = world->nextTick();
     press(key);
@@ -115,7 +115,7 @@ TEST_F(CopiesTest, ACrashInDrawIsFollowedToo) {
   EXPECT_EQ(verify(), "");
 }
 
-// The next one is waited for: the game may be one that is slow. It did not end, so the third is not.
+// The second hang is waited for, because the game may only be slow. It does not end, so the third is not.
 TEST_F(CopiesTest, TheFirstHangOfARoundIsNotWaitedFor) {
   constexpr const char* kAtOnce = "the game did not answer within ";
   constexpr const char* kLate = "did not answer any more in tick";
@@ -134,7 +134,7 @@ TEST_F(CopiesTest, TheFirstHangOfARoundIsNotWaitedFor) {
   EXPECT_EQ(verify(), "");
 }
 
-/// Its ticks seem to hang by the key S, and come to their end when they are waited for.
+/// With the key S, ticks seem to hang, but they end if they are waited for.
 class SlowGameTest : public CopiesTest {
  protected:
   SlowGameTest() { hang_time = 0.3; }
@@ -228,7 +228,7 @@ TEST_F(CopiesTest, WithoutThemTheRoundIsExecutedFromItsBeginning) {
   EXPECT_EQ(verify(), "");
 }
 
-// It is killed when the world has been: the one that goes on is gone while it has the turns again.
+// Kills the world and then the copy that takes over, while it replays its turns.
 TEST_F(CopiesTest, ACopyThatEndsWhileItHasTheTurnsAgainIsFollowedByTheNext) {
   play(static_cast<int>(RoundHistory::kTicks + RoundHistory::kFirst) + 50);
   const std::vector<pid_t> copies = find(kCopy);
@@ -246,7 +246,7 @@ TEST_F(CopiesTest, ACopyThatEndsWhileItHasTheTurnsAgainIsFollowedByTheNext) {
   EXPECT_EQ(verify(), "");
 }
 
-// By its own number, which is another one in each.
+// The copy differs in its process id, which the key P makes visible.
 TEST_F(CopiesTest, ACopyThatAnswersOtherwiseIsNotGoneOnWith) {
   play(50);
   press(df::Keyboard::P);
@@ -263,11 +263,11 @@ TEST_F(CopiesTest, ACopyThatAnswersOtherwiseIsNotGoneOnWith) {
 TEST_F(CopiesTest, AtMostTwoAreKept) {
   play(static_cast<int>(RoundHistory::kFirst + 2 * RoundHistory::kTicks));
   EXPECT_LE(find(kCopy).size(), WorldCopies::kKept + 1);
-  // One that is not kept ends by itself, when a busy machine lets it.
+  // A surplus copy ends by itself, but late on a busy machine.
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   for (int i = 0; find(kCopy).size() != WorldCopies::kKept && std::chrono::steady_clock::now() < end; ++i) {
     if (i < 50) play(1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before they are counted again
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before the next count
   }
   EXPECT_EQ(find(kCopy).size(), WorldCopies::kKept);
 }
@@ -278,7 +278,7 @@ TEST_F(CopiesTest, OfAWorldThatStandsStillThereAreNoneUntilItsNextTick) {
   ASSERT_EQ(copies.size(), 2u);
   world->dropCopies();
   waitUntilGone(copies);
-  play(2);  // the world forks after its answer, so the copy exists when it answers again
+  play(2);  // the world forks after its answer, so the copy exists once it answers again
   EXPECT_EQ(find(kCopy).size(), 1u);
   survive(df::Keyboard::Q);
   EXPECT_EQ(count(kByCopy), 1u) << log;

@@ -1,5 +1,5 @@
-// dfreplay --until T --debug, as a program: the world of the round stands before tick T, for a debugger. A
-// small script stands in for gdb.
+// The program dfreplay --until T --debug: a debugger gets the round's world before tick T. A small script
+// stands in for gdb.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What follows `mark` in `text` up to the end of the line; empty: it is not there.
+/// Returns the rest of the line after the last `mark` in `text`; "" if not found.
 std::string restAfter(const std::string& text, const std::string& mark) {
   const std::size_t at = text.rfind(mark);
   if (at == std::string::npos) return {};
@@ -32,7 +32,7 @@ std::string restAfter(const std::string& text, const std::string& mark) {
 
 class DebugTest : public FrailRound {
  protected:
-  /// Dies twice at the same place, in two ticks.
+  /// Plays a round that crashes twice at one place, in two ticks.
   void playToTheLastDeath() {
     play(50);
     press(df::Keyboard::Q);
@@ -42,7 +42,7 @@ class DebugTest : public FrailRound {
     ASSERT_FALSE(tick()) << log;
     file = endRound();
   }
-  /// The tick of the file in which Q was pressed, for the first or the second time.
+  /// Returns the tick in the file in which Q was pressed for the first or the last time.
   int deathTick(bool last) const {
     std::ostringstream out;
     printInputs(RecordedRound(file), out);
@@ -50,7 +50,7 @@ class DebugTest : public FrailRound {
     const std::size_t q = last ? text.rfind("key=Q") : text.find("key=Q");
     return std::atoi(text.c_str() + text.rfind("tick=", q) + 5);
   }
-  /// A gdb that notes how it was called and in which state the world is, and lets the world go on.
+  /// Makes a gdb that records its arguments and the state of the world, and lets the world continue.
   void makeDebugger(const std::string& last_line = "exit 0") {
     const fs::path script = recorder.folder() / "bin" / "gdb";
     fs::create_directory(script.parent_path());
@@ -64,7 +64,7 @@ class DebugTest : public FrailRound {
                           << last_line << "\n";
     fs::permissions(script, fs::perms::owner_all);
   }
-  /// With a PATH that has dfreplay, and gdb if there is a script.
+  /// Runs a shell line with dfreplay in its PATH, and gdb if there is a script.
   std::pair<int, std::string> runLine(const std::string& line) const {
     return test::runProgram("PATH=" + (recorder.folder() / "bin").string() +
                             ":" NAIAD_BINARY_DIR ":/bin:/usr/bin " + line + " 2>&1 </dev/null");
@@ -124,7 +124,7 @@ TEST_F(DebugTest, ADebuggerThatFailsIsAnError) {
 
 TEST_F(DebugTest, WithoutADebuggerASentenceSaysWhatToType) {
   playToTheLastDeath();
-  // Where gdb is installed it is not to be found.
+  // This PATH hides an installed gdb.
   const std::string line = "PATH=/nowhere " NAIAD_BINARY_DIR "/" + command(deathTick(true)) + " 2>&1";
   FILE* p_out = popen(line.c_str(), "re");
   ASSERT_NE(p_out, nullptr);

@@ -1,5 +1,5 @@
-// A server whose disk stalls, is full, cannot be written, or loses what was not synced. A library that is
-// loaded before all others (disk/disk.cpp) stands between the server and its disk.
+// A server whose disk stalls, is full, cannot be written, or loses unsynced data. A preloaded library
+// (disk/disk.cpp) stands between the server and its disk.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -28,12 +28,12 @@ using test::countIn;
 using test::waitUntil;
 
 constexpr std::chrono::milliseconds kFrame{5};
-/// When a round begins the writer is woken; then it comes by itself.
+/// Time after which the writer runs by its own timer; the start of a round wakes it before.
 constexpr std::int64_t kWakeNanos = 1'500'000'000;
-/// A disk that takes longer than this is busy; a writer that waits longer than this sleeps.
+/// Limit between a busy disk and a sleeping writer.
 constexpr std::int64_t kSleepNanos = 100'000'000;
 
-/// From the begin of a sync to the end of the next, where the writer slept in between: what may be lost.
+/// Returns times from the start of a sync to the end of the next with a sleep in between: the possible loss.
 std::vector<std::int64_t> periodsOf(const std::vector<SyncNote>& notes) {
   std::vector<std::int64_t> periods;
   for (std::size_t i = 0; i + 1 < notes.size(); ++i) {
@@ -55,7 +55,7 @@ class DiskTest : public test::ServerFixture {
   }
 
   void start() {
-    const std::string same = "--port=" + port();  // a round goes on where its players look for it
+    const std::string same = "--port=" + port();  // a recovered round needs the port its players know
     fs::remove(folder / "port");
     server = run({"dfserver", "--game=hello", "--insecure", same, "--port-file=port", "--journal=rounds",
                   "--control=control.sock", "--state=state", "--frame-time=5000"},
@@ -64,7 +64,8 @@ class DiskTest : public test::ServerFixture {
     ASSERT_TRUE(waitUntil([this] { return !contentOf(folder / "port").empty(); })) << log();
     if (player == 0) startPlayer();
   }
-  /// The disk has half a minute's rest where no player is. This one looks for a lost server.
+  /// Starts a player, because without players the journal is written only every half minute. The player
+  /// reconnects by itself.
   void startPlayer() {
     player = run({"dfbot", "127.0.0.1:" + port(), "--insecure", "--rejoin", "--random=1", "--seconds=3600"},
                  "player.txt");
@@ -79,11 +80,11 @@ class DiskTest : public test::ServerFixture {
     return notes;
   }
 
-  const fs::path disk = folder / "disk";  ///< what the library reads
+  const fs::path disk = folder / "disk";  ///< folder that the library reads
   pid_t player = 0;
 };
 
-// If a tick waited for the disk, none would come while it stalls.
+// If a tick waited for the disk, no tick would end while the disk stalls.
 TEST_F(DiskTest, ADiskThatStallsHoldsUpNoTick) {
   start();
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty(); })) << log();
@@ -110,7 +111,7 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
   std::size_t kept = 0;
   for (int cut = 0; cut < cuts; ++cut) {
     start();
-    // A round that three servers do not come to the end of is given up, so each has time for more of it.
+    // A round that fails on three servers in a row is given up, so each server gets further than the last.
     ASSERT_TRUE(waitUntil([&] { return countIn(log(), goes_on) == cut; })) << log();
     const std::size_t before = cut == 0 ? 0 : syncs().size() + 2;
     ASSERT_TRUE(waitUntil([&] {
@@ -127,14 +128,14 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
     const SyncNote last = syncs().back();
     const fs::path file = round();
     const std::string on_disk = contentOf(file).substr(0, static_cast<std::size_t>(last.size));
-    salvageRounds((folder / "rounds").string());  // all that the world got, by memory that a power cut takes
+    salvageRounds((folder / "rounds").string());  // complete, from memory that a power cut would lose
     const std::size_t all = countTurns(file);
     std::ofstream(file, std::ios::binary | std::ios::trunc) << on_disk << std::string(100, '\0');
     kept = countTurns(file);
     ASSERT_GT(kept, 0u);
     const double seconds = static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / 1e9 -
                            static_cast<double>(last.began) / 1e9;
-    // What came after the last sync began, and late ticks that were made up for.
+    // Lost are the turns since the last sync began, and late ticks that were caught up.
     EXPECT_LE(static_cast<double>(all - kept) * 0.005, seconds + 0.25) << cut;
   }
   start();
@@ -170,12 +171,12 @@ TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {
   EXPECT_TRUE(playTicks(10)) << "in another round";
 }
 
-// Nothing of it can go on elsewhere, and nothing ends for that.
+// The round cannot be handed over, but the server continues.
 TEST_F(DiskTest, ARoundThatAFullDiskEndedTheJournalOfIsNotKept) {
   start();
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
   set("full");
-  for (int i = 0; i < 2; ++i) {  // found by the proof, and known before it
+  for (int i = 0; i < 2; ++i) {  // first found by the check, then known before it
     const std::string said =
         test::Talk(folder / "control.sock").ask(R"({"command":"restart","arguments":{"when":"keep"}})");
     EXPECT_TRUE(test::has(said, "The round cannot be kept: its journal has stopped"));

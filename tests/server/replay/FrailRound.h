@@ -1,5 +1,5 @@
-// A round of a game that crashes by the key Q and hangs by H, as dfserver plays it: a world in a process of
-// its own, journaled.
+// A round, as dfserver plays it, of a game that crashes by the key Q and hangs by H: a world in a process of
+// its own, with a journal.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ class FrailRound : public testing::Test {
     input.key_action = df::KEY_PRESSED;
     world->addInput(input);
   }
-  /// True: it has ended.
+  /// Plays a tick. True if it has ended.
   bool tick() {
     const int before = ended;
     world->tick(true, false);
@@ -67,10 +67,10 @@ class FrailRound : public testing::Test {
       ASSERT_TRUE(tick()) << log;
     }
   }
-  /// End the round. Return its file.
+  /// Ends the round. Returns its file.
   std::filesystem::path endRound() {
     world.reset();
-    journals.reset();  // writes what is left
+    journals.reset();  // writes the remaining records
     return std::filesystem::directory_iterator(rounds)->path();
   }
   std::string verify() {
@@ -81,7 +81,7 @@ class FrailRound : public testing::Test {
     return verifyRound(round, stage, out) ? "" : out.str();
   }
 
-  /// A sanitizer's report of a crash takes its time, too.
+  /// Longer in sanitized builds, whose crash reports take time.
   double hang_time = 0.2 * test::kSlowness;
   Recorder recorder;
   std::filesystem::path rounds = recorder.folder() / "rounds";

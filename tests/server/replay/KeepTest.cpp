@@ -1,5 +1,5 @@
-// dfctl restart --keep with the programs as they are: the round goes on in the program and the game that are
-// installed by then, if they play it the same.
+// dfctl restart --keep with the real programs: the round continues in the program and game that are then
+// installed, if these replay it identically.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -45,7 +45,7 @@ bool isGone(pid_t process) {
   return state == 'X' || state == 'Z';
 }
 
-/// What the descriptors of a process are.
+/// Returns the targets of a process's descriptors.
 std::multiset<std::string> descriptorsOf(pid_t process) {
   std::multiset<std::string> found;
   std::error_code error;
@@ -54,7 +54,7 @@ std::multiset<std::string> descriptorsOf(pid_t process) {
   return found;
 }
 
-/// Comes to a port again and again, from an address of its own, as players do: was it ever closed?
+/// Connects to a port repeatedly, from its own address, to check that the port is never closed.
 class Visitor {
  public:
   explicit Visitor(int port) : m_port(static_cast<std::uint16_t>(port)), m_thread([this] { run(); }) {}
@@ -87,7 +87,7 @@ class Visitor {
       ++m_refused;
     return socket;
   }
-  // That a datagram was refused shows in the next call.
+  // A refused datagram shows in the next call.
   void run() {
     const int datagrams = connectedSocket(SOCK_DGRAM);
     while (!m_ends) {
@@ -96,7 +96,7 @@ class Visitor {
       if (recv(datagrams, answer, sizeof answer, MSG_DONTWAIT) < 0 && errno == ECONNREFUSED) ++m_refused;
       close(connectedSocket(SOCK_STREAM));
       ++m_streams;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // not to be one too many
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // slow enough for the rate limit
     }
     close(datagrams);
   }
@@ -109,7 +109,7 @@ class Visitor {
   std::thread m_thread;
 };
 
-/// A dfreplay that does not come to its end.
+/// A dfreplay that never ends.
 constexpr const char* kHangs = "echo $$ > replay.pid; exec sleep 300";
 
 class KeepTest : public test::ServerFixture {
@@ -121,7 +121,7 @@ class KeepTest : public test::ServerFixture {
     if (const pid_t one = replay(); one > 0) kill(one, SIGKILL);
   }
 
-  /// `games`: options that say what is played.
+  /// `games`: options that select the games.
   void start(const std::string& journal, const std::vector<std::string>& games = {"--game=./mine.so"}) {
     fs::remove(folder / "join");
     std::vector<std::string> words{
@@ -132,7 +132,7 @@ class KeepTest : public test::ServerFixture {
     server = run(words);
     ASSERT_TRUE(waitUntil([this] { return !contentOf(folder / "join").empty(); })) << log();
   }
-  /// Two more; in this room, if it has a name.
+  /// Starts two more bots, in this room if it is named.
   void startBots(const std::string& room = {}) {
     std::vector<std::string> words{"dfbot", "--clients=2", "--random=1", "--seconds=300", "--rejoin"};
     std::istringstream join(contentOf(folder / "join"));
@@ -150,7 +150,7 @@ class KeepTest : public test::ServerFixture {
     return test::runProgram(NAIAD_BINARY_DIR "/dfctl --control " + (folder / "control.sock").string() + " " +
                             command + " 2>&1 </dev/null");
   }
-  /// Another version of the game is installed.
+  /// Installs another version of the game.
   void install(const std::string& bytes) const {
     std::ofstream(folder / "new.so", std::ios::binary) << bytes;
     fs::rename(folder / "new.so", folder / "mine.so");
@@ -158,7 +158,7 @@ class KeepTest : public test::ServerFixture {
   bool areBack(int times) const {
     return waitUntil([&] { return countIn(log(), kIsBack) >= times; });
   }
-  /// The server's program, and the dfreplay beside it, are these from now on.
+  /// Installs a copy of dfserver and this script as dfreplay in a folder, and uses them from now on.
   void installPrograms(const std::string& replay_script) {
     fs::create_directories(folder / "bin");
     fs::copy_file(NAIAD_BINARY_DIR "/dfserver", folder / "bin/dfserver");
@@ -171,10 +171,10 @@ class KeepTest : public test::ServerFixture {
     std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
     fs::permissions(path, fs::perms::owner_all);
   }
-  /// The process of a dfreplay of installPrograms() that has noted it; 0: it has not.
+  /// Returns the process id that the dfreplay script wrote; 0 if it has not yet.
   pid_t replay() const { return std::atoi(contentOf(folder / "replay.pid").c_str()); }
   bool lives() const { return waitpid(server, nullptr, WNOHANG) == 0; }
-  /// By which the kernel knows the socket that listens on the port; with `datagrams` the one for these.
+  /// Returns the inode number of the socket that listens on the port; with `datagrams`, of the UDP socket.
   std::string inodeOf(bool datagrams) const {
     std::ostringstream place;
     place << ":" << std::hex << std::uppercase << std::setw(4) << std::setfill('0')
@@ -194,7 +194,7 @@ class KeepTest : public test::ServerFixture {
     }
     return {};
   }
-  /// The server, and none of the processes that it has started.
+  /// Checks that the server has this socket and none of its child processes has it.
   void expectToHoldAlone(const std::string& inode) const {
     const std::string socket = "socket:[" + inode + "]";
     EXPECT_EQ(descriptorsOf(server).count(socket), 1u) << socket;
@@ -252,7 +252,7 @@ TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
   }
   EXPECT_TRUE(test::has(log(), "the round is executed again in this program: "));
   EXPECT_FALSE(test::has(log(), "the server was killed"));
-  // Each copy of the world that waits has one here, and the first of them may have been made since.
+  // Each waiting copy of the world has a descriptor here; the first may have been made since.
   EXPECT_TRUE(waitUntil([&] { return descriptorsOf(server).size() <= open_before + WorldCopies::kKept + 1; }))
       << open_before << ", and then " << descriptorsOf(server).size();
   for (const pid_t process : test::processesBelow(server)) EXPECT_NE(test::stateOf(process), 'Z') << process;

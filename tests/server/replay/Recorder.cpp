@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Input = df::InputQueue::Input;
 
-/// Keys, clicks, joins and leaves, now and then.
+/// Random keys, clicks, joins and leaves.
 class RandomInputs {
  public:
   RandomInputs(std::uint64_t seed, std::size_t most) : m_random(seed), m_most(most) {}
@@ -78,7 +78,7 @@ void waitFor(asio::io_context& home, Round& world, const bool& done) {
   }
 }
 
-/// A busy disk may take longer than a server waits for it at its end.
+/// Waits for a complete file. A busy disk may take longer than a server waits at its end.
 fs::path waitForFile(const fs::path& folder) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (std::chrono::steady_clock::now() < end) {

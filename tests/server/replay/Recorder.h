@@ -1,5 +1,5 @@
-// Records rounds as dfserver does, without a network: a world in a process of its own, journaled, and players
-// who press keys at random.
+// Records rounds as dfserver does, without a network: a world in a process of its own, with a journal, and
+// players who press keys at random.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct Recording {
   std::size_t players = 4;
 };
 
-/// A folder of its own for files and worlds, removed at the end.
+/// Records into a temporary folder, which it removes at the end.
 class Recorder {
  public:
   const std::filesystem::path& folder() const { return m_folder.path(); }
-  /// The file.
+  /// Records a round; returns its file.
   std::filesystem::path record(const Recording& what);
 
  private:

@@ -1,4 +1,4 @@
-// A dfserver as it is installed, in a folder of its own, and the programs that are run beside it.
+// Fixture with a dfserver as installed, in a temporary folder, and helpers for other programs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ namespace naiad::test {
 
 class ServerFixture : public testing::Test {
  protected:
-  /// Start a program in the folder: one of the build, or that of a path. What it prints goes to `p_output`.
+  /// Starts a program (name in the build, or path) in the folder. Its output is appended to `p_output`.
   pid_t run(std::vector<std::string> words, const char* p_output = "out.txt",
             const std::map<std::string, std::string>& environment = {}) const {
     const pid_t process = fork();
@@ -44,7 +44,7 @@ class ServerFixture : public testing::Test {
     execv(pointers[0], pointers.data());
     _exit(127);
   }
-  /// End it; `process` is 0 afterwards.
+  /// Ends a process; `process` is 0 afterwards.
   static void end(pid_t& process, int signal) {
     kill(process, signal);
     waitpid(std::exchange(process, 0), nullptr, 0);
@@ -53,9 +53,9 @@ class ServerFixture : public testing::Test {
   bool isLogged(const std::string& text) const {
     return waitUntil([&] { return log().find(text) != std::string::npos; });
   }
-  /// That of the server's --port-file=port; "0" if there was no server yet.
+  /// Returns the port in the server's --port-file=port; "0" if there was no server yet.
   std::string port() const { return std::to_string(std::atoi(contentOf(folder / "port").c_str())); }
-  /// A number of dfctl status, of the server's --control=control.sock.
+  /// Returns a number of `dfctl status`, from the server's --control=control.sock.
   long status(const std::string& name) const {
     const std::string answer = Talk(folder / "control.sock").ask(R"({"command":"status"})");
     const std::size_t at = answer.find("\"" + name + "\":");
@@ -65,7 +65,7 @@ class ServerFixture : public testing::Test {
     const long end = status("ticks") + count;
     return waitUntil([&] { return status("ticks") >= end; });
   }
-  /// The file of the server's --journal=rounds; empty: there is none.
+  /// Returns the file in the server's --journal=rounds; an empty path if not found.
   std::filesystem::path round() const {
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "rounds", error))

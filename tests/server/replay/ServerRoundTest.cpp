@@ -1,5 +1,5 @@
-// The programs as they are: dfserver writes a round of bots down, dfreplay verifies it; and a server that is
-// killed loses none of it.
+// The real programs: dfserver records a round of bots, dfreplay verifies it, and a killed server loses no
+// turn.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

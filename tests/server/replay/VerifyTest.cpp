@@ -1,5 +1,5 @@
-// Rounds that are executed again: all shipped games are the same, and a game that is not is found at its
-// tick.
+// Replayed rounds: all shipped games replay identically, and the tick of a difference is found in a game that
+// does not.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The module under the name that says how it is unsteady.
+/// Copies the module to a name that says in which way it is unsteady.
 std::string unsteady(const fs::path& folder, const std::string& way) {
   const fs::path module = folder / ("unsteady_" + way + ".so");
   if (!fs::exists(module)) fs::copy_file(NAIAD_BINARY_DIR "/../lib/unsteady.so", module);
@@ -70,7 +70,7 @@ TEST_P(UnsteadyGameTest, IsFoundAtItsTick) {
   const RoundStage stage(round, module);
   Replay replay(round, stage);
   while (replay.firstDifference() == 0 && replay.step()) continue;
-  // A check has eight bits, so one tick in 256 looks alike.
+  // A check has eight bits, so one wrong tick in 256 is not noticed.
   EXPECT_GE(replay.firstDifference(), 47u);
   EXPECT_LE(replay.firstDifference(), 49u);
   std::ostringstream out;
@@ -158,7 +158,7 @@ TEST_F(RoundTest, ATornFileIsVerifiedToItsLastWholeTurn) {
 
 TEST_F(RoundTest, AnotherGameOfThatNameIsRefused) {
   const std::string bytes = test::contentOf(file);
-  // The facts are said again, with another hash: later ones count.
+  // The facts appear again with another hash; later facts replace earlier ones.
   const fs::path other = recorder.folder() / "other.dfr";
   const std::size_t after_header = kDfrHeaderSize;
   const std::string chunk = spellDfrMeta({{kFactModule, std::string(64, '0')}, {kFactGame, "hello"}});

@@ -17,7 +17,7 @@ std::vector<Grid::Slot> sorted(std::vector<Grid::Slot> slots) {
   return slots;
 }
 
-/// A grid with the arrays it reads.
+/// A grid with the arrays that it reads.
 struct Filed {
   std::vector<FixedVector> positions;
   std::vector<FixedBox> boxes;
@@ -40,7 +40,7 @@ struct Filed {
     grid.remove(s);
     filed[s] = false;
   }
-  /// What a step to `where` touches, the same by the grid and by a test of all. A free one is filed there.
+  /// Steps to `where` if free. Returns the slots touched there, after comparing the grid with a test of all.
   std::vector<Grid::Slot> step(Grid::Slot s, FixedVector where) {
     const std::vector<Grid::Slot> expected = touching(translate(boxes[s], where), s);
     Grid::Steps steps(grid);
@@ -69,7 +69,7 @@ FixedVector randomPosition(Random& random, int spread) {
 
 FixedBox randomBox(Random& random) {
   const auto number = [&](int below) { return static_cast<Fixed>(random.below(below)) * (kFixedOne / 4); };
-  // Mostly characters, some sprites and walls, a few as large as boxes get.
+  // Half characters, some sprites and walls, and a few boxes of the maximum size.
   const int kind = random.below(20);
   if (kind < 10) return kCharacterBox;
   const int size = kind == 10 ? 4000000 : kind < 14 ? 400 : kind < 18 ? 60 : 5;
@@ -97,12 +97,12 @@ TEST(Grid, FindsWhatTouchesWhereverItLiesAndHoweverLarge) {
   }
 }
 
-// Steps of characters among characters, of characters and boxes among both.
+// Characters step among characters; characters and boxes step among both.
 TEST(Grid, ABoxStepsWhereItTouchesNothing) {
   Random random(8);
   for (const int spread : {12, 60, 700, 2000000000}) {
     for (const int others : {0, 25, 100}) {  // percent: none, some, nearly all
-      Filed it(1500);                        // so many that the level grows under way
+      Filed it(1500);                        // enough for the level to grow during the test
       for (int round = 0; round < 6000 / naiad::test::kShare; ++round) {
         const auto slot = static_cast<Grid::Slot>(random.below(1500));
         if (!it.filed[slot]) {
@@ -129,7 +129,7 @@ TEST(Grid, ABoxStepsWhereItTouchesNothing) {
 
 TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
   Random random(11);
-  // On the lines between spots, and the least possible beside them.
+  // Positions on the borders between spots, and one unit away from them.
   const auto number = [&] { return random.below(8 * 256) * (kFixedOne / 256) + random.below(3) - 1; };
   int touched = 0;
   for (const int count : {4, 12, 60}) {
@@ -142,7 +142,7 @@ TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
         it.put(slot, where, kCharacterBox);
         continue;
       }
-      // Half of them a cell apart from another, or nearly so.
+      // Half of the coordinates are a cell from another Object's, within a unit.
       const FixedVector near = it.positions[static_cast<std::size_t>(random.below(count))];
       if (random.below(2) == 0) where.x = near.x + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
       if (random.below(2) == 0) where.y = near.y + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
@@ -150,14 +150,14 @@ TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
       ASSERT_FALSE(HasFailure()) << "round " << round;
       if (is_free) continue;
       ++touched;
-      if (random.below(4) == 0) it.put(slot, where, kCharacterBox);  // they may share cells
+      if (random.below(4) == 0) it.put(slot, where, kCharacterBox);  // several may share a cell
     }
   }
   EXPECT_GT(touched, 10000);
 }
 
-// Few boxes among many characters: where no box is near, the other levels are not asked, and nothing is
-// missed.
+// Few boxes among many characters. Where no box is near, a step does not search the other levels, but it must
+// not miss a contact.
 TEST(Grid, CharactersMeetFewBoxesWhereverTheseGo) {
   Random random(13);
   constexpr Grid::Slot kCount = 430, kCharacters = 400;
@@ -170,14 +170,14 @@ TEST(Grid, CharactersMeetFewBoxesWhereverTheseGo) {
   int met = 0;
   for (const std::int64_t far : {0, 1000, 1 << 28}) {
     Filed it(kCount);
-    // Around the corner of four blocks, and some far away: they fall onto the same cells.
+    // Positions around the corner of four blocks, some of them far away but mapped to the same cells.
     const auto place = [&] {
       const Fixed apart = random.below(8) == 0 ? fromCells(static_cast<int>(far)) : 0;
       return FixedVector{number(60) - fromCells(30) + apart, number(60) - fromCells(30) - apart};
     };
     for (Grid::Slot s = 0; s < kCharacters; ++s) it.put(s, place(), kCharacterBox);
     for (int round = 0; round < 20000; ++round) {
-      if (random.below(4) == 0) {  // boxes come, grow, move and go
+      if (random.below(4) == 0) {  // add, move or remove a box
         const auto slot = static_cast<Grid::Slot>(kCharacters + static_cast<unsigned>(random.below(30)));
         const int what = random.below(8);
         if (what == 0) {
@@ -193,7 +193,7 @@ TEST(Grid, CharactersMeetFewBoxesWhereverTheseGo) {
       const auto slot = static_cast<Grid::Slot>(random.below(kCharacters));
       FixedVector where = it.positions[slot] + FixedVector{number(2) - kFixedOne, number(2) - kFixedOne};
       const auto other = static_cast<Grid::Slot>(kCharacters + static_cast<unsigned>(random.below(30)));
-      if (random.below(8) == 0 && it.filed[other]) {  // at its very edge, or the least possible beside it
+      if (random.below(8) == 0 && it.filed[other]) {  // at the edge of a box, or one unit away
         const FixedBox box = translate(it.boxes[other], it.positions[other]);
         where = {box.corner.x + (random.below(2) == 0 ? box.size.x + kFixedOne / 2 : -kFixedOne / 2) +
                      random.below(3) - 1,
@@ -237,7 +237,7 @@ TEST(Grid, FarAwayBoxesAreNotVisited) {
   EXPECT_LE(visited, 4);
 }
 
-// Boxes on the corners of a lattice whose step is a power of two must not fall onto the same few cells.
+// Boxes on a lattice whose step is a power of two must be spread over many cells.
 TEST(Grid, ALatticeDoesNotPileUp) {
   for (const int step : {64, 1024, 65536}) {
     Filed it(10000);

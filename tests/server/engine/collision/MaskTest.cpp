@@ -16,7 +16,7 @@ Mask maskOf(const std::vector<std::string>& rows, char32_t hole = U' ') {
   return mask.value_or(Mask{});
 }
 
-// '#' where a character is set, '.' elsewhere.
+// Draws a mask: '#' where a character is set, '.' elsewhere.
 std::vector<std::string> picture(const Mask& mask) {
   std::vector<std::string> rows(static_cast<std::size_t>(mask.height()));
   for (int y = 0; y < mask.height(); ++y) {
@@ -85,7 +85,7 @@ TEST(Mask, FirstCharacterLiesInTheCellAfterTheCorner) {
     const CellBox box = drawnCells(nullptr, {corner, size});
     return Cells{box.x, box.y, box.width, box.height};
   };
-  // A character of width 1 at (7,3), the box around it.
+  // The box of a single character at (7,3).
   EXPECT_EQ(cells({7 * kFixedOne - half, 3 * kFixedOne - half}, {kFixedOne, kFixedOne}), (Cells{7, 3, 1, 1}));
   EXPECT_EQ(cells({-1, -kFixedOne - 1}, {0, kFixedOne + 1}), (Cells{0, -1, 1, 2}));
   EXPECT_EQ(cells({fromCells(-2001000000), fromCells(2001000000)}, {fromCells(1000000), 0}),
@@ -139,7 +139,7 @@ class MaskPairs : public testing::Test {
   int number(int below) { return static_cast<int>(random.below(static_cast<std::uint64_t>(below))); }
   int side() { return 1 + number(number(4) == 0 ? 200 : 8); }
   std::optional<Mask> mask(int width, int height) {
-    const int holes = number(50);  // few are set, or the first row would mostly decide
+    const int holes = number(50);  // masks are sparse, because otherwise the first row would usually decide
     Rows rows(static_cast<std::size_t>(height));
     for (std::string& row : rows) {
       for (int x = 0; x < width; ++x) row += number(holes + 1) == 0 ? '#' : ' ';

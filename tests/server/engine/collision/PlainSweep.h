@@ -1,4 +1,4 @@
-// The plain answers to what a Sweep computes: every step of the lattice, every cell of the masks.
+// Plain reference implementations for Sweep: they test every step of the lattice and every cell of the masks.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Masks {
   const Mask* p_others = nullptr;
 };
 
-// From `time` on, the mover is at `position`.
+// The mover is at `position` from `time` on.
 struct Visit {
   Moment time;
   FixedVector position;
@@ -51,7 +51,7 @@ inline Fixed goOn(Fixed from, Fixed to, std::uint64_t steps) {
   return static_cast<Fixed>(from < to ? start + steps : start - steps);
 }
 
-// All positions of a short move, one by one.
+// Returns all positions of a short move, one by one.
 inline std::vector<Visit> everyVisit(const Move& move) {
   const auto way_x = static_cast<Wide>(magnitude(move.from.x, move.to.x));
   const auto way_y = static_cast<Wide>(magnitude(move.from.y, move.to.y));
@@ -70,8 +70,8 @@ inline std::vector<Visit> everyVisit(const Move& move) {
   return visits;
 }
 
-// The positions of a long move at which something may change: whether the boxes touch and, if asked for, a
-// cell of the mover's corner (not of a move over more than some hundred cells, please).
+// Returns the positions of a long move at which something may change: whether the boxes touch and, if
+// `at_cells`, the cell of the mover's corner. Use `at_cells` only for moves of at most a few hundred cells.
 inline std::vector<Visit> tellingVisits(const Move& move, const FixedBox& other, bool at_cells) {
   const auto stepsOf = [at_cells](Fixed from, Fixed to, Fixed corner, Fixed size, Fixed low,
                                   Fixed other_size) {
@@ -146,7 +146,7 @@ inline bool sharePlainly(Masks masks, const FixedBox& a, const FixedBox& b) {
   return false;
 }
 
-// The gap of a pair, times `scale`, with the mover displaced by further (dx,dy)/scale.
+// Returns `scale` times the gap of a pair after the mover is displaced by (dx,dy)/scale.
 inline Wide gapOf(const FixedBox& a, const FixedBox& b, Wide scale = 1, Wide dx = 0, Wide dy = 0) {
   const auto onAxis = [scale](Fixed own, Fixed own_size, Fixed other, Fixed other_size, Wide d) {
     const Wide low = own * scale + d;
@@ -159,8 +159,8 @@ inline Wide gapOf(const FixedBox& a, const FixedBox& b, Wide scale = 1, Wide dx 
                   onAxis(a.corner.y, a.size.y, b.corner.y, b.size.y, dy));
 }
 
-// So short a time of the move that no other side of the boxes can become the one that counts: gaps are whole
-// units, and those that are not the largest are at least one less.
+// Compares the gap after a very short part of the move. Gaps are whole units, and the displacement is less
+// than half a unit, so the larger gap cannot change to another axis.
 inline bool closesPlainly(const Move& move, const FixedBox& other) {
   const Wide dx = static_cast<Wide>(move.to.x) - move.from.x;
   const Wide dy = static_cast<Wide>(move.to.y) - move.from.y;
@@ -169,7 +169,7 @@ inline bool closesPlainly(const Move& move, const FixedBox& other) {
   return gapOf(move.at(move.from), other, scale, dx, dy) < gapOf(move.at(move.from), other, scale);
 }
 
-// The rule of the start and the first time, for any predicate. `may_meet_again` is for the masks.
+// Returns the first time at which `meets` holds, by the rule for the start. `may_meet_again` is for masks.
 template <typename Meets>
 inline std::optional<Moment> firstPlainly(const Move& move, const FixedBox& other,
                                           const std::vector<Visit>& visits, bool may_meet_again,

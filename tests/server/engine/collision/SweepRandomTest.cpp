@@ -1,4 +1,4 @@
-// Sweeps in random cases, against the plain answers.
+// Compares sweeps in random cases with the reference results of PlainSweep.h.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -16,7 +16,7 @@ class RandomSweeps : public testing::Test {
     const std::uint64_t offset = random.below(magnitude(least, most) + 1);
     return static_cast<Fixed>(static_cast<std::uint64_t>(least) + offset);
   }
-  // Straight moves and none at all are worth their own share.
+  // A fixed share of the moves is straight or has no length.
   FixedVector displacement(Fixed most) {
     const Fixed kind = number(8);
     return {kind == 0 ? 0 : between(-most, most), kind == 1 ? 0 : between(-most, most)};
@@ -81,7 +81,7 @@ TEST_F(RandomSweeps, TouchWhatEveryStepFinds) {
   EXPECT_GT(outs, 5000);
 }
 
-// Borders of cells and of boxes lie a few units apart, so that moves of a few units cross them in any order.
+// The borders of cells and boxes are a few units apart, so short moves cross them in any order.
 TEST_F(RandomSweeps, ShareWhatEveryStepFinds) {
   int hits = 0;
   int agains = 0;
@@ -118,7 +118,7 @@ TEST_F(RandomSweeps, OverManyCellsMeetWhatAWalkFromMarkToMarkFinds) {
   int late = 0;
   int agains = 0;
   for (int i = 0; i < 80000; ++i) {
-    // Quarters of a cell make many things happen at once; other coordinates never agree.
+    // Multiples of a quarter cell make events coincide; other coordinates rarely do.
     const bool is_round = i % 3 != 0;
     const auto jitter = [&] { return is_round ? number(4) * (kFixedOne / 4) : number(kFixedOne); };
     const auto coordinate = [&](Fixed least, Fixed most) {
@@ -169,7 +169,7 @@ TEST_F(RandomSweeps, AcrossTheWorldTouchWhatAWalkFromMarkToMarkFinds) {
     move.box = {{between(-largest, largest), between(-largest, largest)}, {number(largest), number(largest)}};
     move.from = anyPoint();
     move.to = anyPoint();
-    // Close to some point of the path.
+    // The other box is close to some point of the path.
     const double share = random.unit();
     const auto aim = [&](Fixed from, Fixed to, Fixed corner) {
       const double distance = static_cast<double>(magnitude(from, to)) * share;

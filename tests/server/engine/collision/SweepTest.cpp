@@ -1,4 +1,4 @@
-// Sweeps in cases with a name.
+// Sweeps in hand-made cases.
 #include <gtest/gtest.h>
 
 #include "PlainSweep.h"
@@ -20,7 +20,7 @@ TEST(Moments, AreComparedAsFractionsNotAsDoubles) {
   EXPECT_EQ((Moment{1, 4}).toDouble(), 0.25);
 }
 
-// ---- What docs/collisions.md promises.
+// ---- The rules of docs/collisions.md.
 
 const FixedBox kCharacter = {{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}};
 
@@ -50,7 +50,7 @@ TEST(SweptMove, WhatLiesBesideBeforeOrBehindIsNotHit) {
 }
 
 TEST(SweptMove, MovesAnAxisOnlyWhenAWholeUnitIsFull) {
-  // Two units to the right while it goes three down: x is 1 from t = 1/2 on, when y is 1.
+  // Two units to the right during three units down: x is 1 from t = 1/2 on, while y is 1.
   const Sweep sweep({{}, {}}, {0, 0}, {2, 3});
   EXPECT_EQ(sweep.firstTouch({{1, 1}, {}}), (Moment{1, 2}));
   EXPECT_EQ(sweep.firstTouch({{0, 1}, {}}), (Moment{1, 3}));
@@ -90,7 +90,7 @@ TEST_F(AtTheWall, HitsAtOnceUnlessItLeaves) {
 }
 
 TEST_F(AtTheWall, OneUnitAwaySlidesFreely) {
-  // Where a mover is placed that the wall has stopped.
+  // The position of a mover that the wall has stopped.
   const Sweep arrival(kCharacter, cells(-10, 3), cells(10, 7));
   const std::optional<Moment> touch = arrival.firstTouch(wall);
   ASSERT_TRUE(touch);
@@ -103,7 +103,7 @@ TEST_F(AtTheWall, OneUnitAwaySlidesFreely) {
 }
 
 TEST_F(AtTheWall, FromInsideTheShortestPathOutIsFree) {
-  // Half a cell deep from the left, five from above and below.
+  // Half a cell deep from the left, five cells from above and below.
   const FixedVector inside = cells(0, 5);
   const auto touch_from = [&](FixedVector by) {
     return Sweep(kCharacter, inside, inside + by).firstTouch(wall);
@@ -129,7 +129,7 @@ TEST(SweptMove, GapOfAPairIsTheLargerAndClosesOnlyIfAllOfItDoes) {
   EXPECT_TRUE(closes(corner, cells(1, 1)));
   EXPECT_FALSE(closes(corner, cells(1, 0)));
   EXPECT_FALSE(closes(corner, cells(1, -1)));
-  // In the very middle any direction is out.
+  // From the exact middle, every direction leads out.
   EXPECT_FALSE(closes(cells(2, 2), cells(1, 0)));
   EXPECT_FALSE(closes(cells(2, 2), cells(-1, 1)));
 }
@@ -147,14 +147,14 @@ TEST(SweptMove, MovesOutIfTheGapIsLargerAtTheEnd) {
   EXPECT_FALSE(movesOut({-kFixedOne / 2 - 1, 0}, cells(-5, 0))) << "did not touch";
 }
 
-// ---- Masks on the way.
+// ---- Masks on a path.
 
 class MaskedMove : public testing::Test {
  protected:
   static FixedBox boxAt(int x, int y, int width, int height) {
     return {{fromCells(x - 1), fromCells(y - 1)}, {fromCells(width), fromCells(height)}};
   }
-  // A mask whose first character is in cell (0,0) of its position.
+  // Returns the sweep of a mask whose first character is in cell (0,0) of its position.
   static Sweep sweep(const Mask& mask, FixedVector from, FixedVector to) {
     return {boxAt(0, 0, mask.width(), mask.height()), from, to};
   }
@@ -187,7 +187,7 @@ TEST_F(MaskedMove, GoesDownIntoACellAtItsLastUnit) {
   const Mask dot = *Mask::fromRows({"o"});
   const Sweep move = sweep(dot, cells(5, 0), cells(-5, 0));
   const FixedBox other = boxAt(0, 0, 1, 1);
-  // From cell 5 to the last unit of cell 0: four cells and a unit, of ten.
+  // The path from cell 5 to the last unit of cell 0: four cells and one unit, out of ten cells.
   const auto way = static_cast<std::uint64_t>(10 * kFixedOne);
   const std::optional<Moment> share = move.firstShare(&dot, other, &dot);
   EXPECT_EQ(share, (Moment{static_cast<std::uint64_t>(4 * kFixedOne + 1), way}));
@@ -218,24 +218,24 @@ TEST_F(MaskedMove, InsideARingIsFreeUntilItMeetsTheRim) {
 }
 
 TEST_F(MaskedMove, CrossesTheLargestBoxByItsEndsOnly) {
-  // A ship of two rows, the lower one empty, above the wall: only the empty row is level with it.
+  // A ship of two rows, the lower one empty, above the wall. Only the empty row is level with the wall.
   const Mask ship = *Mask::fromRows({"####", "    "});
   const FixedBox wall = boxAt(0, 0, 1000000, 1);
   const Sweep along = sweep(ship, cells(-100, -1), cells(2000000, -1));
   EXPECT_TRUE(along.firstTouch(wall));
   EXPECT_EQ(along.firstShare(&ship, wall, nullptr), std::nullopt);
-  // It sinks by one cell while it crosses: the upper row is level with the wall in the end.
+  // The ship sinks by one cell on the way, so its upper row is level with the wall at the end.
   const Sweep sinking = sweep(ship, cells(0, -1), cells(900000, 0));
   EXPECT_EQ(sinking.firstShare(&ship, wall, nullptr), (Moment{1, 1}));
-  // The same with roles exchanged: the wall moves, up.
+  // Roles exchanged: the wall moves up.
   const Sweep rising(boxAt(0, 0, 1000000, 1), cells(-900000, 0), cells(0, -1));
   EXPECT_EQ(rising.firstShare(nullptr, boxAt(0, -1, 4, 2), &ship),
             (Moment{1, static_cast<std::uint64_t>(kFixedOne)}));
 }
 
-// ---- As far and as fast as the world allows.
+// ---- The largest distances and speeds.
 
-// `base` at the origin and at every end of the world: the same answers, shifted.
+// Tests `base` at the origin and at all ends of the world: the results differ only by the offset.
 void expectSameEverywhere(const Move& base, const FixedBox& other, Masks masks = {}) {
   const Sweep here = base.sweep();
   for (const Fixed x : {-kFar + fromCells(3000000), Fixed{0}, kFar - fromCells(3000000)}) {
@@ -279,7 +279,7 @@ TEST(FarAndFast, FromEndToEndOfTheWorld) {
     const Sweep sweep = is_back ? Sweep(kCharacter, last, first) : Sweep(kCharacter, first, last);
     const FixedVector target = is_back ? first : last;
     const Fixed unit = is_back ? -1 : 1;
-    // In the middle: half of the way, less one cell.
+    // An Object in the middle: half of the path, less one cell.
     const FixedBox middle = translate(kCharacter, {});
     const auto way = static_cast<std::uint64_t>(kFar) * 2;
     const Moment touch = {static_cast<std::uint64_t>(kFar - kFixedOne), way};
@@ -287,13 +287,13 @@ TEST(FarAndFast, FromEndToEndOfTheWorld) {
     EXPECT_EQ(sweep.before(touch), (FixedVector{-unit * (kFixedOne + 1), -unit * (kFixedOne + 1)}));
     EXPECT_TRUE(sweep.closesGap(middle));
     EXPECT_FALSE(sweep.movesOutOf(middle));
-    // At the target, with a little to spare.
+    // At the target, one cell before the end of the path.
     EXPECT_EQ(sweep.firstTouch(translate(kCharacter, target)), (Moment{way - kFixedOne, way}));
     const FixedBox beyond = translate(kCharacter, target + FixedVector{unit * kFixedOne, unit * kFixedOne});
     EXPECT_EQ(sweep.firstTouch(beyond), (Moment{1, 1}));
     EXPECT_EQ(sweep.before({1, 1}), (FixedVector{target.x - unit, target.y - unit}));
     EXPECT_EQ(sweep.firstTouch(translate(beyond, {unit, 0})), std::nullopt);
-    // Out of what stands at the start.
+    // Leaves an Object that it touches at the start.
     const FixedBox behind = translate(kCharacter, is_back ? last : first);
     EXPECT_EQ(sweep.firstTouch(behind), std::nullopt);
     EXPECT_TRUE(sweep.movesOutOf(behind));
@@ -301,10 +301,10 @@ TEST(FarAndFast, FromEndToEndOfTheWorld) {
 }
 
 TEST(FarAndFast, SlowAxisBesideTheFastestOneIsExact) {
-  // x crosses the world while y goes three units: y is 1 from a third of the way on, to the unit.
+  // x crosses the world while y moves three units. y becomes 1 exactly after a third of the path.
   const Sweep sweep({{}, {}}, {-kFar, 0}, {kFar, 3});
   const auto way = static_cast<std::uint64_t>(kFar) * 2;
-  const std::uint64_t third = way / 3 + 1;  // no multiple of 3
+  const std::uint64_t third = way / 3 + 1;  // `way` is not a multiple of 3
   const auto at = [](std::uint64_t steps) { return goOn(-kFar, kFar, steps); };
   EXPECT_EQ(sweep.firstTouch({{at(third), 1}, {}}), (Moment{third, way}));
   EXPECT_EQ(sweep.firstTouch({{at(third - 1), 1}, {}}), (Moment{1, 3})) << "between two steps of x";
@@ -320,7 +320,7 @@ TEST(FarAndFast, MasksMeetAtTheEndOfTheFastestMove) {
   const FixedBox box = {{-kFixedOne, -kFixedOne}, {2 * kFixedOne, 2 * kFixedOne}};
   const Sweep sweep(box, {-kFar, -kFar}, {kFar, kFar});
   const FixedBox wall = translate({{}, {fromCells(1000000), fromCells(1000000)}}, {kFar, kFar});
-  // The corners of the boxes touch a cell before the target, the characters at the target.
+  // The boxes' corners touch one cell before the target, the characters only at the target.
   const auto way = static_cast<std::uint64_t>(kFar) * 2;
   EXPECT_EQ(sweep.firstTouch(wall), (Moment{way - kFixedOne, way}));
   EXPECT_EQ(sweep.firstShare(&mask, wall, nullptr), (Moment{1, 1}));

@@ -1,5 +1,5 @@
-// What a script can do to a world, and all that a comparison wants to see of it: implemented once over the
-// engine and once over the oracle. Objects are named by numbers, in the order of their creation.
+// The calls of a script to a world and the results that are compared: one interface, implemented over the
+// engine and over the oracle. Objects are named by numbers, in creation order.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ struct Snapshot {
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
 };
 
-/// What firstContact() found.
+/// The result of firstContact().
 struct Meeting {
-  int id = -1;      ///< none
-  double time = 1;  ///< rounded, perhaps not in the same way by both
+  int id = -1;      ///< -1: no contact
+  double time = 1;  ///< rounded; engine and oracle may round differently
   FixedVector position;
 };
 
@@ -37,10 +37,10 @@ class Actor {
   virtual ~Actor() = default;
 
   virtual void create(int id, const Spec& spec) = 0;
-  // For these, `id` must exist.
+  // The functions below require an existing `id`.
   virtual void markForDelete(int id) = 0;
   virtual void deleteByHand(int id) = 0;
-  /// Take out of the world, alive; nothing but insert() and deleteByHand() is done to it then.
+  /// Takes the Object out of the world, alive. Afterwards only insert() and deleteByHand() are called for it.
   virtual void remove(int id) = 0;
   virtual void insert(int id) = 0;
   virtual int moveObject(int id, FixedVector where) = 0;
@@ -53,7 +53,7 @@ class Actor {
   virtual void setActive(int id, bool active) = 0;
   virtual void setOptions(int id, Options options) = 0;
   virtual void setMask(int id, const Mask& mask) = 0;
-  /// Of all Objects: the world's switch.
+  /// Sets the world's switch, which applies to all Objects.
   virtual void setSweptCollisions(bool swept) = 0;
 
   virtual FixedVector getPosition(int id) const = 0;
@@ -63,9 +63,9 @@ class Actor {
   virtual Meeting firstContact(int id, FixedVector where) = 0;
   virtual std::optional<FixedVector> findFree(FixedBox box, FixedVector near) = 0;
 
-  /// One tick: the step event, then all moves, then all deletions.
+  /// Runs one tick: the step event, then all moves, then all deletions.
   virtual void tick() = 0;
-  /// All Objects that live, in the world's order.
+  /// Returns the states of all live Objects, in the world's order.
   virtual std::vector<Snapshot> snapshot() const = 0;
 };
 

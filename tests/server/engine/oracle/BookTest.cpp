@@ -1,4 +1,4 @@
-// The oracle itself, held against sentences of the book's section 4.10, so that it is not only believed.
+// Tests the oracle itself against sentences of the book's section 4.10.
 #include "BookWorld.h"
 
 namespace oracle {
@@ -65,7 +65,7 @@ TEST_F(BookTest, AHardObjectDoesNotHideTheOthersFromTheirEvents) {
   EXPECT_EQ(m_events, "2:2>0 0:2>0 2:2>1 1:2>1 ");
 }
 
-// "Objects that are SPECTRAL cannot collide", whichever of the two it is.
+// "Objects that are SPECTRAL cannot collide", whether the mover or the other is SPECTRAL.
 TEST_F(BookTest, SpectralObjectsNeverCollide) {
   Object* p_star = make(10, 10, df::SPECTRAL);
   Object* p_hero = make(15, 10);
@@ -84,7 +84,7 @@ TEST_F(BookTest, NoSoftDoesNotMoveOntoSoft) {
   EXPECT_EQ(m_events, "0:0>1 1:0>1 ");
 }
 
-// The arrow that moves 15 spaces a step goes through the window.
+// An arrow that moves 15 spaces per step passes through the window.
 TEST_F(BookTest, OverlapTestingLetsFastObjectsThrough) {
   Object* p_arrow = make(10, 10);
   p_arrow->velocity = cells(15, 0);
@@ -122,7 +122,7 @@ TEST_F(BookTest, TheEdgeAtZeroIsInsideAndTheOneAtTheWidthIsNot) {
   EXPECT_EQ(m_events, "out:0 out:0 ");
 }
 
-// "Two head-on movers produce four" events a tick, one pair for each of the two moves.
+// "Two head-on movers produce four" events per tick, one pair for each of the two moves.
 TEST_F(BookTest, HeadOnMoversCollideTwice) {
   make(10, 10)->velocity = cells(1, 0);
   make(11.5, 10)->velocity = cells(-1, 0);
@@ -201,7 +201,7 @@ TEST_F(BookTest, MovesNestThirtyTwoDeep) {
   };
   EXPECT_EQ(m_world.moveObject(p_o, cells(10, 10)), -1);
   EXPECT_EQ(m_world.counters().too_deep, 1);
-  EXPECT_EQ(m_world.counters().moves, 33);  // and the one that was refused
+  EXPECT_EQ(m_world.counters().moves, 33);  // plus the refused one
 }
 
 }  // namespace

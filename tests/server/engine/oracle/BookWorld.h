@@ -1,4 +1,4 @@
-// A world of the oracle to say sentences about: what was received is written down in one line.
+// Fixture with an oracle world that records all received events in one line of text.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ inline FixedVector cells(double x, double y) {
   return {*df::toFixed(x), *df::toFixed(y)};
 }
 
-/// A box of that many cells, centred on the position.
+/// Returns a box of this many cells, centred on the position.
 inline FixedBox boxOf(double width, double height) {
   return {cells(-width / 2, -height / 2), cells(width, height)};
 }
@@ -40,7 +40,7 @@ class BookWorld : public testing::Test, protected Handlers {
 
   World m_world{FixedBox{{}, cells(80, 24)}, *this};
   std::string m_events;  ///< "receiver:mover>other "
-  FixedVector m_where;   ///< of the last collision
+  FixedVector m_where;   ///< position of the last collision
   std::function<void(Object*)> m_on_collision;
   int m_next = 0;
 };

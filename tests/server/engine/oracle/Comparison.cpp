@@ -46,7 +46,7 @@ std::uint64_t hashOf(const std::vector<Snapshot>& states, std::uint64_t hash) {
   return hash;
 }
 
-/// Ask both the same. Return what differs.
+/// Calls firstContact() of both and returns the difference as text, "" if none.
 std::string compareContact(Actor& engine, Actor& oracle, int id, FixedVector where, Comparison& result) {
   const Meeting a = engine.firstContact(id, where);
   const Meeting b = oracle.firstContact(id, where);
@@ -83,7 +83,7 @@ std::string compareRoom(Actor& engine, Actor& oracle, const FixedBox& box, Fixed
   return text.str();
 }
 
-/// Of a few Objects: what would they hit, and where is there room nearby?
+/// Compares firstContact() of three random Objects, and findFree() near the first of them.
 std::string compareQuestions(const RandomWorld& world, EngineDriver& engine, OracleDriver& oracle,
                              Comparison& result) {
   Rng rng(mix(world.seed ^ mix(static_cast<std::uint64_t>(result.ticks) << 40)));
@@ -100,7 +100,7 @@ std::string compareQuestions(const RandomWorld& world, EngineDriver& engine, Ora
   return difference;
 }
 
-/// With `explain`, keep what is needed to say where the two part.
+/// Runs both worlds until they differ. With `explain`, keeps all log entries to name the first difference.
 Comparison run(const RandomWorld& world, bool explain) {
   EngineDriver engine(world);
   OracleDriver oracle(world);

@@ -1,4 +1,4 @@
-// Engine and oracle in the same random world, tick by tick.
+// Runs engine and oracle in one random world and compares them after each tick.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,27 @@
 namespace oracle {
 
 struct Comparison {
-  /// Empty if nothing differed; otherwise what did first, for a person to read.
+  /// The first difference, as text; empty if both agree.
   std::string difference;
-  std::uint64_t hash = 0;  ///< of all events and all states
+  std::uint64_t hash = 0;  ///< hash of all events and all states
   bool with_options = false;
   std::int64_t ticks = 0;
-  std::int64_t objects = 0;  ///< that ever were
+  std::int64_t objects = 0;  ///< Objects created in the whole run
   int largest = 0;           ///< most Objects at one time
   std::int64_t handled = 0;  ///< collision and out events received by handlers
-  std::int64_t births = 0;   ///< within such handlers
-  std::int64_t deaths = 0;   ///< within such handlers: marked or deleted by hand, once each
+  std::int64_t births = 0;   ///< Objects created in such handlers
+  std::int64_t deaths = 0;   ///< Objects marked or deleted by hand in such handlers, each counted once
   std::int64_t contacts_asked = 0;
   std::int64_t contacts_found = 0;
   std::int64_t rooms_asked = 0;
   std::int64_t rooms_found = 0;
   Counters counters;
-  df::MoverStats paths;  ///< of the engine
+  df::MoverStats paths;  ///< paths taken by the engine
 };
 
-/// Run the world of `seed` in both and compare, after each tick, every event since the last and the state of
-/// every Object, in the world's order; and now and then what firstContact() and findFree() say, which worlds
-/// without options never ask.
+/// Runs the world of `seed` in both and compares, after each tick, all new events and the state of every
+/// Object, in the world's order. In worlds with options it also compares firstContact() and findFree() every
+/// 8 ticks.
 Comparison compareWorld(std::uint64_t seed, bool with_options);
 
 }  // namespace oracle

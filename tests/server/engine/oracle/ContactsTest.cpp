@@ -1,4 +1,4 @@
-// The oracle's precise pairs, contacts at rest, ways out of a wall and free places, held against sentences of
+// Tests the oracle's precise pairs, rest contacts, moving out of walls and findFree() against sentences of
 // docs/collisions.md.
 #include "BookWorld.h"
 
@@ -14,7 +14,7 @@ TEST_F(ContactsTest, PreciseCharactersPassSideBySide) {
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), -1);
   p_o->precise = true;
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), 0);
-  EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10.5)), -1);  // the cell of 10.5 is that of 11
+  EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10.5)), -1);  // 10.5 lies in the cell of 11
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10.5) - FixedVector{0, 1}), 0);
 }
 
@@ -38,7 +38,7 @@ TEST_F(ContactsTest, AShotPassesThroughAHole) {
   EXPECT_FALSE(isHit(19, 9));
   EXPECT_TRUE(isHit(20, 9));
   EXPECT_TRUE(isHit(21, 9));
-  EXPECT_FALSE(isHit(22, 9));  // the row is too short for that
+  EXPECT_FALSE(isHit(22, 9));  // the row is too short
   EXPECT_FALSE(isHit(18, 10));
   EXPECT_TRUE(isHit(19, 10));
   EXPECT_TRUE(isHit(18, 11));
@@ -53,7 +53,7 @@ TEST_F(ContactsTest, AFullMaskHasAtLeastOneCharacter) {
   p_point->precise = true;
   Object* p_shot = make(10, 10);
   p_shot->box = {{}, cells(2.25, 1)};
-  // The point's character is drawn in cell (21,11), the shot's three from the cell after its corner on.
+  // The point is drawn in cell (21,11), the shot's three characters from the cell after its corner on.
   EXPECT_TRUE(m_world.getCollisions(p_shot, cells(20, 10)).size() == 1);
   EXPECT_TRUE(m_world.getCollisions(p_shot, cells(18, 10)).size() == 1);
   EXPECT_TRUE(m_world.getCollisions(p_shot, cells(18, 9)).empty());
@@ -68,7 +68,7 @@ TEST_F(ContactsTest, ASweptShotFliesIntoTheMouthAndIsStoppedByTheThroat) {
   Object* p_shot = make(10, 10);
   p_shot->swept = true;
   EXPECT_EQ(m_world.moveObject(p_shot, cells(30, 10)), -1);
-  // The throat is in cell 22: the shot's cell is that from 21.5 on.
+  // The throat is in cell 22; the shot enters that cell at 21.5.
   EXPECT_EQ(p_shot->position, cells(21.5, 10) - (FixedVector{1, 0}));
 }
 
@@ -80,7 +80,7 @@ TEST_F(ContactsTest, ObjectLeavingOneToothMayHitTheNext) {
   p_comb->precise = true;
   Object* p_o = make(16, 10);
   p_o->swept = true;
-  // By the boxes it is no deeper anywhere than above and below, so no way along the comb closes the gap.
+  // The box distance is largest above and below, so moving along the comb never closes the gap.
   EXPECT_EQ(m_world.moveObject(p_o, cells(18, 10)), 0);  // between two teeth
   EXPECT_EQ(m_world.moveObject(p_o, cells(16, 10)), -1);
   p_o->position = cells(16, 10);
@@ -89,11 +89,11 @@ TEST_F(ContactsTest, ObjectLeavingOneToothMayHitTheNext) {
   EXPECT_EQ(m_events, "1:1>0 0:1>0 ");
   EXPECT_EQ(p_o->position, cells(19.5, 10) - (FixedVector{1, 0}));
   p_o->position = cells(16, 10);
-  EXPECT_EQ(m_world.moveObject(p_o, cells(24, 10)), -1);  // into a tooth in the end: that counts at the start
+  EXPECT_EQ(m_world.moveObject(p_o, cells(24, 10)), -1);  // ends in a tooth: the contact at the start counts
   EXPECT_EQ(p_o->position, cells(16, 10));
 }
 
-// "as if it had moved to where it stands, so it hears of those who touch it"
+// An Object with rest contacts collides in every update as if it had moved to its own position.
 TEST_F(ContactsTest, AtRestContactsAreSentOnRequest) {
   Object* p_floor = make(10, 10);
   make(11, 10);
@@ -118,8 +118,8 @@ TEST_F(ContactsTest, ObjectThatMayMoveOutLeavesAWallStepByStep) {
     const FixedVector step = cells(0.5, 0);
     EXPECT_EQ(m_world.moveObject(p_o, start + step), -1);
     p_o->may_move_out = true;
-    EXPECT_EQ(m_world.moveObject(p_o, start - step), -1);  // not deeper
-    EXPECT_EQ(m_world.moveObject(p_o, start), -1);         // nor as deep as before
+    EXPECT_EQ(m_world.moveObject(p_o, start - step), -1);  // deeper
+    EXPECT_EQ(m_world.moveObject(p_o, start), -1);         // as deep as before
     m_events.clear();
     EXPECT_EQ(m_world.moveObject(p_o, start + step), 0);
     EXPECT_EQ(m_events, swept ? "2:2>3 3:2>3 " : "0:0>1 1:0>1 ");
@@ -128,7 +128,7 @@ TEST_F(ContactsTest, ObjectThatMayMoveOutLeavesAWallStepByStep) {
   }
 }
 
-// "a pair that touches where the move begins": others block as always.
+// "a pair that touches where the move begins": other pairs block as always.
 TEST_F(ContactsTest, MovingOutOfOneDoesNotAllowMovingIntoAnother) {
   Object* p_o = make(10, 10);
   p_o->may_move_out = true;
@@ -138,8 +138,8 @@ TEST_F(ContactsTest, MovingOutOfOneDoesNotAllowMovingIntoAnother) {
   EXPECT_EQ(m_world.moveObject(p_o, cells(10.5, 10)), 0);
 }
 
-// "the position nearest to `near`, in whole cells from it"; of equally near ones the one with the least y,
-// then x.
+// "the position nearest to `near`, in whole cells from it"; of equally near positions, the one with the least
+// y, then the least x.
 TEST_F(ContactsTest, FreePlacesAreTheNearestOnes) {
   EXPECT_EQ(m_world.findFree(kCharacterBox, cells(10.5, 10.5)), cells(10.5, 10.5));
   make(10.5, 10.5);

@@ -32,7 +32,7 @@ class EngineDriver::Numbered : public df::Object {
   int m_number;
 };
 
-/// An Object with the script as its handler. The handler may destroy it, so nothing of it is used afterwards.
+/// An Object whose handler is the script. The handler may delete it: do not use the Object afterwards.
 class EngineDriver::Scripted : public Numbered {
  public:
   using Numbered::Numbered;
@@ -123,7 +123,7 @@ void EngineDriver::setOptions(int id, Options options) {
 }
 void EngineDriver::setMask(int id, const Mask& mask) {
   std::vector<std::string> rows = mask;
-  for (std::string& row : rows) {  // as in UTF-8, in which a character may be several bytes
+  for (std::string& row : rows) {  // multi-byte characters, as in UTF-8
     const std::size_t set = row.find('#');
     if (set != std::string::npos) row.replace(set, 1, "█");
   }

@@ -1,4 +1,4 @@
-// A random world in the engine.
+// Runs a random world in the engine.
 #pragma once
 
 #include "Actor.h"
@@ -17,7 +17,7 @@ class EngineDriver : public Actor {
   ~EngineDriver() override;
 
   Script& script() { return m_script; }
-  /// Calls that the engine refused for their numbers: the script makes none.
+  /// Returns how many calls the engine refused because of a number. The script makes no such calls.
   std::uint64_t refusals() const { return m_world.log().refusals(); }
 
   void create(int id, const Spec& spec) override;
@@ -55,7 +55,7 @@ class EngineDriver : public Actor {
   df::World m_world;
   df::World::Scope m_scope;
   Script m_script;
-  std::vector<Numbered*> m_objects;  ///< by number; null once destroyed
+  std::vector<Numbered*> m_objects;  ///< index: id; null once destroyed
 };
 
 }  // namespace oracle

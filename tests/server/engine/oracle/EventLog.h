@@ -1,4 +1,4 @@
-// What happened in a world, in order: a running hash, and every entry, too, on request.
+// The events of a world, in order: a running hash and, on request, every entry.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@ enum class Happening { STEP, COLLISION, OUT, MOVED, DESTROYED };
 
 struct Entry {
   Happening what = Happening::STEP;
-  int receiver = 0;            ///< of MOVED the mover
-  int object1 = 0;             ///< of a collision: the mover
-  int object2 = 0;             ///< of a collision: the other
-  df::FixedVector where = {};  ///< of a collision: its position; of MOVED the target
-  int result = 0;              ///< of MOVED: what moveObject returned
+  int receiver = 0;            ///< receiver of the event; for MOVED the mover
+  int object1 = 0;             ///< mover of a COLLISION
+  int object2 = 0;             ///< other Object of a COLLISION
+  df::FixedVector where = {};  ///< position of a COLLISION; target of MOVED
+  int result = 0;              ///< result of moveObject() (MOVED)
 
   friend bool operator==(const Entry&, const Entry&) = default;
 };
 
-/// "collision to 3: 3 onto 7 at (1.5, 2)".
+/// Formats an entry, for example "collision to 3: 3 onto 7 at (1.5, 2)".
 std::string toString(const Entry& entry);
 
 class EventLog {
  public:
-  /// Keep the entries, not only their hash.
+  /// Keeps the entries, not only their hash.
   void keepEntries() { m_keep = true; }
 
   void add(const Entry& entry) {
@@ -55,7 +55,7 @@ class EventLog {
   std::vector<Entry> m_entries;
 };
 
-/// The first entry in which the logs differ, with the few before it, for a person to read. Empty if none.
+/// Describes the first entry in which the logs differ, after up to eight common ones. Empty if none does.
 std::string firstDifference(const EventLog& engine, const EventLog& oracle);
 
 }  // namespace oracle

@@ -1,4 +1,4 @@
-// The oracle's geometry, held against looking at every position of a path.
+// Tests the oracle's geometry by trying every position of a path.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool isEqual(Time a, Time b) {
   return !(a < b) && !(b < a);
 }
 
-/// A path, what moves along it and what it may hit.
+/// A path, the box and mask that move along it, and the box and mask that they may hit.
 struct Case {
   SweepPath path;
   FixedBox box;
@@ -34,7 +34,8 @@ struct Case {
   }
 };
 
-/// The first of `times`, sorted and from 0 to 1, at which `meets` is true, by the rule for the start.
+/// Returns the first of `times` (sorted, 0 to 1) at which `meets` is true. A contact at the start counts only
+/// if the gap closes or `meets` is true at the end, too.
 std::optional<Time> look(const Case& c, const std::vector<Time>& times,
                          const std::function<bool(FixedVector)>& meets) {
   std::size_t i = 0;
@@ -53,7 +54,7 @@ void expectEqual(const std::optional<Time>& found, const std::optional<Time>& ex
                                           << " for " << testing::PrintToString(*expected);
 }
 
-/// A case in which all is a multiple of `unit`, within `reach` units and with boxes up to `size` units.
+/// Makes a case whose coordinates are multiples of `unit`, with boxes of at most `size` units.
 Case randomCase(Rng& rng, Fixed unit, int reach, int size) {
   const auto vector = [&](int least, int most) {
     const Fixed x = unit * rng.between(least, most);
@@ -92,7 +93,7 @@ TEST(GeometryTest, FirstTouchIsTheFirstOfAllPositions) {
       EXPECT_EQ(c.path.before(*found), c.path.from);
       continue;
     }
-    // The position before is that of the step before, and there is no touch there yet.
+    // The position before the hit is that of the previous step, which does not touch yet.
     std::uint64_t i = 0;
     while (!isEqual(times[i], *found)) ++i;
     EXPECT_EQ(c.path.before(*found), c.path.at(times[i - 1]));
@@ -103,7 +104,7 @@ TEST(GeometryTest, FirstTouchIsTheFirstOfAllPositions) {
   EXPECT_GT(at_start, 500);
 }
 
-// All that can change, changes where a coordinate becomes a multiple of the unit, or leaves it.
+// Contacts change only where a coordinate reaches a multiple of the unit or leaves it.
 TEST(GeometryTest, FirstShareIsTheFirstOfAllPositions) {
   const Fixed unit = df::kFixedOne / 4;
   Rng rng(2);
@@ -144,7 +145,7 @@ TEST(GeometryTest, FirstShareIsTheFirstOfAllPositions) {
   EXPECT_GT(passed, 500);
 }
 
-// As soon as the move begins: after so small a part of it that no other side comes to be the farther one.
+// Compares with a move so short that the largest of the four distances stays the largest.
 TEST(GeometryTest, TheGapClosesIfItIsSmallerAMomentLater) {
   constexpr Fixed kMoment = 1000;
   Rng rng(3);
@@ -164,7 +165,7 @@ TEST(GeometryTest, TheGapClosesIfItIsSmallerAMomentLater) {
   EXPECT_GT(closing, 2'000);
 }
 
-// From one end of the number range to the other the distance does not fit a signed number.
+// Across the whole number range, a distance does not fit a signed 64-bit number.
 TEST(GeometryTest, PathsAreAsLongAsTheWorldIsWide) {
   const Fixed end = df::fromCells(2'000'000'000);
   const FixedBox character{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};

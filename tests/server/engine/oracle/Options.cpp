@@ -12,7 +12,7 @@ OptionMix OptionMix::random(Rng& rng) {
   const int which = rng.below(8);
   if (!mix.any) return mix;
   switch (which) {
-    case 0:  // the arrow among those that are as in the book
+    case 0:  // some swept Objects among Objects that follow the book
       mix.swept = percent();
       break;
     case 1:
@@ -32,7 +32,7 @@ OptionMix OptionMix::random(Rng& rng) {
       mix.rest_contacts = percent();
       mix.may_move_out = percent();
       break;
-    case 5:  // a little of everything
+    case 5:  // all options, each rare
       mix.swept = mix.precise = mix.rest_contacts = mix.may_move_out = 5;
       mix.masked = 20;
       mix.scripts_sweep = true;
@@ -41,7 +41,7 @@ OptionMix OptionMix::random(Rng& rng) {
       mix.swept = percent();
       mix.may_move_out = percent();
       break;
-    default:  // much of everything
+    default:  // all options, often frequent
       mix.swept = percent();
       mix.precise = percent();
       mix.masked = percent();
@@ -82,7 +82,7 @@ Mask OptionMix::randomMask(Rng& rng) const {
     for (int x = 0; x < width; ++x) row += own.chance(filling) ? '#' : ' ';
     mask.push_back(row);
   }
-  // Rows need not be of one length, but one must not be empty.
+  // Rows may differ in length, and one may be empty.
   if (height > 1 && own.chance(30)) mask.back().resize(static_cast<std::size_t>(own.below(width)));
   return mask;
 }

@@ -1,4 +1,4 @@
-// What an Object asks for beyond the book (docs/collisions.md), and how many Objects of a world ask for it.
+// Options of an Object beyond the book (docs/collisions.md), and how frequent each is in a world.
 #pragma once
 
 #include "OracleMask.h"
@@ -6,7 +6,7 @@
 
 namespace oracle {
 
-/// What one Object asks for.
+/// The options of one Object.
 struct Options {
   bool swept = false;
   bool precise = false;
@@ -16,20 +16,20 @@ struct Options {
   friend bool operator==(const Options&, const Options&) = default;
 };
 
-/// Of a world: percent of its Objects, and what its scripts may do.
+/// Percentages of a world's Objects with each option, and the options that scripts may change.
 struct OptionMix {
-  bool any = false;  ///< none of all this otherwise
+  bool any = false;  ///< false: no options at all
   int swept = 0;
   int precise = 0;
   int masked = 0;
   int rest_contacts = 0;
   int may_move_out = 0;
-  bool sweep_all = false;      ///< the world's switch, at first
-  bool scripts_sweep = false;  ///< may scripts turn it?
+  bool sweep_all = false;      ///< the world's switch at the start
+  bool scripts_sweep = false;  ///< scripts may turn the switch
 
-  /// Half of all mixes are without any.
+  /// Draws a mix; half of all mixes have no options.
   static OptionMix random(Rng& rng);
-  /// However the mix, as many random numbers are drawn.
+  /// Draws the options of one Object. Every mix uses as many random numbers.
   Options randomOptions(Rng& rng) const;
   Mask randomMask(Rng& rng) const;
 };

@@ -42,7 +42,7 @@ void World::step() {
 
 // Listing 4.101.
 void World::update() {
-  const ObjectList list = m_updates;  // an Object that is born during the update waits for the next one
+  const ObjectList list = m_updates;  // an Object created during the update waits for the next one
   for (Object* p_o : list) {
     if (p_o->gone || !p_o->active) continue;
 
@@ -79,12 +79,12 @@ int World::moveObject(Object* p_o, FixedVector where) {
   return result;
 }
 
-/// Put the Object where its move ends (Listing 4.113).
+/// Puts the Object where its move ends (Listing 4.113).
 void World::place(Object* p_o, FixedVector where) {
   const bool was_inside = isInside(p_o->position);
   p_o->position = where;
 
-  // Once, when the Object leaves the world.
+  // One event when the Object leaves the world.
   if (was_inside && !isInside(where)) {
     ++m_counters.outs;
     if (p_o->active) m_handlers.out(p_o);
@@ -96,18 +96,17 @@ bool World::isInside(FixedVector position) const {
   return p.x >= 0 && p.x < m_boundary.size.x && p.y >= 0 && p.y < m_boundary.size.y;
 }
 
-// Finding room.
+// findFree().
 
-/// Does `box`, in world coordinates, touch nothing?
+/// True if `box`, in world coordinates, touches no solid Object.
 bool World::isFree(const FixedBox& box) const {
   return std::none_of(m_updates.begin(), m_updates.end(), [&](const Object* p_o) {
     return p_o->active && p_o->isSolid() && boxIntersectsBox(p_o->getWorldBox(p_o->position), box);
   });
 }
 
-/// The whole numbers of cells by which something of this `size` at `low` may be moved so that it lies between
-/// `least` and `most`, edges included; the smallest ones first, of two that are equally small the negative
-/// one.
+/// Returns the whole-cell offsets that keep an interval of this `size` at `low` between `least` and `most`,
+/// edges included. Smaller distances come first, and the negative offset before the positive one.
 static std::vector<int> offsets(Fixed low, Fixed size, Fixed least, Fixed most) {
   std::vector<int> result;
   for (int distance = 0; distance <= World::kFarthestFree; ++distance) {
@@ -127,7 +126,7 @@ std::optional<FixedVector> World::findFree(const FixedBox& box, FixedVector near
   const std::vector<int> rows = offsets(low.y, box.size.y, m_boundary.corner.y, end.y);
 
   struct Place {
-    int distance;  ///< squared
+    int distance;  ///< squared distance
     int y;
     int x;
     auto operator<=>(const Place&) const = default;

@@ -1,11 +1,10 @@
-// The book's world, written as plainly as the book prints it, and docs/collisions.md as plainly as it is
-// written there: the loop over all Objects against which the engine is compared, bit for bit. Nothing of the
-// engine is used here but its number type.
+// The book's world, written as plainly as the book prints it, with the options of docs/collisions.md: a loop
+// over all Objects. The engine is compared with it bit for bit. It uses nothing of the engine but its number
+// type.
 //
 // Listing 4.100 predictPosition, 4.101 update, 4.104 isSolid, 4.107 positionsIntersect (with boxes, section
-// 4.13), 4.108 getCollisions, 4.109 moveObject, 4.111 no soft, 4.113 out of bounds; and two things that the
-// listings leave open: an Object that a handler deletes is passed over wherever a list still names it, and an
-// inactive one gets no events.
+// 4.13), 4.108 getCollisions, 4.109 moveObject, 4.111 no soft, 4.113 out of bounds. The listings leave two
+// cases open: here, lists skip an Object that a handler deleted, and an inactive Object gets no events.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +22,11 @@ namespace oracle {
 
 using df::Solidness;
 
-/// A single character: one cell, centred on the position.
+/// The box of a single character: one cell, centred on the position.
 inline constexpr FixedBox kCharacterBox{{-df::kFixedOne / 2, -df::kFixedOne / 2},
                                         {df::kFixedOne, df::kFixedOne}};
 
-/// An Object of the book, without a look.
+/// An Object of the book, without anything to draw.
 struct Object {
   int id = 0;
   FixedVector position;
@@ -37,9 +36,9 @@ struct Object {
   Solidness solidness = df::HARD;
   bool no_soft = false;
   bool active = true;
-  bool gone = false;  ///< deleted or removed from the world; only lists made before still point here
+  bool gone = false;  ///< deleted or removed from the world; only older lists still point here
 
-  // Beyond the book (docs/collisions.md).
+  // Options beyond the book (docs/collisions.md).
   bool swept = false;
   bool precise = false;
   Mask mask;
@@ -48,66 +47,67 @@ struct Object {
 
   bool isSolid() const { return solidness == df::HARD || solidness == df::SOFT; }
   FixedVector predictPosition() const { return position + velocity; }
-  /// The box if the Object were at `where` (section 4.13).
+  /// Returns the box that the Object would have at `where` (section 4.13).
   FixedBox getWorldBox(FixedVector where) const { return {box.corner + where, box.size}; }
 };
 
 using ObjectList = std::vector<Object*>;
 
-/// What the Objects of a world do about events: their eventHandler()s.
+/// The eventHandler()s of a world's Objects.
 class Handlers {
  public:
   virtual ~Handlers() = default;
   virtual void step(Object* p_receiver) = 0;
-  /// `p_obj1` caused the collision by moving to `where` (or, if swept, further), onto `p_obj2`.
+  /// `p_obj1` caused the collision with `p_obj2` by moving to `where` (a swept move may have aimed further).
   virtual void collision(Object* p_receiver, Object* p_obj1, Object* p_obj2, FixedVector where) = 0;
   virtual void out(Object* p_receiver) = 0;
-  /// The Object is going: its destructor.
+  /// Stands for the Object's destructor.
   virtual void destroyed(Object* p_o) = 0;
 };
 
-/// What a move would hit first.
+/// The first hit of a move.
 struct Contact {
-  Object* p_object = nullptr;  ///< null: none
+  Object* p_object = nullptr;  ///< null: no hit
   Time time{1, 1};
-  FixedVector position;  ///< of the mover just before; the target if it hits nothing
+  FixedVector position;  ///< mover's position just before the hit; the target if there is no hit
 };
 
 class World {
  public:
-  /// At most this many moveObject()s at once, one within a handler of the other.
+  /// Maximum depth of moveObject() calls, each made in a handler of the one before.
   static constexpr int kDeepestMove = 32;
-  /// findFree() looks at most this many cells far on each axis.
+  /// Maximum distance in cells, per axis, that findFree() searches.
   static constexpr int kFarthestFree = 1000;
 
   /// `handlers` must outlive the world.
   World(const FixedBox& boundary, Handlers& handlers) : m_boundary(boundary), m_handlers(handlers) {}
 
-  /// A new Object at the end of the list.
+  /// Adds a new Object at the end of the list.
   Object* create(int id);
-  /// Deletion at the end of the next update; twice is once.
+  /// Deletes the Object at the end of the next update; marking it twice has no further effect.
   void markForDelete(Object* p_o);
-  /// What `delete p_o` does: gone at once.
+  /// Deletes the Object at once, as `delete p_o` does.
   void destroy(Object* p_o);
-  /// Take out without deleting. Lists made before, and the mark for deletion, forget it.
+  /// Takes the Object out without deleting it. Older lists and the mark for deletion no longer apply to it.
   void remove(Object* p_o);
-  /// Put a removed Object back, at the end of the list. Return what it is from now on.
+  /// Puts a removed Object back, at the end of the list. Returns its new pointer.
   Object* insert(const Object* p_o);
 
-  /// The step event, to all Objects that there are when it begins.
+  /// Sends the step event to all Objects that exist when it begins.
   void step();
-  /// All moves, then all deletions.
+  /// Makes all moves, then all deletions.
   void update();
   int moveObject(Object* p_o, FixedVector where);
-  /// What p_o touches if it is at `where`; if one of the two is precise, by their masks, too.
+  /// Returns the Objects that p_o touches at `where`: by their boxes and, if one of the two is precise, also
+  /// by their masks.
   ObjectList getCollisions(const Object* p_o, FixedVector where);
-  /// All moves that begin from now on are swept.
+  /// If true, all moves that begin from now on are swept.
   void setSweptCollisions(bool swept) { m_swept_collisions = swept; }
   bool getSweptCollisions() const { return m_swept_collisions; }
   Contact firstContact(const Object* p_o, FixedVector where);
   std::optional<FixedVector> findFree(const FixedBox& box, FixedVector near) const;
 
-  /// In creation order.
+  /// Returns the Objects in creation order.
   const ObjectList& getAllObjects() const { return m_updates; }
   const Counters& counters() const { return m_counters; }
 
@@ -141,7 +141,7 @@ class World {
   ObjectList m_deletions;
   int m_depth = 0;
   Counters m_counters;
-  std::vector<std::unique_ptr<Object>> m_memory;  ///< every Object that ever was, so that no pointer dangles
+  std::vector<std::unique_ptr<Object>> m_memory;  ///< all Objects ever created, so that no pointer dangles
 };
 
 }  // namespace oracle

@@ -2,7 +2,7 @@
 
 namespace oracle {
 
-// Games set and get positions in doubles, which are too short beyond 2^21 cells. So are those in scripts.
+// Rounds to doubles, as games and scripts do. Doubles lose digits beyond 2^21 cells.
 static FixedVector inDoubles(FixedVector position) {
   return {*df::toFixed(df::toCells(position.x)), *df::toFixed(df::toCells(position.y))};
 }

@@ -1,4 +1,4 @@
-// A random world in the oracle.
+// Runs a random world in the oracle.
 #pragma once
 
 #include "Actor.h"
@@ -51,8 +51,8 @@ class OracleDriver : public Actor, private Handlers {
 
   World m_world;
   Script m_script;
-  std::vector<Object*> m_objects;  ///< by number
-  std::vector<bool> m_deaf;        ///< by number
+  std::vector<Object*> m_objects;  ///< index: id
+  std::vector<bool> m_deaf;        ///< index: id
 };
 
 }  // namespace oracle

@@ -14,11 +14,11 @@ bool operator<(Time a, Time b) {
          static_cast<WideUnsigned>(b.numerator) * a.denominator;
 }
 
-// One axis.
+// Functions for one axis.
 
 namespace {
 
-/// The coordinate of one axis on the path: `length` units, one after another.
+/// One coordinate of a path, which advances `length` units one by one.
 struct Axis {
   Wide from;
   Wide to;
@@ -26,12 +26,12 @@ struct Axis {
   bool isForward() const { return to >= from; }
   std::uint64_t length() const { return static_cast<std::uint64_t>(isForward() ? to - from : from - to); }
   Wide after(std::uint64_t units) const { return isForward() ? from + units : from - units; }
-  /// The whole units gone at `time`.
+  /// Returns the whole units covered at `time`.
   std::uint64_t gone(Time time) const {
     return static_cast<std::uint64_t>(static_cast<WideUnsigned>(length()) * time.numerator /
                                       time.denominator);
   }
-  /// The whole units gone at the last moment before `time`.
+  /// Returns the whole units covered at the last moment before `time`.
   std::uint64_t goneBefore(Time time) const {
     const WideUnsigned product = static_cast<WideUnsigned>(length()) * time.numerator;
     const WideUnsigned rounded_up = (product + time.denominator - 1) / time.denominator;
@@ -39,16 +39,16 @@ struct Axis {
   }
 };
 
-/// Times: from `begin` on, before `end`.
+/// The times from `begin`, included, to `end`, excluded.
 struct Span {
   Time begin;
   Time end;
 };
 
-/// When is something of this `size`, with its low end going along `axis`, in touch with what lies from `low`
-/// to `high`?
+/// Returns when an interval of this `size`, whose low end moves along `axis`, touches the interval from `low`
+/// to `high`.
 std::optional<Span> touchingSpan(const Axis& axis, Wide size, Wide low, Wide high) {
-  // After how many units that begins, and the last unit at which it is so.
+  // Units after which the contact begins, and the last unit at which it lasts.
   const Wide first = axis.isForward() ? low - (axis.from + size) : axis.from - high;
   const Wide last = axis.isForward() ? high - axis.from : axis.from + size - low;
   const auto length = axis.length();
@@ -58,7 +58,7 @@ std::optional<Span> touchingSpan(const Axis& axis, Wide size, Wide low, Wide hig
               {static_cast<std::uint64_t>(last + 1), length}};
 }
 
-/// The next time after `time` at which a coordinate on its path comes into another cell, ⌊coordinate⌋.
+/// Returns the next time after `time` at which a coordinate enters another cell, ⌊coordinate⌋.
 Time nextCell(const Axis& axis, Time time) {
   if (axis.length() == 0) return kNever;
   const std::uint64_t gone = axis.gone(time);
@@ -71,7 +71,7 @@ Time nextCell(const Axis& axis, Time time) {
 
 }  // namespace
 
-// Both axes.
+// Functions for both axes.
 
 FixedVector SweepPath::at(Time time) const {
   const Axis x{from.x, to.x};
@@ -85,8 +85,8 @@ FixedVector SweepPath::before(Time time) const {
   return {static_cast<Fixed>(x.after(x.goneBefore(time))), static_cast<Fixed>(y.after(y.goneBefore(time)))};
 }
 
-/// How far `a` has to move right, left, down and up to touch the other box on that axis; negative if it is
-/// beyond.
+/// Returns how far `a` has to move right, left, down and up to touch the other box on that axis; negative if
+/// `a` already reaches past that edge.
 static std::array<Wide, 4> distances(const FixedBox& a, const FixedBox& b) {
   return {Wide{b.corner.x} - (a.corner.x + a.size.x), Wide{a.corner.x} - (b.corner.x + b.size.x),
           Wide{b.corner.y} - (a.corner.y + a.size.y), Wide{a.corner.y} - (b.corner.y + b.size.y)};
@@ -144,7 +144,7 @@ std::optional<Time> firstShare(const SweepPath& path, const FixedBox& box, const
     if (closesGap(box, path, other) || at_end) return span->begin;
     apart = false;
   }
-  // Which cells they share changes only when the corner of the moving box comes into another cell.
+  // The shared cells change only when the corner of the moving box enters another cell.
   for (Time time = span->begin; time < span->end && time < kNever;
        time = std::min(nextCell(left, time), nextCell(top, time))) {
     const bool shares = share(path.at(time));

@@ -6,7 +6,7 @@ namespace oracle {
 
 namespace {
 
-/// Cells are drawn from the one after that of the box's corner: the engine's rounding.
+/// Returns the first cell that is drawn: the one after the cell of the box's corner, as the engine rounds.
 std::int64_t firstCell(Fixed corner) {
   return (corner >> df::kFixedBits) + 1;
 }
@@ -26,7 +26,7 @@ std::int64_t height(const FixedBox& box, const Mask& mask) {
   return mask.empty() ? cellsOf(box.size.y) : static_cast<std::int64_t>(mask.size());
 }
 
-/// Is character (i,j) set? It is one of those that there are.
+/// True if character (i,j), which must lie within the mask, is set.
 bool isSet(const Mask& mask, std::int64_t i, std::int64_t j) {
   if (mask.empty()) return true;
   const std::string& row = mask[static_cast<std::size_t>(j)];

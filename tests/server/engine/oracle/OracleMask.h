@@ -1,4 +1,4 @@
-// The characters of an Object, for pairs that are precise (docs/collisions.md).
+// Masks: the cells that an Object's characters cover, for precise pairs (docs/collisions.md).
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace oracle {
 using df::Fixed;
 using df::FixedBox;
 
-/// Which characters are set, a string per row: a blank is a hole, and so is what a row is too short for. No
-/// rows: all that the box covers.
+/// The set characters, one string per row. A blank, or a cell beyond the end of its row, is a hole. Without
+/// rows, the whole box is covered.
 using Mask = std::vector<std::string>;
 
-/// Do characters of the two, drawn in boxes in world coordinates, share a cell? The boxes need not touch.
+/// True if set characters of the two share a cell. Boxes are in world coordinates and need not touch.
 bool shareCell(const FixedBox& box_a, const Mask& mask_a, const FixedBox& box_b, const Mask& mask_b);
 
 }  // namespace oracle

@@ -1,11 +1,11 @@
-// How Objects of the oracle move: the book's moveObject, and what blocks it.
+// Moves of the oracle's Objects: the book's moveObject() and the rules that block a move.
 #include "Oracle.h"
 
 namespace oracle {
 
 // Listings 4.109, 4.111 and 4.113.
 int World::moveNow(Object* p_o, FixedVector where) {
-  if (!p_o->active) {  // takes no part in collisions and hears nothing, so it is only placed
+  if (!p_o->active) {  // takes no part in collisions and gets no events, so it is only placed
     p_o->position = where;
     return 0;
   }
@@ -14,13 +14,13 @@ int World::moveNow(Object* p_o, FixedVector where) {
     if (p_o->swept || m_swept_collisions) return moveSwept(p_o, path);
     if (!moveAtOnce(p_o, path)) return -1;
   }
-  place(p_o, where);  // no collision that impedes, so allow the move
+  place(p_o, where);  // nothing blocks the move
   return 0;
 }
 
-// What a pair is.
+// Functions for a pair of Objects.
 
-/// Send to both objects; either handler may delete either of them.
+/// Sends the event to both Objects. Either handler may delete either Object.
 void World::sendToBoth(Object* p_o, Object* p_other, FixedVector where) {
   ++m_counters.collisions;
   if (p_o->active) m_handlers.collision(p_o, p_o, p_other, where);
@@ -28,11 +28,11 @@ void World::sendToBoth(Object* p_o, Object* p_other, FixedVector where) {
   if (p_other->active) m_handlers.collision(p_other, p_o, p_other, where);
 }
 
-/// Does the other block the mover, as they are now?
+/// Returns whether the other Object blocks the mover, in their present state.
 World::Verdict World::judge(const Object* p_o, const Object* p_other, const SweepPath& path) const {
   // If both HARD, then cannot move.
   const bool hard_block = p_o->solidness == df::HARD && p_other->solidness == df::HARD;
-  // If object does not want to move onto soft objects, don't move.
+  // A mover with no_soft cannot move onto SOFT.
   const bool soft_block = p_o->no_soft && p_other->solidness == df::SOFT;
   if (!hard_block && !soft_block) return Verdict::PASSES;
 
@@ -58,7 +58,7 @@ bool World::shareCellAt(const Object* p_o, FixedVector where, const Object* p_ot
   return share;
 }
 
-// At the target, as in the book.
+// Collisions at the target, as in the book.
 
 // Listing 4.108.
 ObjectList World::getCollisions(const Object* p_o, FixedVector where) {
@@ -75,7 +75,7 @@ ObjectList World::getCollisions(const Object* p_o, FixedVector where) {
   return collision_list;
 }
 
-/// Return whether the move is allowed.
+/// Sends the collisions of a move that is not swept. Returns true if the move is allowed.
 bool World::moveAtOnce(Object* p_o, const SweepPath& path) {
   const ObjectList list = getCollisions(p_o, path.to);
   bool hard_block = false;

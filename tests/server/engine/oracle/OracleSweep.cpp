@@ -1,14 +1,14 @@
-// Swept moves of the oracle (docs/collisions.md): tested all along the path.
+// Swept moves of the oracle (docs/collisions.md), tested along the whole path.
 #include <algorithm>
 
 #include "Oracle.h"
 
 namespace oracle {
 
-/// When does the move hit the other, if it does?
+/// Returns when the move hits the other; nullopt if it does not.
 std::optional<Time> World::hitTime(const Object* p_o, const SweepPath& path, const Object* p_other) {
   const FixedBox others = p_other->getWorldBox(p_other->position);
-  // Most are nowhere near.
+  // Most Objects are far away.
   const FixedBox& box = p_o->box;
   if (others.corner.x > std::max(path.from.x, path.to.x) + box.corner.x + box.size.x ||
       others.corner.y > std::max(path.from.y, path.to.y) + box.corner.y + box.size.y ||
@@ -24,7 +24,7 @@ std::optional<Time> World::hitTime(const Object* p_o, const SweepPath& path, con
   return time;
 }
 
-/// All that the move hits, by time, in creation order at equal times.
+/// Returns all hits of the move, sorted by time; equal times are in creation order.
 World::HitList World::getHits(const Object* p_o, const SweepPath& path) {
   HitList hits;
   if (!p_o->active || !p_o->isSolid()) return hits;
@@ -36,7 +36,7 @@ World::HitList World::getHits(const Object* p_o, const SweepPath& path) {
   return hits;
 }
 
-/// Drop what comes later than the first time at which a pair blocks as things stand. Return whether one does.
+/// Drops the hits after the first that blocks in the present state. Returns whether one blocks.
 bool World::cutAtFirstBlock(HitList& hits, const Object* p_o, const SweepPath& path) const {
   const auto blocks = [&](const Hit& hit) {
     const Verdict verdict = judge(p_o, hit.p_other, path);
@@ -65,7 +65,7 @@ int World::moveSwept(Object* p_o, const SweepPath& path) {
 
     std::optional<Time> blocked;
     for (const Hit& hit : hits) {
-      if (blocked && *blocked < hit.time) break;  // does not get that far
+      if (blocked && *blocked < hit.time) break;  // the mover does not get that far
       if (hit.p_other->gone) continue;
       met.push_back(hit.p_other);
       if (!met_soft && (p_o->solidness == df::SOFT || hit.p_other->solidness == df::SOFT)) {
@@ -83,21 +83,21 @@ int World::moveSwept(Object* p_o, const SweepPath& path) {
       if (!blocked) blocked = hit.time;
     }
 
-    if (blocked) {  // stops just before, if it is still where it began
+    if (blocked) {  // the mover stops just before the hit, unless a handler has moved it
       ++m_counters.swept_blocked;
       if (p_o->position != path.from) return -1;
       if (path.before(*blocked) != path.from) ++m_counters.swept_stopped;
       place(p_o, path.before(*blocked));
       return -1;
     }
-    // What blocked may be gone: search the rest of the path, in the world as it is now.
+    // The blocking Object may be gone: search the rest of the path in the world as it is now.
     if (!last_stage) ++m_counters.swept_passed_on;
   }
   place(p_o, path.to);
   return 0;
 }
 
-/// What would the first search of a swept move find first?
+/// Returns the first hit that a swept move to `where` would find.
 Contact World::firstContact(const Object* p_o, FixedVector where) {
   const SweepPath path{p_o->position, where};
   const HitList hits = getHits(p_o, path);

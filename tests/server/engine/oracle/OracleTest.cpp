@@ -1,11 +1,11 @@
-// The property: in random worlds whose handlers create, delete, move and resize, the engine's positions and
-// events equal those of the book's loop, bit for bit; and in half of these worlds, where Objects ask for what
-// is beyond the book, those of docs/collisions.md.
+// The property: in random worlds whose handlers create, delete, move and resize Objects, the engine's
+// positions and events equal those of the oracle bit for bit. Half of the worlds use the options of
+// docs/collisions.md.
 //
-// NAIAD_ORACLE_WORLDS sets the number of worlds, NAIAD_ORACLE_SEED the seed of the first; each next world has
-// the next seed, so a failing one runs alone with NAIAD_ORACLE_SEED=its seed and NAIAD_ORACLE_WORLDS=1. With
-// NAIAD_ORACLE_OPTIONS=0 the same worlds keep to the book: if one fails only without that, it is an option's
-// doing.
+// NAIAD_ORACLE_WORLDS sets the number of worlds, NAIAD_ORACLE_SEED the seed of the first. Each further world
+// has the next seed, so a failing world runs alone with NAIAD_ORACLE_SEED=its seed and NAIAD_ORACLE_WORLDS=1.
+// NAIAD_ORACLE_OPTIONS=0 runs these worlds without options: if a world passes then, the cause is an
+// option.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,13 +20,13 @@
 namespace oracle {
 namespace {
 
-// A sanitizer makes the same worlds slower and looks for other things; it gets fewer of them.
+// Sanitized builds are slower and look for other faults, so they run fewer worlds.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::int64_t kWorlds = 1'000;
 #else
 constexpr std::int64_t kWorlds = 10'000;
 #endif
-/// Fewer than these need not cover every case.
+/// Minimum number of worlds in which every case has to occur.
 constexpr std::int64_t kEnough = 200;
 
 std::int64_t setting(const char* name, std::int64_t otherwise) {
@@ -34,7 +34,7 @@ std::int64_t setting(const char* name, std::int64_t otherwise) {
   return value == nullptr ? otherwise : std::strtoll(value, nullptr, 10);
 }
 
-/// Of all worlds together.
+/// Totals of all worlds.
 struct Sum : Comparison {
   std::int64_t worlds = 0;
   std::int64_t worlds_with_options = 0;
@@ -63,16 +63,15 @@ double percent(std::int64_t part, std::int64_t whole) {
 }
 
 void reportBook(const Sum& sum, double seconds) {
-  // Of all calls of moveObject, by update and by handlers: refused because HARD hit HARD, collided with SOFT
-  // as mover or as other, refused because no soft hit SOFT, sent an out event, made by a handler within
-  // another.
+  // Shares of all moveObject() calls: HARD refused by HARD, collided with SOFT, no_soft refused by SOFT, sent
+  // an out event, made in a handler of another move.
   const Counters& n = sum.counters;
   const double blocked = percent(n.blocked_hard, n.moves);
   const double soft = percent(n.met_soft, n.moves);
   const double no_soft = percent(n.blocked_soft, n.moves);
   const double out = percent(n.outs, n.moves);
   const double nested = percent(n.nested_moves, n.moves);
-  // Of all collision and out events that handlers got: Objects made, and Objects condemned, within them.
+  // Shares of all collision and out events handled: Objects created and Objects deleted in the handlers.
   const double birth = percent(sum.births, sum.handled);
   const double death = percent(sum.deaths, sum.handled);
   std::printf("oracle worlds=%" PRId64 " ticks=%" PRId64 " objects=%" PRId64 " largest=%d moves=%" PRId64
@@ -89,9 +88,9 @@ void reportBook(const Sum& sum, double seconds) {
 }
 
 void reportOptions(const Sum& sum) {
-  // Of all moves: swept, and those of Objects at rest. Of swept ones: refused, refused and yet further on
-  // than before, searched again because what blocked was gone. Of pairs whose masks were compared: shared no
-  // cell. Of moves of Objects at rest: touched another. Of all pairs: did not block one that moves out.
+  // Shares: swept and rest moves of all moves; refused, advanced before being refused, and searched again, of
+  // swept moves; pairs sharing no cell, of pairs with compared masks; touched another, of rest moves; pairs
+  // that did not block because the mover moved out, of all pairs.
   const Counters& n = sum.counters;
   const double swept = percent(n.swept_moves, n.moves);
   const double blocked = percent(n.swept_blocked, n.swept_moves);
@@ -119,8 +118,8 @@ void reportOptions(const Sum& sum) {
   EXPECT_GE(n.precise_pairs, 1000);
 }
 
-/// Which of the engine's paths the worlds took, so that none goes untested: of all turns in update and all
-/// looks of the broad phase for them. No world is as crowded as one that is not heard; CrowdTest has those.
+/// Prints how often the worlds took each path of the engine and checks that none goes untested. No world is
+/// crowded enough for the path `unheard`; CrowdTest covers it.
 void reportPaths(const Sum& sum) {
   const df::MoverStats& n = sum.paths;
   const auto turns = static_cast<double>(n.flown + n.walked + n.met + n.deferred + n.special);

@@ -1,4 +1,4 @@
-// How a random world is laid out: its kind, its size, its boundary and what is frequent in it.
+// Lays out a random world: its kind, size, boundary, and the shares of its properties.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ Kind randomKind(Rng& rng) {
   return Kind::USUAL;
 }
 
-// Most worlds are small, so that there can be many; a few are as large as a busy game.
+// Most worlds are small so that many can run; a few are as large as a busy game.
 int randomPopulation(Rng& rng, Kind kind) {
   const int size = rng.below(100);
   if (kind == Kind::LARGE) return 1000;
@@ -58,7 +58,7 @@ RandomWorld::RandomWorld(std::uint64_t world_seed, bool with_options) : seed(wor
   accelerated_percent = rng.chance(50) ? 5 : 40;
   constexpr std::array<int, 5> deafs{0, 0, 0, 10, 60};
   deaf_percent = deafs[static_cast<std::size_t>(rng.below(5))];
-  if (rng.chance(3)) moves_per_tick = 120;  // room for the deepest nesting, more than once
+  if (rng.chance(3)) moves_per_tick = 120;  // enough to reach the deepest nesting more than once
   specialise(rng);
 
   Rng own(rng.next());
@@ -73,14 +73,14 @@ void RandomWorld::layOut(Rng& rng, int population) {
   constexpr std::array<Fixed, 5> grains{kOne, kOne / 2, kOne / 4, kOne / 10, 1};
   grain = grains[static_cast<std::size_t>(rng.below(5))];
 
-  // Cells per Object. Large worlds are never packed: their pairs grow with the square of the crowd.
+  // Cells per Object. Large worlds are never packed because pairs grow with the square of the crowd.
   constexpr std::array<int, 4> rooms{2, 5, 12, 40};
   const int room = rooms[static_cast<std::size_t>(population > 60 ? 2 + rng.below(2) : rng.below(4))];
   const auto width = static_cast<std::int32_t>(2 + std::sqrt(population * room * 2.0));
   const auto height = static_cast<std::int32_t>(2 + population * room / width);
 
-  // One world in five lies a million cells away from the origin: at the far corner of a huge boundary, or
-  // with a boundary that is away, too. One lies across it.
+  // Three worlds in ten lie a million cells from the origin, in a huge boundary or with a boundary of their
+  // own. One in ten (-7) lies across the origin.
   constexpr std::array<std::int32_t, 10> places{0, 0, 0, 0, 0, 0, 999'000, 999'000, -999'000, -7};
   const std::int32_t away = places[static_cast<std::size_t>(rng.below(10))];
   boundary = cellBox(0, 0, std::abs(away) + width, std::abs(away) + height);
@@ -91,7 +91,7 @@ void RandomWorld::layOut(Rng& rng, int population) {
   };
   areas = {area(away, away)};
 
-  // The engine takes positions up to 2e9 cells; a boundary is never that far away.
+  // The engine accepts positions up to 2e9 cells; a boundary is never that far away.
   constexpr std::int32_t kFar = 1'999'000'000;
   if (kind == Kind::FAR) {
     const std::int32_t x = rng.chance(50) ? kFar : -kFar;

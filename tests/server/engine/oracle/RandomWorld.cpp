@@ -33,16 +33,16 @@ FixedVector RandomWorld::randomPosition(Rng& rng) const {
 FixedVector RandomWorld::randomVelocity(Rng& rng) const {
   const auto component = [&](Fixed limit) { return rng.between(-limit, limit); };
   const int what = rng.below(6);
-  // Where the limit is high, slow ones are as frequent as fast ones.
+  // If the limit is high, slow velocities are as frequent as fast ones.
   const Fixed fast =
       speed_limit > df::fromCells(20) ? std::max(speed_limit >> rng.below(22), kOne) : speed_limit;
   switch (what) {
-    case 0:  // a cell per tick along an axis, as most games have it
+    case 0:  // a cell per tick along an axis, as in most games
       return rng.chance(50) ? FixedVector{rng.chance(50) ? kOne : -kOne, 0}
                             : FixedVector{0, rng.chance(50) ? kOne : -kOne};
     case 1:  // a fraction of a cell
       return {onGrain(component(kOne)), onGrain(component(kOne))};
-    case 2:  // the least there is
+    case 2:  // at most two units, the slowest possible
       return {component(2), component(2)};
     case 3:  // fast, along an axis
       return rng.chance(50) ? FixedVector{component(fast), 0} : FixedVector{0, component(fast)};
@@ -80,7 +80,7 @@ FixedBox RandomWorld::randomBox(Rng& rng) const {
       return rng.chance(50) ? centred(0, 3 * kOne) : centred(5 * kOne, 0);
     case 3:
       return centred(3 * kOne, 2 * kOne);
-    case 4:  // not centred: it may even lie beside the position
+    case 4:  // not centred: the box may even lie beside the position
       return {{onGrain(rng.between(-4 * kOne, 4 * kOne)), onGrain(rng.between(-4 * kOne, 4 * kOne))},
               {rng.between(0, 6 * kOne), rng.between(0, 3 * kOne)}};
     case 5:  // larger than most worlds

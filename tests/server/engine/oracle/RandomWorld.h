@@ -1,5 +1,5 @@
-// A world to try, drawn from a seed: how large, how crowded, and what Objects there are at first. The same
-// seed gives the same world on every machine. What its handlers do is in Script.h.
+// A random world, drawn from a seed: its size, density and first Objects. The same seed gives the same world
+// on every machine. Script.h defines what the handlers do.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@ using df::Solidness;
 
 inline constexpr df::Fixed kOne = df::kFixedOne;
 
-/// How an Object's handler behaves.
+/// The behaviour of an Object's handler.
 enum class Temper {
-  QUIET,     ///< Hardly ever does anything.
-  LIVELY,    ///< Does something, anything, at every second event.
-  BULLET,    ///< Dies at a collision, often by its own hand.
-  PARENT,    ///< Makes others.
-  STUBBORN,  ///< Tries the refused move again from its handler, and again.
-  GLASS,     ///< Mostly deletes itself when it is hit.
+  QUIET,     ///< Rarely does anything.
+  LIVELY,    ///< Makes a random change at about every second collision.
+  BULLET,    ///< Usually dies at a collision, and may kill a HARD other.
+  PARENT,    ///< Creates other Objects at collisions.
+  STUBBORN,  ///< Usually repeats the refused move in its collision handler.
+  GLASS,     ///< Usually deletes, removes or disables itself when it is hit.
   DEAF,      ///< Has no handler.
 };
 
-/// Everything about an Object when it is made.
+/// All initial properties of an Object.
 struct Spec {
   FixedVector position;
   FixedVector velocity;
@@ -42,17 +42,17 @@ struct Spec {
   Temper temper = Temper::QUIET;
 };
 
-/// What is special about a world.
+/// The kind of a world.
 enum class Kind {
   USUAL,
-  HARD_CHARACTERS,    ///< Nothing but HARD single characters.
-  CHARACTERS,         ///< Nothing but single characters.
-  NEARLY_CHARACTERS,  ///< One in a hundred has another box.
-  UNLIMITED,          ///< Up to a million cells per tick.
-  HUGE_BOXES,         ///< Up to 10,000 cells.
-  FAR,                ///< Near the ends of the number range, one or both.
-  SCATTERED,          ///< Over a million by a million cells, and in a few towns.
-  CROWDED,            ///< All at one point.
+  HARD_CHARACTERS,    ///< Only HARD single characters.
+  CHARACTERS,         ///< Only single characters.
+  NEARLY_CHARACTERS,  ///< One Object in a hundred has another box.
+  UNLIMITED,          ///< Speeds up to a million cells per tick.
+  HUGE_BOXES,         ///< Boxes up to 10,000 cells wide.
+  FAR,                ///< Near one or both ends of the number range.
+  SCATTERED,          ///< Spread over a million by a million cells, and five small towns.
+  CROWDED,            ///< All Objects at one point.
   LARGE,              ///< A thousand Objects.
 };
 
@@ -62,30 +62,30 @@ struct RandomWorld {
   OptionMix options;
   int ticks = 100;
   FixedBox boundary;
-  std::vector<FixedBox> areas;  ///< where Objects are put; may reach over the boundary
-  Fixed grain = 1;              ///< positions and sizes are multiples of this: coarse ones make edges touch
-  Fixed speed_limit = 1;        ///< of the fast ones; per axis and tick
+  std::vector<FixedBox> areas;  ///< Objects are put here; may extend beyond the boundary
+  Fixed grain = 1;              ///< grid of positions and sizes; a coarse one makes edges touch
+  Fixed speed_limit = 1;        ///< maximum speed, per axis and tick
   int moving_percent = 70;
-  int solid_mix = 0;  ///< which Solidness is frequent
+  int solid_mix = 0;  ///< selects the most frequent Solidness
   int no_soft_percent = 10;
   int large_percent = 10;
   int accelerated_percent = 10;
   int deaf_percent = 0;
   int population_limit = 300;
-  int moves_per_tick = 40;  ///< moveObject by handlers; more are not tried
+  int moves_per_tick = 40;  ///< maximum of moveObject() calls by handlers
   std::vector<Spec> objects;
 
-  /// Without `with_options`, the world is the same, but for the options.
+  /// If `with_options` is false, the world differs only by having no options.
   explicit RandomWorld(std::uint64_t world_seed, bool with_options = true);
 
-  /// Parts of a Spec, for those that scripts change or make later.
+  /// Draw parts of a Spec, also for Objects that scripts create or change later.
   Spec randomSpec(Rng& rng) const;
   FixedVector randomPosition(Rng& rng) const;
   FixedVector randomVelocity(Rng& rng) const;
   FixedVector randomAcceleration(Rng& rng) const;
   FixedBox randomBox(Rng& rng) const;
   Solidness randomSolidness(Rng& rng) const;
-  /// Is this more than 20 cells away from all areas?
+  /// True if the position is more than 20 cells away from all areas.
   bool isLost(FixedVector position) const;
 
  private:

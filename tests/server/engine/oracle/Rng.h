@@ -5,7 +5,7 @@
 
 namespace oracle {
 
-/// Spread the bits of `x`: one step of splitmix64.
+/// Spreads the bits of `x`: one step of splitmix64.
 constexpr std::uint64_t mix(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -22,9 +22,9 @@ class Rng {
     m_state += 0x9e3779b97f4a7c15u;
     return result;
   }
-  /// 0 to n - 1; n > 0. The bias is below 2^-32 for the small n used here.
+  /// Returns 0 to n - 1; n > 0. The bias is below 2^-32 for the small n used here.
   int below(int n) { return static_cast<int>(next() % static_cast<std::uint64_t>(n)); }
-  /// low to high, both included.
+  /// Returns low to high, both included.
   std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(next() % static_cast<std::uint64_t>(high - low + 1));
   }

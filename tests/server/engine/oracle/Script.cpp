@@ -26,7 +26,7 @@ void Script::beginTick() {
   readmit();
   Rng rng(mix(m_world.seed ^ mix(static_cast<std::uint64_t>(~m_tick++))));
   while (m_present.size() < 2) create(m_world.randomSpec(rng));
-  for (const int id : m_present) {  // no handler brings them home
+  for (const int id : m_present) {  // DEAF Objects have no handler that brings them home
     if (m_cast[static_cast<std::size_t>(id)].temper == Temper::DEAF) comeHome(rng, id);
   }
 }
@@ -52,7 +52,7 @@ void Script::onStep(int id) {
   comeHome(rng, id);
 }
 
-/// An Object that is far away is put back, so that worlds do not run empty, and none leaves the number range.
+/// Puts an Object that is far away back, so that worlds do not run empty and no position leaves its range.
 void Script::comeHome(Rng& rng, int id) {
   if (!m_world.isLost(m_actor.getPosition(id))) return;
   m_actor.setAcceleration(id, {});
@@ -102,7 +102,7 @@ void Script::onOut(int id) {
   const int what = rng.below(100);
   if (what < 40) {
     m_actor.setPosition(id, m_world.randomPosition(rng));
-  } else if (what < 70) {  // back the way it came
+  } else if (what < 70) {  // reverse
     m_actor.setVelocity(id, FixedVector{} - m_actor.getVelocity(id));
   } else if (what < 75) {
     die(id, rng.chance(50));

@@ -1,7 +1,7 @@
 // The handlers of a random world, written once for engine and oracle: what each Object does at each event.
 //
-// Every decision is drawn from the world's seed, the Object's number and how many events it has had. So two
-// worlds in which the same happened do the same, and the first difference is never the script's.
+// Every decision is drawn from the world's seed, the Object's number and the number of its earlier events. So
+// worlds with equal events make equal decisions, and a first difference never comes from the script.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@ namespace oracle {
 
 class Script {
  public:
-  /// Both must outlive the script.
+  /// `world` and `actor` must outlive the script.
   Script(const RandomWorld& world, Actor& actor) : m_world(world), m_actor(actor) {}
 
-  /// Make the world's first Objects.
+  /// Creates the world's first Objects.
   void begin();
-  /// At the start of each tick: what one tick may cost is limited.
+  /// Call at the start of each tick: restarts the limits on moves and births per tick.
   void beginTick();
 
-  // The handlers.
+  // Event handlers.
   void onStep(int id);
   void onCollision(int id, int object1, int object2, FixedVector where);
   void onOut(int id);
@@ -30,15 +30,15 @@ class Script {
 
   EventLog& log() { return m_log; }
   const EventLog& log() const { return m_log; }
-  /// Collision and out events handled, and what their handlers did.
+  /// Returns the number of collision and out events handled; below, what their handlers did.
   std::int64_t handled() const { return m_handled; }
   std::int64_t births() const { return m_births; }
   std::int64_t deaths() const { return m_deaths; }
-  /// The most Objects in the world at one time; the fewest at the start of a tick is 2.
+  /// Returns the largest number of Objects in the world at one time. A tick starts with at least 2.
   int largest() const { return m_largest; }
-  /// Those in the world, in its order.
+  /// Returns the Objects in the world, in its order.
   const std::vector<int>& present() const { return m_present; }
-  /// All Objects that ever were.
+  /// Returns the number of Objects ever created.
   int created() const { return static_cast<int>(m_cast.size()); }
 
  private:
@@ -67,14 +67,14 @@ class Script {
   const RandomWorld& m_world;
   Actor& m_actor;
   EventLog m_log;
-  std::vector<Role> m_cast;    ///< by number
-  std::vector<int> m_present;  ///< in the world's order
+  std::vector<Role> m_cast;    ///< index: id
+  std::vector<int> m_present;  ///< present Objects, in the world's order
   std::vector<int> m_removed;  ///< alive, but not in the world
-  int m_moves_left = 0;        ///< in this tick
+  int m_moves_left = 0;        ///< left in this tick
   int m_births_left = 0;
   std::int64_t m_tick = 0;
   int m_largest = 0;
-  bool m_colliding = false;  ///< in a collision or out handler, not in a step handler
+  bool m_colliding = false;  ///< true in a collision or out handler
   std::int64_t m_handled = 0;
   std::int64_t m_births = 0;
   std::int64_t m_deaths = 0;

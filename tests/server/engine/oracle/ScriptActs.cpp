@@ -1,11 +1,11 @@
-// What the scripts of a random world can do, one thing at a time.
+// The actions of a random world's scripts, one function each.
 #include <algorithm>
 
 #include "Script.h"
 
 namespace oracle {
 
-/// The target of an action: mostly the Object itself, else the other of the collision, else any. -1 is none.
+/// Returns the target of an action: usually `self`, else `other`, else any Object. -1: none.
 int Script::someone(Rng& rng, int self, int other) const {
   const int roll = rng.below(10);
   int id = self;
@@ -16,7 +16,7 @@ int Script::someone(Rng& rng, int self, int other) const {
   return isPresent(id) ? id : -1;
 }
 
-/// Do one thing, anything.
+/// Does one random action.
 void Script::act(Rng& rng, int self, int other) {
   const int id = someone(rng, self, other);
   if (id < 0) return;
@@ -50,12 +50,12 @@ void Script::act(Rng& rng, int self, int other) {
       return m_actor.setActive(id, rng.chance(60));
     case 15:
       return remove(id);
-    case 16:  // out and in again at once: now the last in order
+    case 16:  // removed and inserted at once: now the last in order
       remove(id);
       return insert(id);
     case 17:
       return m_actor.setAcceleration(id, m_world.randomAcceleration(rng));
-    case 18:  // from anywhere to anywhere
+    case 18:  // a jump across the world
       return move(id, m_world.randomPosition(rng));
     case 19:
     case 20:
@@ -65,14 +65,14 @@ void Script::act(Rng& rng, int self, int other) {
     case 22:
       if (m_world.options.scripts_sweep) m_actor.setSweptCollisions(rng.chance(50));
       return;
-    default:  // far enough to hit others on the path, but never on and on
+    default:  // far enough to hit others on the path, but not farther and farther
       if (m_world.kind == Kind::FAR && rng.chance(50)) return move(id, m_world.randomPosition(rng));
       if (m_world.isLost(m_actor.getPosition(id))) return;
       return move(id, m_actor.getPosition(id) + m_world.randomVelocity(rng));
   }
 }
 
-/// What glass does when it is hit.
+/// Does what a GLASS Object does when it is hit.
 void Script::give(Rng& rng, int id) {
   const int what = rng.below(10);
   if (what < 5) die(id, true);
@@ -120,7 +120,7 @@ void Script::insert(int id) {
   m_actor.insert(id);
 }
 
-/// Some of those that were removed come back, some never do.
+/// Inserts some removed Objects again and deletes a few.
 void Script::readmit() {
   const std::vector<int> removed = m_removed;
   for (const int id : removed) {

@@ -1,4 +1,4 @@
-// The oracle's swept moves, held against sentences of docs/collisions.md.
+// Tests the oracle's swept moves against sentences of docs/collisions.md.
 #include "BookWorld.h"
 
 namespace oracle {
@@ -11,7 +11,7 @@ class SweptMovesTest : public BookWorld {
     p_o->swept = true;
     return p_o;
   }
-  /// A window from top to bottom of the world.
+  /// Makes a window from the top to the bottom of the world.
   Object* makeGlass(double x, Solidness solidness = df::HARD) {
     Object* p_o = make(x, 12, solidness);
     p_o->box = boxOf(1, 24);
@@ -34,7 +34,7 @@ TEST_F(SweptMovesTest, TheArrowIsStoppedAtTheLastPositionBeforeTheGlass) {
   EXPECT_EQ(m_world.getAllObjects()[0]->position, cells(55, 20));
   EXPECT_EQ(m_world.getAllObjects()[2]->position, cells(30.5, 10) - kUnit);
   EXPECT_EQ(m_where, cells(30.5, 10) - kUnit);
-  EXPECT_EQ(m_events, "2:2>1 1:2>1 2:2>1 1:2>1 ");  // hits it in flight, and again when it stands before it
+  EXPECT_EQ(m_events, "2:2>1 1:2>1 2:2>1 1:2>1 ");  // hit in flight, and again from where it stopped
 }
 
 TEST_F(SweptMovesTest, TheSwitchOfTheWorldSweepsAll) {
@@ -81,12 +81,12 @@ TEST_F(SweptMovesTest, NoSoftStopsBeforeSoft) {
   EXPECT_EQ(p_mover->position, cells(19, 10) - kUnit);
 }
 
-// "the last position before that time": of both axes, and it need not be before the other box on both.
+// "the last position before that time": holds for both axes, even if only one of them leads to the contact.
 TEST_F(SweptMovesTest, BothAxesAreWhereTheyWereJustBefore) {
   Object* p_mover = makeSwept(0, 0);
   make(20, 10);
   EXPECT_EQ(m_world.moveObject(p_mover, cells(40, 20)), -1);
-  // Touches in x at 19, when y is 9.5 and touched for long; one unit before, y is half a unit back: one.
+  // The boxes touch in x at 19, in y earlier. One unit before, y is half a unit back, which rounds to one.
   EXPECT_EQ(p_mover->position, cells(19, 9.5) - (FixedVector{1, 1}));
 }
 
@@ -94,7 +94,7 @@ TEST_F(SweptMovesTest, BothAxesAreWhereTheyWereJustBefore) {
 TEST_F(SweptMovesTest, LeavingAWallIsFreeAndSlidingAlongItIsNot) {
   Object* p_o = makeSwept(10, 10);
   make(11, 10)->box = boxOf(1, 6);
-  EXPECT_EQ(m_world.moveObject(p_o, cells(9, 10)), 0);    // away
+  EXPECT_EQ(m_world.moveObject(p_o, cells(9, 10)), 0);    // away from it
   EXPECT_EQ(m_world.moveObject(p_o, cells(10, 10)), -1);  // back: stopped one unit before
   EXPECT_EQ(p_o->position, cells(10, 10) - kUnit);
   p_o->position = cells(10, 10);
@@ -108,7 +108,7 @@ TEST_F(SweptMovesTest, LeavingAWallIsFreeAndSlidingAlongItIsNot) {
   EXPECT_EQ(m_events, "0:0>1 1:0>1 0:0>1 1:0>1 ");
 }
 
-// "one inside another may leave by the shortest way", if it does it in one move.
+// "one inside another may leave by the shortest way", in a single move.
 TEST_F(SweptMovesTest, ObjectInsideMayLeaveByTheShortestPath) {
   Object* p_o = makeSwept(12, 10);
   make(10, 10)->box = boxOf(6, 6);
@@ -142,18 +142,18 @@ TEST_F(SweptMovesTest, TheRestOfThePathIsSearchedInTheWorldAsItIsThen) {
   Object* p_behind = makeGlass(5);
   m_on_collision = [&](Object* p_receiver) {
     if (p_receiver != p_glass) return;
-    p_glass->solidness = df::SOFT;  // still there, but met
+    p_glass->solidness = df::SOFT;  // still there, but already met
     p_met->position = cells(30, 12);
     p_met->solidness = df::HARD;
     p_late->position = cells(40, 12);
-    p_behind->position = cells(17, 12);  // the mover has passed there
+    p_behind->position = cells(17, 12);  // behind the mover
   };
   EXPECT_EQ(m_world.moveObject(p_arrow, cells(50, 10)), -1);
   EXPECT_EQ(m_events, "0:0>2 2:0>2 0:0>1 1:0>1 0:0>3 3:0>3 ");
   EXPECT_EQ(p_arrow->position, cells(39, 10) - kUnit);
 }
 
-// A list that nothing ends is all there is: what appears on the path meanwhile is not met.
+// If nothing blocks, there is one search: Objects that enter the path later are not met.
 TEST_F(SweptMovesTest, WithoutABlockThereIsOneSearch) {
   Object* p_arrow = makeSwept(10, 10);
   makeGlass(20, df::SOFT);
@@ -200,7 +200,7 @@ TEST_F(SweptMovesTest, ABlockedMoverThatIsPlacedOutsideTheWorldGetsAnOutEvent) {
   EXPECT_EQ(m_events, "0:0>1 1:0>1 out:0 ");
 }
 
-// "nothing moves, nobody hears": the first that is hit, whether or not it blocks.
+// firstContact() moves nothing, sends no events and returns the first hit, whether or not it blocks.
 TEST_F(SweptMovesTest, FirstContactHasObjectTimeAndPosition) {
   Object* p_o = make(10, 10);
   makeGlass(40);

@@ -1,4 +1,4 @@
-// What games made on Windows include and call, as they do.
+// Headers and functions that games made on Windows use.
 
 #include <conio.h>
 #include <direct.h>

@@ -1,5 +1,5 @@
-// Compiled with -DDF_DRAW=void, as games of the published engine's first versions are, whose draw() returns
-// nothing.
+// Compiled with -DDF_DRAW=void, like games for the first versions of the published engine, in which draw()
+// returned nothing.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Runs what EarlyNamesTest.cpp and LaterNamesTest.cpp compile, and what they cannot see.
+// Runs the functions that EarlyNamesTest.cpp and LaterNamesTest.cpp compile, and tests behaviour behind them.
 
 #include "Animation.h"
 #include "Config.h"
@@ -21,7 +21,7 @@ class EarlyNames : public WorldTest {
     m_arrow.setLabel("arrow");
     m_arrow.addFrame(Frame(3, 2, "a/>bc("));
   }
-  /// Rows 10 and 11 of the picture from column 8 on.
+  /// Returns six cells of rows 10 and 11 of the picture, from column 8 on.
   std::string shown() {
     world.tick();
     const Canvas canvas = world.picture().render({});

@@ -1,5 +1,5 @@
-// Names of the published engine's versions 4.2 to 4.14, as games of that time use them, in C++11. That it
-// compiles is the test; EarlyNamesRunTest.cpp runs it.
+// Names of the published engine's versions 4.2 to 4.14, used as games of that time used them, in C++11. The
+// test is that this file compiles; EarlyNamesRunTest.cpp runs it.
 
 #include "EventCustomNetwork.h"
 #include "EventMouseNetwork.h"
@@ -15,7 +15,7 @@
 #include "SplashDragonfly.h"
 #include "WorldManager.h"
 
-// The setters returned nothing, and were hidden rather than overridden.
+// Early setters returned nothing, and games hid them instead of overriding them.
 class Crate : public df::Object {
  public:
   int times_moved = 0;
@@ -76,7 +76,7 @@ int earlyNames() {
   crate.setVelocity(df::Vector(1, 0));
   df::Object* p_o = &crate;
   p_o->setVelocity(df::Vector(2, 0));
-  if (crate.times_moved != 2) return 1;  // overridden, as from 4.20 on
+  if (crate.times_moved != 2) return 1;  // called through the base class: overridden, as from version 4.20 on
   if (!p_o->isModified(df::ID) || !p_o->isModified(df::ObjectAttribute::POSITION) ||
       !p_o->isModified(df::SPRITE))
     return 2;
@@ -101,6 +101,6 @@ int earlyNames() {
     case df::MessageType::CUSTOM_MESSAGE:
       return 8;
     default:
-      return post.send(p_o, type) < 0 ? 0 : 9;  // there is no server yet
+      return post.send(p_o, type) < 0 ? 0 : 9;  // not connected to a server yet
   }
 }

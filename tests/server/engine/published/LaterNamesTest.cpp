@@ -1,5 +1,5 @@
-// Names of the published engine's versions 4.20 and 4.22, as games of that time use them, in C++17. That it
-// compiles is the test; EarlyNamesRunTest.cpp runs it.
+// Names of the published engine's versions 4.20 and 4.22, used as games of that time used them, in C++17. The
+// test is that this file compiles; EarlyNamesRunTest.cpp runs it.
 
 #include "Config.h"
 #include "DisplayManager.h"

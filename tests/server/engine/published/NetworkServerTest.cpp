@@ -1,5 +1,5 @@
-// Games that were written as two programs over the published engine's NetworkManager: the server's half is
-// played, with the world's players as its connections.
+// Games written as two programs that use the published engine's NetworkManager. Only the server program is
+// run, and the world's players are its connections.
 
 #include "engine/managers/Config.h"
 #include "engine/published/EventNetworks.h"
@@ -13,7 +13,7 @@ int orchard_main(int argc, char* argv[]);
 namespace df::test {
 namespace {
 
-/// What the host does while the game's main() is in GM.run().
+/// Runs the host's part while the game's main() is in GM.run().
 class Script : public Runner {
  public:
   explicit Script(std::function<void()> script) : m_script(std::move(script)) {}
@@ -40,7 +40,7 @@ class NetworkServerTest : public WorldTest {
     world.input().mouse(player, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, x, y);
     world.tick();
   }
-  /// Column and row of the first such character in the picture; (-1,-1) for none.
+  /// Returns column and row of the first `ch` in the picture; (-1,-1) if not found.
   Vector shown(char ch) const {
     const Canvas canvas = world.picture().render({});
     for (int y = 0; y < canvas.height(); ++y) {
@@ -74,7 +74,7 @@ TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
                    world.tick();
                    EXPECT_EQ(shown('A'), Vector(40, 12));
                    EXPECT_EQ(shown('B'), Vector(50, 6));
-                   // "If a client leaves, end": it has left already, and ann goes on.
+                   // handleClose() calls setGameOver(), but ann continues because bob has already left.
                    world.input().leave(bob);
                    world.tick();
                    EXPECT_FALSE(GM.getGameOver());

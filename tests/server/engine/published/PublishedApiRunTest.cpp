@@ -1,5 +1,5 @@
-// Runs what PublishedApiTest.cpp compiles. (That file includes no header of the tests, so that games'
-// conditions are its own.)
+// Runs the functions that PublishedApiTest.cpp compiles. That file includes no test headers, so it compiles
+// under the conditions of a game.
 
 #include "tests/server/engine/Probe.h"
 

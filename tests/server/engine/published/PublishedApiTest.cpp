@@ -1,6 +1,6 @@
-// Every header and every name of the published engine that games use, as games use them: with `using
-// namespace`, with and without `df::`, relying on what the engine's headers bring along. That it compiles is
-// the test; that it runs shows that nothing of it is a trap.
+// Every header and name of the published engine that games use, used as in games: with `using namespace`,
+// with and without `df::`, relying on the engine's indirect includes. The test is that this file compiles;
+// running it shows that no name crashes.
 
 #include <vector.h>
 
@@ -71,7 +71,7 @@
 
 using namespace df;
 
-// Classes that many games have; the engine's own of these names keep out of the way.
+// Class names that many games use; the engine's own classes of these names must not collide with them.
 class Player : public Object {};
 class Runner : public Object {};
 
@@ -82,7 +82,7 @@ namespace {
 #error a macro is missing
 #endif
 
-// Some handlers lack a final return. (Called, such a one would run on into whatever lies behind it.)
+// Some games' handlers lack a final return. Calling one would be undefined behaviour.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wreturn-type"
 class Careless : public df::Object {
@@ -322,7 +322,7 @@ void worldManager(Object* p_o) {
   WM.solidObjects();
   WM.objectsAtPosition(Vector(1, 1));
   WM.getSceneGraph().activeObjects();
-  const Ref<Object> ref = p_o;  // not of the published engine, but for games in its C++
+  const Ref<Object> ref = p_o;  // not in the published engine, but must compile in the C++ version of games
   if (ref != nullptr && NULL != ref.get() && p_o != ref.get() && ref != p_o) LM.writeLog(1, "another one");
   WM.removeObject(p_o);
   WM.insertObject(p_o);
@@ -482,7 +482,7 @@ int published_api_main(int argc, char* argv[]) {
   for (int i = 0; i < 50; i++) GM.tick();
   key.setKeyboardAction(KEY_PRESSED);
   WM.onEvent(&key);
-  if (!GM.getGameOver()) GM.setGameOver();  // the hero is no more
+  if (!GM.getGameOver()) GM.setGameOver();  // the hero is deleted
   GM.run();
   GM.shutDown();
   return 0;

@@ -1,4 +1,4 @@
-// Runs what PublishedHeaderTest.cpp compiles. (That file's includes are its own.)
+// Runs the functions that PublishedHeaderTest.cpp compiles. That file keeps its own set of includes.
 
 #include <dlfcn.h>
 
@@ -44,8 +44,8 @@ TEST_F(PublishedHeader, StringsAreLoggedAsTheyAre) {
   EXPECT_EQ(lines, (std::vector<std::string>{"ann has 3 of gems", "ann", "5"}));
 }
 
-// A string that a header declares inline would be one for library and game; and of the two C++20 sets it up
-// before anything runs, C++17 only if it is not set yet: it would stay empty in a game of C++17.
+// An inline string would be one variable for library (C++20) and game (C++17). The two initialise it in
+// different ways, and in a C++17 game it would stay empty.
 TEST(PublishedHeaderStrings, AreEachTranslationUnitsOwn) {
   for (const char* name : {"CONFIG_FILENAME", "WINDOW_TITLE_DEFAULT", "FONT_FILE_DEFAULT", "LOGFILE_DEFAULT",
                            "DRAGONFLY_PORT", "UNDEFINED_STATE"}) {

@@ -1,5 +1,5 @@
-// A game's header that includes nothing but "Manager.h" and "LogManager.h": what else it names must come
-// along. And a game's classes keep their names while all of the engine's are in sight.
+// A game header that includes only "Manager.h" and "LogManager.h": the other names must come from indirect
+// includes. Also, a game's own class names must not collide with the engine's.
 
 #include "Manager.h"
 
@@ -33,7 +33,7 @@ float nearTo(const df::Object* p_o) {
 
 using namespace df;
 
-// They are in no header that comes along with those above.
+// Class names that no header included above defines.
 class Button : public Object {};
 class Clock : public Object {};
 class Entry : public Object {};
@@ -66,7 +66,7 @@ int stepsOfTheEngineSpelledTwice() {
   return df::GM.getStepCount() + df::WM.getAllObjects().getCount();
 }
 
-// As Microsoft has them.
+// Microsoft's string functions.
 std::string ping(int count) {
   char line[12];
   sprintf_s(line, "Ping %d", count);
@@ -77,7 +77,7 @@ std::string ping(int count) {
   return line;
 }
 
-// What games draw and ask past the engine, without a header of the graphics library.
+// SFML calls that bypass the engine, without including a header of the graphics library.
 void pastTheEngine() {
   const sf::Vector2f from(spacesToPixels(Vector(1, 2)).getX(), 3);
   const sf::Vertex line[]{{{from}, sf::Color::Red}, {{from + sf::Vector2f(1, 1)}, colorToSFML(df::GREEN)}};
@@ -90,7 +90,7 @@ void pastTheEngine() {
     circle.move(sf::Mouse::getPosition(*DM.getWindow()).x * 1.0f, 0);
 }
 
-// The calls that printf would not take.
+// Calls with arguments that printf() does not accept.
 int logStrings(const Object& o) {
   const std::string name = "ann";
   LM.writeLog("%s has %d of %s", name, 3, o.getType());

@@ -26,7 +26,7 @@ TEST_F(UtilityTest, Boxes) {
 TEST_F(UtilityTest, LinesCross) {
   const Line rising(Vector(0, 0), Vector(4, 4));
   EXPECT_TRUE(lineIntersectsLine(rising, Line(Vector(0, 4), Vector(4, 0))));
-  EXPECT_TRUE(lineIntersectsLine(rising, Line(Vector(4, 4), Vector(9, 0))));  // at the end
+  EXPECT_TRUE(lineIntersectsLine(rising, Line(Vector(4, 4), Vector(9, 0))));  // at the end point
   EXPECT_FALSE(lineIntersectsLine(rising, Line(Vector(5, 4), Vector(9, 0))));
   EXPECT_FALSE(lineIntersectsLine(rising, Line(Vector(1, 0), Vector(5, 4))));  // parallel
   EXPECT_FALSE(lineIntersectsLine(rising, rising));
@@ -37,7 +37,7 @@ TEST_F(UtilityTest, LinesMeetBoxes) {
   EXPECT_TRUE(lineIntersectsBox(Line(Vector(0, 3), Vector(9, 3)), box));    // through
   EXPECT_TRUE(lineIntersectsBox(Line(Vector(3, 3), Vector(3.5, 3)), box));  // inside
   EXPECT_TRUE(lineIntersectsBox(Line(Vector(0, 2), Vector(9, 2)), box));    // along the edge
-  EXPECT_TRUE(lineIntersectsBox(Line(Vector(0, 4), Vector(4, 0)), box));    // the corner
+  EXPECT_TRUE(lineIntersectsBox(Line(Vector(0, 4), Vector(4, 0)), box));    // touches the corner
   EXPECT_FALSE(lineIntersectsBox(Line(Vector(0, 3.9), Vector(3.9, 0)), box));
   EXPECT_FALSE(lineIntersectsBox(Line(Vector(0, 3), Vector(1.5, 3)), box));  // too short
   EXPECT_FALSE(lineIntersectsBox(Line(Vector(5, 0), Vector(5, 9)), box));
@@ -148,7 +148,7 @@ TEST_F(UtilityTest, ClockRunsOnTheGamesTime) {
   EXPECT_NEAR(static_cast<double>(clock.split()), 1e6, 10);
   EXPECT_NEAR(static_cast<double>(clock.delta()), 1e6, 10);
   EXPECT_LT(clock.split(), 10);
-  while (clock.split() < 1000) {  // a game that waits is not kept for ever
+  while (clock.split() < 1000) {  // a game that waits in a loop does not hang
   }
   world.tick();
   EXPECT_NEAR(static_cast<double>(clock.delta()), 1e6 / 30, 10);

@@ -7,7 +7,7 @@
 namespace df::test {
 namespace {
 
-/// Frames of one row each.
+/// Makes a sprite whose frames have one row each.
 Sprite sprite(const std::vector<std::string>& frames, int slowdown = 1) {
   Sprite s(static_cast<int>(frames.size()));
   s.setWidth(static_cast<int>(frames[0].size()));
@@ -69,7 +69,7 @@ TEST_F(AnimationTest, AnimationOfTheGamesOwnGoesOnWhenItIsDrawn) {
   probe.on_draw = [&](Probe& p) { EXPECT_EQ(animation.draw(p.getPosition()), 0); };
   EXPECT_EQ(shown(10, 3), "aba");
   probe.on_draw = [&](Probe& p) { p.Object::draw(); };
-  EXPECT_EQ(shown(10, 1), "");  // it has no sprite itself
+  EXPECT_EQ(shown(10, 1), "");  // the Object has no sprite
 }
 
 TEST_F(AnimationTest, SpritesAreDrawnAroundThePosition) {
@@ -82,7 +82,7 @@ TEST_F(AnimationTest, SpritesAreDrawnAroundThePosition) {
   o.setSprite(&s);
   world.tick();
   const Canvas canvas = world.picture().render({});
-  // Rows 9.5 and 10.5 lie in the cells 10 and 11.
+  // Rows 9.5 and 10.5 lie in cells 10 and 11.
   EXPECT_EQ(canvas.rowText(10).substr(9, 3), "abc");
   EXPECT_EQ(canvas.rowText(11).substr(9, 3), "def");
   EXPECT_EQ(canvas.at(10, 10).color, MAGENTA);
@@ -139,14 +139,14 @@ TEST_F(AnimationTest, PreciseCollisionsCompareTheFrameThatShows) {
   Object mover;
   mover.setPrecise();
   mover.setPosition(Vector(20, 5));
-  // The wall covers the cells 19 to 22 (its columns lie at 18.5 … 21.5); the first two are set, then the
+  // The wall covers cells 19 to 22 (its columns are at 18.5 … 21.5). Frame 0 sets the first two, frame 1 the
   // others.
   EXPECT_EQ(WM.getCollisions(&mover, Vector(19, 10)).getCount(), 1);
   EXPECT_EQ(WM.getCollisions(&mover, Vector(21, 10)).getCount(), 0);
   wall.setSpriteIndex(1);
   EXPECT_EQ(WM.getCollisions(&mover, Vector(19, 10)).getCount(), 0);
   EXPECT_EQ(WM.getCollisions(&mover, Vector(21, 10)).getCount(), 1);
-  // A box that is not the sprite's counts as a whole.
+  // A box that differs from the sprite's counts as full.
   wall.setBox(Box(Vector(-2, -0.5), 4, 1.5));
   EXPECT_EQ(WM.getCollisions(&mover, Vector(19, 10)).getCount(), 1);
 }
@@ -173,7 +173,7 @@ TEST_F(AnimationTest, ObjectsMayGoAndComeWhileTheyAreAnimated) {
   EXPECT_EQ(objects[3]->getSpriteIndex(), 1);
   WM.removeObject(objects[0]);
   world.tick();
-  EXPECT_EQ(objects[0]->getSpriteIndex(), 1);  // in no world
+  EXPECT_EQ(objects[0]->getSpriteIndex(), 1);  // removed from the world
   EXPECT_EQ(objects[2]->getSpriteIndex(), 0);
   WM.insertObject(objects[0]);
   objects[2]->setSprite(nullptr);

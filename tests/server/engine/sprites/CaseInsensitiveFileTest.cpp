@@ -1,4 +1,4 @@
-// Files found by names as systems take them that know no upper and lower case.
+// Finds files by names in wrong case, as on systems that ignore case.
 
 #include <stdlib.h>
 

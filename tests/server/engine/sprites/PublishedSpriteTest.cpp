@@ -1,5 +1,5 @@
-// Sprite files that the published engine loads and the book's rules refuse: with compat they are loaded, with
-// a line in the log.
+// Sprite files that the published engine loads although the book's rules reject them. In compat mode they are
+// loaded, with a log line.
 
 #include <unistd.h>
 
@@ -25,12 +25,12 @@ class PublishedSprite : public WorldTest {
                ("published-sprite-" + std::to_string(getpid()))) {}
   ~PublishedSprite() override { std::filesystem::remove(m_file); }
 
-  /// What RM.loadSprite() returns for a file with this text.
+  /// Loads a file with this text; returns the result of RM.loadSprite().
   int load(const std::string& text, const std::string& label = "s") {
     std::ofstream(m_file) << text;
     return RM.loadSprite(m_file.string(), label);
   }
-  /// What row 10 shows of an Object with this sprite, without blanks, after each of `ticks` ticks.
+  /// Returns row 10 after each of `ticks` ticks, without blanks, with an Object of this sprite in it.
   std::string shownOf(const std::string& label, int ticks) {
     PlacedObject o(Vector(10, 10));
     o.setSprite(label);
@@ -80,7 +80,7 @@ TEST_F(PublishedSprite, SlowdownWithNothingBehindItIsZero) {
   ASSERT_EQ(load(withHeader("slowdown \r\n"), "t"), 0);
   EXPECT_EQ(RM.getSprite("t")->getSlowdown(), 0);
   EXPECT_EQ(logged("slowdown has no number"), 2);
-  // The same in the old format.
+  // Like above, in the old format.
   ASSERT_EQ(load("frames 1\nwidth 1\nheight 1\ncolor red\nslowdown\na\nend\neof\n", "old"), 0);
   EXPECT_EQ(RM.getSprite("old")->getFrame(0).getString(), "a");
 }

@@ -28,7 +28,7 @@ std::string troubleOf(const std::string& text) {
 
 class SpriteFile : public WorldTest {
  protected:
-  /// The sprite of a text that is one.
+  /// Parses a valid sprite. Throws if it is invalid.
   const Sprite& parsed(const std::string& text) {
     std::string error;
     sprites.push_back(parseSprite(text, "s", error));
@@ -119,7 +119,7 @@ TEST_F(SpriteFile, RowsMayLookLikeTheirEndAndBlanksCount) {
       ' ');
 }
 
-// In each format, any rows of blanks: the first, the last, all; and CR LF.
+// Blank rows at the beginning, at the end and everywhere, in each format, also with CR LF.
 TEST_F(SpriteFile, RowsMayBeBlank) {
   for (const std::string rows : {"   \na b\n", "a b\n   \n", "   \n   \n"}) {
     const std::string sizes = "frames 2\nwidth 3\nheight 2\n";
@@ -139,7 +139,7 @@ TEST_F(SpriteFile, RowsMayBeBlank) {
   }
 }
 
-// Whatever a file holds, reading it ends with a sprite or with a sentence.
+// Parsing any contents results in either a sprite or an error message.
 TEST_F(SpriteFile, CutAndGarbledFilesAreRefusedOrRead) {
   int refused = 0;
   for (const char* name : {"header.txt", "simple.txt", "old.txt", "header-crlf.txt"}) {
@@ -171,7 +171,7 @@ TEST_F(SpriteFile, FirstSpriteOfALabelStays) {
   EXPECT_EQ(RM.unloadSprite("s"), 0);
   EXPECT_EQ(RM.getSprite("s"), nullptr);
   EXPECT_EQ(RM.unloadSprite("s"), -1);
-  EXPECT_EQ(p_first->getFrameCount(), 3);  // Objects may still show it
+  EXPECT_EQ(p_first->getFrameCount(), 3);  // still valid, because Objects may show it
 }
 
 TEST_F(SpriteFile, RelativeNamesAreLookedForInTheWorldsFolders) {

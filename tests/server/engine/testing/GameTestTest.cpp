@@ -17,7 +17,7 @@ namespace {
 int g_runs_ended = 0;
 int g_mains_ended = 0;
 
-/// An @ that walks, shows a count, and ends the game with Q. It keeps where it was clicked.
+/// An @ that moves with an arrow key or a click, shows the number of keys, and ends the game with Q.
 class Walker : public PlayerObject<> {
  public:
   explicit Walker(Player& player) : PlayerObject(player) {
@@ -150,7 +150,7 @@ TEST(GameTest, AGameThatRunsTwiceGoesOn) {
 
 TEST(GameTest, MainRunsToItsEnd) {
   g_mains_ended = 0;
-  const int before = WM.getAllObjects(true).getCount();  // other tests' static ones
+  const int before = WM.getAllObjects(true).getCount();  // static Objects of other tests
   { GameTest game(walkerMain); }
   EXPECT_EQ(g_mains_ended, 1);
   EXPECT_EQ(WM.getAllObjects(true).getCount(), before);

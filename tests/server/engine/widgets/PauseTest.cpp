@@ -1,4 +1,4 @@
-// The pause as a vote of the players.
+// The Pause object lets the players vote on pausing the game.
 
 #include "engine/events/EventStep.h"
 #include "engine/widgets/Pause.h"
@@ -21,7 +21,7 @@ class PauseTest : public WorldTest {
     for (int i = 0; i < count; ++i) players.push_back(world.input().join("player", RED));
     world.tick();
   }
-  /// One tick in which these (counted from 0) press the key.
+  /// Runs one tick in which these players (indices) press the key.
   void press(const std::vector<std::size_t>& voters) {
     for (const std::size_t i : voters) world.input().key(players[i], Keyboard::P, KEY_PRESSED);
     world.tick();

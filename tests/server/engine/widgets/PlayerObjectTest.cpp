@@ -4,7 +4,7 @@
 namespace df {
 namespace {
 
-// A kind of Object of the game's own, with which a player's is made.
+// A game's own Object class, used as the base of a PlayerObject.
 struct Boat : Object {
   Boat() { setType("Boat"); }
   int eventHandler(const Event* p_e) override {
@@ -78,7 +78,7 @@ TEST_F(PlayerObjects, ItGoesWithItsPlayer) {
   EXPECT_EQ(p_left->getPlayer(), world.views().player(bob));
 }
 
-// In the tick in which its player leaves, the game may still step it: getPlayer() is null.
+// The Object may still get a step event in the tick in which its player leaves; getPlayer() is then null.
 TEST_F(PlayerObjects, WithoutAPlayerItDoesNotStep) {
   const std::uint32_t ann = world.input().join("ann", RED);
   world.tick();

@@ -36,7 +36,7 @@ TEST_F(ViewObjectTest, ShowsTextAndValueInABorder) {
   points.setViewString("Points");
   points.setValue(42);
   world.tick();
-  // 80 cells: the text of 11 characters is around 40.
+  // The text of 11 characters is centred in a window of 80 cells.
   EXPECT_EQ(row(0), std::string(34, ' ') + "+-----------+");
   EXPECT_EQ(row(1), std::string(34, ' ') + "| Points 42 |");
   EXPECT_EQ(row(2), std::string(34, ' ') + "+-----------+");

@@ -1,4 +1,4 @@
-// A tick of a warm world takes nothing from the heap.
+// Checks that a tick allocates no heap memory once the world has run for a while.
 #include <gtest/gtest.h>
 
 #include "engine/events/EventOut.h"

@@ -110,7 +110,7 @@ TEST_F(Capture, StaticLookIsDrawnOnceAndMovesAlong) {
 
 TEST_F(Capture, CommandsNameTheObjectThatDrewThem) {
   Probe* a = make("a", 3, 3);
-  Object plain;  // of type Object itself: draws nothing, is not asked
+  Object plain;  // an Object without a class of its own: draw() is not called
   Probe* silent = make("s", 4, 4);
   silent->on_draw = nullptr;
   a->on_event = [](Probe&, const Event&) { DM.drawCh(Vector(1, 1), '!', RED); };
@@ -199,7 +199,7 @@ TEST_F(Capture, ChangesAreReportedInCreationOrder) {
   EXPECT_EQ(world.picture().view().changed[0].key, a.key());
   EXPECT_EQ(world.picture().view().changed[0].position.y, kFixedOne / 2);
   EXPECT_EQ(world.picture().view().changed[1].altitude, 3);
-  GM.tick();  // a goes on moving
+  GM.tick();  // a is still moving
   ASSERT_EQ(world.picture().view().changed.size(), 1u);
 }
 
@@ -265,7 +265,7 @@ TEST_F(Capture, VanishedAreThoseThatWereReported) {
   const ObjectKey key = p_a->key();
   p_a->setAltitude(1);
   delete p_a;
-  delete new Object;  // born and dead between two looks
+  delete new Object;  // created and deleted between two captures
   GM.tick();
   EXPECT_EQ(world.picture().view().vanished, std::vector{key});
   EXPECT_TRUE(world.picture().view().changed.empty());

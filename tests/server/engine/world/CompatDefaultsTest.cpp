@@ -1,4 +1,4 @@
-// What an Object and its kin begin with: the book's values, and with compat the published engine's.
+// Default values of Objects and widgets: by the book and, in compat mode, of the published engine.
 
 #include <array>
 #include <cstring>
@@ -24,7 +24,7 @@ class Entry : public TextEntry {
   void callback() override {}
 };
 
-/// With members that its constructor leaves as they are.
+/// A class whose constructor does not initialise its members.
 class Careless : public Object {
  public:
   Careless() {}  // NOLINT(modernize-use-equals-default): `= default` would clear them
@@ -90,8 +90,8 @@ TEST_F(CompatDefaults, ACircleInsideABoxDoesNotIntersectIt) {
   EXPECT_FALSE(circleIntersectsBox(Circle(Vector(-3, 5), 2), box));
 }
 
-// The sum of 505 steps of 0.1 is 50.5 less a rounding; the box's upper edge then touches the boundary. Exact
-// sums are beyond it by 2e-9 cells, floats are not.
+// 505 steps of 0.1, rounded, end at 50.5 within 2e-9 cells, where the box's upper edge touches the boundary.
+// Exact numbers are then outside, floats are not.
 TEST_F(CompatDefaults, ABoxThatTouchesTheBoundaryIsStillInside) {
   world.setCompat();
   WM.setBoundary(Box(Vector(), 80, 50));
@@ -105,7 +105,7 @@ TEST_F(CompatDefaults, ABoxThatTouchesTheBoundaryIsStillInside) {
   EXPECT_EQ(received, std::vector<std::string>{"probe:df-out"});
 }
 
-// Memory that has been used before, as it is while a game runs.
+// Tests whether the members are zero although the memory has been used before.
 __attribute__((noinline)) bool isClear(const Careless& o) {
   const Careless* volatile p_o = &o;
   if (p_o->p_target != nullptr || p_o->lives != 0) return false;

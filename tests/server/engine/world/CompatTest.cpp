@@ -1,4 +1,4 @@
-// Where the published engine differs from the book, and how a world is set to behave like it.
+// Differences between the published engine and the book, and the compat setting that selects the former.
 #include <stdlib.h>
 
 #include <optional>
@@ -11,14 +11,14 @@
 namespace df::test {
 namespace {
 
-/// The environment is put back after the test.
+/// Restores the environment after the test.
 class CompatTest : public WorldTest {
  protected:
   CompatTest() { unsetenv("DF_COMPAT"); }
   ~CompatTest() override { unsetenv("DF_COMPAT"); }
 
-  /// Where a Probe is that left the world of 80 by 24, after how many updates; nothing if it never hears of
-  /// it.
+  /// Returns the position of a Probe when it leaves the world of 80 by 24 cells (out event); nullopt if it
+  /// gets no out event within 40 updates.
   std::optional<Vector> leavesAt(Vector from, Vector velocity, std::optional<Box> box = {}) {
     auto* p = new Probe("leaver", nullptr, from);
     if (box) p->setBox(*box);

@@ -176,7 +176,7 @@ TEST_F(DeclaredControls, FactsAreExactAndSayWhatIsTriedNext) {
   const SteeringFacts facts = player().facts().steering;
   EXPECT_EQ(facts.object, ship.key());
   EXPECT_EQ(facts.position, (FixedVector{fromCells(10), fromCells(10)}));
-  EXPECT_EQ(facts.velocity.x, *toFixed(1.0 / 3));  // though it is blocked
+  EXPECT_EQ(facts.velocity.x, *toFixed(1.0 / 3));  // the velocity that is tried, although the ship is blocked
   ASSERT_NE(facts.p_table, nullptr);
   EXPECT_EQ(*facts.p_table, *Controls().onKey(D).velocityX(1.0 / 3).table());
 }
@@ -196,7 +196,7 @@ TEST_F(DeclaredControls, BadNumbersSpoilTheTableAndAreCounted) {
   }
   EXPECT_EQ(world.log().refusals(), 13u);
   press(RIGHTARROW);
-  expectAt(ship, 11, 10);  // the table from before
+  expectAt(ship, 11, 10);  // the previous table still applies
   EXPECT_EQ(player().setControls(Controls()), 0);
   press(RIGHTARROW);
   expectAt(ship, 11, 10);

@@ -1,5 +1,5 @@
-// Crowds in one place. Where nobody hears of a collision, a move in a crowd is decided without listing whom
-// it touches; it must end as if all had been asked.
+// Crowds in one place. If no handler gets the collisions of a move, the move is decided without listing the
+// Objects that it touches. The result must equal that with handlers.
 #include <cstdint>
 #include <sstream>
 
@@ -9,12 +9,12 @@
 namespace df::test {
 namespace {
 
-/// It hears of everything, and does nothing.
+/// Has a handler, which does nothing.
 struct Listener : Object {
   int eventHandler(const Event*) override { return 0; }
 };
 
-/// It writes down whom it collides with, and where they are then.
+/// Records its collisions and the positions of both Objects.
 struct Diary : Object {
   explicit Diary(std::ostringstream& its_pages) : pages(its_pages) {}
   int eventHandler(const Event* p_e) override {
@@ -29,16 +29,16 @@ struct Diary : Object {
 
 struct Crowd {
   int objects = 200;
-  int diaries = 0;          ///< of these, that hear of their collisions
-  double spread = 1;        ///< cells that they are spread over, on each axis
-  double speed = 1;         ///< cells per tick: they move by up to half of it either way
-  bool mixed = false;       ///< SOFT, SPECTRAL and no-soft ones, accelerations, and larger boxes
-  bool options = false;     ///< and such as may move out of each other
-  int odd_every = 0;        ///< every so many is of a kind, the others of another that it passes through:
-  bool odd_is_hard = true;  ///< a HARD one among SOFT ones; else a SOFT one that is no-soft among HARD ones
+  int diaries = 0;          ///< how many of the Objects are Diaries
+  double spread = 1;        ///< Objects are spread over this many cells on each axis
+  double speed = 1;         ///< cells per tick; each component is at most half of it, in either direction
+  bool mixed = false;       ///< SOFT, SPECTRAL and no-soft Objects, accelerations, and larger boxes
+  bool options = false;     ///< some Objects may move out of each other
+  int odd_every = 0;        ///< nonzero: every n-th Object is odd and passes through the others
+  bool odd_is_hard = true;  ///< odd: HARD among SOFT Objects; else no-soft SOFT among HARD Objects
 };
 
-/// After each tick, where all are, how fast, and what the diaries say. `ears`: everybody hears.
+/// Returns positions, velocities and Diary entries after each tick. `ears`: every Object has a handler.
 std::vector<std::string> play(const Crowd& crowd, std::uint64_t seed, bool ears,
                               MoverStats* p_stats = nullptr) {
   naiad::SplitMix64 random(seed);
@@ -119,7 +119,7 @@ TEST(Crowd, MovesAsIfAllHadBeenAsked) {
   }
 }
 
-// Nobody is listed for an odd one: neither where no other of its kind is near, nor where there are some.
+// An odd Object needs no list, whether or not other odd ones are near.
 TEST(Crowd, OfSoftOnesIsNotListedForAHardOne) {
   for (const bool is_hard : {true, false}) {
     for (const int every : {1000, 20}) {
@@ -159,10 +159,10 @@ TEST(Crowd, IsCountedAsItIsWhenSomeChangeTheirKindOrGo) {
   EXPECT_TRUE(moves());
   soft[0]->setActive(true);
   EXPECT_FALSE(moves());
-  for (int i = 80; i < 200; ++i) WM.markForDelete(soft[static_cast<std::size_t>(i)]);  // closes gaps
+  for (int i = 80; i < 200; ++i) WM.markForDelete(soft[static_cast<std::size_t>(i)]);  // closeGaps() runs
   EXPECT_FALSE(moves());
   WM.markForDelete(soft[0]);
-  EXPECT_FALSE(moves());  // deletions come last
+  EXPECT_FALSE(moves());  // deletions come after the moves
   EXPECT_TRUE(moves());
   for (int i = 1; i < 80; ++i) soft[static_cast<std::size_t>(i)]->setPosition(Vector(10, 12));
   EXPECT_TRUE(moves());
@@ -177,7 +177,7 @@ TEST(Crowd, OfManyHearsNothingOneByOne) {
   EXPECT_GT(stats.unheard, 30'000u);
 }
 
-// Somebody elsewhere who hears does not make the crowd dearer.
+// An Object with a handler that is far away does not make the crowd slower.
 TEST(Crowd, IsNotListedBecauseOfAHearerElsewhere) {
   World world;
   const World::Scope scope(world);

@@ -1,4 +1,4 @@
-// Objects that a game asks although it has deleted them: with compat, their memory is kept for a while.
+// In compat mode, the memory of deleted Objects is kept for a while, because games call their getters.
 
 #include <memory>
 
@@ -9,7 +9,7 @@
 namespace df::test {
 namespace {
 
-/// Is this built with a sanitizer that stops every access to a deleted Object?
+/// True if the build has a sanitizer that stops every access to a deleted Object.
 constexpr bool isWatched() {
 #if defined(__SANITIZE_ADDRESS__)
   return true;
@@ -38,7 +38,7 @@ TEST(DelayedFree, KeepSoManyAndNoMore) {
     freed.free(blocks.back(), kAlign);
     EXPECT_EQ(freed.size(), std::min(i + 1, DelayedFree::kKept));
   }
-  // A new allocation is none of those that are kept.
+  // A new allocation must not reuse a block that is kept.
   void* const p_fresh = ::operator new(200, kAlign);
   for (std::size_t i = 10; i < blocks.size(); ++i) EXPECT_NE(p_fresh, blocks[i]);
   ::operator delete(p_fresh, kAlign);

@@ -1,6 +1,5 @@
-// A world is a pure function of its seed, its inputs and its tick count: one long run, with everything in it
-// that the engine can do to Objects, has one hash - whatever compiled it, at whatever level, on whatever
-// machine.
+// A world is a pure function of its seed, inputs and tick count: one long run that uses everything the engine
+// can do to Objects has one hash, for every compiler, optimisation level and machine.
 #include <gtest/gtest.h>
 
 #include <cinttypes>
@@ -37,7 +36,7 @@ class Recording {
     take(static_cast<std::uint64_t>(fixed.y));
   }
   double number(double low, double high) { return low + (high - low) * WM.randomInt(1 << 20) / (1 << 20); }
-  /// One draw after the other: the order in which arguments are evaluated is the compiler's to choose.
+  /// Draws the coordinates one by one, because the order of evaluation of arguments is unspecified.
   Vector within(double left, double right, double top, double bottom) {
     const double x = number(left, right);
     return Vector(x, number(top, bottom));

@@ -1,4 +1,4 @@
-// What lies at the ends of the ranges: far away, very fast, very large, very many.
+// The ends of the ranges: far away, very fast, very large, very many.
 #include "tests/server/engine/Probe.h"
 #include "tests/support/NotANumber.h"
 
@@ -23,7 +23,7 @@ class Reacting : public Object {
   std::function<void(Reacting&, const EventCollision&)> m_reaction;
 };
 
-/// The path of a small crowd around `origin`, relative to it, and its collisions.
+/// Returns the positions of a small crowd, relative to `origin`, tick by tick, and counts its collisions.
 std::vector<FixedVector> pathAround(Vector origin, bool swept, int& collisions) {
   World world;
   const World::Scope scope(world);
@@ -53,7 +53,7 @@ std::vector<FixedVector> pathAround(Vector origin, bool swept, int& collisions) 
   return path;
 }
 
-// Read from the store: a double has no room for 2^-32 cell at 2e9.
+// Positions are read from the store, because a double cannot hold 2^-32 cells at 2e9.
 TEST_F(Extremes, APathTwoBillionCellsAwayIsTheSameAsAtTheOrigin) {
   for (const bool swept : {false, true}) {
     int here = 0;
@@ -137,8 +137,7 @@ TEST_F(Extremes, AMillionObjectsLoadAndStep) {
   EXPECT_EQ(world.store().countInWorld(), 1000000);
 }
 
-// One shot clears a screen of 700 and each of them leaves a piece of wreckage, all from within one handler's
-// list.
+// One shot hits 700 Objects. Each is deleted and leaves a piece of wreckage in its collision handler.
 TEST_F(Extremes, SevenHundredDieAndAreBornInOneTick) {
   WM.setBoundary(Box(Vector(0, 0), 200, 100));
   int born = 0;

@@ -28,7 +28,7 @@ class FindFree : public WorldTest {
     return p;
   }
 
-  /// What it should find, among offsets of up to `reach` cells, testing all Objects for each.
+  /// Returns the expected result, by testing all Objects at all offsets of up to `reach` cells.
   static std::optional<Vector> lookEverywhere(Box box, Vector near, int reach) {
     std::vector<std::tuple<int, int, int>> offsets;
     for (int y = -reach; y <= reach; ++y) {
@@ -61,7 +61,7 @@ TEST_F(FindFree, InAnEmptyWorldItIsThePlaceItself) {
 
 TEST_F(FindFree, TakesTheNearestThenTheHighestThenTheLeftmost) {
   make(10, 10);
-  // Neighbours touch.
+  // Objects one cell apart would touch.
   EXPECT_EQ(WM.findFree(kCharacter, Vector(10, 10)), Vector(10, 8));
   make(10, 7);
   EXPECT_EQ(WM.findFree(kCharacter, Vector(10, 10)), Vector(8, 10));
@@ -106,7 +106,7 @@ TEST_F(FindFree, NumbersOutOfRangeAreRefused) {
   EXPECT_EQ(WM.findFree(Box(Vector(), -1, 1), Vector()), std::nullopt);
   EXPECT_EQ(WM.findFree(Box(Vector(), 1, 2e6), Vector()), std::nullopt);
   EXPECT_EQ(world.log().refusals(), 4u);
-  EXPECT_EQ(WM.findFree(kCharacter, Vector(2e9, -2e9)), std::nullopt);  // only far away
+  EXPECT_EQ(WM.findFree(kCharacter, Vector(2e9, -2e9)), std::nullopt);  // in range, but too far away
   EXPECT_EQ(world.log().refusals(), 4u);
 }
 

@@ -1,4 +1,4 @@
-// Objects that have frames: what is drawn, and what a host gets.
+// Objects with frames: what is drawn, and what the host receives.
 #include "engine/managers/DisplayManager.h"
 #include "engine/world/ObjectLookAccess.h"
 #include "shared/replica/Look.h"
@@ -83,7 +83,7 @@ TEST_F(FramesTest, TheyGoWithTheObjectAndEndWithIt) {
   EXPECT_EQ(p_object->getFrameCount(), 0);
   ObjectLookAccess::setFrames(*p_object, letters(), Selector::fixed(2));
   delete p_object;
-  for (int i = 0; i < 200; ++i) {  // until its slot is used again
+  for (int i = 0; i < 200; ++i) {  // its slot is reused in this loop
     test::PlacedObject next(Vector(10, 5));
     world.tick();
     ASSERT_EQ(row(), "   ");

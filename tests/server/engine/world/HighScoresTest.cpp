@@ -31,7 +31,7 @@ TEST_F(HighScoresTest, TheBestComeFirstAndOfEqualOnesTheOlder) {
   EXPECT_TRUE(HighScores("other").best().empty());
 }
 
-/// Notes what it sees of a table in each step.
+/// Records the size of a score table in each step.
 struct Watcher : Object {
   std::vector<std::size_t> sizes;
   Watcher() { registerInterest(STEP_EVENT); }

@@ -9,19 +9,19 @@
 namespace df::test {
 namespace {
 
-/// Compares what the grid finds on random paths with what a test of all Objects finds.
+/// Compares the grid's hits on random paths with a test of all Objects.
 class Hits : public WorldTest {
  protected:
   double within(double low, double high) { return std::uniform_real_distribution<>(low, high)(random); }
   bool oneIn(int n) { return std::uniform_int_distribution<>(1, n)(random) == 1; }
 
-  /// Objects around `centre`, of sizes up to `size`.
+  /// Adds Objects of sizes up to `size`, at most `extent` cells from `centre` on each axis.
   void crowd(int count, Vector centre, double extent, double size) {
     for (int i = 0; i < count; ++i) {
       auto* p = new Object;
       const double x = centre.x() + within(-extent, extent);
       const double y = centre.y() + within(-extent, extent);
-      // On whole and half cells many touch at the same time, and at edges.
+      // Objects on whole and half cells often touch at edges and at equal times.
       p->setPosition(oneIn(2) ? Vector(std::round(2 * x) / 2, std::round(2 * y) / 2) : Vector(x, y));
       if (!oneIn(3)) p->setBox(Box(Vector(within(-size, size), -1), within(0, size), within(0, size)));
       p->setSolidness(oneIn(4) ? HARD : SOFT);
@@ -126,7 +126,7 @@ TEST_F(Hits, AtTheEndOfTheNumberRangeAreAllFoundInOrder) {
   EXPECT_GT(found, 500u);
 }
 
-// Where doubles no longer distinguish the ends of the path.
+// Doubles cannot distinguish the ends of such a path.
 TEST_F(Hits, OfAPathOfAFewUnitsAtTheEndOfTheNumberRangeAreFound) {
   const Vector far(-1999999000, 1999999000);
   auto* p_mover = new Object;

@@ -6,7 +6,7 @@
 namespace df {
 namespace {
 
-/// Lets its bodies fall: by half a tick's gravity in the first tick, as things do.
+/// Lets its bodies fall: each tick moves them by their velocity plus half a tick's gravity.
 class Falling : public Layer {
  public:
   static constexpr double kGravity = 0.25;
@@ -87,7 +87,7 @@ TEST_F(Layers, AClientCanComputeABodysFlight) {
 TEST_F(Layers, ABodyBlocksOthers) {
   Object body, plain;
   layer->add(body);
-  layer->bodies.clear();  // stays where it is
+  layer->bodies.clear();  // the layer no longer moves the body
   body.setPosition(Vector(5, 0));
   plain.setVelocity(Vector(1, 0));
   for (int i = 0; i < 10; ++i) world.update();

@@ -1,4 +1,4 @@
-// The log files of a game hold up nobody, whatever they are.
+// A game's log file never blocks the game, whatever kind of file it is.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -60,7 +60,7 @@ TEST_F(LogFileTest, APipeThatNobodyReadsHoldsUpNoGame) {
   const int reader = open(stalled.c_str(), O_RDONLY | O_NONBLOCK);
   Config::getInstance().setLogFile(stalled.string());
   const std::string line(1000, 'x');
-  for (int i = 0; i < 1000; ++i) LM.writeLog("%s", line.c_str());  // 64 KiB fit
+  for (int i = 0; i < 1000; ++i) LM.writeLog("%s", line.c_str());  // the pipe holds 64 KiB
   char piece[65536];
   EXPECT_GT(::read(reader, piece, sizeof piece), 0);
   while (::read(reader, piece, sizeof piece) > 0) {

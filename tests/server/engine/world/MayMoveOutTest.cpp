@@ -8,7 +8,7 @@ class MayMoveOut : public WorldTest {
   MayMoveOut() {
     wall = new Probe("wall", &received, Vector(20, 10));
     wall->setBox(Box(Vector(-5, -5), 10, 10));
-    a = new Probe("a", &received, Vector(23, 10));  // inside, nearest to the right side
+    a = new Probe("a", &received, Vector(23, 10));  // inside the wall, nearest to its right side
   }
 
   Probe* wall;
@@ -17,7 +17,7 @@ class MayMoveOut : public WorldTest {
 
 TEST_F(MayMoveOut, WithoutItOnePlacedInsideCannotLeaveStepByStep) {
   for (const bool may_the_other : {false, true}) {
-    wall->setMayMoveOut(may_the_other);  // the mover's setting counts
+    wall->setMayMoveOut(may_the_other);  // has no effect: only the mover's setting counts
     EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1) << may_the_other;
     expectAt(*a, 23, 10);
   }
@@ -35,7 +35,7 @@ TEST_F(MayMoveOut, LeavesStepByStepAndBothGetTheEvent) {
 TEST_F(MayMoveOut, DoesNotLetItDeeperIn) {
   a->setMayMoveOut();
   EXPECT_EQ(WM.moveObject(a, Vector(22, 10)), -1);
-  EXPECT_EQ(WM.moveObject(a, Vector(23, 11)), -1);  // neither nearer nor further
+  EXPECT_EQ(WM.moveObject(a, Vector(23, 11)), -1);  // neither less nor more deep
   expectAt(*a, 23, 10);
 }
 

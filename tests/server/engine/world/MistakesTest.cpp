@@ -1,6 +1,5 @@
-// The mistakes that beginners make: each ends in one line that names its cause, and
-// docs/when-it-goes-wrong.md has that line. Those that need a process of their own:
-// tests/loopback/TroubleTest.cpp.
+// Mistakes of beginners. Each logs one line that names the cause, and docs/when-it-goes-wrong.md lists that
+// line. Mistakes that need a process of their own are in tests/loopback/TroubleTest.cpp.
 
 #include <fstream>
 #include <iterator>
@@ -45,7 +44,7 @@ const std::string& page() {
   return text;
 }
 
-/// As a game's own classes are named, which are in none.
+/// Removes the namespace, because a game's own classes are outside all namespaces.
 std::string withoutNamespace(std::string line) {
   const std::string prefix = "df::test::";
   for (std::size_t at = 0; (at = line.find(prefix)) != std::string::npos;) line.erase(at, prefix.size());
@@ -54,14 +53,14 @@ std::string withoutNamespace(std::string line) {
 
 class Mistakes : public WorldTest {
  protected:
-  /// It was logged once, and nothing else; the page has it.
+  /// Expects that this line is the only one logged and is listed on the page.
   void expectLine(const std::string& line) {
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_EQ(withoutNamespace(lines[0]), line);
     EXPECT_NE(page().find("`" + line + "`"), std::string::npos) << "not in the page: " << line;
     lines.clear();
   }
-  /// It begins with this; the page has that much.
+  /// Expects one log line with this beginning, which is listed on the page.
   void expectBeginning(const std::string& beginning) {
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_EQ(lines[0].rfind(beginning, 0), 0u) << lines[0];
@@ -82,7 +81,7 @@ TEST_F(Mistakes, AHandlerThatDoesNotOverride) {
 TEST_F(Mistakes, InterestInAnEventThatTheEngineDoesNotSend) {
   auto* p_saucer = new Saucer;
   p_saucer->registerInterest("step");
-  p_saucer->registerInterest("steps");  // may be the game's own
+  p_saucer->registerInterest("steps");  // no message: may be the game's own event
   expectLine("registerInterest(\"step\"): the engine sends no such event; it sends df::STEP_EVENT");
 }
 
@@ -165,7 +164,7 @@ TEST_F(Mistakes, AClassThatForgotItsType) {
   new Saucer;
   EXPECT_TRUE(world.objects().objectsOfType("Saucer").isEmpty());
   EXPECT_TRUE(world.objects().objectsOfType("Saucer").isEmpty());
-  EXPECT_TRUE(world.objects().objectsOfType("Bullet").isEmpty());  // there may be none just now
+  EXPECT_TRUE(world.objects().objectsOfType("Bullet").isEmpty());  // no message: there may be no Bullet now
   expectLine(
       "WM.objectsOfType(\"Saucer\") finds none: class Saucer does not call "
       "setType(\"Saucer\")");

@@ -97,10 +97,10 @@ TEST_F(MoveObject, HandlersDecideHowTheMoveEnds) {
   const struct {
     const char* p_name;
     Solidness mover;
-    bool is_movers;  // the handler
+    bool is_movers;  // true: the mover handles the event, else the other
     std::function<void(Probe& a, Probe& b)> handle;
     int result;
-    std::optional<Vector> end;  // none: the mover is gone
+    std::optional<Vector> end;  // nullopt: the mover is deleted
     Received received;
   } kCases[] = {
       {"softens the pair", HARD, false, [](Probe&, Probe& b) { b.setSolidness(SOFT); }, 0, target, both},
@@ -133,7 +133,7 @@ TEST_F(MoveObject, TheCollisionRuleIsAppliedRightAfterTheHandlersOfAPair) {
   make("b", 15, 10);
   Probe* c = make("c", 15, 10, SOFT);
   Probe* a = make("a", 10, 10);
-  // With b it was HARD against HARD; what happens at c comes too late.
+  // The pair with b was HARD against HARD; the change in c's handler is too late.
   c->on_event = [&](Probe&, const Event&) { a->setSolidness(SPECTRAL); };
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
 }
@@ -217,7 +217,7 @@ TEST_F(MoveObject, OutIsJudgedJustBeforeTheFinalSet) {
   Probe* a = make("a", 78, 10, SOFT);
   make("b", 82, 10);
   a->on_event = [](Probe& self, const Event& e) {
-    if (isCollision(e)) self.setPosition(Vector(-10, 10));  // outside already: the set takes it nowhere new
+    if (isCollision(e)) self.setPosition(Vector(-10, 10));  // already outside: no out event
   };
   EXPECT_EQ(WM.moveObject(a, Vector(81.5, 10)), 0);
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));

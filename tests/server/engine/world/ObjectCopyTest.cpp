@@ -1,4 +1,4 @@
-// Copies of Objects: games keep them in vectors and assign them to members.
+// Copies of Objects: games keep Objects in vectors and assign them to members.
 
 #include "engine/widgets/ViewObject.h"
 #include "tests/server/engine/Probe.h"
@@ -8,7 +8,7 @@ namespace {
 
 using ObjectCopy = WorldTest;
 
-// What a game's class looks like that is copied: no word about copying.
+// A copied class of a game, which declares no copy operations.
 class Card : public Object {
  public:
   explicit Card(int new_cost = 0) : cost(new_cost) {
@@ -79,13 +79,13 @@ TEST_F(ObjectCopy, ComesIntoTheWorldWhenItIsInserted) {
   Card copy = card;
   EXPECT_EQ(WM.insertObject(&copy), 0);
   EXPECT_EQ(WM.getAllObjects().getCount(), 2);
-  card.setPosition(Vector(20, 20));  // out of its way
+  card.setPosition(Vector(20, 20));  // out of the copy's way
   copy.setVelocity(Vector(1, 0));
   world.update();
   expectAt(copy, 1, 0);
 }
 
-// A member that is given what was just made: `reticle = Reticle();`
+// A member that is assigned a temporary: `reticle = Reticle();`
 TEST_F(ObjectCopy, AssignmentKeepsPlaceInterestsAndId) {
   Card card(1);
   const int id = card.getId();

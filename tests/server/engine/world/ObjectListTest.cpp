@@ -31,7 +31,7 @@ TEST_F(ObjectListTest, KeepsOrderAcrossTheInlineLimit) {
   ObjectList list;
   for (const auto& p : objects) EXPECT_EQ(list.insert(p.get()), 0);
   for (int i = 0; i < 40; ++i) EXPECT_EQ(list[i], objects[i].get());
-  // From the front, down through the limit.
+  // Removes from the front until the list is empty, across the inline limit.
   for (int left = 40; left > 0; --left) {
     EXPECT_EQ(list.remove(objects[40 - left].get()), 0);
     ASSERT_EQ(list.getCount(), left - 1);
@@ -115,7 +115,7 @@ TEST_F(ObjectListTest, IteratorSkipsTheDeadAndSurvivesDeletionInTheLoop) {
         visited.push_back(i);
         objects[i].reset();
         if (i == 2) objects[3].reset();
-        EXPECT_EQ(li.isDone(), i == 4);  // asking in between skips none
+        EXPECT_EQ(li.isDone(), i == 4);  // calling isDone() within the loop skips none
         break;
       }
     }

@@ -110,9 +110,9 @@ struct Owner : Probe {
 };
 
 TEST_F(ObjectTest, OnlyWhatNewMadeIsTheWorldsToDelete) {
-  auto* p_owner = new Owner(new Probe("child"));  // the inner `new` is pending inside the outer
+  auto* p_owner = new Owner(new Probe("child"));  // the inner `new` runs while the outer is pending
   EXPECT_EQ(world.store().countInWorld(), 3);
-  WM.markForDelete(&p_owner->member);  // lies in a heap block, but is not its own
+  WM.markForDelete(&p_owner->member);  // inside a heap block, but not the block itself
   WM.markForDelete(p_owner->p_child);
   WM.update();
   EXPECT_EQ(world.store().countInWorld(), 1);

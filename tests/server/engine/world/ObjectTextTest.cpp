@@ -1,4 +1,4 @@
-// Objects as text, ids of the game's own, and ways from place to place.
+// Objects as text, ids set by the game, and paths.
 
 #include <sstream>
 
@@ -87,7 +87,7 @@ TEST_F(ObjectText, IdsOfTheGamesOwnFindTheirObjects) {
   EXPECT_EQ(Object::max_id, before + 1);
 }
 
-/// A wall from (20,0) to (20,height), one character to a row.
+/// Builds a wall from (20,0) down, with `height` characters, one per row.
 void build(std::vector<std::unique_ptr<Object>>& wall, int height) {
   for (int y = 0; y < height; ++y) {
     wall.push_back(std::make_unique<Object>());
@@ -109,7 +109,7 @@ TEST_F(ObjectText, WalksRoundAWallToItsTarget) {
   for (; walker.getFollowPath() && ticks < 200; ++ticks) world.tick();
   EXPECT_EQ(walker.getPosition(), Vector(30, 5));
   EXPECT_EQ(walker.getVelocity(), Vector());
-  EXPECT_EQ(received.size(), 1u);  // it has touched nothing
+  EXPECT_EQ(received.size(), 1u);  // only the path event: no collision
   EXPECT_GT(ticks, 50);
 }
 

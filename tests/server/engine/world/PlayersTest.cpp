@@ -106,10 +106,10 @@ TEST_F(Players, MousePositionIsInWorldCoordinates) {
     seen = dynamic_cast<const EventMouse&>(e).getMousePosition();
   };
   world.input().mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 3, 4);
-  world.input().mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 80, 4);  // not in the view
+  world.input().mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 80, 4);  // outside the view
   world.input().mouse(ann, MOVED, Mouse::UNDEFINED_MOUSE_BUTTON, 3, -1);
   GM.tick();
-  // The corner, at (160.5, 88), shows cell 161 in its first column.
+  // The view's corner is at (160.5, 88), so its first column shows cell 161.
   EXPECT_EQ(seen, Vector(164, 92));
   EXPECT_EQ(received, (Received{"listener:df-join", "listener:df-mouse"}));
 }
@@ -154,10 +154,10 @@ TEST_F(Players, ViewFollowsTheObjectThroughMovesOnly) {
   EXPECT_EQ(player.getViewCorner(), Vector(200, 100));
   p_ship->setPosition(Vector(400, 112));
   EXPECT_EQ(player.getViewCorner(), Vector(200, 100));
-  WM.moveObject(p_ship, Vector(250, 112));  // within the inner third
+  WM.moveObject(p_ship, Vector(250, 112));  // within the view's inner third
   EXPECT_EQ(player.getViewCorner(), Vector(200, 100));
   p_ship->setVelocity(Vector(30, 0));
-  WM.update();  // 280: out of it
+  WM.update();  // x = 280, outside it
   EXPECT_NEAR(player.getViewCorner().x(), 280 - 80.0 * 2 / 3, 1e-6);
   const Vector before = player.getViewCorner();
   delete p_ship;
@@ -198,7 +198,7 @@ TEST_F(Players, TextsAreCheckedAndShownToOnePlayerOnly) {
   EXPECT_EQ(player.setText(1, Vector(80, 1), "x"), -1);
   EXPECT_EQ(player.setText(1, Vector(2, -1), "x"), -1);
   EXPECT_EQ(player.setText(1, Vector(2, 1), "x", static_cast<Color>(8)), -1);
-  EXPECT_EQ(player.setText(1, Vector(78, 2), "long"), 0);  // cut at the edge
+  EXPECT_EQ(player.setText(1, Vector(78, 2), "long"), 0);  // truncated at the window's edge
   ASSERT_EQ(player.facts().texts.size(), 2u);
   EXPECT_EQ(player.facts().texts[1].text, "lo");
   GM.tick();

@@ -12,7 +12,7 @@ class Precise : public WorldTest {
     EXPECT_EQ(p->setMask(rows), 0);
     return p;
   }
-  /// Two corners of a 4 by 4 square, away from each other.
+  /// Makes an L-shaped corner: the top row and the left column of a 4 by 4 square.
   Probe* makeCorner(double x, double y) {
     Probe* p = make("corner", x, y, {"####", "#   ", "#   ", "#   "});
     p->setPrecise();
@@ -78,7 +78,7 @@ TEST_F(Precise, CharactersThatWalkInUpdateEnterTheHoles) {
   Probe* b = make("b", 16, 10);
   b->setVelocity(Vector(-1, 0));
   for (int i = 0; i < 10; ++i) WM.update();
-  expectAt(*a, 11, 12);  // there is the left side
+  expectAt(*a, 11, 12);  // stopped by the left column
   expectAt(*b, 14, 10);
 }
 
@@ -94,7 +94,7 @@ TEST_F(Precise, SweptOneIsStoppedByTheCharactersInside) {
   Probe* a = make("a", 30, 12);
   a->setSwept();
   EXPECT_EQ(WM.moveObject(a, Vector(0, 12)), -1);
-  // Its cell would have been that of the left side.
+  // One step further it would enter the cell of the left column.
   EXPECT_EQ(a->getPosition().y(), 12);
   EXPECT_EQ(a->getPosition().x(), 10.5);
 }

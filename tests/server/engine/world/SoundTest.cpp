@@ -7,7 +7,7 @@
 namespace df::test {
 namespace {
 
-// What a sound file holds is not looked at.
+// Any existing file will do: sound files are not parsed.
 const std::string kFile = std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/simple.txt";
 
 class SoundTest : public WorldTest {
@@ -69,7 +69,7 @@ TEST_F(SoundTest, AKeysSoundNamesItsPlayer) {
 
 TEST_F(SoundTest, WhatPlaysAgainAndAgainIsInEveryViewUntilItEnds) {
   RM.loadSound(kFile, "engine");
-  RM.loadMusic(kFile, "engine");  // another thing than the sound of that name
+  RM.loadMusic(kFile, "engine");  // music and sounds have separate labels
   RM.getMusic("theme")->play();   // before the first tick, as games do
   RM.getSound("engine")->play();
   world.tick();

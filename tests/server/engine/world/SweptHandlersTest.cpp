@@ -58,7 +58,7 @@ TEST_F(SweptHandlers, SearchesTheRestOfThePathInTheWorldAsItIsThen) {
     aside->setPosition(Vector(40, 10));
     away->setPosition(Vector(25, 20));
     make("new", 35, 10, SOFT);
-    make("behind", 15, 10);  // the mover has passed there
+    make("behind", 15, 10);  // behind the mover
     delete &self;
   };
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
@@ -70,7 +70,7 @@ TEST_F(SweptHandlers, OneThatWasMetIsNotMetAgainFurtherOn) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* glass = make("glass", 20, 10);
   glass->on_event = [](Probe& self, const Event&) { self.setPosition(Vector(40, 10)); };
-  EXPECT_EQ(WM.moveObject(a, Vector(60, 10)), -1);  // as judged right then: HARD onto HARD
+  EXPECT_EQ(WM.moveObject(a, Vector(60, 10)), -1);  // decided at once: HARD onto HARD
   expectAt(*a, 19 - kUnit, 10);
   glass->setPosition(Vector(30, 10));
   glass->on_event = [](Probe& self, const Event&) {

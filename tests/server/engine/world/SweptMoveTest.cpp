@@ -30,7 +30,7 @@ TEST_F(SweptMoves, BlockedMoverStandsOneUnitBeforeTheContact) {
 TEST_F(SweptMoves, BlockedOnASlopeStandsWhereBothCoordinatesWereThen) {
   Probe* a = makeSwept("a", 10, 10);
   make("b", 21, 15);
-  EXPECT_EQ(WM.moveObject(a, Vector(30, 20)), -1);  // touches at x = 20, at half the way
+  EXPECT_EQ(WM.moveObject(a, Vector(30, 20)), -1);  // touches at x = 20, half-way
   expectAt(*a, 20 - kUnit, 15 - kUnit);
 }
 
@@ -103,7 +103,7 @@ TEST_F(SweptMoves, MaySlideAlongAWallAndLeaveIt) {
   EXPECT_EQ(WM.moveObject(a, Vector(15, 15)), 0);
   expectAt(*a, 15, 15);
   a->setPosition(Vector(19, 20));
-  EXPECT_EQ(WM.moveObject(a, Vector(19, 30)), 0);  // off its end
+  EXPECT_EQ(WM.moveObject(a, Vector(19, 30)), 0);  // beyond the wall's end
   expectAt(*a, 19, 30);
   EXPECT_TRUE(received.empty());
 }
@@ -192,7 +192,7 @@ TEST_F(SweptMoves, HoldsAtTheEndOfTheNumberRange) {
   Probe* a = makeSwept("a", far - 40, -far);
   Probe* b = make("b", far, -far);
   EXPECT_EQ(WM.moveObject(a, Vector(2e9, -far)), -1);
-  // Doubles are no finer than this there.
+  // Doubles have no higher precision here.
   EXPECT_NEAR(a->getPosition().x(), far - 1, 1e-6);
   delete b;
   a->setPosition(Vector(-2e9, 2e9));

@@ -1,4 +1,4 @@
-// What the tests of moves share.
+// Fixture for tests of swept moves.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace df::test {
 
-/// The distance of neighbouring positions, in cells.
+/// The distance between neighbouring positions, in cells.
 inline constexpr double kUnit = 1 / 4294967296.0;
 
 class SweptWorld : public WorldTest {
@@ -23,7 +23,7 @@ class SweptWorld : public WorldTest {
     p->setSwept();
     return p;
   }
-  /// One column of cells, from row 0 to row 23.
+  /// Makes a wall of one column, from row 0 to row 23.
   Probe* makeWall(const std::string& name, double x, Solidness solidness = HARD) {
     Probe* p = make(name, x, 0, solidness);
     p->setBox(Box(Vector(-0.5, -0.5), 1, 24));

@@ -1,4 +1,4 @@
-// The steps of a tick in their order.
+// The order of the steps of a tick.
 #include <memory>
 
 #include "engine/events/EventStep.h"

@@ -61,7 +61,7 @@ TEST_F(Update, ObjectStopsAtTheEndOfTheNumberRange) {
 TEST_F(Update, EarlierMovesAreSeenByLaterOnes) {
   Probe* a = make("a", 10, 10, Vector(5, 0));
   Probe* b = make("b", 16, 10, Vector(5, 0));
-  WM.update();  // a runs into where b still is
+  WM.update();  // a hits b, which has not moved yet
   expectAt(*a, 10, 10);
   expectAt(*b, 21, 10);
   WM.update();
@@ -120,7 +120,7 @@ TEST_F(Update, ObjectRemovedMeanwhileLosesItsTurn) {
   make("wall", 11, 10)->setSolidness(SOFT);
   a->on_event = [&](Probe&, const Event&) {
     WM.removeObject(b);
-    WM.insertObject(b);  // back, but last: first moved in the next update
+    WM.insertObject(b);  // back in the world, but last: its first move is in the next update
   };
   WM.update();
   expectAt(*b, 20, 10);
@@ -140,7 +140,7 @@ TEST_F(Update, BornInACollisionHandlerIsHitAtOnceAndMovedNextTick) {
   WM.update();
   ASSERT_NE(born, nullptr);
   expectAt(*born, 32, 10);
-  expectAt(*c, 30, 10);  // ran into it
+  expectAt(*c, 30, 10);  // stopped by `born`
   WM.update();
   expectAt(*born, 35, 10);
 }
@@ -165,7 +165,7 @@ TEST_F(Update, MarkedObjectMovesCollidesAndGetsEventsUntilTheEnd) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   Probe* b = make("b", 11.5, 10);
   WM.markForDelete(a);
-  EXPECT_EQ(WM.markForDelete(a), 0);  // twice is once
+  EXPECT_EQ(WM.markForDelete(a), 0);  // the second mark has no effect
   WM.markForDelete(b);
   WM.update();
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));

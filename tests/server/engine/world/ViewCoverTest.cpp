@@ -12,7 +12,7 @@ FixedVector cells(std::int64_t x, std::int64_t y) {
   return {x * kFixedOne, y * kFixedOne};
 }
 
-/// Both answers of a look at every view, for boxes of many sizes in and around them.
+/// Compares ViewCover with a test of every view, for boxes of many sizes in and around the views.
 void compare(std::size_t views, std::int64_t extent, std::uint64_t seed) {
   naiad::SplitMix64 random(seed);
   const auto within = [&](std::int64_t most) {

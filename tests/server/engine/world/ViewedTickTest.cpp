@@ -15,7 +15,8 @@ Names names(const ObjectList& list) {
   return out;
 }
 
-/// Everything was drawn ten cells to the left of where it is, but for what is listed as not seen.
+/// Claims that every Object was drawn ten cells to the left of its position, except `hidden`, which was not
+/// drawn.
 class TenToTheLeft : public LagCompensation {
  public:
   explicit TenToTheLeft(const World& world) : m_world(world) {}
@@ -29,7 +30,7 @@ class TenToTheLeft : public LagCompensation {
   }
   mutable ViewedTick last;
   ObjectKey hidden;
-  std::optional<FixedVector> corner;  ///< of the first player's view
+  std::optional<FixedVector> corner;  ///< corner of the first player's view
 
  private:
   const World& m_world;
@@ -81,7 +82,7 @@ TEST_F(SeenAt, GoesBackOnlyWhileAnInputWithAKnownTickIsHandled) {
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   GM.tick();
   EXPECT_EQ(at_click, Names{});
-  EXPECT_EQ(names(WM.objectsSeenAt(Vector(40, 5))), Names{"dot"});  // between inputs: now
+  EXPECT_EQ(names(WM.objectsSeenAt(Vector(40, 5))), Names{"dot"});  // between inputs: the present positions
   world.input().setLagCompensation(nullptr);
 }
 
@@ -96,7 +97,7 @@ TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
   dot.on_event = [&](Probe&, const Event& e) {
     clicks.push_back(static_cast<const EventMouse&>(e).getMousePosition());
   };
-  compensation.corner = toFixed(Vector(6.6, -2));  // cell 7
+  compensation.corner = toFixed(Vector(6.6, -2));  // shown as cell 7
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
   world.input().mouse(bob, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});

@@ -28,7 +28,7 @@ TEST_F(WorldLife, TwoWorldsInOneProcessDoNotMeet) {
   }
   EXPECT_EQ(&World::current(), &world);
   EXPECT_EQ(WM.getAllObjects().getCount(), 1);
-  other.update();  // not the current one, but current to its handlers
+  other.update();  // `other` is not current here, but it is for its handlers
   EXPECT_EQ(other.objects().objectsOfType("there")[0]->getPosition(), Vector(11, 10));
   other.shutDown();
 }

@@ -1,4 +1,4 @@
-// Saucer Shoot as it is written for the published engine, played headless from the title to the title.
+// Saucer Shoot for the published engine, played headless from title to title.
 
 #include <gtest/gtest.h>
 

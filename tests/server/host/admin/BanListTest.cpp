@@ -39,7 +39,7 @@ class BanListTest : public testing::Test {
     ban.made = now;
     return ban;
   }
-  /// Add it, and wait for the disk: what it says.
+  /// Adds a ban and waits for the disk. Returns the problem, "" if none.
   static std::string add(BanList& list, const Ban& ban) {
     std::promise<std::string> saved;
     EXPECT_TRUE(list.add(ban, [&saved](const std::string& problem) { saved.set_value(problem); }));
@@ -209,7 +209,7 @@ TEST_F(BanListTest, ADatabaseOfSomethingElseIsAnError) {
   EXPECT_THROW(BanList(worker, folder, clock()), BanFileError);
 }
 
-// As on a full disk: the folder cannot be made.
+// Simulates a full disk: the folder cannot be created.
 TEST_F(BanListTest, ABanThatCannotBeWrittenHoldsAndIsToldAndIsWrittenLater) {
   const fs::path blocked = folder / "state";
   std::ofstream(blocked) << "in the way";

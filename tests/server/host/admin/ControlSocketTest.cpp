@@ -29,7 +29,7 @@ class ControlSocketTest : public testing::Test {
  protected:
   ControlSocketTest() { options.path = folder / "control.sock"; }
 
-  /// Answers with the command; "say" waits until release().
+  /// Answers each command with its text; "say" waits for release() while `held`.
   std::unique_ptr<ControlSocket> open() {
     return std::make_unique<ControlSocket>(
         options,
@@ -55,7 +55,7 @@ class ControlSocketTest : public testing::Test {
     }
     for (const auto& done : all) done(AdminAnswer::done("at last"));
   }
-  /// Until a command is held.
+  /// Waits until a command is held.
   void awaitCommand() {
     for (;; std::this_thread::yield()) {
       const std::lock_guard lock(mutex);
@@ -104,7 +104,7 @@ TEST_F(ControlSocketTest, AStaleSocketIsReplacedALiveOneNever) {
   EXPECT_THROW(open(), ListenError);
   EXPECT_EQ(Talk(options.path).ask(kPing), R"({"ok":true,"text":"ping"})") << "the first one lives";
   control.reset();
-  {  // as after SIGKILL
+  {  // a socket left by a killed server
     const int dead = ::socket(AF_UNIX, SOCK_STREAM, 0);
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -254,7 +254,7 @@ TEST_F(ControlSocketTest, AWatcherSeesWhatIsPublished) {
   const auto control = open();
   Talk talk(options.path);
   ASSERT_EQ(talk.ask(R"({"command":"watch"})"), R"({"ok":true,"text":"The log follows."})");
-  ASSERT_EQ(talk.ask(kPing), R"({"ok":true,"text":"ping"})");  // so it watches by now
+  ASSERT_EQ(talk.ask(kPing), R"({"ok":true,"text":"ping"})");  // the answer shows that watching has begun
   feed.publish("log", "first\nline");
   feed.publish("chat", "\"Ann\": \x1b");
   EXPECT_EQ(talk.readLine(), R"({"event":"log","text":"first\nline"})");

@@ -1,4 +1,4 @@
-// Players for tests of commands, without a server.
+// Fake players for tests of commands, without a server.
 #pragma once
 
 #include <string>

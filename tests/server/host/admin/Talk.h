@@ -1,4 +1,4 @@
-// A program that talks to a control socket: blocking, with deadlines.
+// A client of a control socket, blocking, with timeouts.
 #pragma once
 
 #include <poll.h>
@@ -31,13 +31,13 @@ class Talk {
   void send(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t size = ::send(m_socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-      if (size <= 0) return;  // the other end has hung up
+      if (size <= 0) return;  // the other end has closed the connection
       bytes.remove_prefix(static_cast<std::size_t>(size));
     }
   }
-  /// Say no more.
+  /// Ends the sending direction.
   void shutDown() { ::shutdown(m_socket, SHUT_WR); }
-  /// The next line; nothing once the server has hung up, or after 60 s.
+  /// Reads the next line; nullopt if the server closed the connection, or after 60 s.
   std::optional<std::string> readLine() {
     for (;;) {
       if (const std::size_t end = m_in.find('\n'); end != std::string::npos) {
@@ -53,12 +53,12 @@ class Talk {
       m_in.append(piece, static_cast<std::size_t>(size));
     }
   }
-  /// Is there more to read? Does not wait.
+  /// True if there is more to read. Does not wait.
   bool isReadable() const {
     pollfd ready{m_socket, POLLIN, 0};
     return !m_in.empty() || ::poll(&ready, 1, 0) > 0;
   }
-  /// A line, and the last line of its answer.
+  /// Sends a line and returns the last line of its answer.
   std::string ask(const std::string& line) {
     send(line + "\n");
     for (;;) {

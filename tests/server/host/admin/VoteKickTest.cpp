@@ -10,7 +10,7 @@ using Outcome = VoteKick::Outcome;
 
 class VoteKickTest : public testing::Test {
  protected:
-  /// Each at an address of its own.
+  /// Adds players, each at its own address.
   void addPlayers(int count) {
     for (int i = 0; i < count; ++i)
       target.add("p" + std::to_string(i), "192.0.2." + std::to_string(i + 1) + ":1");

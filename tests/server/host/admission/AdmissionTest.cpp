@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
 
-constexpr int kTurns = 100;  ///< of a round that is executed again
+constexpr int kTurns = 100;  ///< turns of a round that is replayed
 
 struct Nowhere : JournalSink {
   void write(std::string_view) override {}
@@ -37,7 +37,7 @@ struct Nowhere : JournalSink {
   void setFlags(std::uint16_t) override {}
 };
 
-/// A world that is closed at once, or not before the test says so.
+/// A world that closes at once, or only when the test allows it.
 class FakeWorld : public WorldPort {
  public:
   FakeWorld(int& worlds, const bool& ends) : m_worlds(worlds), m_ends(ends) { ++m_worlds; }
@@ -96,7 +96,7 @@ class AdmissionTest : public testing::Test {
     return hello;
   }
   Session& sessionOf(std::uint64_t id) { return *sessions.find(id); }
-  /// A player joins from there, and leaves again at once. False: they were refused for now.
+  /// A player joins from `address` and leaves at once. False if the player was refused as BUSY.
   bool visit(const std::string& address) {
     Client& client = greet(helloOf("Ann"), address);
     const bool welcome = client.isWelcome();
@@ -127,7 +127,7 @@ class AdmissionTest : public testing::Test {
     rooms.checkWorlds();
     return welcome;
   }
-  /// A round of a server that was killed is executed again.
+  /// Opens a world that replays a killed server's round, up to `percent` of its turns.
   FakeWorld& recover(int percent) {
     FakeWorld* p_fake = nullptr;
     rooms.setWorlds([this, &p_fake](asio::io_context&) {
@@ -149,7 +149,7 @@ class AdmissionTest : public testing::Test {
     return *p_fake;
   }
   void endRecovery(FakeWorld& fake, int percent) {
-    fake.answer(kTurns - percent + 1);  // that of the closing turn, too
+    fake.answer(kTurns - percent + 1);  // plus one for the closing turn
     rooms.checkWorlds();
   }
   bool waitsAfter(const Client& client, std::chrono::milliseconds time) {
@@ -157,7 +157,7 @@ class AdmissionTest : public testing::Test {
     admission().judgeWaiting();
     return !client.isWelcome() && !client.isRefused();
   }
-  /// Is the list of players sent, which is always the same?
+  /// True if the list of players, which never changes here, is sent.
   bool sendsList() {
     bool sent = false;
     news.tick(
@@ -426,7 +426,7 @@ TEST_F(AdmissionTest, SecondStreamsThatComeTooOftenAreRefusedForNow) {
   second.set_resume_token(back.welcome().resume_token());
   EXPECT_EQ(greet(second).refusal(), wire::Refused::BUSY) << "coming back refills nothing";
   for (int i = 0; i < 20; ++i) {
-    now += 2s;  // as often as clients ask
+    now += 2s;  // as often as clients retry
     EXPECT_TRUE(greet(second).isWelcome()) << i;
   }
 }
@@ -478,7 +478,7 @@ TEST_F(AdmissionTest, APasswordThatIsNotComparedIsCounted) {
   EXPECT_EQ(admission().passwordCounters().busy, counters.refused_busy);
 }
 
-// ---- joining again and again ------------------------------------------------------------------------------
+// ---- repeated joins ---------------------------------------------------------------------------------------
 
 TEST_F(AdmissionTest, AClassOf64BehindOneAddressJoinsLeavesAndJoinsAgainAtOnce) {
   options.max_players = 64;

@@ -1,4 +1,4 @@
-// Who goes from room to room, and who does not: with worlds that do what the test says.
+// Moves of players between rooms, allowed and refused, with worlds that the test scripts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
 
-/// Notes what it is given, and sends players where the test says.
+/// Records its inputs, and moves players when the test says so.
 class DoorPort : public WorldPort {
  public:
   bool isReady() const override { return true; }
@@ -114,7 +114,7 @@ class RoomMovesTest : public testing::Test {
     moves.update();
     rooms.beginTicks();
   }
-  /// Where the client is, as it was sent.
+  /// Returns the client's room, according to the messages it got.
   static std::string roomOf(const Client& client) {
     std::string room = client.welcome().room();
     for (const wire::ServerMessage& message : client.sent) {
@@ -247,7 +247,7 @@ TEST_F(RoomMovesTest, TheListHasAllRooms) {
   EXPECT_EQ(sent.rooms(2).max_players(), 8u);
 }
 
-// It would take the message for that of a broken server.
+// An old client would take a room message for that of a broken server.
 TEST_F(RoomMovesTest, AClientOfBeforeRoomsStaysWhereItJoinedAndIsSentNothingOfThem) {
   Client& old = join("old", "", false);
   enter(old, "quiet");

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 using Answer = PasswordCheck::Answer;
 using Time = std::chrono::steady_clock::time_point;
 
-/// Cheap, for tests.
+/// A low cost, for fast tests.
 constexpr PasswordHash::Cost kCheap{.memory_kib = 64, .passes = 1};
 
 AddressPrefix prefix(int number) {
@@ -35,7 +35,7 @@ struct PasswordCheckTest : testing::Test {
   void ask(int from, const std::string& password) {
     ask(prefix(from), password, [this](Answer answer) { answers.push_back(answer); });
   }
-  /// Ends when all answers are there: the loop has no other work.
+  /// Runs until all answers have arrived: then the loop has no work left.
   std::vector<Answer> run() {
     context.restart();
     context.run();
@@ -107,7 +107,7 @@ TEST_F(PasswordCheckTest, WrongTriesFromOnePlaceAreFew) {
     ask(1, "guess");
     EXPECT_EQ(run(), std::vector{Answer::kWrong});
   }
-  ask(1, "open sesame");  // too late, though it is right
+  ask(1, "open sesame");  // the right password, but after the limit
   ask(2, "open sesame");
   EXPECT_EQ(run(), (std::vector{Answer::kTooMany, Answer::kRight}));
   now += 60s;
@@ -132,8 +132,7 @@ TEST_F(PasswordCheckTest, TriesAtOnceDoNotGetAroundTheLimit) {
 }
 
 TEST_F(PasswordCheckTest, FloodMeetsAShortQueue) {
-  for (int i = 0; i < 100; ++i)
-    ask(i, "open sesame");  // nothing is answered meanwhile, for the loop does not run
+  for (int i = 0; i < 100; ++i) ask(i, "open sesame");  // no answer yet, because the loop does not run
   const auto all = run();
   ASSERT_EQ(all.size(), 100u);
   EXPECT_EQ(std::ranges::count(all, Answer::kRight), 8);
@@ -152,7 +151,7 @@ TEST_F(PasswordCheckTest, WhatCannotBeAPasswordIsNeitherComparedNorCounted) {
   EXPECT_EQ(run(), std::vector{Answer::kRight}) << "it has all of its tries";
 }
 
-/// Attackers who ask again as soon as they have an answer, from a network each.
+/// Attackers, each in its own network, who retry as soon as they have an answer.
 TEST_F(PasswordCheckTest, EightyAddressesThatGuessKeepNoPlayerOut) {
   const auto network = [](int i) {
     return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256));
@@ -177,7 +176,7 @@ TEST_F(PasswordCheckTest, EightyAddressesThatGuessKeepNoPlayerOut) {
     EXPECT_EQ(*answer, Answer::kRight);
     EXPECT_LE(check->counters().wrong - before, 1u) << "it waits for the guess that is being made";
   }
-  // One who comes with them all is one of 81, and asks again when it is sent away.
+  // A player who comes together with the attackers is one of 81, and retries when refused.
   now += 60s;
   ask(network(2000), "open sesame", [&](Answer a) { EXPECT_EQ(a, Answer::kRight); });
   over = true;

@@ -53,7 +53,7 @@ TEST(ResumeTokens, AreVoidOnceALaterOneIsUsedOrTheSessionIsOver) {
   EXPECT_EQ(tokens.redeem(third), std::nullopt);
 }
 
-// Another server knows of them what is kept: their hashes.
+// The restored server knows only the stored hashes of the tokens.
 TEST(ResumeTokens, AreGoodAfterARestoreAsTheyWereBefore) {
   ResumeTokens killed;
   const std::string first = killed.issue(5);
@@ -96,7 +96,7 @@ TEST(ResumeTokens, SayWhenTheSessionGoesOnElsewhere) {
   EXPECT_TRUE(tokens.isElsewhere(first));
   EXPECT_FALSE(tokens.isElsewhere(second));
   EXPECT_EQ(tokens.redeem(first), std::nullopt);
-  // An ordinary return leaves no such trace, and the old one stays.
+  // An ordinary resume does not supersede the old token.
   ASSERT_EQ(tokens.redeem(second), 5u);
   const std::string third = tokens.issue(5);
   tokens.confirm(5);

@@ -29,7 +29,7 @@ struct ServerIdentityTest : testing::Test {
     stat(path.c_str(), &facts);
     return facts.st_mode & 0777U;
   }
-  /// The sentence that loading ends with.
+  /// Returns the message of the TlsError that `action` throws; "(none)" if it throws none.
   template <class Action>
   static std::string complaint(Action action) {
     try {
@@ -78,7 +78,7 @@ TEST_F(ServerIdentityTest, KeyIsForItsOwnerAlone) {
   loadOrMake();
   EXPECT_EQ(modeOf(directory / "key.pem"), 0600U);
   EXPECT_EQ(modeOf(directory), 0700U);
-  EXPECT_EQ(std::distance(fs::directory_iterator(directory), {}), 2);  // no drafts left
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory), {}), 2);  // no temporary files left
 }
 
 TEST_F(ServerIdentityTest, OtherDirectoriesHaveOtherKeys) {

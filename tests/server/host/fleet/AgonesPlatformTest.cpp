@@ -24,7 +24,7 @@ std::pair<int, std::string> well(const std::string& request) {
   return {200, request == "GET /gameserver" ? kServer : "{}"};
 }
 
-/// A server that ticks, while it lives: a tick of half a second ago would be no sign of health.
+/// A server that ticks while this exists. Without ticks for half a second, it would not count as healthy.
 class Ticks {
  public:
   explicit Ticks(AgonesPlatform& platform)
@@ -42,7 +42,7 @@ TEST(AgonesPlatform, TriesAgainUntilALateSidecarThatIsBusyAtFirstAnswers) {
   AgonesPlatform platform(sidecar.port());
   platform.notifyReady();
   std::string news;
-  while (news.empty()) news = platform.takeNews();  // it was refused at least once
+  while (news.empty()) news = platform.takeNews();  // the connection was refused at least once
   EXPECT_EQ(news, "warning: Agones: the sidecar does not answer; trying again");
   std::atomic<int> asked = 0;
   sidecar.start([&](const std::string& request) {
@@ -84,7 +84,7 @@ TEST(AgonesPlatform, SaysThatItEndsAndWaitsForTheAnswer) {
 }
 
 TEST(AgonesPlatform, WithoutASidecarTheEndDoesNotWaitForLong) {
-  FakeSidecar sidecar;  // refuses
+  FakeSidecar sidecar;  // refuses connections until start()
   const auto begin = std::chrono::steady_clock::now();
   {
     AgonesPlatform platform(sidecar.port());

@@ -1,5 +1,5 @@
-// The sidecar of Agones as a server meets it: HTTP on loopback, by its published description. It answers as a
-// test says, and notes what it was asked.
+// The Agones sidecar as a server sees it: HTTP on loopback, as in its published description. It answers as
+// the test says and records the requests.
 #pragma once
 
 #include <algorithm>
@@ -27,10 +27,10 @@ namespace naiad::test {
 
 class FakeSidecar {
  public:
-  /// Status and body for a request like "POST /ready {}".
+  /// Returns status and body for a request such as "POST /ready {}".
   using Answer = std::function<std::pair<int, std::string>(const std::string& request)>;
 
-  /// Has a port, on which connections are refused until start().
+  /// Binds a port, which refuses connections until start().
   FakeSidecar() {
     m_acceptor.open(asio::ip::tcp::v4());
     m_acceptor.bind({asio::ip::address_v4::loopback(), 0});
@@ -56,7 +56,7 @@ class FakeSidecar {
     m_watchers.clear();
   }
 
-  /// Wait until this holds for all requests so far; false: not within a minute.
+  /// Waits until `holds` is true for all requests so far; false after a minute.
   bool wait(const std::function<bool(const std::vector<std::string>& requests)>& holds) {
     std::unique_lock lock(m_mutex);
     return m_asked.wait_for(lock, std::chrono::minutes(1), [&] { return holds(m_requests); });
@@ -70,7 +70,7 @@ class FakeSidecar {
     const std::lock_guard lock(m_mutex);
     return m_requests;
   }
-  /// To all who watch, as pieces of this size.
+  /// Sends `line` to all watchers, in pieces of this size.
   void push(const std::string& line, std::size_t piece = 1000) {
     const std::lock_guard lock(m_mutex);
     for (const auto& socket : m_watchers) {
@@ -83,7 +83,7 @@ class FakeSidecar {
       }
     }
   }
-  /// Hang up on all who watch.
+  /// Disconnects all watchers.
   void endWatches() {
     const std::lock_guard lock(m_mutex);
     m_watchers.clear();
@@ -128,7 +128,7 @@ class FakeSidecar {
       m_watchers.push_back(socket);
       note(request);
     } else {
-      {  // first: who has the answer may be gone, and be asked about
+      {  // before the answer: the client may then end, and the test ask for its requests
         const std::lock_guard lock(m_mutex);
         note(request);
       }

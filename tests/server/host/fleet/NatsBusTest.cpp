@@ -1,4 +1,4 @@
-// The bus with the real nats-server.
+// Tests the bus with the real nats-server.
 #include <gtest/gtest.h>
 
 #include "host/fleet/Bus.h"
@@ -81,7 +81,7 @@ TEST(BusSettings, WhatIsNoAddressIsSaidBeforeTheStart) {
 
 #ifdef NAIAD_NATS
 
-/// Reads what is on the bus, and looks after its streams.
+/// Reads the messages on the bus and manages its streams.
 class Listener {
  public:
   explicit Listener(const std::string& url, const char* p_subject = "naiad.presence.>") {
@@ -96,7 +96,7 @@ class Listener {
     natsConnection_Destroy(m_p_connection);
   }
   bool isConnected() const { return m_p_connection != nullptr; }
-  /// The next message within a minute, as "SUBJECT PAYLOAD".
+  /// Returns the next message as "SUBJECT PAYLOAD"; "" after a minute.
   std::string next() const {
     natsMsg* p_message = nullptr;
     if (natsSubscription_NextMsg(&p_message, m_p_subscription, 60'000) != NATS_OK) return "";
@@ -115,7 +115,7 @@ class Listener {
     config.SubjectsLen = 1;
     return js_AddStream(nullptr, m_p_stream, &config, nullptr, nullptr) == NATS_OK;
   }
-  /// Messages that are stored.
+  /// Returns the number of stored messages.
   std::uint64_t results() const {
     jsStreamInfo* p_info = nullptr;
     if (js_GetStreamInfo(&p_info, m_p_stream, "results", nullptr, nullptr) != NATS_OK) return 0;
@@ -206,7 +206,7 @@ TEST_F(NatsBusTest, WhatOthersSayUnderItsSubjectsIsHeardAlsoOnceTheBusIsBack) {
   for (const std::string text : {"here", "back"}) {
     ASSERT_TRUE(test::waitUntil([&] { return ear->isConnected() && mouth->isConnected(); }));
     std::vector<BusMessage> heard;
-    // It may be connected a moment before it listens.
+    // A client may be connected a moment before its subscription is active.
     EXPECT_TRUE(test::waitUntil([&] {
       mouth->publish({"naiad.other.a", "none of its"});
       mouth->publish({"naiad.presence.a", text});

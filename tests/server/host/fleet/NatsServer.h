@@ -1,4 +1,4 @@
-// The real nats-server, as a process of a test's own, on a port of its own.
+// Runs the real nats-server as a process of the test, on its own port.
 #pragma once
 
 #include <signal.h>
@@ -21,7 +21,7 @@ class NatsServer {
   static constexpr const char* kProgram = "/usr/sbin/nats-server";
   static bool isInstalled() { return ::access(kProgram, X_OK) == 0; }
 
-  /// `config`: more lines of its configuration.
+  /// `config`: additional lines of the configuration.
   explicit NatsServer(const std::string& config = "") {
     std::ofstream(m_folder / "config") << config << "\n";
   }
@@ -29,7 +29,7 @@ class NatsServer {
   NatsServer(const NatsServer&) = delete;
   NatsServer& operator=(const NatsServer&) = delete;
 
-  /// Listens on any free port, or on the one of before. False: it does not.
+  /// Starts the server on any free port, or again on its earlier port. False on failure.
   bool start() {
     const std::string port = m_port.empty() ? "-1" : m_port;
     std::error_code error;
@@ -64,7 +64,7 @@ class NatsServer {
   std::filesystem::path portsFile() const {
     return m_folder / ("nats-server_" + std::to_string(m_process) + ".ports");
   }
-  /// {"nats":["nats://127.0.0.1:40123"]}; written once it listens.
+  /// Reads {"nats":["nats://127.0.0.1:40123"]}, which the server writes once it listens.
   bool readPort() {
     const std::string text = contentOf(portsFile());
     const std::size_t begin = text.find("127.0.0.1:");

@@ -1,4 +1,4 @@
-// What a service manager hears, by a socket that plays its part.
+// Notifications to a service manager; a socket of the test plays the manager.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -24,7 +24,7 @@ class ServiceNotifyTest : public testing::Test {
   ~ServiceNotifyTest() override {
     if (socket >= 0) ::close(socket);
   }
-  /// '@': a name without a file.
+  /// Listens at `path`; a leading '@' means an abstract socket name.
   void listenAt(const std::string& path) {
     if (socket >= 0) ::close(socket);
     sockaddr_un address{};
@@ -112,7 +112,7 @@ TEST_F(ServiceNotifyTest, IsSilentWithoutAManager) {
   EXPECT_FALSE(service.isActive());
 }
 
-// A manager that does not read costs no time: its socket takes some datagrams and no more.
+// A manager that does not read must not block the server: its socket holds only some datagrams.
 TEST_F(ServiceNotifyTest, DoesNotWaitForAManagerThatDoesNotRead) {
   variables["WATCHDOG_USEC"] = "2";
   ServiceNotify service(variable());

@@ -12,10 +12,10 @@ namespace {
 using namespace std::chrono_literals;
 using Time = SidecarDuties::Time;
 
-/// A server, and a sidecar that answers what the test says.
+/// A server's duties, and a sidecar that answers as the test says.
 class SidecarDutiesTest : public testing::Test {
  protected:
-  /// What it says until there is nothing left to say now, each answered so.
+  /// Returns all requests that are due now, after answering each with this status and body.
   std::vector<std::string> said(int status = 200, const std::string& body = "{}") {
     std::vector<std::string> all;
     while (const auto request = duties.next(now)) {
@@ -69,7 +69,7 @@ TEST_F(SidecarDutiesTest, IsHealthyAsLongAsItTicks) {
     duties.noteTick(now - 1ms);
     EXPECT_EQ(said(), All{"POST /health"});
   }
-  now += 10s;  // hangs
+  now += 10s;  // the server hangs
   EXPECT_EQ(said(), All{});
   EXPECT_EQ(duties.counters().health, 5u);
 }
@@ -122,7 +122,7 @@ TEST_F(SidecarDutiesTest, WhatTheResourceDoesNotHaveIsNotAskedForWithoutEnd) {
   EXPECT_EQ(duties.counters().failures, 0u);
 }
 
-// An answer that is no facts: too long, cut, or of another program on that port.
+// An unusable answer: too long, truncated, or from another program on that port.
 TEST_F(SidecarDutiesTest, FactsThatCannotBeReadAreAskedForAgainWhileTheRestGoesOn) {
   const std::string server = R"({"status":{"address":"192.0.2.7","ports":[{"port":7012}]}})";
   for (const std::string& body :

@@ -1,5 +1,5 @@
-// The file format of rounds: what is written is read, and a file that is cut off, changed or hostile is read
-// as far as it is good.
+// The file format of rounds. A written file can be read, and a truncated, changed or hostile file is read up
+// to the first fault.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -34,7 +34,7 @@ WorldTurn randomTurn(SplitMix64& random) {
   return turn;
 }
 
-/// A file, and how many records lie before each place in it where a chunk ends.
+/// A file, and the number of records before the end of each chunk.
 struct SmallFile {
   std::string bytes;
   std::vector<std::pair<std::size_t, std::size_t>> records_at;
@@ -78,7 +78,7 @@ struct SmallFile {
   }
 };
 
-/// The places in a file that are tried: all of them, but by a sanitizer some of each record.
+/// Step between the file positions tried: 1, or 7 under a sanitizer.
 constexpr std::size_t kEachByte = test::kSanitized ? 7 : 1;
 
 std::size_t countRecords(DfrReader& reader) {
@@ -183,7 +183,8 @@ TEST(DfrTest, AChangedByteGivesNoOtherRecords) {
     changed[at] = static_cast<char>(changed[at] ^ 0x10);
     DfrReader reader(changed);
     const std::size_t count = countRecords(reader);
-    const bool is_flag = at == kDfrFlagsAt || at == kDfrFlagsAt + 1;  // they change while a round is written
+    const bool is_flag = at == kDfrFlagsAt || at == kDfrFlagsAt + 1;  // the flags change while a round is
+                                                                      // written
     if (is_flag) {
       EXPECT_EQ(count, all);
       continue;
@@ -229,7 +230,7 @@ TEST(DfrTest, UnknownRecordsAreSkipped) {
   records += std::string(
       "\x04\x63"
       "abc",
-      5);  // of kind 99
+      5);  // record of kind 99
   writer.write(TickResult(), records);
   TurnRecordReader reader;
   reader.add(records);
@@ -248,8 +249,7 @@ TEST(DfrTest, AChunkThatPromisesTooMuchIsDamaged) {
   EXPECT_EQ(reader.end(), DfrEnd::kDamaged);
 }
 
-// What repeats takes next to nothing: a file of it would otherwise cost what one of a thousand times its size
-// does.
+// Repetition packs to almost nothing: such a file could cost as much memory as one a thousand times its size.
 TEST(DfrTest, AFileThatUnpacksToHundredsOfTimesItsSizeIsDamaged) {
   DfrTurnPacker packer;
   std::string records;
@@ -282,7 +282,7 @@ TEST(RecordCoder, AnyBytesComeBackInPiecesOfAnySize) {
   }
 }
 
-// Files are read on other machines, and by later versions.
+// The bytes must not change, because other machines and later versions read the files.
 TEST(RecordCoder, TheBytesAreThoseThatTheyWere) {
   std::string records;
   TurnRecordWriter writer;

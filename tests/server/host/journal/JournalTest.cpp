@@ -1,4 +1,4 @@
-// A round's journal and the disk: the tick thread never waits for it, and a disk that fails costs the
+// A round's journal and the disk: the tick thread never waits for the disk, and a failing disk ends the
 // journal, not the game.
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -25,14 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A disk in memory, which stalls or fails as it is told.
+/// A disk in memory that stalls or fails on request.
 struct Disk {
   std::mutex mutex;
   std::condition_variable changed;
   std::string bytes;
   std::uint16_t flags = 0;
   bool stalls = false;
-  bool waits = false;  ///< somebody does
+  bool waits = false;  ///< a write is waiting
   int error = 0;
 
   void setStalled(bool stalled) {
@@ -85,7 +85,7 @@ std::shared_ptr<Journal> journalOn(Disk& disk, std::size_t ring = kRing) {
                                    ring, false);
 }
 
-/// A journal on such a disk, and its writer.
+/// A journal on this disk, and its writer.
 class JournalTest : public testing::Test {
  protected:
   void begin(std::size_t ring = kRing) {
@@ -113,7 +113,7 @@ TEST_F(JournalTest, WhatIsAddedIsOnTheDiskAfterATurnOfTheWriter) {
   EXPECT_EQ(journal->takeProblem(), std::nullopt);
 }
 
-// Who reads a file knows its facts before its first turn, also if they came while its header was written.
+// A reader gets the facts before the first turn, even if they came while the header was written.
 TEST_F(JournalTest, FactsAreBeforeTheRecordsThatWereAddedAfterThem) {
   disk.setStalled(true);
   begin();
@@ -128,14 +128,14 @@ TEST_F(JournalTest, FactsAreBeforeTheRecordsThatWereAddedAfterThem) {
   EXPECT_TRUE(reader.next());
 }
 
-// While the disk stalls, adding returns: this test would hang otherwise.
+// Adding returns although the disk stalls; otherwise this test would hang.
 TEST_F(JournalTest, ADiskThatStallsKeepsNobodyWaiting) {
   begin(std::size_t{1} << 20);
   disk.setStalled(true);
   ASSERT_TRUE(journal->add(turnRecord()));
   writer.wake();
   disk.waitUntilSomebodyWaits();
-  for (int tick = 0; tick < 300; ++tick) ASSERT_TRUE(journal->add(turnRecord()));  // ten seconds
+  for (int tick = 0; tick < 300; ++tick) ASSERT_TRUE(journal->add(turnRecord()));  // ten seconds of ticks
   disk.setStalled(false);
   ASSERT_TRUE(drains());
   EXPECT_EQ(countTurns(disk.bytes), 301u);
@@ -202,7 +202,7 @@ TEST_F(JournalTest, WhileNoPlayerIsThereTheDiskHasHalfAMinutesRest) {
 
 class JournalFileTest : public testing::Test {
  protected:
-  /// Rounds of another process have other ids.
+  /// Returns a header with an id that no other process of this test uses.
   static DfrHeader headerOf(std::uint8_t first, std::uint8_t last = 3) {
     DfrHeader header;
     header.uuid = {first, static_cast<std::uint8_t>(getpid()), static_cast<std::uint8_t>(getpid() >> 8),
@@ -228,7 +228,7 @@ TEST_F(JournalFileTest, ItsFileIsForThisUserAlone) {
   EXPECT_EQ(DfrReader(bytes).header().flags, kDfrStopped);
 }
 
-// What waits for the disk when the process is killed is in the file after the next start: no turn is lost.
+// Records still in memory when the process is killed are written at the next start: no turn is lost.
 TEST_F(JournalFileTest, AKilledServersRoundGetsTheTurnsThatHadNotReachedTheDisk) {
   const fs::path path = folder / "hello.dfr";
   const DfrHeader header = headerOf(0x5A);
@@ -245,13 +245,13 @@ TEST_F(JournalFileTest, AKilledServersRoundGetsTheTurnsThatHadNotReachedTheDisk)
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
-  fs::resize_file(path, fs::file_size(path) + 7);  // torn in the middle of a chunk
+  fs::resize_file(path, fs::file_size(path) + 7);  // an incomplete chunk at the end
   EXPECT_EQ(salvageRounds(folder.string()).size(), 1u);
   EXPECT_EQ(countTurns(test::contentOf(path)), 150u);
   EXPECT_TRUE(salvageRounds(folder.string()).empty()) << "and the memory is free";
 }
 
-// A thread of its own begins the file, some time after the world has had its first turns.
+// The file is created by another thread, some time after the world's first turns.
 TEST_F(JournalFileTest, AServerThatWasKilledBeforeItsFileWasBegunHasItAfterwards) {
   const fs::path path = folder / "hello-first.dfr";
   DfrHeader header = headerOf(0x5C);
@@ -262,7 +262,7 @@ TEST_F(JournalFileTest, AServerThatWasKilledBeforeItsFileWasBegunHasItAfterwards
       Journal journal(std::make_unique<JournalFileSink>(path.string()), header, {{"game", "hello"}}, kRing,
                       true, std::nullopt, ringFolder(folder.string()), path.filename().string());
       for (int i = 0; i < 20; ++i) journal.add(turnRecord());
-      if (is_made) std::ofstream(path) << "NA";  // nor is its head written whole
+      if (is_made) std::ofstream(path) << "NA";  // not even the header is complete
       if (!journal.ring().isShared()) _exit(77);
       kill(getpid(), SIGKILL);
     }
@@ -283,7 +283,7 @@ TEST_F(JournalFileTest, AServerThatWasKilledBeforeItsFileWasBegunHasItAfterwards
   }
 }
 
-// The memory is this user's, and yet what it says is no path.
+// The shared memory belongs to this user, but a name in it must not become a path outside the folder.
 TEST_F(JournalFileTest, ARingNamesNoFileElsewhere) {
   int number = 0;
   for (const std::string name : {"../escaped.dfr", "/tmp/naiad-escaped.dfr", ".dfr", "hello.so", "..dfr"}) {

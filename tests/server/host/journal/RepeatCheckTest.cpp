@@ -1,4 +1,4 @@
-// A second world gets the turns of the first, and a difference is said once, with its tick and what it is.
+// A second world gets the turns of the first. A difference is reported once, with its tick and kind.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -18,7 +18,7 @@ df::WorldView viewOf(double x) {
   return view;
 }
 
-/// Answers at once; from a tick on its Object is elsewhere.
+/// Answers at once; from tick `strays_at` on, its Object is elsewhere.
 class QuickWorld : public WorldPort {
  public:
   QuickWorld(std::vector<WorldTurn>& turns, std::uint32_t strays_at)
@@ -42,9 +42,9 @@ class QuickWorld : public WorldPort {
 };
 
 struct Checked {
-  std::vector<WorldTurn> turns;  ///< that the second world got
+  std::vector<WorldTurn> turns;  ///< turns of the second world
   std::vector<std::string> said;
-  std::uint32_t updates = 0;  ///< until it was over
+  std::uint32_t updates = 0;  ///< updates until the check was over
 
   explicit Checked(std::uint32_t strays_at) {
     RepeatCheck check([&] { return std::make_unique<QuickWorld>(turns, strays_at); },

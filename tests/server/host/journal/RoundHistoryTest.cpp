@@ -1,4 +1,4 @@
-// When copies of a world are due, and where in the round they are.
+// When copies of a world are due, and their positions in the round.
 #include <gtest/gtest.h>
 
 #include "host/journal/RoundHistory.h"
@@ -8,9 +8,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kRecord = 10;  ///< bytes of each tick
+constexpr std::size_t kRecord = 10;  ///< bytes per tick
 
-/// A tick in which a copy is kept if one is due. True: one was. Each tick takes `time`.
+/// Plays a tick of length `time`, with a copy if one is due. Returns whether one was due.
 bool play(RoundHistory& round, std::uint32_t tick, milliseconds time = milliseconds(0)) {
   const bool due = round.isCopyDue(tick, [&] { return tick * time; });
   if (due) round.beginCopy(tick, {tick}, true);

@@ -16,10 +16,10 @@ TEST(LatestValue, IsTheNewestAndStaysUntilThereIsAnother) {
   ASSERT_NE(value.takeLatest(), nullptr);
   EXPECT_EQ(*value.takeLatest(), 2);
   EXPECT_EQ(*value.takeLatest(), 2);
-  value.publish(std::make_unique<const int>(3));  // not taken: freed with it
+  value.publish(std::make_unique<const int>(3));  // never taken: freed with `value`
 }
 
-/// Two numbers that are only ever right together.
+/// Two numbers that must always match.
 struct Pair {
   int number = 0;
   int negative = 0;

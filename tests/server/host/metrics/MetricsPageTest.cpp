@@ -1,4 +1,4 @@
-// The page of metrics: its format, and that no counter is missing on it.
+// The metrics page: its format, and that it includes every counter.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace naiad {
 namespace {
 
-/// The page with these values in the members of one of the snapshot's structs, which are all counters.
+/// Renders the page with these values in one of the snapshot's structs, whose members are all counters.
 template <class Struct>
 std::string written(const std::vector<std::uint64_t>& values, Struct& (*part)(MetricsSnapshot&)) {
   static_assert(std::is_trivially_copyable_v<Struct>);
@@ -26,12 +26,12 @@ std::string written(const std::vector<std::uint64_t>& values, Struct& (*part)(Me
   return renderMetrics(&snapshot, ProcessFacts());
 }
 
-/// Each counter, changed alone, must change the page.
+/// Checks that a change of any single counter changes the page.
 template <class Struct>
 void expectAllWritten(Struct& (*part)(MetricsSnapshot&)) {
   constexpr std::size_t kCount = sizeof(Struct) / sizeof(std::uint64_t);
   std::vector<std::uint64_t> values(kCount);
-  // Where a counter counts a part of another, that one stands before it and is larger.
+  // A counter that counts a part of another comes after it and must be smaller.
   for (std::size_t i = 0; i < kCount; ++i) values[i] = 1000 * (kCount - i);
   const std::string before = written<Struct>(values, part);
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -67,7 +67,7 @@ TEST(CounterFamilies, AreInTheSummaryOfTheLogAsWell) {
   }
 }
 
-/// A page in which nothing is 0.
+/// Returns a page without zeros.
 std::string fullPage() {
   MetricsSnapshot snapshot;
   snapshot.counters.ticks = 3;
@@ -94,7 +94,7 @@ TEST(MetricsPage, HasTheValues) {
   EXPECT_EQ(test::metricOf(page, R"(naiad_loss_ratio_bucket{le="0"})"), 1);
 }
 
-// A family is a block: its HELP, its TYPE, its samples, each once.
+// A family is a block of its HELP line, its TYPE line and its samples, each of which occurs once.
 TEST(MetricsPage, EachFamilyIsOneBlockAndEachSampleStandsOnce) {
   std::istringstream lines(fullPage());
   std::set<std::string> families;

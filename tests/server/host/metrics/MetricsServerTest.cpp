@@ -1,4 +1,4 @@
-// The HTTP server for metrics, with real sockets: what it answers, and to whom it does not listen.
+// The HTTP server for metrics, with real sockets: its answers, and the requests and connections it rejects.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -52,7 +52,7 @@ TEST_F(MetricsServerTest, OtherMethodsAreRefusedWithWhatIsAllowed) {
     EXPECT_EQ(reply.status, 405) << method;
     EXPECT_NE(reply.head.find("Allow: GET\r\n"), std::string::npos) << reply.head;
   }
-  // A body of any length is announced, and never read.
+  // A huge body is announced, but never read.
   EXPECT_EQ(ask("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99999999999\r\n\r\n").status, 405);
 }
 
@@ -101,7 +101,7 @@ TEST_F(MetricsServerTest, AHundredSilentConnectionsKeepNoScraperOut) {
   std::list<HttpClient> silent;
   for (int i = 0; i < 100; ++i) silent.emplace_back(server.port()).send("GET /metrics HTTP/1.1\r\n");
   for (int i = 0; i < 10; ++i) EXPECT_EQ(HttpClient::get(server.port(), "/metrics").body, "n 1\n");
-  // The oldest are gone, long before their time was over.
+  // The oldest connections are closed long before their timeout.
   EXPECT_EQ(silent.front().readAll(), "");
   EXPECT_TRUE(silent.front().isHungUp());
 }

@@ -19,7 +19,7 @@ Endpoint at(const char* address, std::uint16_t port = 9876) {
   return *makeEndpoint(address, port);
 }
 
-/// What a TLS connection would give, for the n-th one.
+/// Returns the key exporter of the `nth` simulated TLS connection.
 KeyExporter stream(int nth) {
   return [nth](std::string_view label, std::string_view context, std::size_t bytes) {
     const std::string all = std::to_string(nth) + std::string(label) + std::string(context);
@@ -57,10 +57,10 @@ class DatagramServiceTest : public testing::Test {
       service.flush();
     }
   }
-  /// Datagrams that left the server so far.
+  /// Returns how many datagrams the server has sent.
   int answers() { return packets[1]; }
 
-  /// The other end of a channel.
+  /// The client's end of a channel.
   struct Client {
     Client(DatagramServiceTest& of, const DatagramService::Channel& channel, int nth, const char* address)
         : test(of),
@@ -109,7 +109,7 @@ class DatagramServiceTest : public testing::Test {
   SplitMix64 random{9};
   std::deque<std::uint64_t> next_random;
   DatagramSocket* socket;
-  std::map<std::uint8_t, int> packets;  ///< sent, by the last byte of the sender's address
+  std::map<std::uint8_t, int> packets;  ///< sent datagrams, by the last byte of the sender's address
   Endpoint last_to;
   DatagramService service;
   Heard one, two;
@@ -206,7 +206,7 @@ TEST_F(DatagramServiceTest, AnotherStreamBringsNewKeysWithoutAGap) {
   EXPECT_FALSE(channel->renew(stream(2), epoch)) << "not newer";
   ASSERT_TRUE(channel->renew(stream(2), epoch + 1));
   EXPECT_EQ(channel->epoch(), epoch + 1);
-  ann.send("old, and late");  // before it knows
+  ann.send("old, and late");  // before the client knows the new keys
   pass(100ms);
   ann.renew(2, epoch + 1);
   say(*channel, "new");

@@ -1,4 +1,4 @@
-// Sockets from the service manager: only what a server can use is taken.
+// Sockets from the service manager: only sockets that a server can use are accepted.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -23,7 +23,7 @@ namespace {
 using asio::ip::tcp;
 using asio::ip::udp;
 
-/// Far from the descriptors that the process has anyhow.
+/// First descriptor, far above those that the process has anyway.
 constexpr int kFirst = 700;
 
 class InheritedSocketsTest : public WithIdentity {
@@ -31,7 +31,7 @@ class InheritedSocketsTest : public WithIdentity {
   ~InheritedSocketsTest() override {
     for (int i = 0; i < 3; ++i) ::close(kFirst + i);
   }
-  /// A listening socket and one for datagrams on the same port, as descriptors from kFirst on.
+  /// Opens a listening socket and a datagram socket on one port, as descriptors from kFirst on.
   std::uint16_t openBoth(const char* address = "127.0.0.1") {
     for (;;) {
       tcp::acceptor streams(context, tcp::endpoint(asio::ip::make_address(address), 0));
@@ -57,7 +57,7 @@ class InheritedSocketsTest : public WithIdentity {
         },
         kFirst);
   }
-  /// What is wrong with them.
+  /// Returns the error message of take().
   std::string complaint() {
     try {
       take();
@@ -137,7 +137,7 @@ TEST_F(InheritedSocketsTest, OfTwoPortsOrOfNoAddressAreRefused) {
   for (const int end : pair) ::close(end);
 }
 
-// Of both families: systemd's "[::]:9876".
+// Also for both address families: systemd's "[::]:9876".
 TEST_F(InheritedSocketsTest, AServerPortListensWithThem) {
   for (const char* address : {"127.0.0.1", "::"}) {
     const std::uint16_t port = openBoth(address);
@@ -174,9 +174,9 @@ TEST_F(InheritedSocketsTest, WithoutEncryptionTheyAreRefused) {
 
 constexpr const char* kExpected = "NAIAD_TEST_EXPECTED";  ///< port and is_service, for the next program
 
-/// In a forked process: runs this test again, as the program that comes next.
+/// Call in a forked process: runs this test again, as the next program.
 [[noreturn]] void runNextProgram(const InheritedSockets& sockets) {
-  ::close_range(3, 15, 0);  // low numbers are free in a server, too
+  ::close_range(3, 15, 0);  // as in a server, low numbers are free
   const std::string expected = std::to_string(sockets.port) + ' ' + std::to_string(sockets.is_service);
   setenv(kExpected, expected.c_str(), 1);
   for (int i = 0; i < 4; ++i) {
@@ -199,7 +199,7 @@ void checkNextProgram(const std::string& expected) {
   EXPECT_FALSE(InheritedSockets::take()) << "only once";
 }
 
-// The log's and the journal's threads do so until the last moment.
+// Threads of the log and the journal open and close files until exec.
 TEST_F(InheritedSocketsTest, SurviveExecWhileThreadsOpenAndCloseFiles) {
   if (const char* p_expected = std::getenv(kExpected)) return checkNextProgram(p_expected);
   openBoth();

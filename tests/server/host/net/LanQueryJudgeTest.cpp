@@ -25,7 +25,7 @@ LanAnswer lanFacts() {
   return answer;
 }
 
-/// What an honest client sends, in each network.
+/// The query of an honest client.
 struct Query {
   explicit Query(const std::string& from = "192.168.1.20", unsigned interface = 2) {
     packet.source = {make_address(from), 40'000};
@@ -125,7 +125,7 @@ TEST_F(LanQueryJudgeTest, WhatCannotBeSentIsCountedOnce) {
   EXPECT_EQ(judge.counters().unsent, 1u);
 }
 
-// ---- in which networks a server is to be found ------------------------------------------------------------
+// ---- the networks in which a server is found --------------------------------------------------------------
 
 std::vector<std::string> answered(const std::string& address, LanMode mode, bool with_private = true) {
   std::vector<LanNetwork> all{lanAt(1, "127.0.0.1", 8, false), lanAt(1, "::1", 128, false),

@@ -1,4 +1,4 @@
-// The responder with real sockets: asked as clients ask, and flooded.
+// The responder with real sockets, queried as by clients, and flooded.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 const LanNonce kResponderNonce{9, 8, 7};
 
-/// A network of this family: loopback, where it can multicast. Nothing where a machine has none.
+/// Returns the loopback network of this family; nullopt if the machine has none that can multicast.
 std::optional<LanNetwork> responderNetwork(LanSocket::Family family) {
   const bool four = family == LanSocket::Family::kIPv4;
   for (const LanNetwork& network : lanNetworks()) {
@@ -26,8 +26,8 @@ std::optional<LanNetwork> responderNetwork(LanSocket::Family family) {
   return std::nullopt;
 }
 
-/// A key that begins so, of this process alone: tests that run at the same time have servers in the same
-/// networks.
+/// Returns a key that starts with `key` and is unique to this process, because tests that run in parallel
+/// have servers in these networks, too.
 ShortKey responderKey(std::uint8_t key) {
   const auto process = static_cast<std::uint32_t>(getpid());
   ShortKey::Bytes bytes{key};
@@ -68,8 +68,8 @@ class LanResponderTest : public testing::TestWithParam<LanSocket::Family> {
     ::poll(&waited, 1, static_cast<int>(patience.count()));
     return m_client->receivePacket();
   }
-  /// Asks until the keys of all these have answered; what else does, and what answers earlier questions, is
-  /// passed over. False after a minute.
+  /// Queries until servers with all these keys have answered. Ignores other servers and late answers. False
+  /// after a minute.
   bool hearAll(const std::set<std::uint8_t>& keys) {
     ++m_nonce.front();
     const auto end = std::chrono::steady_clock::now() + 60s;
@@ -133,7 +133,7 @@ TEST_P(LanResponderTest, AFloodOfQueriesIsAnsweredAtItsRate) {
   ASSERT_TRUE(hearAll({31}));
   responder->stop();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  // Other tests of this machine may ask at the same time, from its other addresses.
+  // Other tests on this machine may query at this time, from its other addresses.
   EXPECT_LE(static_cast<double>(responder->counters().answered),
             LanQueryJudge::kInAll.burst + LanQueryJudge::kInAll.per_second * took.count());
   EXPECT_GT(responder->counters().too_often, 0u);

@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// The tick thread is the test's; so is the client, which has an event loop of its own.
+/// The test plays the tick thread and the client, which has an event loop of its own.
 class NetworkThreadTest : public WithIdentity {
  protected:
   void TearDown() override {
@@ -39,7 +39,7 @@ class NetworkThreadTest : public WithIdentity {
         limits);
     network->start();
   }
-  /// Serve the client, and the tick thread unless that is to be deaf, until `done`.
+  /// Runs the client and, unless `deaf`, the tick thread until `done` is true. False after 30 s.
   template <class Done>
   bool runUntil(Done done, bool deaf = false) {
     const auto end = Clock::now() + 30s;
@@ -56,7 +56,7 @@ class NetworkThreadTest : public WithIdentity {
     home.poll();
     network->serve(Clock::now() + 1s);
   }
-  /// A client's end of a stream.
+  /// The client's end of a stream.
   struct Far {
     std::unique_ptr<TcpConnector> connector;
     std::unique_ptr<ReliableChannel> channel;
@@ -127,7 +127,7 @@ TEST_F(NetworkThreadTest, UnsentBytesStayWhileAPeerDoesNotRead) {
   listen();
   const auto far = connect();
   ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
-  // Whatever the kernel's buffers hold, they are full some time.
+  // Send until the kernel's buffers, of any size, are full.
   for (std::size_t before = 0, quiet = 0; quiet < 20;) {
     if (near[0]->unsentBytes() < 100'000) near[0]->send(std::string(16'000, 'x'));
     network->flush();
@@ -160,7 +160,7 @@ TEST_F(NetworkThreadTest, AStreamThatIsSentMoreThanItTakesEndsAndIsCounted) {
   listen();
   const auto far = connect();
   ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
-  for (int i = 0; i < 100; ++i) near[0]->send(std::string(16'000, 'x'));  // and no flush()
+  for (int i = 0; i < 100; ++i) near[0]->send(std::string(16'000, 'x'));  // without flush()
   network->flush();
   ASSERT_TRUE(runUntil([&] { return !closed.empty(); }));
   EXPECT_EQ(closed[0], CloseReason::kOverflow);
@@ -229,7 +229,7 @@ TEST_F(NetworkThreadTest, DatagramsHaveTheirStreamsKeysAndThoseOfTheNext) {
   client_end.key(*far->channel, datagrams->epoch());
   const auto says = [&](const std::string& what) {
     return runUntil([&] {
-      client_end.send(what);  // the keys may not be there yet
+      client_end.send(what);  // repeat: the keys may arrive later
       return !came.empty() && came.back() == what;
     });
   };
@@ -286,13 +286,13 @@ TEST_F(NetworkThreadTest, DatagramsThatFindTheMailboxFullAreDroppedAndCounted) {
     client_end.send("hello");
     return came > 0 && datagrams->room() == 1172u;
   }));
-  for (int i = 0; i < 30; ++i) datagrams->send(std::string(1000, 'x'));  // and no flush()
+  for (int i = 0; i < 30; ++i) datagrams->send(std::string(1000, 'x'));  // without flush()
   network->stop();
   EXPECT_GE(network->counters().datagrams_out_dropped, 10u);
   EXPECT_LE(network->counters().datagrams_out_dropped, 12u);
   for (int i = 0; i < 60; ++i) client_end.send(std::string(1000, 'x'));
   EXPECT_TRUE(runUntil(
-      [&] {  // they are not taken
+      [&] {  // received, but not taken by the tick thread
         network->start();
         client.run_for(1ms);
         network->stop();

@@ -1,4 +1,4 @@
-// A suite whose servers have a key: made once, in a directory of its own.
+// A test suite whose servers have a key, created once in a temporary directory.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 using Level = AdminCommand::Level;
 using Place = AdminCommand::Place;
 
-/// A host's own parts, with clients on channels that lead nowhere. It does not run.
+/// The parts of a host, with clients on fake channels. The host does not run.
 class AdminConsoleTest : public testing::Test {
  protected:
   AdminConsoleTest() {
@@ -41,7 +41,7 @@ class AdminConsoleTest : public testing::Test {
   static AdminCaller player(const std::string& name, std::uint64_t session, Level level = Level::kPlayer) {
     return {level, Place::kChat, "player " + name, name, session};
   }
-  /// Carry it out, and wait for the answer.
+  /// Executes a command and waits for its answer.
   AdminAnswer give(const std::vector<std::string>& words, const AdminCaller& caller = socket()) {
     std::optional<AdminAnswer> answer;
     context.home.restart();
@@ -51,7 +51,7 @@ class AdminConsoleTest : public testing::Test {
     while (!answer) context.home.run_one();
     return *answer;
   }
-  /// Rooms, instead of the one of all players. Before players are added.
+  /// Adds a room; without any, all players share one. Call it before add().
   void addRoom(const std::string& name, const std::string& game) {
     plans.push_back(
         {.name = name, .game = game, .max_players = 8, .ready = {}, .new_world = [this](asio::io_context&) {
@@ -64,7 +64,7 @@ class AdminConsoleTest : public testing::Test {
     clients.admission().setWorld(world);
     clients.rooms().open(world);
   }
-  /// Joins.
+  /// Joins a player.
   test::Client& add(const std::string& name, const std::string& address = "192.0.2.1:50000") {
     open();
     test::Client& client = lines.emplace_back();
@@ -82,11 +82,11 @@ class AdminConsoleTest : public testing::Test {
     return p_found;
   }
   bool has(const std::string& name) const { return find(name) != nullptr; }
-  /// The last sentence that a client got; empty if it is not the end.
+  /// Returns the sentence of the client's goodbye; "" if that was not the last message.
   static std::string goodbye(const test::Client& client) {
     return client.sent.empty() ? "" : client.sent.back().goodbye().sentence();
   }
-  /// What the log has of admins and bans.
+  /// Returns the log lines of the admin commands.
   std::vector<std::string> adminLog() const {
     std::vector<std::string> lines_of_admins;
     for (const std::string& line : log) {
@@ -174,7 +174,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
                                                   {"cancel"},
                                                   {"stop"},
                                                   {"ping"}};
-  std::set<std::string> given{"watch"};  // the socket's own
+  std::set<std::string> given{"watch"};  // handled by the control socket itself
   for (const auto& words : all) {
     EXPECT_TRUE(give(words).ok) << words.front();
     given.insert(words.front());

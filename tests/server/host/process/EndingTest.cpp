@@ -1,4 +1,4 @@
-// How a server ends that is asked to, and what players hear of it.
+// Planned shutdowns of a server, and the announcements to its players.
 #include <gtest/gtest.h>
 
 #include <chrono>

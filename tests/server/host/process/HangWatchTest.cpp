@@ -10,7 +10,7 @@ using Step = HangWatch::Step;
 
 class HangWatchTest : public testing::Test {
  protected:
-  /// `in_tick`: since when tick 7 runs.
+  /// `in_tick`: how long tick 7 has been running.
   Step check(std::chrono::milliseconds in_tick, int stops = 0) {
     return watch.check(7, now - in_tick, stops, now);
   }

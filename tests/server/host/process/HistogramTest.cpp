@@ -12,10 +12,10 @@ constexpr std::array<double, 3> kBounds{0.001, 0.01, 0.1};
 TEST(Histogram, AValueIsInTheBucketOfTheLeastBoundThatHoldsIt) {
   Histogram histogram(kBounds);
   for (const double value : {-1.0, 0.0, 0.001, 0.0011, 0.01, 0.05, 0.1, 0.11, 1e9}) histogram.add(value);
-  EXPECT_EQ(histogram.count(0), 3u);  // a bound belongs to its bucket
+  EXPECT_EQ(histogram.count(0), 3u);  // a value equal to a bound is below it
   EXPECT_EQ(histogram.count(1), 2u);
   EXPECT_EQ(histogram.count(2), 2u);
-  EXPECT_EQ(histogram.count(3), 2u);  // beyond the last
+  EXPECT_EQ(histogram.count(3), 2u);  // above the last bound
 }
 
 TEST(Histogram, AddsUp) {

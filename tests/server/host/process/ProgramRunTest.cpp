@@ -45,7 +45,7 @@ TEST(ProgramRun, OneThatHangsIsKilledWithWhatItHasStarted) {
   EXPECT_TRUE(end.is_late);
   EXPECT_LT(Clock::now() - began, kLong);
   const pid_t other = std::stoi(end.printed);
-  // It is a zombie at most, until whatever is its parent now has waited for it.
+  // At most a zombie is left, until its new parent has waited for it.
   while (kill(other, 0) == 0 && Clock::now() - began < kLong) {
     char state = '?';
     if (FILE* p_file = fopen(("/proc/" + std::to_string(other) + "/stat").c_str(), "r")) {

@@ -1,4 +1,4 @@
-// What those who watch a server read of its games, which may write any number of lines with any bytes.
+// The event feed of a server's watchers, with games that write any number of lines with any bytes.
 #include <gtest/gtest.h>
 
 #include <chrono>

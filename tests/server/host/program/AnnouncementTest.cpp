@@ -29,7 +29,7 @@ class QrCodeTest : public testing::Test {
   }
 
   std::vector<std::string> m_lines;
-  std::vector<std::string> m_modules;  ///< dark ones are '#'
+  std::vector<std::string> m_modules;  ///< rows; '#' is a dark module
 };
 
 TEST_F(QrCodeTest, HasItsThreeCornersAndAQuietZone) {

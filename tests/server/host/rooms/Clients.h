@@ -1,4 +1,4 @@
-// Clients on channels that lead nowhere, for tests of what a host does with hellos.
+// Clients on fake channels, for tests of how a host handles hellos.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace naiad::test {
 
-/// A client's end of its stream. Outlives the session.
+/// The client's end of a stream. Must outlive the session.
 struct Client : MessageLine<wire::ServerMessage> {
   Client() { address = "192.0.2.1:1"; }
 
@@ -19,7 +19,7 @@ struct Client : MessageLine<wire::ServerMessage> {
     *message.mutable_hello() = hello;
     receive(message);
   }
-  /// The stream breaks.
+  /// Breaks the stream.
   void drop() const { callbacks.on_closed(CloseReason::kPeer); }
   bool isWelcome() const { return !sent.empty() && sent.front().has_welcome(); }
   const wire::Welcome& welcome() const { return sent.front().welcome(); }

@@ -21,7 +21,7 @@ class PlayerNewsTest : public testing::Test {
       facts.push_back(player);
     }
   }
-  /// The last list that each player got in these ticks.
+  /// Runs the ticks. Returns the last list that each player got, as names.
   std::map<std::uint32_t, std::vector<std::string>> listsSent(std::uint32_t from, std::uint32_t to) {
     std::map<std::uint32_t, std::vector<std::string>> heard;
     for (std::uint32_t tick = from; tick < to; ++tick) {
@@ -59,7 +59,7 @@ TEST_F(PlayerNewsTest, AListOfTheLongestNamesFitsInAFrame) {
     player.name = std::string(kMaxNameBytes, 'x');
     player.score = -1'000'000'000;
   }
-  const auto heard = listsSent(1, 16);  // which looks at the length of each
+  const auto heard = listsSent(1, 16);  // also checks the length of each message
   EXPECT_EQ(heard.size(), facts.size());
   EXPECT_GT(heard.begin()->second.size(), kMaxPlayers / 2);
 }

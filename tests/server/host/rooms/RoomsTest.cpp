@@ -1,4 +1,4 @@
-// What of a world's own report reaches the players of other worlds.
+// The parts of a world's report that reach the players of other worlds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
 
-/// Reports whatever the test says.
+/// A world that reports what the test sets.
 class ScriptedPort : public WorldPort {
  public:
   bool isReady() const override { return true; }
@@ -38,7 +38,7 @@ class ScriptedPort : public WorldPort {
   const df::WorldView& view() const override { return m_view; }
 
   std::vector<df::PlayerFacts> players;
-  std::vector<std::uint32_t> pictured;  ///< by tick: whose picture was wanted; 0: none
+  std::vector<std::uint32_t> pictured;  ///< per tick: player whose picture was requested, or 0
 
  private:
   df::WorldView m_view;
@@ -52,7 +52,7 @@ df::PlayerFacts factsOf(std::uint32_t id, const std::string& name, int score) {
   return facts;
 }
 
-/// Players in worlds of their own, unless said otherwise.
+/// Players in worlds of their own, unless the constructor is told otherwise.
 class RoomsTest : public testing::Test {
  protected:
   explicit RoomsTest(const std::string& players = "private") {
@@ -78,7 +78,7 @@ class RoomsTest : public testing::Test {
     EXPECT_TRUE(client.isWelcome());
     return client;
   }
-  /// As a host does at the end of a tick in which a list is due.
+  /// Sends the list, as a host does at the end of a tick in which it is due.
   void sendList() {
     rooms.beginTicks();
     news.tick(
@@ -88,7 +88,7 @@ class RoomsTest : public testing::Test {
           if (Session* p_session = rooms.findPlayer(player)) p_session->sendKept(message);
         });
   }
-  /// The newest list that came, as "name=score" each; empty if none has.
+  /// Returns the newest list that arrived, as "name=score" lines; empty if none did.
   static std::vector<std::string> listOf(const Client& client) {
     std::vector<std::string> lines;
     for (const wire::ServerMessage& message : client.sent) {
@@ -122,7 +122,7 @@ class EmptyWorldTest : public RoomsTest {
  protected:
   EmptyWorldTest() : RoomsTest("together") {}
 
-  /// Does the world tick in a tick of the host, so long after `now`?
+  /// True if the world ticks in a tick of the host at `now` + `after`.
   bool ticks(std::chrono::seconds after) {
     const std::size_t before = ports[0]->pictured.size();
     rooms.checkWorlds(now + after);
@@ -184,7 +184,7 @@ class AuditTurnsTest : public RoomsTest {
   void tick(int count) {
     for (int i = 0; i < count; ++i, ++counters.ticks) rooms.beginTicks();
   }
-  /// In how many ticks somebody's picture was wanted, of the player's own world.
+  /// Returns in how many ticks the world's own player was pictured; checks that no other player was.
   std::size_t wanted(std::size_t number, const Client& client) const {
     const std::vector<std::uint32_t>& all = ports[number]->pictured;
     const auto own = std::ranges::count(all, client.welcome().player());

@@ -44,7 +44,7 @@ class SessionTableTest : public testing::Test {
   Counters counters;
   std::vector<std::uint64_t> removed;
   std::uint32_t players = 0;
-  bool judges = true;  ///< hellos are answered at once
+  bool judges = true;  ///< answers hellos at once
   SessionTable table{3, counters, [this](Session& session) { removed.push_back(session.id()); }};
 };
 

@@ -24,7 +24,7 @@ class SoundNewsTest : public testing::Test {
   void sound(const std::string& label, std::uint32_t player = 0) {
     view.sounds.push_back({label, df::SoundPlayed::kPlay, false, false, player});
   }
-  /// One tick, after which nothing sounds any more.
+  /// Runs one tick with the sounds added before.
   void tick() {
     ++view.tick;
     once.clear();
@@ -36,7 +36,7 @@ class SoundNewsTest : public testing::Test {
     });
     view.sounds.clear();
   }
-  /// The world ends. Labels get a minus for a stop, else a plus.
+  /// Ends the world. Labels start with "-" for a stop and "+" for a sound that plays.
   void changeWorld() {
     once.clear();
     lasting.clear();
@@ -55,7 +55,7 @@ class SoundNewsTest : public testing::Test {
 
   SoundNews news;
   df::WorldView view;
-  std::map<std::uint32_t, Labels> once, lasting;  ///< of the last tick
+  std::map<std::uint32_t, Labels> once, lasting;  ///< labels sent in the last tick
   wire::ServerMessage last;
   bool sends = true;
 };
@@ -123,13 +123,13 @@ TEST_F(SoundNewsTest, InTheLongRunTenASecondAreHeardAndTheRestIsCounted) {
   EXPECT_EQ(news.sent() + news.dropped(), 600u);
 }
 
-// A player who is away for a minute must not lose their session because of a noisy game.
+// A player who is disconnected for a minute must not lose the session because of a noisy game.
 TEST_F(SoundNewsTest, WhatIsKeptForAMinuteIsFarFromWhatMayBeKept) {
   play(1);
   std::size_t bytes = 0;
   for (int i = 0; i < 60 * 30; ++i) {
     std::string label;
-    while (label.size() < 3 * kMaxSoundLabel) label += "\u2588";  // of three bytes
+    while (label.size() < 3 * kMaxSoundLabel) label += "\u2588";  // three bytes each
     view.sounds.push_back({label, df::SoundPlayed::kPlay, true, i % 2 == 0, 1});
     tick();
     if (!lasting.empty()) bytes += last.SerializeAsString().size() + 10;

@@ -1,4 +1,4 @@
-// The round of a server that was killed: what its file says, and a world that goes on with it.
+// Recovery of a killed server's round: the contents of its file, and a world that resumes it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ KeptSession sessionOf(std::uint32_t player) {
           .redeemed = {}};
 }
 
-/// Answers each turn as it did when the round was recorded.
+/// Answers each turn as in the recorded round.
 class EchoWorld : public WorldPort {
  public:
   bool isReady() const override { return ready && !ended; }
@@ -55,7 +55,7 @@ class EchoWorld : public WorldPort {
     sent += turn.record;
     most_ahead = std::max(most_ahead, turns.size() - answered);
   }
-  /// What a world in another process does: the tick ends later.
+  /// Answers the turns, which a world in another process does later.
   void answer() {
     while (answered < turns.size()) {
       if (answered + 1 == dies_at) {
@@ -75,12 +75,12 @@ class EchoWorld : public WorldPort {
   bool ready = false;
   std::uint32_t ahead = 1;
   std::size_t answered = 0;
-  std::size_t most_ahead = 0;  ///< turns that were not answered at a time
+  std::size_t most_ahead = 0;  ///< maximum of unanswered turns
   std::size_t dies_at = 0;
   std::optional<WorldEnd> ended;
   std::vector<std::vector<Input>> turns;
   std::vector<bool> watched;
-  std::string sent;  ///< the records
+  std::string sent;  ///< the records of all turns
 
  private:
   df::WorldView m_view;
@@ -93,7 +93,7 @@ class RecoveryTest : public testing::Test {
     packed = spellDfrHeader({}) + spellDfrMeta({{"game", "hello"}});
   }
 
-  /// One turn, and what EchoWorld answers to it.
+  /// Writes a turn and EchoWorld's answer to it.
   void turn(std::vector<Input> inputs, bool with_result = true) {
     WorldTurn turn;
     turn.watched = true;
@@ -102,7 +102,7 @@ class RecoveryTest : public testing::Test {
     ++count;
     if (with_result) writeResult(count);
   }
-  /// What EchoWorld answers to the turn of that number.
+  /// Writes EchoWorld's answer to turn number `turn`.
   void writeResult(std::uint32_t turn) { writeCheck(static_cast<std::uint8_t>(turn % 200 + 1)); }
   void writeCheck(std::uint8_t check) {
     TickResult result;
@@ -117,7 +117,7 @@ class RecoveryTest : public testing::Test {
     std::ofstream(path, std::ios::binary) << packed;
     return *(round = std::make_shared<OpenRound>(path));
   }
-  /// A round of two players, the first of whom holds a key; the last turn had no result yet.
+  /// Writes a round of two players, the first of whom holds a key. The last turn has no result.
   void play() {
     turn({joinOf(1)});
     session(sessionOf(1));
@@ -146,14 +146,14 @@ class RecoveryTest : public testing::Test {
     world->setOnTick([this] { ++reported; });
   }
 
-  /// The world begins, and answers as long as it is asked.
+  /// Starts the world, which then answers all turns that it gets.
   void executeAgain() {
     p_echo->ready = true;
     world->checkProcess(1);
     p_echo->answer();
   }
-  /// A round in whose second turn a world crashed; the one that took over answered as to that number. It is
-  /// executed again.
+  /// Writes a round in whose second turn a world crashed, with the next world's answer to turn `answered_as`,
+  /// and replays it.
   void crashInSecondTurn(std::uint32_t answered_as) {
     turn({joinOf(1)});
     turn({keyOf(1, df::Keyboard::A, df::KEY_PRESSED)}, false);
@@ -183,7 +183,7 @@ class RecoveryTest : public testing::Test {
 TEST_F(RecoveryTest, AFileSaysWhoPlaysAndWhichKeysAreDown) {
   play();
   session({.player = 2, .over = true});
-  session(sessionOf(3));  // welcomed; the world had not been told yet
+  session(sessionOf(3));  // welcomed, but not yet known to the world
   const OpenRound& found = open();
   EXPECT_FALSE(found.isOver());
   EXPECT_EQ(found.turns(), 53u);
@@ -202,12 +202,11 @@ TEST_F(RecoveryTest, AFileSaysWhoPlaysAndWhichKeysAreDown) {
   EXPECT_EQ(inputs[2].player, 3u);
 }
 
-// Wherever the file is torn, it opens, and its journal goes on behind the last whole record.
+// A file torn at any place can be opened, and its journal continues after the last complete record.
 TEST_F(RecoveryTest, AFileThatIsTornAnywhereGoesOn) {
   for (int i = 0; i < 6; ++i) {
     turn({keyOf(1, df::Keyboard::A, df::KEY_PRESSED)});
-    if (i % 2 == 1)
-      packed += packer.pack(records.substr(0, records.size() - 2));  // in the middle of a record
+    if (i % 2 == 1) packed += packer.pack(records.substr(0, records.size() - 2));  // an incomplete record
     if (i % 2 == 1) records.erase(0, records.size() - 2);
   }
   flush();
@@ -318,7 +317,7 @@ TEST_F(RecoveryTest, WhatComesMeanwhileIsInTheFirstTickThatFollows) {
   EXPECT_EQ(p_echo->turns.back()[0].kind, df::InputQueue::kLeave);
 }
 
-// A copy of a world has read other turns before those that it gets again.
+// A copy of a world has read other turns before those that are replayed.
 TEST_F(RecoveryTest, TheFirstTurnThatIsRepeatedSaysAllItsFlags) {
   WorldTurn watched;
   watched.watched = true;

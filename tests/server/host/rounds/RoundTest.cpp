@@ -1,4 +1,4 @@
-// What a round stores is what its world gets, and before it does.
+// A round stores exactly what it sends to its world, and stores it first.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -18,7 +18,7 @@ struct Nowhere : JournalSink {
   void setFlags(std::uint16_t /*flags*/) override {}
 };
 
-/// A world that notes what it gets, and what was stored by then.
+/// A world that records its turns and what was stored before each.
 class FakeWorld : public WorldPort {
  public:
   bool isReady() const override { return true; }
@@ -57,7 +57,7 @@ class RoundTest : public testing::Test {
     p_fake->p_journal = journal.get();
     Round::Book book;
     book.writer =
-        std::make_shared<JournalWriter>();  // which does not have the journal: all stays in the ring
+        std::make_shared<JournalWriter>();  // does not have the journal, so all records stay in the ring
     book.journal = journal;
     book.on_problem = [this](const std::string& problem) { problems.push_back(problem); };
     round = std::make_unique<Round>(std::move(fake), std::move(book));
@@ -142,7 +142,7 @@ TEST_F(RoundTest, NowAndThenATickHasAPictureOfThePlayerWhoHasBeenThereLongest) {
 }
 
 TEST_F(RoundTest, WhatPlayersSawIsCountedByTheWorldsOwnTicks) {
-  p_fake->first = 1001;  // it is not the host's first world
+  p_fake->first = 1001;  // not the host's first world
   round->tick(true, false);
   df::InputQueue::Input click{.kind = df::InputQueue::kMouse, .player = 1, .seen = {true, 1001, 1000}};
   click.mouse_action = df::CLICKED;
@@ -174,7 +174,7 @@ TEST_F(RoundTest, AJournalThatStopsDoesNotStopTheGame) {
   round->addInput(key(7));
   round->tick(true, false);
   EXPECT_EQ(p_fake->turns.back().turn.inputs.size(), 1u);
-  TurnRecordReader reader;  // it gets whole records all the same
+  TurnRecordReader reader;  // the world still gets complete records
   for (const SentTurn& turn : p_fake->turns) reader.add(turn.record);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(reader.next()) << i;
   EXPECT_TRUE(reader.atEnd());

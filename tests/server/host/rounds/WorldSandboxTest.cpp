@@ -1,4 +1,4 @@
-// Which files and variables a game in a process of its own gets.
+// Files and environment variables for a game in its own process.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -37,7 +37,7 @@ class WorldSandboxTest : public testing::Test {
     return p_home != nullptr ? std::optional<std::string>(p_home) : std::nullopt;
   }
 
-  const std::optional<std::string> m_home = homeNow();  ///< tests set others
+  const std::optional<std::string> m_home = homeNow();  ///< restored after tests that change it
   const test::TempFolder m_temp;
   const fs::path m_folder = fs::canonical(m_temp.path());
   HostOptions options;
@@ -80,7 +80,7 @@ TEST_F(WorldSandboxTest, LinksToSpritesAreFollowedWithinAProject) {
   fs::create_directory_symlink(m_folder / "game/sprites", m_folder / "build/game/sprites");
   place.folders = {(m_folder / "build/game").string()};
   EXPECT_TRUE(reads(m_folder / "game/sprites"));
-  // One that leads to the user's own files, or to the server's.
+  // A link to the user's own files, or to the server's.
   setenv("HOME", m_folder.c_str(), 1);
   EXPECT_FALSE(reads(m_folder / "game/sprites"));
   unsetenv("HOME");
@@ -100,7 +100,7 @@ TEST_F(WorldSandboxTest, TheWorkingDirectoryIsWritableUnlessItHoldsTheServer) {
 }
 
 TEST_F(WorldSandboxTest, TheServersFilesInTheGamesFolderAreNamed) {
-  place.is_program = true;  // is given the folder even if the server lies there
+  place.is_program = true;  // a program gets the folder even if it contains the server
   if (makeWorldSandbox(options, place).sandbox.writable.empty()) GTEST_SKIP() << "this folder is not given";
   place.server_files = {"server.log", (m_folder / "join").string(), ""};
   const WorldSandbox made = makeWorldSandbox(options, place);

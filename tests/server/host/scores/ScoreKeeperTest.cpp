@@ -1,4 +1,4 @@
-// Scores in memory and on disk: none is lost once it is written, and none comes twice.
+// Scores in memory and on disk: no written score is lost, and none is stored twice.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// As a world adds them in this tick.
+/// Adds scores as a world does in this tick.
 void addAll(ScoreKeeper& keeper, const std::string& round, std::uint32_t tick,
             std::vector<df::AddedScore> scores) {
   for (df::AddedScore& score : scores) {
@@ -151,7 +151,7 @@ TEST_F(ScoreKeeperTest, WithoutAFolderTheyEndWithTheServer) {
   EXPECT_EQ(keeper.takeNews(), "");
 }
 
-/// Another program that holds the file's lock.
+/// Another program that locks the file.
 class Blocker {
  public:
   explicit Blocker(const fs::path& file) {
@@ -188,7 +188,7 @@ TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
   {
     Blocker blocker(folder / "scores.sqlite3");
     for (std::uint32_t t = 1; t <= 5000; ++t) addAll(keeper, "round", t, {of("ann", t)});
-    sync();  // the writing was tried
+    sync();  // a write was tried
     EXPECT_EQ(keeper.counters().written, 1u);
     EXPECT_TRUE(test::has(keeper.takeNews(), "cannot be written"));
     EXPECT_EQ(problem, "") << "readers do not wait for writers";
@@ -202,7 +202,7 @@ TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
   EXPECT_EQ(stored().size(), 5001u - dropped);
 }
 
-/// Adds three rows a tick without end, and says on the pipe how many are on disk.
+/// Adds three rows per tick forever, and writes to the pipe how many are on disk.
 [[noreturn]] void addWithoutEnd(const fs::path& folder, const std::string& round, int pipe) {
   ScoreKeeper keeper(folder, "game");
   for (std::uint32_t tick = 0;; ++tick) {
@@ -214,7 +214,7 @@ TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
   }
 }
 
-/// Kills such a writer at its `words`th word. How many rows were on disk then, as far as it could say so.
+/// Kills such a writer after `words` reports. Returns the last reported number of rows on disk.
 std::uint64_t killAfter(int words, const fs::path& folder, const std::string& round) {
   int ends[2] = {-1, -1};
   if (::pipe(ends) != 0) return 0;

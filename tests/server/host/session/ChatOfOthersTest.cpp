@@ -1,4 +1,4 @@
-// A minute of others who say as much as they may: what becomes of the sessions that have to hear it.
+// Sessions of players who listen while others chat at their limit for a minute.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -19,11 +19,11 @@ namespace {
 using namespace std::chrono_literals;
 using Time = Session::Clock::time_point;
 
-/// A client at the other end of a line with a delay, which acknowledges as ours does, or never.
+/// A client behind a line with delay, which acknowledges as real clients do, or never.
 struct Listener {
   static constexpr std::size_t kMuch = std::size_t{8} * 1024;
 
-  /// What has arrived by now is read; what is due is said.
+  /// Reads all messages that have arrived and sends what is due.
   void serve(Time now, Time::duration delay, bool acknowledges) {
     for (; read < line.sent.size() && sent_at(read) + delay <= now; ++read) take(line.sent[read]);
     if (now - last_ping >= 1s || unacknowledged >= kMuch) {
@@ -58,7 +58,7 @@ struct Listener {
   std::size_t read = 0;
   std::size_t unacknowledged = 0;
   Time last_ping{};
-  Time clock{};  ///< of the tick that is served
+  Time clock{};  ///< time of the current tick
   std::vector<Time> times;
   std::deque<std::pair<Time, std::uint32_t>> under_way;
 };
@@ -85,7 +85,7 @@ class ChatOfOthers : public testing::TestWithParam<int> {
     hello.mutable_hello()->set_received(received);
     line.receive(hello);
   }
-  /// As Host::sendChat().
+  /// Like Host::sendChat().
   void say(const std::string& text) {
     ++said;
     wire::ServerMessage message;
@@ -95,7 +95,7 @@ class ChatOfOthers : public testing::TestWithParam<int> {
   }
   void tick(const wire::ClientMessage& line) {
     for (auto& chatter : lines) {
-      for (int i = 0; talking && i < 2; ++i) chatter.receive(line);  // more than it may
+      for (int i = 0; talking && i < 2; ++i) chatter.receive(line);  // more than a player may send
     }
     for (Session* p_session : {far.get(), away.get(), mute.get()}) p_session->checkDeadlines(now);
     for (const auto& chatter : chatters) chatter->checkDeadlines(now);
@@ -116,14 +116,14 @@ class ChatOfOthers : public testing::TestWithParam<int> {
   Listener far_end, away_end, mute_end, back_end;
   std::unique_ptr<Session> far = make(far_end.line), away = make(away_end.line), mute = make(mute_end.line);
   std::unique_ptr<Session> returned;
-  std::deque<test::MessageLine<wire::ServerMessage>> lines;  ///< of the chatters
+  std::deque<test::MessageLine<wire::ServerMessage>> lines;  ///< lines of the chatting players
   std::vector<std::unique_ptr<Session>> chatters;
   bool talking = true;
 };
 
 TEST_P(ChatOfOthers, CostsNobodyTheirSession) {
   std::string wide;
-  for (std::size_t i = 0; i < kMaxChatLength; ++i) wide += "\u2588";  // of three bytes
+  for (std::size_t i = 0; i < kMaxChatLength; ++i) wide += "\u2588";  // three bytes each
   wire::ClientMessage line;
   line.mutable_chat()->set_text(wide);
   for (int i = 0; i < GetParam(); ++i) chatters.push_back(make(lines.emplace_back()));

@@ -62,18 +62,18 @@ TEST(Names, ATakenNameGetsTheLowestFreeNumber) {
 
 TEST(Names, LookAlikesAreTaken) {
   const std::pair<const char*, const char*> alike[] = {
-      {"ann", "ANN"},                 // another case
-      {"ZOË", "zoë"},                 // beyond ASCII, too
+      {"ann", "ANN"},                 // different case
+      {"ZOË", "zoë"},                 // also beyond ASCII
       {"\u0410NN", "ANN"},            // Cyrillic A among Latin letters
-      {"\u0410nn", "ann"},            // in another case as well
+      {"\u0410nn", "ann"},            // also in different case
       {"\u0391nn", "Ann"},            // Greek Alpha
       {"\u039Cark", "mark"},          // Greek Mu, whose small letter looks different
-      {"\u0421\u0410\u0420", "CAP"},  // all of it Cyrillic
+      {"\u0421\u0410\u0420", "CAP"},  // entirely Cyrillic
       {"Ilse", "llse"},               // capital i, small L
-      {"1lse", "Ilse"},               // the digit
-      {"B0b", "BOb"},                 // zero and O
+      {"1lse", "Ilse"},               // digit 1
+      {"B0b", "BOb"},                 // zero and capital O
       {"B0B", "bob"},
-      {"\u0131van", "ivan"},        // i without its dot
+      {"\u0131van", "ivan"},        // dotless i
       {"Ann\u2013Bee", "Ann-Bee"},  // dashes
   };
   for (const auto& [name, taken] : alike) {

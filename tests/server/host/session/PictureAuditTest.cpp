@@ -1,4 +1,4 @@
-// The audit of pictures over a bad network: an honest server has no wrong cell, one with a fault has.
+// The picture audit over a bad network: a correct server has no wrong cell, a faulty one has some.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -20,10 +20,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A server that audits its client, at the other end of two directions of a bad network.
+/// A server that audits its client, connected by a bad network.
 class AuditedPair {
  public:
-  /// `begins`: the audit begins with the first world.
+  /// `begins`: the audit starts with the first world.
   AuditedPair(const LinkConditions& conditions, std::uint64_t seed, bool begins = true)
       : m_world(config(), seed),
         m_link(m_clock, conditions, seed),
@@ -34,7 +34,7 @@ class AuditedPair {
     if (begins) audit.restart();
   }
 
-  /// `hides`: the publisher is not told of a change, as if it had a fault.
+  /// `hides`: the publisher is not told of some changes, like a faulty one.
   void tick(bool hides = false) {
     m_world.tick();
     df::WorldView view = m_world.view();
@@ -69,7 +69,7 @@ class AuditedPair {
     return config;
   }
 
-  // An object that turns is reported as one that flies on; births and deaths are not hidden.
+  // Hides changes of motion and look, so objects seem to continue. Births and deaths are not hidden.
   void hideSome(df::WorldView& view) {
     std::erase_if(view.changed, [this](const df::ObjectFacts& facts) {
       return m_publisher.find(facts.key.slot) != nullptr &&

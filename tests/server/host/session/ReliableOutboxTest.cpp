@@ -42,11 +42,11 @@ wire::ServerMessage soundOf(const std::string& label, wire::Sound::Action action
   return message;
 }
 
-/// What a client makes of the frames that reach it.
+/// A client's state, read from the frames that reach it.
 struct Reader {
   ReliableFramesHeard heard;
-  std::vector<std::string> lines;  ///< of players
-  std::uint64_t left_out = 0;      ///< as the server says
+  std::vector<std::string> lines;  ///< chat of players
+  std::uint64_t left_out = 0;      ///< reported by the server
   std::vector<std::uint64_t> notices;
   std::uint32_t list = 0;
   std::map<std::string, int> sounds;
@@ -67,7 +67,7 @@ struct Reader {
 
 class ReliableOutboxTest : public testing::Test {
  protected:
-  /// All that may be sent now is sent, and arrives.
+  /// Sends all frames that may be sent now; all of them arrive.
   void deliver() {
     while (const std::string* p_frame = outbox.next()) {
       reader.read(*p_frame);
@@ -95,7 +95,7 @@ TEST_F(ReliableOutboxTest, FramesStayUntilTheyAreAcknowledged) {
   outbox.acknowledge(2);
   outbox.acknowledge(1);
   outbox.acknowledge(0);
-  outbox.acknowledge(77);  // was never sent
+  outbox.acknowledge(77);  // never sent
   outbox.restartStream();
   reader = {};
   deliver();
@@ -109,7 +109,7 @@ TEST_F(ReliableOutboxTest, AnAcknowledgementCountsOnTheNextStreamToo) {
   deliver();
   outbox.restartStream();
   outbox.noteSent();
-  outbox.acknowledge(3);  // all had come on the stream before
+  outbox.acknowledge(3);  // all arrived on the earlier stream
   EXPECT_EQ(outbox.bytes(), 0u);
 }
 
@@ -164,14 +164,14 @@ TEST_F(ReliableOutboxTest, NoMoreThanAWindowIsUnacknowledged) {
   EXPECT_NE(outbox.next(), nullptr);
 }
 
-/// Joins, leaves and points of others, on a line on which chat always waits.
+/// Joins, leaves and scores of others, on a line on which chat is always waiting.
 TEST_F(ReliableOutboxTest, AListThatAlwaysChangesIsSentAllTheSame) {
   for (std::uint32_t version = 1; version <= 2'000; ++version) {
     outbox.add(listOf(200, version));
     outbox.add(chatOf(std::string(200, 'x')));
     outbox.add(chatOf(std::string(200, 'x')));
     EXPECT_LE(outbox.bytes(), ReliableOutbox::kMax);
-    if (const std::string* p_frame = outbox.next()) {  // of two lines, one
+    if (const std::string* p_frame = outbox.next()) {  // sends one of every two lines
       reader.read(*p_frame);
       outbox.noteSent();
       outbox.acknowledge(reader.heard.newest());
@@ -193,7 +193,7 @@ TEST_F(ReliableOutboxTest, SoundsOfAnyNumberLeaveRoomForTheRest) {
   EXPECT_EQ(reader.sounds.count("99999" + std::string(100, 's')), 1u) << "the newest";
 }
 
-/// Whatever is said, sent, lost and acknowledged: each line arrives once, in order, or is counted once.
+/// Each line arrives once, in order, or is counted once as dropped, whatever is lost or acknowledged.
 TEST_F(ReliableOutboxTest, EveryLineArrivesOnceOrIsCountedOnce) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SplitMix64 random(seed);
@@ -227,7 +227,7 @@ TEST_F(ReliableOutboxTest, EveryLineArrivesOnceOrIsCountedOnce) {
         }
       } else if (kind < 99) {
         one.acknowledge(client.heard.newest());
-      } else {  // the stream breaks; now and then the client is back at once
+      } else {  // the stream breaks; the client returns at once
         under_way.clear();
         one.acknowledge(client.heard.newest());
         one.restartStream();

@@ -1,4 +1,4 @@
-// A session of one player, and the streams that its client reaches it by.
+// Fixture with a player's session and the streams on which its client connects.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace naiad::test {
 
 using namespace std::chrono_literals;
 
-/// A session that is welcomed on its first line, and others for the same player.
+/// A session that is welcomed on its first stream, and further sessions for the same player.
 class SessionReturn : public testing::Test {
  protected:
   using Wire = MessageLine<wire::ServerMessage>;
@@ -99,7 +99,7 @@ class SessionReturn : public testing::Test {
     }
     return texts;
   }
-  /// As "key action", in order.
+  /// Returns the inputs taken, as "key action", in order.
   std::vector<std::string> taken() {
     std::vector<std::string> inputs;
     session->takeInputs(1, [&](const Input& input) {
@@ -115,7 +115,7 @@ class SessionReturn : public testing::Test {
   int gone = 0;
   Wire first;
   Wire second;
-  std::deque<Wire> lines;  ///< more of them
+  std::deque<Wire> lines;  ///< further streams
   std::unique_ptr<Session> session;
 };
 

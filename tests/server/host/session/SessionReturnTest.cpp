@@ -1,4 +1,4 @@
-// A session that goes on with another stream, or with another process of the client; what is kept meanwhile.
+// A session that resumes on another stream or in another client process, and what is kept in between.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -92,7 +92,7 @@ TEST_F(SessionReturn, OnlyTimeRefillsTheChatAllowance) {
   std::vector<std::unique_ptr<Session>> others;
   std::uint32_t number = 0;
   Wire* p_line = &first;
-  for (int i = 0; i < 25; ++i, now += 200ms) {  // it comes back five times a second, for 5 s
+  for (int i = 0; i < 25; ++i, now += 200ms) {  // reconnects five times a second, for 5 s
     for (int k = 0; k < 40; ++k) chatLine(*p_line, "line", ++number);
     breakStream(*p_line);
     others.push_back(make(lines.emplace_back()));
@@ -121,7 +121,7 @@ TEST_F(SessionReturn, AClientThatSendsNothingMaySayWhatWasTypedMeanwhileAndNoMor
   EXPECT_EQ(chat.size(), 6u * 30);
 }
 
-/// Others may say what they like: a client that takes in nothing keeps its session.
+/// A client that reads nothing keeps its session, however much others chat.
 TEST_F(SessionReturn, AClientThatDoesNotAcknowledgeIsToldHowManyLinesWereLeftOut) {
   const std::string line(200, 'x');
   const auto said = [&line](int i) { return std::to_string(i) + " " + line; };
@@ -147,7 +147,7 @@ TEST_F(SessionReturn, AClientThatDoesNotAcknowledgeIsToldHowManyLinesWereLeftOut
   EXPECT_EQ(gone, 0);
 }
 
-/// The stream of a client on a slow line holds a little of what others say, and the picture has its turn.
+/// Only a little chat may wait in the stream of a slow line, so that snapshots get through.
 TEST_F(SessionReturn, ChatOfOthersNeitherClogsASlowStreamNorHoldsUpThePicture) {
   constexpr std::size_t kPerTick = 300;  // bytes: 72 kbit/s
   test::SimulatedWorld world({}, 7);
@@ -160,14 +160,14 @@ TEST_F(SessionReturn, ChatOfOthersNeitherClogsASlowStreamNorHoldsUpThePicture) {
     pictures += first.sent.back().what_case() == wire::ServerMessage::kSnapshot ? 1 : 0;
   };
   for (int tick = 0; tick < 1'800; ++tick, now += 33ms) {
-    for (int i = 0; i < 6; ++i) sendChat(std::string(200, 'x'));  // of 64 players at their limit
+    for (int i = 0; i < 6; ++i) sendChat(std::string(200, 'x'));  // chat of 64 players at their limit
     first.unsent -= std::min(first.unsent, kPerTick);
     if (tick % 30 == 0) ping(first, first.sent.back().number());
     session->checkDeadlines(now);
     world.tick();
     publisher.update(world.view());
     session->sendTick(publisher, world.view().players[0]);
-    if (pictures > 3) most = std::max(most, first.unsent);  // the world has been sent
+    if (pictures > 3) most = std::max(most, first.unsent);  // after the whole world was sent
   }
   EXPECT_EQ(session->state(), Session::State::kPlaying);
   EXPECT_LT(most, 16'000u);
@@ -193,7 +193,7 @@ TEST_F(SessionReturn, AClientThatIsRefusedForNowIsHeardOfAllTheSame) {
   breakStream(first);
   for (int i = 0; i < 3; ++i) session->admitResume();
   for (int i = 0; i < 100; ++i, now += 500ms) session->checkDeadlines(now);
-  for (int i = 0; i < 4; ++i) session->admitResume();  // the last one is one too many
+  for (int i = 0; i < 4; ++i) session->admitResume();  // one more than allowed
   for (int i = 0; i < 100; ++i, now += 500ms) session->checkDeadlines(now);
   EXPECT_EQ(counters.resumes_deferred, 1u);
   EXPECT_EQ(session->state(), Session::State::kPlaying) << "100 s after the stream broke";
@@ -217,7 +217,7 @@ TEST_F(SessionReturn, AWorldSentToAnotherProcessCountsAsAReset) {
   EXPECT_EQ(counters.resets, 1u);
   Wire& third = lines.emplace_back();
   const auto again = make(third);
-  greet(third, "token");  // the same process, on another stream
+  greet(third, "token");  // the same process on another stream
   say(third, wants);
   EXPECT_EQ(counters.resets, 1u) << "two seconds, whatever becomes of the stream";
 }
@@ -322,7 +322,7 @@ TEST_F(SessionReturn, KeysOfAClientThatIsCutOffAreReleasedInTheirTurn) {
   key(first, 4, df::Keyboard::C, df::KEY_RELEASED);
   const std::string a = std::to_string(int{df::Keyboard::A});
   const std::string b = std::to_string(int{df::Keyboard::B});
-  breakStream(first);  // without datagrams the client is gone
+  breakStream(first);  // no datagrams either, so the client is gone
   const auto inputs = taken();
   ASSERT_EQ(inputs.size(), 6u);
   EXPECT_EQ(inputs[4], a + " up");

@@ -46,7 +46,7 @@ class SessionTest : public testing::Test {
 
   void hear(const wire::ClientMessage& message) { hearBytes(message.SerializeAsString()); }
   void hearBytes(const std::string& bytes) { line.callbacks.on_frame(bytes); }
-  /// The server ticks for as long, from `now` or where it was on.
+  /// Ticks the server until `after` has passed, from `now` or from where the last call ended.
   void listenUntil(Session& listener, Session::Clock::duration after) {
     for (; listened < after; listened += 100ms) listener.checkDeadlines(now + listened);
     listened = after;
@@ -111,7 +111,7 @@ class SessionTest : public testing::Test {
   std::vector<std::string> chat;
   int gone = 0;
   Session session;
-  Session::Clock::duration listened{};  ///< by listenUntil()
+  Session::Clock::duration listened{};  ///< time passed in listenUntil()
 };
 
 TEST_F(SessionTest, IsWelcomedAfterItsHello) {
@@ -258,7 +258,7 @@ TEST_P(BadInput, EndsTheSession) {
 
 INSTANTIATE_TEST_SUITE_P(Session, BadInput, testing::Range(-1, 13));
 
-/// Whatever becomes of a valid message on its way, what the game and the others are given is legal.
+/// The game and the other players get only legal values, however a valid message is mutated.
 TEST_F(SessionTest, MutatedMessagesEndTheSessionOrAreLegal) {
   SplitMix64 random(8);
   std::size_t inputs_taken = 0, lines_said = 0, ends = 0;
@@ -343,7 +343,7 @@ TEST_F(SessionTest, ChecksumsAreComparedFourTimesASecond) {
   update.checksum = 1;
   for (int i = 0; i < 100; ++i) hear(updateOf(update));
   EXPECT_EQ(counters.checksums_dropped, 99u);
-  for (int second = 0; second < 5; ++second) {  // what an honest client sends
+  for (int second = 0; second < 5; ++second) {  // the rate of an honest client
     now += Session::Clock::duration(1s);
     hear(updateOf(update));
   }
@@ -418,7 +418,7 @@ TEST_F(SessionTest, ATerminalsSizeIsTakenOverFourTimesASecond) {
   test::SimulatedWorld world({}, 7);
   Publisher publisher;
   int taken_over = 0;
-  for (int i = 0; i < 100; ++i, now += 10ms) {  // it is dragged about for a second
+  for (int i = 0; i < 100; ++i, now += 10ms) {  // the window is resized for a second
     const std::uint64_t deferred = counters.resizes_deferred;
     wire::ClientMessage resize;
     resize.mutable_resize()->set_columns(20 + i);
@@ -442,7 +442,7 @@ TEST_F(SessionTest, EndsWithoutAHelloInFiveSeconds) {
 
 TEST_F(SessionTest, AHelloThatCameWhileTheServerDidNotRunIsHeard) {
   session.checkDeadlines(now);
-  session.checkDeadlines(now + 20s);  // it has come meanwhile, and is read next
+  session.checkDeadlines(now + 20s);  // a hello that arrived in the meantime is read next
   EXPECT_EQ(session.state(), Session::State::kGreeting);
   greet();
   session.checkDeadlines(now + 60s);
@@ -454,11 +454,11 @@ TEST_F(SessionTest, AHelloThatIsNotJudgedInTimeIsRefusedAsBusy) {
   Wire waiting_line;
   Session waiting(std::make_unique<FakeChannel>(waiting_line), counters, now);
   int hellos = 0;
-  waiting.start({[&](Session&, const wire::Hello&) { ++hellos; },  // a password's turn does not come
+  waiting.start({[&](Session&, const wire::Hello&) { ++hellos; },  // the password is never checked
                  [](Session&, const std::string&) {}, [](Session&) {}, [this] { return now; }});
   waiting_line.receive(hello());
   ASSERT_EQ(hellos, 1);
-  listenUntil(waiting, 0s);  // from here: the hello was heard before
+  listenUntil(waiting, 0s);  // restarts the clock: the hello came before
   listenUntil(waiting, Session::kJudgeTimeout);
   EXPECT_EQ(waiting.state(), Session::State::kGreeting);
   listenUntil(waiting, Session::kJudgeTimeout + 1ms);
@@ -470,7 +470,7 @@ TEST_F(SessionTest, AHelloThatIsNotJudgedInTimeIsRefusedAsBusy) {
 
 TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
   greet();
-  listenUntil(session, 0s);  // from here: the hello was heard before
+  listenUntil(session, 0s);  // restarts the clock: the hello came before
   listenUntil(session, 15s);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
   hear(says("still here"));
@@ -487,7 +487,7 @@ TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
 TEST_F(SessionTest, FifteenSecondsOfSilenceCostAResumableSessionItsStreamOnly) {
   greet();
   session.setGrace(60s);
-  listenUntil(session, 0s);  // from here
+  listenUntil(session, 0s);  // restarts the clock
   listenUntil(session, 15s + 1ms);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
   EXPECT_TRUE(session.isDetached());
@@ -533,7 +533,7 @@ TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentAndCatchesUpAfter) {
     for (int i = 0; i < 25; ++i) tick();
     ASSERT_EQ(line.sent.size(), before);
     line.unsent = 0;
-    for (int i = 0; i < 3; ++i) {  // slots that changed hands take a round trip more
+    for (int i = 0; i < 3; ++i) {  // reused slots take one more round trip
       tick();
       receive();
     }

@@ -1,4 +1,4 @@
-// A session with a second stream beside its first: what goes where, and what happens when one of them ends.
+// A session with two streams: the messages of each stream, and the end of one of them.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -29,7 +29,7 @@ class SessionWithTwoStreams : public SessionReturn {
     publisher.update(world.view());
     session->sendTick(publisher, world.view().players[0]);
   }
-  /// The world has come, and nothing is pending but what happens from now on.
+  /// Sends the world, so that only later changes are pending.
   void settle() {
     tick();
     acknowledge(first);

@@ -22,7 +22,7 @@ class TransportSelectorTest : public testing::Test {
     hear(number);
     ASSERT_TRUE(selector.isOpen(now));
   }
-  /// Ticks of 30 Hz with datagrams, each acknowledged after `round_trip`.
+  /// Runs ticks at 30 Hz with datagrams, each acknowledged after `round_trip`. Returns the last interval.
   std::uint32_t run(std::chrono::milliseconds time, std::chrono::milliseconds round_trip, double loss = 0) {
     std::uint32_t interval = 0;
     for (const auto end = now + time; now < end;) {

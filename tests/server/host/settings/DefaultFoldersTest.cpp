@@ -1,4 +1,4 @@
-// Where dfserver writes rounds down if no option says so.
+// The default folder in which dfserver records rounds.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-// The command line of dfserver: what would start a server by mistake is an error.
+// The command line of dfserver: mistakes are errors instead of starting a wrong server.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -82,7 +82,7 @@ TEST(HostOptions, ARunningServerNamesWhatNeedsARestart) {
   EXPECT_EQ(takeOver(next, now).text(), "none has changed; game and port need a restart");
 }
 
-/// Games that are there while this is: hello and tron, which are not loaded.
+/// While this exists, the games hello and tron are found, but cannot be loaded.
 class Games {
  public:
   Games() {
@@ -95,7 +95,7 @@ class Games {
   const test::TempFolder m_folder;
 };
 
-/// What dfserver says to these rooms.
+/// Returns dfserver's error message for these --room options.
 std::string complaintOf(const std::vector<const char*>& rooms) {
   std::vector<const char*> words;
   for (const char* p_room : rooms) words.insert(words.end(), {"--room", p_room});
@@ -266,7 +266,7 @@ TEST(HostOptions, APasswordThatEveryUserCanReadIsWarnedOf) {
   std::remove(path.c_str());
 }
 
-/// Of a game that is a program: what df-config.txt says, and an environment without the variables used here.
+/// Options of a game program: its df-config.txt, and an environment without the variables used here.
 class ProgramOptions : public testing::Test {
  protected:
   ProgramOptions() { clear(); }
@@ -316,7 +316,7 @@ TEST_F(ProgramOptions, AndBeforeThatFromTheEnvironment) {
 }
 
 TEST_F(ProgramOptions, TheGamesFrameTimeIsNotTheHosts) {
-  config = {{"frame_time", "50"}};  // milliseconds, for GM.getFrameTime()
+  config = {{"frame_time", "50"}};  // milliseconds, for GM.getFrameTime() only
   EXPECT_TRUE(read().empty());
   EXPECT_EQ(options.frame_micros, 0);
   setenv("NAIAD_FRAME_TIME", "5000", 1);
@@ -395,7 +395,7 @@ TEST(HostOptions, OneIsChangedByItsNameWithinItsRange) {
   EXPECT_EQ(options.max_players, 7);
 }
 
-/// What a page or a check prints.
+/// Returns the output of an option that prints a page or the configuration.
 std::string printed(const std::vector<const char*>& arguments, CommandLine wanted = CommandLine::kDone) {
   HostOptions options;
   testing::internal::CaptureStdout();
@@ -403,8 +403,7 @@ std::string printed(const std::vector<const char*>& arguments, CommandLine wante
   return testing::internal::GetCapturedStdout();
 }
 
-// Each line of the example, with its # taken away, is what holds anyhow: it is not refused, and changes
-// nothing.
+// Each line of the example is valid without its leading # and sets the default.
 TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
   const std::string path = testing::TempDir() + "naiad-example-" + std::to_string(getpid());
   std::istringstream lines(printed({"--option-page", "config"}));
@@ -466,7 +465,7 @@ TEST(HostOptions, AVariableThatIsNoneIsAWarning) {
             1);
 }
 
-// Variables of the other programs may be set for all of them.
+// Variables of the other programs are accepted, because they may be set for all programs.
 TEST(HostOptions, VariablesOfTheClientAreNoMistakes) {
   namespace fs = std::filesystem;
   std::set<std::string> names;

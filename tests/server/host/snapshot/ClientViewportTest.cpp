@@ -14,7 +14,7 @@ namespace naiad {
 namespace {
 
 using test::cellsAt;
-/// A view of 80 by 24 at (100, 50) in a large world, and a ship that it follows.
+/// A ship in a large world and a view of 80 by 24 cells at (100, 50) that follows it.
 class Scene {
  public:
   Scene() {
@@ -117,7 +117,7 @@ TEST(ClientViewport, AFastShipNeedsRoomAndKeepsItForAWhileWhenItStops) {
   expectRect(later, slow.left, slow.top, slow.right, slow.bottom);
 }
 
-/// A client with a small terminal that draws what was three ticks ago, in a random world.
+/// A client with a small terminal that draws the tick of three ticks ago, in a random world.
 struct SmallClient {
   int columns = 20;
   int rows = 10;
@@ -134,7 +134,7 @@ struct SmallClient {
     config.height = 60;
     config.view_width = 80;
     config.view_height = 40;
-    config.scribble = 0;  // what no object drew is one look for the whole view
+    config.scribble = 0;  // drawing outside objects is one look for the whole view
     test::SimulatedWorld world(config, seed);
     Publisher publisher;
     Replica replica;

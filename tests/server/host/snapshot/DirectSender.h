@@ -1,4 +1,4 @@
-// A SnapshotSender with a world made by hand, and a client that gets all that is sent.
+// A SnapshotSender with a hand-made world and a client that gets every packet.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace naiad::test {
 
-/// By hand, without a link.
+/// Connects a sender and a replica without a link; the test sends acknowledgements itself.
 class DirectSender {
  public:
   explicit DirectSender(std::size_t objects) {
@@ -36,7 +36,7 @@ class DirectSender {
     for (const SnapshotSender::Packet& packet : packets) read(packet);
     return packets;
   }
-  /// A tick in which nothing is sent: the client is busy.
+  /// Runs a tick without sending.
   void skip() {
     ++m_view.tick;
     m_view.players[0] = player;
@@ -45,7 +45,7 @@ class DirectSender {
     m_view.vanished.clear();
     sender.applyTick(publisher, player);
   }
-  /// The records of a packet that tick() gave, as a client reads them that got all.
+  /// Returns the records of a packet from tick(), as a client with all earlier packets reads them.
   const Records& decoded(const SnapshotSender::Packet& packet) const { return m_records.at(packet.number); }
   void acknowledge(std::uint32_t newest, std::uint64_t mask = ~std::uint64_t{0}) {
     sender.acknowledge({newest, mask});
@@ -69,7 +69,7 @@ class DirectSender {
 
   df::WorldView m_view;
   Replica m_reader;
-  std::map<std::uint32_t, Records> m_records;  ///< by number
+  std::map<std::uint32_t, Records> m_records;  ///< index: snapshot number
 };
 
 }  // namespace naiad::test

@@ -10,7 +10,7 @@
 namespace naiad {
 namespace {
 
-/// A window that stands, slides and jumps.
+/// A window that stands, slides and jumps at random.
 class Window {
  public:
   explicit Window(SplitMix64& rng) : m_rng(rng) {}
@@ -36,8 +36,8 @@ class Window {
   std::int64_t m_dy = 0;
 };
 
-// In every tick an object that the plain rule admits is known, and one that it has not admitted for a whole
-// gap is not.
+// Checks in every tick: an object that the plain rule admits is known, and an object that the rule has not
+// admitted for more than kGap ticks is not known.
 void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stands, std::size_t& compared) {
   SplitMix64 rng(seed);
   test::SimulatedWorld world(config, seed);
@@ -46,7 +46,7 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
   KnownObjects known;
   Window window(rng);
   CellRect rect = window.next();
-  std::map<std::uint64_t, std::uint32_t> near;  // slot and generation: the tick it was last let in
+  std::map<std::uint64_t, std::uint32_t> near;  // slot and generation -> last tick in which it was admitted
   for (int i = 0; i < 300; ++i) {
     world.tick(i % 100 > 60);
     publisher.update(world.view());

@@ -12,14 +12,14 @@ using Ids = std::vector<std::uint32_t>;
 
 class KnownObjectsTest : public testing::Test {
  protected:
-  /// An object that the client has confirmed.
+  /// Adds an object that the client has confirmed; returns its id.
   std::uint32_t alive(std::uint32_t slot) {
     known.addObject(slot, 1, 0);
     const std::uint32_t id = known.find(slot);
     confirm(id);
     return id;
   }
-  /// Send the object, and let the snapshot arrive.
+  /// Sends the object and confirms the arrival of the snapshot.
   void confirm(std::uint32_t id) {
     ++number;
     known.confirmArrival(send(id, number), number);

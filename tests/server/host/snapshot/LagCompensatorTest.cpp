@@ -13,7 +13,7 @@
 namespace naiad {
 namespace {
 
-/// A random world, what is published of it, and the compensator under test.
+/// A random world, its published models, and the compensator under test.
 class LagCompensatorTest : public testing::Test {
  protected:
   void tick() {
@@ -30,7 +30,7 @@ class LagCompensatorTest : public testing::Test {
   test::SimulatedWorld world{{}, 5};
   Publisher publisher;
   LagCompensator compensator;
-  std::map<std::uint32_t, std::map<std::uint32_t, Publisher::Model>> published;  // by tick, by slot
+  std::map<std::uint32_t, std::map<std::uint32_t, Publisher::Model>> published;  // by tick and slot
 };
 
 TEST_F(LagCompensatorTest, ReturnsThePositionThatAClientWithTheBaseDrew) {
@@ -77,7 +77,7 @@ TEST_F(LagCompensatorTest, OldAndFutureTicksAreClamped) {
     same(seen(0, 0), seen(0, static_cast<std::uint32_t>(-5)));  // drawn ahead of the server
     same(seen(0, LagCompensator::kMaxBehind), seen(0, LagCompensator::kMaxBehind + 20));
     same(seen(LagCompensator::kTicks, 3),
-         seen(LagCompensator::kTicks + 100, 3));  // the oldest base that is kept
+         seen(LagCompensator::kTicks + 100, 3));  // the oldest base that the compensator keeps
     ++objects;
   });
   EXPECT_GT(objects, 10);
@@ -120,7 +120,7 @@ CellPosition cellAt(df::FixedVector position) {
   return {df::cellOf(position.x), df::cellOf(position.y)};
 }
 
-/// Players with views that follow objects, who receive all snapshots, and what their clients knew at each
+/// Players whose views follow objects and who receive all snapshots. Records what each client knew at each
 /// tick.
 class LagCompensatorViews : public testing::Test {
  protected:
@@ -149,7 +149,7 @@ class LagCompensatorViews : public testing::Test {
   LagCompensator compensator;
   std::vector<SnapshotSender> senders{kPlayers, SnapshotSender(Resend::kOnGap)};
   std::vector<Replica> replicas{kPlayers};
-  std::map<std::uint32_t, std::vector<Replica>> known;  ///< by tick, one for each player
+  std::map<std::uint32_t, std::vector<Replica>> known;  ///< tick -> each player's replica
 };
 
 TEST_F(LagCompensatorViews, AreWhereTheClientThatKnewTheBaseDrewThem) {
@@ -165,8 +165,7 @@ TEST_F(LagCompensatorViews, AreWhereTheClientThatKnewTheBaseDrewThem) {
       const df::ViewedTick seen{true, world.tickNumber() - base_age, world.tickNumber() - drawn_age};
       const Replica& replica = known.at(seen.base)[i];
       const ObjectState* p_followed = replica.followed();
-      // The client does not know how the object came to its place, which matters only if its path was not
-      // straight.
+      // The client does not know the object's earlier path, which matters only if the path was not straight.
       if (p_followed != nullptr && !(p_followed->motion.acceleration == df::FixedVector{})) continue;
       const auto corner = compensator.viewCornerOf(player(i).id, seen);
       ASSERT_TRUE(corner);

@@ -1,4 +1,4 @@
-// A level is loaded: hundreds of births in one tick, on a line of one megabit per second.
+// A level load: hundreds of births in one tick, over a line of one megabit per second.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,12 +21,12 @@ using namespace std::chrono_literals;
 
 constexpr auto kTick = 33'333us;
 constexpr auto kDelay = 50ms;
-/// As Session sends datagrams.
+/// The limits that Session uses for datagrams.
 constexpr PacketLimits kLimits{4, kMaxDatagramSnapshot, true};
-/// Of IP, UDP and the seal, on each datagram.
+/// Overhead of IP, UDP and the seal per datagram.
 constexpr std::size_t kPacketBytes = 28 + 28;
 
-/// One client on its own line, with a queue at the bottleneck that drops what does not fit.
+/// A client on its own line. The bottleneck has a queue that drops datagrams when it is full.
 class Client {
  public:
   Client(VirtualClock& clock, std::uint64_t seed)
@@ -54,7 +54,7 @@ class Client {
   Replica replica;
   std::size_t packets = 0;
   std::size_t bytes = 0;
-  VirtualClock::Time complete_at{};  ///< when the replica first had `wanted` objects
+  VirtualClock::Time complete_at{};  ///< time when the replica first had `wanted` objects
   std::size_t wanted = 0;
   std::chrono::microseconds latest{0};  ///< delay of the slowest snapshot
 
@@ -88,8 +88,8 @@ class Client {
   std::array<VirtualClock::Time, 256> m_sent_at{};
 };
 
-/// A world of moving things in which two players look at different places: one at a desert where a level of
-/// 700 things is about to be loaded, one at a small village.
+/// A world of moving objects with two players: one looks at an empty area into which a level of 700 objects
+/// is loaded, the other at a small village.
 class LevelLoad {
  public:
   LevelLoad() {
@@ -106,7 +106,7 @@ class LevelLoad {
     return {df::fromCells(x), df::fromCells(y)};
   }
   void load(int count) {
-    for (int i = 0; i < count; ++i) {  // none leaves the view in the next ten ticks
+    for (int i = 0; i < count; ++i) {  // no object leaves the view within ten ticks
       const auto speed = [this] {
         return static_cast<df::Fixed>(m_rng.below(df::kFixedOne)) - df::kFixedOne / 2;
       };

@@ -41,7 +41,7 @@ class Random {
   explicit Random(std::uint64_t seed) : m_rng(seed) {}
 
   std::uint64_t below(std::uint64_t n) { return m_rng.below(n); }
-  /// Within ±most, with any number of bits behind the point.
+  /// Returns a random number within ±most, with a random number of fraction bits.
   df::Fixed coordinate(double most) {
     const auto exact =
         static_cast<df::Fixed>((m_rng.unit() - 0.5) * 2 * most * static_cast<double>(df::kFixedOne));
@@ -113,7 +113,7 @@ TEST(MotionFit, WhatStandsStillIsDrawnFromItsCell) {
 TEST(MotionFit, OffsetsOfHalfACellMatter) {
   const Motion truth{10, cellsAt(5.25, 3), {}, {}};
   EXPECT_EQ(fitMotion(truth, Offsets{cellsAt(0, 0)}, 64).position, cellsAt(5, 3));
-  // Drawn in cells 5 and 6; from (5, 3) they would be the same, from (5.5, 3) both to the right.
+  // The offsets are drawn in cells 5 and 6. From (5, 3) all would be in cell 5, from (5.5, 3) all in cell 6.
   const Offsets offsets{cellsAt(0, 0), cellsAt(0.25, 0), cellsAt(0.125, 0)};
   const Motion fitted = fitMotion(truth, offsets, 64);
   EXPECT_TRUE(drawsTheSame(truth, fitted, offsets, 64));
@@ -133,7 +133,7 @@ TEST(MotionFit, TheTruthIsReturnedWhereNothingIsTried) {
   EXPECT_EQ(fitMotion(fast, offsets, 64), fast);
 }
 
-// What the wire gains: fractions are written twice, for x and for y.
+// Fewer fraction bits shorten the message; fractions are written twice, for x and for y.
 TEST(MotionFit, SlowPathsTakeFewBits) {
   Random random(2);
   double bits = 0;

@@ -8,7 +8,7 @@
 namespace naiad {
 namespace {
 
-/// Objects in a row through the middle of a view of 80 by 24 cells, all of them pending.
+/// A row of pending objects through the middle of a view of 80 by 24 cells.
 class PendingQueueTest : public testing::Test {
  protected:
   PendingQueueTest() {

@@ -24,7 +24,7 @@ class Alone {
     player.id = 1;
     m_view.players.push_back(player);
   }
-  /// A tick. The records of what was written into the next snapshot, as far as it fits.
+  /// Runs a tick. Returns the records of the next snapshot, as far as they fit into `limit`.
   Records tick(std::size_t limit = kMaxDatagramSnapshot, bool repeats = false) {
     ++m_view.tick;
     m_publisher.update(m_view);
@@ -45,7 +45,7 @@ class Alone {
 
   PerClientState state;
   df::PlayerFacts player;
-  std::uint32_t number = 0;  ///< of the newest snapshot
+  std::uint32_t number = 0;  ///< number of the newest snapshot
   bool sent_any = false;
   bool has_input = false;
 
@@ -129,7 +129,7 @@ TEST(PerClientState, EverySnapshotNamesTheInputUntilOneHasArrived) {
 
 enum class Arrival { kLost, kDownOnly, kBothWays };
 
-/// A player whose view (80 by 24, in a wide world) follows the only object, and what the client makes of it.
+/// A player whose view (80 by 24, in a wide world) follows the only object, and the client's replica.
 class Following {
  public:
   Following() {
@@ -142,7 +142,7 @@ class Following {
     direct.view().changed.push_back(m_facts);
   }
 
-  /// One tick in which the object is put at `x`, to fly on with `velocity`.
+  /// Runs a tick that places the object at `x`, moving with `velocity`.
   void tick(double x, double velocity, Arrival arrival) {
     m_facts.position = cellsAt(x, 5);
     m_facts.velocity = cellsAt(velocity, 0);
@@ -179,9 +179,9 @@ TEST(PerClientState, AViewIsRightAlthoughTheMotionItFollowsCameLate) {
   Following scene;
   scene.tick(100, 0, Arrival::kBothWays);
   scene.expectSameView();
-  scene.tick(80, 1, Arrival::kLost);  // pulls the view to the left, and the snapshot is lost
+  scene.tick(80, 1, Arrival::kLost);  // moves the view to the left in a snapshot that is lost
   double x = 80;
-  for (int i = 0; i < 25; ++i) scene.tick(x += 1, 1, Arrival::kBothWays);  // too slow to push the view back
+  for (int i = 0; i < 25; ++i) scene.tick(x += 1, 1, Arrival::kBothWays);  // too slow to move the view again
   EXPECT_GT(scene.direct.sender.resentCount(), 0u);
   EXPECT_TRUE(scene.direct.sender.isSettled());
   scene.expectSameView();
@@ -191,7 +191,7 @@ TEST(PerClientState, AViewFollowsAnotherObjectAtOnceAlthoughTheDeathIsUnconfirme
   Following scene;
   scene.tick(100, 0, Arrival::kBothWays);
   scene.becomeAnother();
-  for (int i = 0; i < 20; ++i) {  // the death stays unacknowledged
+  for (int i = 0; i < 20; ++i) {  // the death is not acknowledged
     scene.tick(100 + 3 * i, 3, Arrival::kDownOnly);
     EXPECT_EQ(scene.replica.aliveCount(), 1u);
     scene.expectSameView();
@@ -222,7 +222,7 @@ TEST(PerClientState, TextsAreSentWhenTheyChange) {
   EXPECT_TRUE(direct.tick().empty());
 }
 
-/// A player who steers the only object by declared controls, and what their client knows.
+/// A player who steers the only object by declared controls, and the client's replica.
 class Steering {
  public:
   Steering() {
@@ -239,7 +239,7 @@ class Steering {
 
   df::SteeringFacts& steering() { return direct.player.steering; }
   const df::ControlTable& table() const { return m_table; }
-  /// One tick in which the object is moved by its velocity. Returns whether the state was sent.
+  /// Runs a tick that moves the object by `velocity`. Returns whether the control state was sent.
   bool tick(df::FixedVector velocity, bool arrives = true) {
     m_facts.position = m_facts.position + velocity;
     m_facts.velocity = velocity;
@@ -258,7 +258,7 @@ class Steering {
     direct.sender.acknowledge(acks);
     return sent;
   }
-  /// The client computes the actual state.
+  /// Checks that the client computes the server's control state.
   void expectKnown() {
     const std::uint32_t now = direct.publisher.tick();
     const ControlRecord known = coast(replica.control(), replica.controlTable(), now);

@@ -13,7 +13,7 @@ namespace naiad {
 namespace {
 
 using test::cellsAt;
-/// A WorldView by hand, of one player who sees cells (0, 0) to (79, 23).
+/// A hand-made WorldView of one player, who sees cells (0, 0) to (79, 23).
 class PublisherTest : public testing::Test {
  protected:
   PublisherTest() {
@@ -39,12 +39,12 @@ class PublisherTest : public testing::Test {
   void drew(std::uint32_t slot, df::FixedVector position, char32_t ch = U'@') {
     drew({slot, 1}, {{position, ch, df::CYAN}});
   }
-  /// It is where it drew a character.
+  /// Reports the object at `position`, where it also draws a character.
   void drawn(std::uint32_t slot, df::FixedVector position, df::FixedVector velocity = {}) {
     changed(slot, position, velocity);
     drew(slot, position);
   }
-  /// It drew the frame whose turn it is in the tick that is published next, and says so.
+  /// The object declares its look and draws the frame that is due in the next tick.
   void showed(std::uint32_t slot, df::FixedVector position, const Look& look) {
     std::vector<df::DrawCommand> commands;
     for (const Glyph& glyph : *look.select(m_view.tick + 1)) {
@@ -59,7 +59,7 @@ class PublisherTest : public testing::Test {
     m_view.looks.push_back(
         {static_cast<std::uint32_t>(m_view.drawn.size()), std::make_shared<const Look>(look)});
   }
-  /// Publish the tick, return its changes, and begin the next.
+  /// Publishes the tick, returns its changes, and begins the next.
   std::vector<Publisher::Change> publish() {
     ++m_view.tick;
     publisher.update(m_view);
@@ -84,7 +84,7 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
   return 0xFF;
 }
 
-// For any number of calls, in any tick.
+// Holds for repeated calls and in every tick.
 TEST_F(PublisherTest, TheSharedMotionIsThatOfTheModelAtTheTick) {
   const auto expectShared = [&](std::uint32_t slot) {
     const Motion now = rebase(publisher.find(slot)->state.motion, publisher.tick());
@@ -123,9 +123,9 @@ TEST_F(PublisherTest, StraightFlightIsPublishedOnce) {
 
 TEST_F(PublisherTest, AViewObjectStandsWhereverTheViewsGo) {
   for (int i = 0; i < 50; ++i) {
-    const df::FixedVector corner = cellsAt(100 + 0.3 * i, 7.5);  // of the world's own view
+    const df::FixedVector corner = cellsAt(100 + 0.3 * i, 7.5);  // corner of the world's own view
     view().corner = corner;
-    view().players[0].view_corner = cellsAt(-3.0 * i, 900);  // far from there
+    view().players[0].view_corner = cellsAt(-3.0 * i, 900);  // a player's view far from it
     changed(1, cellsAt(40, 1)).on_view = true;
     drew(1, corner + cellsAt(38, 1), U'H');
     view().drawn.back().on_view = true;
@@ -171,7 +171,7 @@ TEST_F(PublisherTest, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
   Motion modelled{1, position, velocity, {}};
   int corrections = 0;
   for (int i = 0; i < 200; ++i) {
-    if (i == 20) velocity = cellsAt(0.0625, 0.0625);  // a turn that shows only after some ticks
+    if (i == 20) velocity = cellsAt(0.0625, 0.0625);  // a turn that becomes visible only after some ticks
     if (i == 90) velocity = cellsAt(-0.125, 0);
     drawn(0, position, velocity);
     const auto changes = publish();
@@ -213,11 +213,11 @@ TEST_F(PublisherTest, ATurnOfAnObjectThatDrawsNothingIsCorrectedToo) {
 TEST_F(PublisherTest, ABlockedObjectIsPublishedAsStandingStill) {
   drawn(0, cellsAt(10, 10), cellsAt(1, 0));
   publish();
-  changed(0, cellsAt(10, 10));  // blocked: no velocity
+  changed(0, cellsAt(10, 10));  // blocked: zero velocity
   drew(0, cellsAt(10, 10));
   EXPECT_EQ(groupsOf(publish(), 0), kMotion);
   EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
-  for (int i = 0; i < 10; ++i) {  // not reported again while it stands
+  for (int i = 0; i < 10; ++i) {  // not reported again while it stands still
     drew(0, cellsAt(10, 10));
     EXPECT_TRUE(publish().empty());
   }
@@ -240,7 +240,7 @@ TEST_F(PublisherTest, SolidObjectsThatStandAreExactOnceAClientPredicts) {
   drew(0, position);
   EXPECT_EQ(groupsOf(publish(), 0), kMotion);
   EXPECT_EQ(publisher.find(0)->state.motion.position, position);
-  // One that comes to rest within its cell is exact again.
+  // An object that comes to rest within its cell is exact again.
   drawn(0, position, cellsAt(0.1, 0));
   publish();
   drawn(0, position + cellsAt(0.05, 0));
@@ -286,8 +286,7 @@ TEST_F(PublisherTest, AHalfCellSpriteFliesFree) {
     corrections += i > 0 ? changes : 0;
     position = position + velocity;
   }
-  // Coarse numbers were good for as long as paths last at first; then ones that are good for eight times as
-  // long.
+  // The first rounded numbers hold for the usual length of a path, corrected ones for eight times as long.
   EXPECT_LE(corrections, 2u);
 }
 
@@ -306,7 +305,7 @@ TEST_F(PublisherTest, ASolidObjectThatStopsAndHidesIsHiddenAtOnce) {
   view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
   drawn(0, cellsAt(10.3, 10), cellsAt(0.2, 0));
   publish();
-  changed(0, cellsAt(10.35, 10)).shown = false;  // its path has to be made exact in the same tick
+  changed(0, cellsAt(10.35, 10)).shown = false;  // the position must become exact in this tick
   EXPECT_EQ(groupsOf(publish(), 0), kLook | kMotion);
   EXPECT_EQ(publisher.find(0)->state.look.select(0), nullptr);
 }
@@ -333,7 +332,7 @@ TEST_F(PublisherTest, ADeathAndABirthInOneSlotAreOneChangeToTheNewGeneration) {
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].groups, kAllGroups);
   EXPECT_EQ(publisher.find(3)->generation, 2u);
-  view().vanished.push_back({3, 1});  // an old death
+  view().vanished.push_back({3, 1});  // a death already reported
   EXPECT_TRUE(publish().empty());
   view().vanished.push_back({3, 2});
   EXPECT_EQ(groupsOf(publish(), 3), 0);
@@ -371,7 +370,7 @@ TEST_F(PublisherTest, SlotsBeyondTheLastAreRefusedAndCounted) {
   EXPECT_EQ(publisher.find(kLooseSlot), nullptr);
 }
 
-// The proof of the whole chain: what a client draws is what the world drew, cell for cell, at every tick.
+// Tests the whole chain: in every tick, a client draws exactly the world's cells.
 void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int ticks) {
   test::SimulatedWorld world(config, seed);
   Publisher publisher;
@@ -386,7 +385,7 @@ void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int
     publisher.update(world.view());
     for (std::size_t p = 0; p < clients.size(); ++p) {
       Client& client = clients[p];
-      if (i < static_cast<int>(p) * 30) continue;  // joins late
+      if (i < static_cast<int>(p) * 30) continue;  // the player joins later
       client.sender.applyTick(publisher, world.view().players[p]);
       for (int round = 0; round < 3 && (round == 0 || !client.sender.isSettled()); ++round) {
         for (const SnapshotSender::Packet& packet : client.sender.build(publisher)) {
@@ -440,7 +439,7 @@ TEST_F(PublisherTest, WorldsOfStraightFlightCostNothing) {
     publisher.update(world.view());
     if (i > 30) changes += publisher.changes().size();
   }
-  // Only offsets that no 1/256 expresses, and what first comes into view, need a word now and then.
+  // Only offsets that are not multiples of 1/256 and objects that come into view need an update.
   EXPECT_LT(changes, 100u);
 }
 
@@ -451,7 +450,7 @@ Sequence wheel() {
   return Sequence(frames);
 }
 
-// With any selector it is published once, and drawn right from then on.
+// With any selector, the look is published once and then drawn correctly in all ticks.
 TEST_F(PublisherTest, ALookThatChangesByItselfIsPublishedOnce) {
   for (const Selector& selector :
        {Selector::clock(1, 3), Selector::clock(1, 5, false), Selector::turning(1, 123456789, 98765432),
@@ -472,7 +471,7 @@ TEST_F(PublisherTest, ALookThatChangesByItselfIsPublishedOnce) {
 }
 
 TEST_F(PublisherTest, AnotherPaceIsPublishedWithTheFirstFrameThatDiffers) {
-  Look look{wheel(), 2, Selector::turning(1, 0, 1 << 24)};  // a frame takes 64 ticks
+  Look look{wheel(), 2, Selector::turning(1, 0, 1 << 24)};  // 64 ticks per frame
   changed(0, cellsAt(10, 10));
   showed(0, cellsAt(10, 10), look);
   publish();

@@ -19,7 +19,7 @@ struct Sent {
     known.trimPending();
     return record;
   }
-  /// The ids that the next tick repeats; it sends them again.
+  /// Returns the ids that the next tick repeats, after sending them again.
   std::vector<std::uint32_t> next(std::size_t bits) {
     ++snapshot;
     redundancy.requeueRecords(known, snapshot);

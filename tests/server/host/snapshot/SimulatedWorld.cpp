@@ -69,7 +69,7 @@ void SimulatedWorld::bear() {
   thing.facts.key = {slot, generation};
   thing.facts.order = m_next_order++;
   thing.facts.position = cellsAt(between(-5, m_config.width + 5), between(-5, m_config.height + 5));
-  thing.facts.box = {cellsAt(-8, -1), cellsAt(16, 2)};  // covers every look
+  thing.facts.box = {cellsAt(-8, -1), cellsAt(16, 2)};  // contains every look
   turn(thing);
   restyle(thing);
   m_order.push_back(slot);
@@ -115,16 +115,16 @@ void SimulatedWorld::restyle(Thing& thing) {
   const double kind = m_rng.unit();
   if (kind < 0.5) {
     thing.look.push_back({{}, letter, color});
-  } else if (kind < 0.7) {  // a sprite of even width: its cells lie at half offsets
+  } else if (kind < 0.7) {  // a sprite of even width, with cells at half offsets
     for (int i = 0; i < 4; ++i) thing.look.push_back({cellsAt(i - 1.5, 0), letter, color});
-  } else if (kind < 0.8) {  // a string, blanks included
+  } else if (kind < 0.8) {  // a string with a blank
     for (int i = 0; i < 6; ++i) thing.look.push_back({cellsAt(i - 3, 1), i == 3 ? U' ' : U'A' + i, color});
-  } else if (kind < 0.9) {  // at an offset that no 1/256 expresses
+  } else if (kind < 0.9) {  // offsets that are not multiples of 1/256
     thing.look.push_back({cellsAt(between(-1, 1), between(-1, 1)), letter, color});
   }  // else: draws nothing
 }
 
-// A wheel with a spoke, of two colours, at whole or at half cells; at times it goes on by another pace.
+// Gives the thing a look of several frames in two colours, at whole or half cells.
 void SimulatedWorld::animate(Thing& thing) {
   std::vector<Appearance> frames(2 + m_rng.below(7));
   const auto color = static_cast<df::Color>(m_rng.below(8));
@@ -148,7 +148,7 @@ Selector SimulatedWorld::pace(std::size_t frames) {
                            static_cast<std::int32_t>(m_rng.next()) >> 5);
 }
 
-// Game code at work on one object. Return whether its facts changed.
+// Changes one object at random, as game code would. Returns whether its facts changed.
 bool SimulatedWorld::meddle(Thing& thing) {
   const df::ObjectFacts before = thing.facts;
   if (chance(m_config.turn)) turn(thing);
@@ -172,7 +172,8 @@ bool SimulatedWorld::meddle(Thing& thing) {
          before.no_soft != after.no_soft || before.box != after.box;
 }
 
-// One move. A blocked object stays, and the facts say that it does not move; it may go on in any later tick.
+// Makes one move; returns whether the facts changed. A blocked object stays, and its facts report no motion.
+// It may move again in any later tick.
 bool SimulatedWorld::move(Thing& thing, bool quiet) {
   df::ObjectFacts& facts = thing.facts;
   const df::FixedVector velocity_before = facts.velocity;

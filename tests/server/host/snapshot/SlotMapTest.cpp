@@ -15,14 +15,14 @@ TEST(SlotMap, IsEmptyAtFirst) {
 }
 
 TEST(SlotMap, AgreesWithTheStandardMap) {
-  for (const std::uint32_t spread : {1u, 128u, 4096u}) {  // the hash leaves low bits out
+  for (const std::uint32_t spread : {1u, 128u, 4096u}) {  // the hash ignores low bits
     SplitMix64 rng(spread);
     SlotMap map;
     std::map<std::uint32_t, std::uint32_t> plain;
     std::size_t most = 0;
     for (int i = 0; i < 60'000; ++i) {
       const auto slot = static_cast<std::uint32_t>(rng.below(256)) * spread;
-      // Grows and shrinks in turn.
+      // Alternates between growing and shrinking.
       const bool adds = rng.below(100) < ((i / 5000) % 2 == 0 ? 70u : 30u);
       if (adds && plain.count(slot) == 0) {
         map.insert(slot, static_cast<std::uint32_t>(i));

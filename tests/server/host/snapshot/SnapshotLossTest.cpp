@@ -1,4 +1,4 @@
-// The sender over a bad network: whatever was lost, the replica ends up right.
+// The sender over a bad network: the replica becomes correct whatever was lost.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -19,8 +19,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A server and a client over two directions of a bad network. Snapshots go down and acknowledgements go up
-/// as the messages of the schema, in datagrams of at most 1200 bytes.
+/// A server and a client connected by a bad network. Snapshots and acknowledgements travel as schema
+/// messages, in datagrams of at most 1200 bytes.
 class LossyPair {
  public:
   LossyPair(test::WorldConfig config, const LinkConditions& conditions, std::uint64_t seed,
@@ -45,7 +45,7 @@ class LossyPair {
         lives.push_back(sender.known().at(id).birth);
       }
       ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
-      // What is too large for a datagram would go on the stream; here it arrives late.
+      // Packets too large for a datagram would use the stream; here they arrive late.
       if (packet.large) {
         m_late.push_back(packet.bytes);
       } else {
@@ -60,7 +60,7 @@ class LossyPair {
     m_link.setConditions(LinkEnd::kClient, conditions);
   }
 
-  /// The replica holds exactly what was sent, and draws what the world draws.
+  /// Checks that the replica holds exactly what was sent and draws what the world draws.
   void expectSame() {
     std::size_t alive = 0;
     const std::uint32_t tick = m_publisher.tick();
@@ -92,9 +92,9 @@ class LossyPair {
   SnapshotSender sender;
   Replica replica;
   std::size_t snapshots = 0;
-  std::size_t births = 0;  ///< objects that came to life in the replica
-  std::size_t reuses = 0;  ///< … under an id that another one had before
-  std::size_t checks = 0;  ///< checksums that were compared
+  std::size_t births = 0;  ///< objects born in the replica
+  std::size_t reuses = 0;  ///< births under an id that was used before
+  std::size_t checks = 0;  ///< checksums compared
 
  private:
   void serverHears(std::string_view packet) {
@@ -120,7 +120,7 @@ class LossyPair {
     m_client_end->send(writeUpdate(update));
   }
 
-  // No object is born twice: one that is gone from the replica never comes back to life in it.
+  // Checks that no object is born twice: an object that the replica has removed must not come back to life.
   void checkLives(std::uint32_t number) {
     for (const auto& [id, entry] : replica.entries()) {
       const auto was = m_alive.find(id);
@@ -147,10 +147,10 @@ class LossyPair {
   std::unique_ptr<DatagramChannel> m_client_end;
   AckWindow m_acks;
   std::vector<std::string> m_late;
-  std::map<std::uint32_t, bool> m_alive;           ///< by id
-  std::map<std::uint32_t, std::uint32_t> m_lives;  ///< how many objects have used an id
+  std::map<std::uint32_t, bool> m_alive;           ///< index: id
+  std::map<std::uint32_t, std::uint32_t> m_lives;  ///< number of objects that have used an id
   std::map<std::uint32_t, std::vector<std::uint32_t>>
-      m_births;  ///< the same when a snapshot was sent, by number and id
+      m_births;  ///< m_lives when a snapshot was sent, by number and id
 };
 
 TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {
@@ -211,7 +211,7 @@ TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
     LossyPair pair(config, bad, seed, static_cast<Resend>(seed % 3));
     for (int i = 0; i < 100 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
     pair.setConditions({});
-    // Right at once when all has arrived, not only after the next correction.
+    // The replica is correct as soon as everything has arrived, not only after the next correction.
     for (int i = 0; i < 40 && !testing::Test::HasFatalFailure(); ++i) {
       pair.tick(true);
       if (pair.sender.isSettled()) pair.expectSame();
@@ -221,7 +221,7 @@ TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
   }
 }
 
-// What is confirmed is not sent again, although newer snapshots that carried it are still in flight.
+// A confirmed record is not sent again, although newer snapshots that carried it are still in flight.
 TEST(SnapshotLoss, ARecordSentEveryTickIsConfirmedByTheFirstThatArrives) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -240,7 +240,7 @@ TEST(SnapshotLoss, ARecordSentEveryTickIsConfirmedByTheFirstThatArrives) {
       });
     }
     EXPECT_LT(unconfirmed, 40u * 3);
-    // Even a quiet world has births and turns; the last of them are still in flight.
+    // Even a quiet world has births and turns, the last of which are still in flight.
     pair.setConditions({});
     for (int i = 0; i < 5; ++i) pair.tick(true);
     pair.expectSame();

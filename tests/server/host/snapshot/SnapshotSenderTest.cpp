@@ -85,7 +85,7 @@ TEST(SnapshotSender, ALostSnapshotIsSentAgainInItsNewestState) {
   facts.position = cellsAt(9, 9);
   facts.velocity = cellsAt(1, 0);
   direct.view().changed.push_back(facts);
-  ASSERT_EQ(direct.tick().size(), 1u);  // number 2 gets lost
+  ASSERT_EQ(direct.tick().size(), 1u);  // number 2 is lost
   std::uint32_t empty = 0;
   std::vector<SnapshotSender::Packet> again;
   for (int i = 0; i < 30 && again.empty(); ++i) {
@@ -95,7 +95,7 @@ TEST(SnapshotSender, ALostSnapshotIsSentAgainInItsNewestState) {
     if (snapshots.empty()) continue;
     if (!direct.decoded(snapshots[0]).objects.empty()) {
       again = snapshots;
-    } else {  // a keep-alive arrives: number 3 and those after it are acknowledged, 2 is not
+    } else {  // a keep-alive arrives: acknowledges number 3 and later ones, but not 2
       direct.acknowledge(snapshots[0].number, (std::uint64_t{1} << empty++) - 1);
     }
   }
@@ -103,7 +103,7 @@ TEST(SnapshotSender, ALostSnapshotIsSentAgainInItsNewestState) {
   EXPECT_EQ(empty, 1u) << "the first gap means a loss";
   const ObjectRecord record = direct.decoded(again[0]).objects.at(0);
   EXPECT_EQ(record.groups, kMotion);
-  // What is sent is the published model: near the true place, and in its cell for as long as it may last.
+  // The published model is sent: near the true position, and in the right cell for as long as possible.
   EXPECT_LE(std::abs(record.state.motion.position.x - facts.position.x), df::kFixedOne / 2);
   EXPECT_EQ(direct.sender.resentCount(), 1u);
 }
@@ -167,7 +167,7 @@ TEST(SnapshotSender, AProbeCarriesNothingAndMayBeLost) {
   for (std::uint32_t number = 3; number < 8; ++number) {
     while (direct.tick().empty()) {
     }
-    direct.acknowledge(number, (1u << (number - 3)) - 1);  // all but the probe
+    direct.acknowledge(number, (1u << (number - 3)) - 1);  // all except the probe
   }
   EXPECT_EQ(direct.sender.loss(), 0);
   EXPECT_EQ(direct.sender.resentCount(), 0u);
@@ -184,13 +184,13 @@ TEST(SnapshotSender, ALossOfWhatIsPendingAgainIsNoDivergence) {
   second_object.order = 2;
   second_object.position = cellsAt(3, 3);
   direct.view().changed.push_back(second_object);
-  const auto second = direct.tick();  // a death and a birth, which do not arrive
+  const auto second = direct.tick();  // a death and a birth, in a snapshot that is lost
   ASSERT_EQ(second.size(), 1u);
   const auto third = direct.sender.probe(direct.publisher).number;
   const auto fourth = direct.sender.probe(direct.publisher).number;
   const auto fifth = direct.sender.probe(direct.publisher).number;
   direct.view().vanished.push_back({1, 1});
-  direct.skip();  // the death of the second object is pending, and not sent yet
+  direct.skip();  // the death of the second object is pending and not yet sent
   const AckWindow acks{fifth, 0b1011};
   ASSERT_TRUE(acks.has(fourth) && acks.has(third) && !acks.has(second[0].number) && acks.has(1));
   direct.acknowledge(acks.newest, acks.mask);

@@ -1,5 +1,5 @@
-// Sprites over the wire: what a client shows is what the animation draws, and while it goes on by itself
-// nothing is sent. The animation is the published engine's: AnimationTest says what that is.
+// Sprites over the wire: the client shows the frames of the animation, and a running animation sends nothing.
+// Animations work as in the published engine (see AnimationTest).
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -47,7 +47,7 @@ void place(df::Object& object, df::Sprite& sprite, int x) {
   object.setPosition(df::Vector(x, 10));
 }
 
-/// A world, and a client that gets all that is sent to it.
+/// A world and a client that gets every packet.
 class Show {
  public:
   Show() {
@@ -56,14 +56,14 @@ class Show {
     m_player = world.input().join("ann", df::RED);
   }
 
-  /// So many ticks, as long as the client shows what is drawn. Return the bytes that they took.
+  /// Runs `count` ticks, checks that the client shows the world's picture, and returns the bytes sent.
   std::size_t ticks(int count) {
     std::size_t bytes = 0;
     for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) bytes += tick();
     return bytes;
   }
 
-  /// What the client shows in a cell.
+  /// Returns the character that the client shows in a cell.
   char32_t shown(int x, int y) const {
     return m_replica.render(static_cast<std::uint32_t>(world.getStepCount())).at(x, y).ch;
   }
@@ -100,14 +100,14 @@ class Show {
   AckWindow m_acks;
 };
 
-/// Bytes that a world without anything in it takes.
+/// Returns the bytes that an empty world sends in `count` ticks.
 std::size_t idle(int count) {
   Show show;
   show.ticks(100);
   return show.ticks(count);
 }
 
-/// Of 300 ticks of 200 saucers in straight flight.
+/// Returns the bytes of 300 ticks with 200 saucers in straight flight.
 std::size_t flight(int slowdown) {
   Show show;
   df::Sprite sprite = saucer(slowdown);
@@ -120,7 +120,7 @@ std::size_t flight(int slowdown) {
     p_o->setPosition(df::Vector(53 + i % 25, 2 + i % 19 + 0.25 * (i % 3)));
     p_o->setVelocity(df::Vector(-0.125, 0));
   }
-  show.ticks(100);  // published, and fitted
+  show.ticks(100);  // until all are published and fitted
   return show.ticks(300);
 }
 
@@ -130,7 +130,7 @@ TEST(SpriteLook, TwoHundredAnimatedSaucersInFlightCostWhatStillOnesDo) {
   EXPECT_EQ(animated, idle(300));
 }
 
-/// The published engine's, as far as frames go: draw() shows one, then counts.
+/// The published engine's frame counter: draw() shows a frame, then counts.
 struct PublishedAnimation {
   int frames;
   int slowdown;
@@ -197,7 +197,7 @@ TEST(SpriteLook, AChangeOfAnAnimationShowsInTheSameTick) {
       [&] { object.setSpriteIndex(2); },
       [&] { object.setSpriteSlowdownCount(-1); },  // stopped
       [&] { object.setSpriteIndex(1); },
-      [&] { object.setSpriteSlowdownCount(0); },  // on it goes
+      [&] { object.setSpriteSlowdownCount(0); },  // continues
       [&] { object.setSpriteSlowdownCount(99); },
       [&] { sprite.setSlowdown(0); },
       [&] { sprite.setSlowdown(3); },
@@ -209,7 +209,7 @@ TEST(SpriteLook, AChangeOfAnAnimationShowsInTheSameTick) {
       [&] { object.setVisible(true); },
       [&] { object.setActive(false); },
       [&] { object.setActive(true); },
-      [&] { object.setPosition(df::Vector(500, 10)); },  // goes on unseen
+      [&] { object.setPosition(df::Vector(500, 10)); },  // continues outside the view
       [&] { object.setPosition(df::Vector(30.5, 10)); },
       [&] { object.setStaticLook(); },
       [&] { object.setSprite(&sprite); },
@@ -241,7 +241,7 @@ TEST(SpriteLook, AStoppedAnimationAndAStaticLookCostNothing) {
 TEST(SpriteLook, ASpriteThatBlinksCostsNothing) {
   Show show;
   df::Sprite sprite = makeSprite({"abc", "~~~"}, 3, 3, '~');
-  df::Sprite other = makeSprite({"~", "o", "~"}, 1, 2, '~');  // which begins with nothing
+  df::Sprite other = makeSprite({"~", "o", "~"}, 1, 2, '~');  // its first frame is empty
   df::Object object, late;
   place(object, sprite, 20);
   place(late, other, 30);
@@ -258,7 +258,7 @@ TEST(SpriteLook, ASpriteThatDrawsNothingHasNoLook) {
   EXPECT_EQ(show.ticks(50), idle(50));
 }
 
-// Own characters around the sprite, by a draw() of one's own.
+// A draw() that adds characters around the sprite.
 TEST(SpriteLook, CharactersDrawnBesideTheSpriteAreShown) {
   Show show;
   struct Named : df::Object {

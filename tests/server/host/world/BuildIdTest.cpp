@@ -1,4 +1,4 @@
-// The ids of builds, beside what the linker's own tools say of the same files.
+// Compares build ids with the results of the linker's own tools for the same files.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -36,7 +36,7 @@ class DescriptorMessageTest : public testing::Test {
   void SetUp() override {
     ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends), 0);
     for (int& one : files) {
-      one = memfd_create("test", 0);  // not closed in other programs
+      one = memfd_create("test", 0);  // without close-on-exec
       ASSERT_GE(one, 0);
     }
     open_before = openDescriptors();
@@ -45,7 +45,7 @@ class DescriptorMessageTest : public testing::Test {
     for (const int one : files) close(one);
     for (const int one : ends) close(one);
   }
-  /// The first of `files`.
+  /// Returns the first `count` of `files`.
   std::span<const int> first(std::size_t count) const { return std::span(files).first(count); }
   bool send(std::size_t count) { return sendDescriptors(ends[0], &kWord, sizeof kWord, first(count)); }
 

@@ -21,7 +21,7 @@ class OutputRelayTest : public testing::Test {
     relay.emplace(ends[0], [this](const std::string& line) { lines.push_back(line); });
   }
   ~OutputRelayTest() override { close(m_end); }
-  /// False once the pipe is full.
+  /// Writes to the pipe. False once it is full.
   bool print(const std::string& text) const {
     return write(m_end, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   }

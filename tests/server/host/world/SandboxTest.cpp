@@ -1,4 +1,4 @@
-// What is found out of a kernel, or of a host that forbids the calls.
+// Detection of sandbox features that the kernel lacks or the host forbids.
 #include <gtest/gtest.h>
 #include <linux/audit.h>
 #include <linux/seccomp.h>
@@ -24,7 +24,7 @@ TEST(Sandbox, SaysWhatTheKernelLacks) {
   EXPECT_NE(sandboxGaps({0, 0}).find("system calls"), std::string::npos);
 }
 
-// As systemd does for a service whose list of calls lacks Landlock's and seccomp().
+// Like a systemd service whose allowed system calls do not include Landlock's and seccomp().
 TEST(Sandbox, GoesOnWithTheFilterWhereTheHostForbidsLandlock) {
   if (findSandboxSupport().filter == 0) GTEST_SKIP() << "this kernel has no seccomp";
   const pid_t child = fork();

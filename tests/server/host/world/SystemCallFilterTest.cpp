@@ -1,4 +1,4 @@
-// The filter by itself, in processes of the tests' own; without Landlock it has to do more.
+// The filter alone, in child processes of the tests; without Landlock it has more to do.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -23,12 +23,12 @@ class SystemCallFilterTest : public testing::Test {
   void SetUp() override {
     if (findSandboxSupport().filter == 0) GTEST_SKIP() << "this kernel has no seccomp";
   }
-  /// The status of a process that enters the filter and does this. It exits with what `act` returns.
+  /// Runs `act` in a process with the filter. Returns its wait status; it exits with the result of `act`.
   static int run(FilterScene scene, const std::function<int()>& act) {
     const pid_t child = fork();
     if (child == 0) {
       scene.self = getpid();
-      scene.traces_itself = true;  // the filter under test may run with a sanitizer
+      scene.traces_itself = true;  // because a sanitizer may be in use
       prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
       _exit(installSystemCallFilter(makeSystemCallFilter(scene)) != 0 ? 99 : act());
     }
@@ -36,7 +36,7 @@ class SystemCallFilterTest : public testing::Test {
     waitpid(child, &status, 0);
     return status;
   }
-  /// 0: all of `calls` failed with EPERM; else which of them did not, from 1 on.
+  /// Returns 0 if all calls failed with EPERM, else the number (from 1) of the first that did not.
   static int firstAllowed(const std::vector<std::function<long()>>& calls) {
     for (std::size_t i = 0; i < calls.size(); ++i) {
       if (calls[i]() != -1 || errno != EPERM) return static_cast<int>(i) + 1;
@@ -93,7 +93,7 @@ TEST_F(SystemCallFilterTest, ProgramsOfTheOtherKindsOfTheProcessorAreRefused) {
 
 TEST_F(SystemCallFilterTest, NewerCallsLookAsIfTheyWereNotThere) {
   const int status = run({}, [] {
-    for (const long call : {435L, 437L, 463L, 1000L}) {  // clone3 and openat2 have older ones in their place
+    for (const long call : {435L, 437L, 463L, 1000L}) {  // clone3 and openat2 have older replacements
       if (syscall(call, 0, 0, 0, 0) != -1 || errno != ENOSYS) return static_cast<int>(call % 200);
     }
     return 0;

@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 using Doing = ProcessLook::Doing;
 
-/// Looks every 100 ms at a process that computes for `share` percent of the time.
+/// Measures, every 100 ms, a process that computes for `share` percent of the time.
 class TickEffortTest : public testing::Test {
  protected:
   TickEffort::Nanos run(std::chrono::milliseconds time, Doing doing, int share) {
@@ -23,7 +23,7 @@ class TickEffortTest : public testing::Test {
     return effort.counted();
   }
   TickEffort effort;
-  std::chrono::nanoseconds cpu = 5h;  // of the ticks before
+  std::chrono::nanoseconds cpu = 5h;  // processor time of earlier ticks
 };
 
 TEST_F(TickEffortTest, AnEndlessLoopCountsInFull) {
@@ -83,7 +83,7 @@ TEST_F(TickEffortTest, ShortTicksAreNotLookedInto) {
   EXPECT_FALSE(looked);
 }
 
-/// A child that does this until it is killed.
+/// A child process that calls `what` repeatedly until it is killed.
 class Child {
  public:
   template <class Do>

@@ -1,4 +1,4 @@
-// Copies of a world as the front has them, with sockets in place of a world and its copies.
+// WorldCopies with sockets in place of a world and its copies.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/socket.h>
@@ -26,7 +26,7 @@ class WorldCopiesTest : public testing::Test {
     world = ends[1];
     copies.emplace(ends[0]);
     process = fork();
-    if (process == 0) pause();  // until it is killed
+    if (process == 0) pause();  // waits to be killed
   }
   void TearDown() override {
     if (process > 0) {
@@ -36,7 +36,7 @@ class WorldCopiesTest : public testing::Test {
     for (const int socket : sockets) close(socket);
     if (world >= 0) close(world);
   }
-  /// The socket that the world is sent.
+  /// Receives the socket that is sent to the world; -1 if none was sent.
   int takeOrder() {
     char byte = 0;
     iovec data{&byte, 1};
@@ -52,7 +52,7 @@ class WorldCopiesTest : public testing::Test {
     sockets.push_back(number);
     return number;
   }
-  /// A copy is ordered, made as process `number`, and says so, unless it is 0.
+  /// Orders a copy, which reports itself as process `number` (0: no report). Returns its socket.
   int make(std::int32_t number, std::uint32_t tick) {
     EXPECT_TRUE(copies->order(process));
     const int socket = takeOrder();
@@ -69,7 +69,7 @@ class WorldCopiesTest : public testing::Test {
   }
 
   int world = -1;
-  pid_t process = -1;  ///< the world's, which has one thread
+  pid_t process = -1;  ///< stands for the world; has one thread
   std::vector<int> sockets;
   std::optional<WorldCopies> copies;
 };

@@ -1,4 +1,4 @@
-// The processes around a world, with a shell for the world.
+// The processes around a world; a shell plays the world.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sched.h>
@@ -25,15 +25,15 @@ namespace {
 
 constexpr int kPatienceMillis = 30'000;
 
-/// In an environment that has this, the program of the tests is a game that hops: each process leaves another
-/// in a session of its own and ends at once, so that no list of processes is true for long.
+/// If this variable is set, the test program is a game that hops: each process starts another in a session of
+/// its own and ends at once, so every list of processes is soon wrong.
 constexpr const char* kHops = "NAIAD_TEST_HOPS";
 
 int hop(void* /*nothing*/) {
   constexpr std::size_t kStack = std::size_t{16} << 10;
-  alignas(16) static char stacks[64][kStack];  // all share this memory, which makes it quick
+  alignas(16) static char stacks[64][kStack];  // shared by all processes, which makes starting them fast
   static const auto end =
-      std::chrono::steady_clock::now() + std::chrono::seconds(60);  // should nobody end it
+      std::chrono::steady_clock::now() + std::chrono::seconds(60);  // limit in case the test does not end it
   static int hops = 0;
   setsid();
   if (++hops == 100 && write(kWorldSocket, "hops\n", 5) != 5) _exit(1);
@@ -55,7 +55,7 @@ WorldProgram shell(const std::string& script) {
   return program;
 }
 
-/// What the world writes on its socket, up to a line's end or its own.
+/// Reads the world's output on its socket up to a line feed or the end.
 std::string readLine(int socket) {
   std::string line;
   pollfd readable{socket, POLLIN, 0};
@@ -66,7 +66,7 @@ std::string readLine(int socket) {
   return line;
 }
 
-/// Its number; -1 if it was not started.
+/// Waits for the world's process id; -1 if it was not started.
 pid_t waitForStart(const StartedWorld& world) {
   pollfd readable{world.keeper, POLLIN, 0};
   KeeperStart begun;
@@ -76,7 +76,7 @@ pid_t waitForStart(const StartedWorld& world) {
              : -1;
 }
 
-/// Its status once it and its descendants have ended; nothing if that takes too long.
+/// Waits until the world and its descendants have ended. Returns its status; nullopt after a timeout.
 std::optional<int> waitForEnd(const StartedWorld& world) {
   pollfd readable{world.keeper, POLLIN, 0};
   KeeperEnd end;
@@ -94,7 +94,7 @@ void closeBoth(const StartedWorld& world) {
 bool isGone(pid_t process) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMillis);
   while (kill(process, 0) == 0 && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before it is asked again
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before the next test
   return kill(process, 0) == -1 && errno == ESRCH;
 }
 
@@ -146,7 +146,7 @@ TEST(WorldLauncher, WhoeverClosesTheKeepersSocketEndsTheWorld) {
 }
 
 TEST(WorldLauncher, AGameThatForksOnAndOnEnds) {
-  // Each leaves its group and starts two more, whose parents have ended then.
+  // Each process leaves its group and starts two more, whose parents have then ended.
   const std::string script =
       "echo $1 >&3; test $1 -lt 7 && for i in 1 2; do setsid sh -c \"$0\" \"$0\" $(($1 + 1)) & done; exec "
       "sleep 1000";
@@ -154,7 +154,7 @@ TEST(WorldLauncher, AGameThatForksOnAndOnEnds) {
   program.arguments.insert(program.arguments.end(), {script, "0"});
   const WorldLauncher launcher(program);
   const StartedWorld world = launcher.start();
-  while (readLine(world.socket) != "7") continue;  // most of 255 have begun
+  while (readLine(world.socket) != "7") continue;  // then most of the 255 have begun
   shutdown(world.keeper, SHUT_WR);
   EXPECT_GT(waitForStart(world), 1);
   EXPECT_EQ(waitForEnd(world), SIGKILL);
@@ -246,7 +246,7 @@ TEST(WorldLauncher, HasASessionOfItsOwnAndOnlyItsDescriptors) {
   closeBoth(world);
 }
 
-/// A world that ends, and leaves two processes, which are its copies to the keeper.
+/// A world that ends and leaves two processes, which the keeper takes for its copies.
 class LeftCopies : public testing::Test {
  protected:
   LeftCopies() {

@@ -1,5 +1,4 @@
-// What crosses between a host and a world's process: whole, and refused when it is not what the other end
-// writes.
+// Messages between a host and a world's process: they arrive complete and are rejected if malformed.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -27,7 +26,7 @@ std::shared_ptr<const Look> lookOf(char32_t first, Selector selector) {
                                       3, selector);
 }
 
-/// A view with something in every field, none of it as it is by default.
+/// Returns a view in which no field has its default.
 df::WorldView fullView() {
   df::WorldView view;
   view.tick = 70'000;
@@ -357,7 +356,7 @@ TEST(WorldMessages, EveryTruncationIsRefused) {
   EXPECT_FALSE(readTurn(std::string(fieldsOf(turn)) + '\0'));
 }
 
-// What is accepted is legal: it can be written again, and the publisher takes it.
+// Accepted messages are legal: they can be written again and published.
 TEST(WorldMessages, EverySingleBitFlipIsRefusedOrLegal) {
   ViewWriter writer;
   const std::string frame = frameOf(fullView(), writer);
@@ -406,7 +405,7 @@ TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
     std::string fields(fieldsOf(frameOf({}, writer, sent)));
     const std::size_t each = (fields.size() - fieldsOf(frameOf({}, writer, WorldAnswer())).size()) / 16;
     const std::size_t first = fields.find("t") - 1;
-    fields[first - 1] = static_cast<char>(count);  // that many follow
+    fields[first - 1] = static_cast<char>(count);  // the number of scores that follow
     if (count == 17) fields.insert(first, fields.substr(first, each));
     return readAnswer(fields, reader, view).has_value();
   };
@@ -428,14 +427,14 @@ TEST(WorldMessages, WhatIsOutOfRangeIsCutByTheWriter) {
   EXPECT_GT(view.players[0].view_corner.x, 0);
 }
 
-/// A varint.
+/// Returns a count as a varint.
 std::string countOf(std::uint64_t count) {
   std::string bytes;
   ByteWriter(bytes).varint(count);
   return bytes;
 }
 
-/// How much memory this process has taken at once, in MiB.
+/// Returns the peak memory of this process, in MiB.
 long mostMemory() {
   rusage facts{};
   getrusage(RUSAGE_SELF, &facts);
@@ -443,12 +442,12 @@ long mostMemory() {
 }
 
 TEST(WorldMessages, AListOfAsManyAsTheFrameHasBytesIsRefusedBeforeItGrows) {
-  constexpr long kMuch = 100;  // 16 Mi strings take 512
+  constexpr long kMuch = 100;  // 16 Mi strings would take 512
   WorldReady ready;
   std::string frame;
   writeReady(ready, frame);
   std::string fields(fieldsOf(frame));
-  fields.pop_back();  // no help
+  fields.pop_back();  // remove the number of help lines
   const std::string lines(kMaxWorldFrame - 64, '\0');
   const long before = mostMemory();
   EXPECT_FALSE(readReady(fields + countOf(lines.size()) + lines));

@@ -1,5 +1,4 @@
-// The host's end of a world's process, with processes that are no worlds: /bin/sh plays them, on
-// descriptor 3.
+// The host's end of a world's process. /bin/sh plays the world; it uses descriptor 3.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -17,7 +16,7 @@
 namespace naiad {
 namespace {
 
-/// For printf.
+/// Escapes a frame for printf.
 std::string escape(const std::string& frame) {
   std::string escaped;
   for (const char byte : frame) {
@@ -28,14 +27,14 @@ std::string escape(const std::string& frame) {
   return escaped;
 }
 
-/// A frame that says that the game is ready.
+/// Returns the frame with which a game reports that it is ready.
 std::string readyFrame() {
   std::string frame;
   writeReady({}, frame);
   return frame;
 }
 
-constexpr std::size_t kFirstDigit = kWorldFrameHead + 1;  ///< of the build's id in that frame
+constexpr std::size_t kFirstDigit = kWorldFrameHead + 1;  ///< position of the build id in that frame
 
 class WorldProcessTest : public testing::Test {
  protected:
@@ -44,7 +43,7 @@ class WorldProcessTest : public testing::Test {
     program.sandbox.on = false;
     return program;
   }
-  /// Start it, and give it a turn, or so many ahead, when it is ready, until it has ended. How it did.
+  /// Runs the program until it ends, with up to `ahead` turns in advance. Returns how it ended.
   WorldEnd play(const std::string& script) { return play(shell(script)); }
   WorldEnd play(const WorldProgram& program) {
     const WorldLauncher launcher(program);
@@ -61,9 +60,9 @@ class WorldProcessTest : public testing::Test {
     return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there", 0, {}, {}});
   }
 
-  /// For a script: it is ready; it takes a turn, of 4 + 1 + 3 bytes.
+  /// Script: reports readiness. takesTurn() reads a turn of 4 + 1 + 3 bytes.
   static std::string isReady() { return "printf '" + escape(readyFrame()) + "' >&3; "; }
-  /// It answers, with nothing to tell but that the game is over, if so.
+  /// Script: answers with nothing but, if `is_over`, that the game is over.
   static std::string answers(bool is_over = false) {
     WorldAnswer answer;
     answer.game_over = is_over;
@@ -112,7 +111,7 @@ TEST_F(WorldProcessTest, SeveralTurnsAreAnsweredOneByOneAndACrashIsInTheFirstTha
 }
 
 TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {
-  // Without zeros: a line that begins with one is empty.
+  // Zeros are replaced, because a line that begins with one is empty.
   const std::string garbage =
       "head -c " + std::to_string(sizeof(df::ActivityPage)) + " /dev/urandom | tr '\\000' x >&4; ";
   const WorldEnd end = play(isReady() + takesTurn() + garbage + "kill -SEGV $$");
@@ -126,14 +125,14 @@ TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {
 }
 
 TEST_F(WorldProcessTest, APageThatCannotBeCutOff) {
-  // Beyond its new end a reader would get a SIGBUS.
+  // Reading beyond the new end would raise SIGBUS.
   const WorldEnd end = play(isReady() + takesTurn() + "truncate -s 0 /proc/self/fd/4 2>&1; kill -SEGV $$");
   EXPECT_EQ(end.when, "in tick 1");
   EXPECT_FALSE(printed.empty()) << "the attempt fails";
 }
 
 TEST_F(WorldProcessTest, OneThatSendsAMalformedFrameIsKilled) {
-  // Four gigabytes; nothing that says that it is ready, in two ways; an answer to nothing; a bad answer.
+  // Four gigabytes, two malformed ready frames, an answer without a turn, and a malformed answer.
   for (const char* p_sent :
        {"\\377\\377\\377\\377", "\\1\\0\\0\\0x", "\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0"}) {
     EXPECT_EQ(play("printf '" + std::string(p_sent) + "' >&3; exec sleep 100").why, WorldEnd::kBroken)
@@ -163,7 +162,7 @@ TEST_F(WorldProcessTest, OneThatHangsUpAndStaysIsKilled) {
   EXPECT_EQ(play("exec 3>&-; exec sleep 100").why, WorldEnd::kCrashed);
 }
 
-// The host needs the process id to watch the process and to copy it.
+// The host needs the process id to watch and copy the process.
 TEST_F(WorldProcessTest, IsReadyOnceItsKeeperHasNamedItsProcess) {
   int world_ends[2];
   int keeper_ends[2];
@@ -188,7 +187,7 @@ TEST_F(WorldProcessTest, IsReadyOnceItsKeeperHasNamedItsProcess) {
   bool ready = false;
   for (int i = 0; i < 1000 && !ready; ++i) ready = look();
   EXPECT_TRUE(ready);
-  const KeeperEnd end;  // of all
+  const KeeperEnd end;  // sent by the keeper when all have ended
   EXPECT_EQ(write(keeper_ends[1], &end, sizeof end), static_cast<ssize_t>(sizeof end));
   close(world_ends[1]);
   close(keeper_ends[1]);
@@ -223,12 +222,12 @@ TEST_F(WorldProcessTest, AnAnswerIsATick) {
   EXPECT_EQ(ticks, 2);
 }
 
-// ---- one that hangs ---------------------------------------------------------------------------------------
+// ---- hanging worlds ---------------------------------------------------------------------------------------
 
 class HangingWorldTest : public WorldProcessTest {
  protected:
   static constexpr std::chrono::milliseconds kHangTime{150};
-  /// Answer one turn, and do this in the next.
+  /// A program that answers one turn and runs `how` in the next.
   static WorldProgram hangs(const std::string& how) {
     WorldProgram program = shell(isReady() + takesTurn() + answers() + takesTurn() + how);
     program.hang_time = kHangTime;
@@ -264,7 +263,7 @@ TEST_F(HangingWorldTest, TheFirstTickMayTakeLong) {
   EXPECT_EQ(ticks, 1);
 }
 
-/// For longer than one that hangs would live.
+/// It is stopped for longer than a hanging world would survive.
 TEST_F(HangingWorldTest, OneThatASignalHasStoppedIsSaidAndHasLonger) {
   const std::string goes_on = "(sleep 1.2; kill -CONT $$) & ";
   const WorldEnd end = play(hangs(goes_on + "kill -STOP $$; " + answers() + "exit 0"));

@@ -1,5 +1,5 @@
-// GM.run() in a process that a host has started for a world: a thread of the test's plays that process, and
-// the test the host.
+// GM.run() in a process that a host started for a world. A thread of the test plays that process, the test
+// the host.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@
 namespace naiad {
 namespace {
 
-/// Flies by a cell a tick, and counts the clicks that hit where it was drawn.
+/// Flies one cell per tick and counts the clicks that hit the place where it was drawn.
 class Flyer : public df::Object {
  public:
   explicit Flyer(int& hits) : m_hits(hits) {
@@ -48,7 +48,7 @@ class Flyer : public df::Object {
 
 class WorldServerTest : public testing::Test {
  protected:
-  /// `scrolls`: the view follows what flies, through a world that is wider.
+  /// If `scrolls`, the view follows the flyer through a wider world.
   explicit WorldServerTest(bool scrolls = false) {
     int sockets[2];
     EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, sockets), 0);
@@ -81,7 +81,7 @@ class WorldServerTest : public testing::Test {
   void send(const std::string& bytes) const {
     EXPECT_EQ(::send(m_socket, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
   }
-  /// A frame's fields; "end" if there is none.
+  /// Reads a frame's fields; "end" if there is no frame.
   std::string receive() const {
     char head[kWorldFrameHead];
     if (recv(m_socket, head, sizeof head, MSG_WAITALL) != sizeof head) return "end";
@@ -104,7 +104,7 @@ class WorldServerTest : public testing::Test {
   static df::InputQueue::Input join(std::uint32_t player) {
     return {.kind = df::InputQueue::kJoin, .player = player, .name = "ann", .color = df::RED};
   }
-  /// Player 7, who saw this tick, clicks in two columns of the row in which it flies. How often that hits.
+  /// Player 7, who saw tick `seen`, clicks in two columns of the flyer's row. Returns the number of hits.
   int hitsOfClicks(const df::ViewedTick& seen, int x, int other_x) {
     for (const int column : {x, other_x}) {
       turn({{.kind = df::InputQueue::kMouse,
@@ -153,7 +153,7 @@ TEST_F(WorldServerTest, TicksOnceForEachTurnAndSendsAViewIfItIsWatched) {
 TEST_F(WorldServerTest, AClickHitsWhatWasOnThePlayersScreen) {
   turn({join(7)});
   while (view.tick < 12) turn();
-  // The player saw tick 10, by the models of tick 8: there it was in cell 20, and by now it is elsewhere.
+  // The player saw tick 10, drawn from the models of tick 8: the flyer was in cell 20. It has moved since.
   EXPECT_EQ(hitsOfClicks({true, 8, 10}, 20, 21), 1);
 }
 
@@ -165,7 +165,7 @@ class ScrollingWorldServerTest : public WorldServerTest {
 TEST_F(ScrollingWorldServerTest, AClickIsInTheViewAsItWasOnThePlayersScreen) {
   turn({join(7)});
   while (view.tick < 80) turn();
-  // In tick 78 it was in cell 88, two thirds into a view of 80 cells; now both are farther to the right.
+  // The flyer was in cell 88 in tick 78, at two thirds of the view. Both have moved to the right since.
   EXPECT_EQ(hitsOfClicks({true, 76, 78}, 53, 55), 1);
 }
 

@@ -1,4 +1,4 @@
-// The contact events of bodies, and what handlers may do.
+// Contact events of bodies, and the calls that handlers may make.
 #include "engine/events/EventOut.h"
 #include "engine/world/Capture.h"
 #include "engine/world/WorldStore.h"

@@ -1,4 +1,4 @@
-// Newton's cradle and its relatives through WM.update(): jointed circles hit one another one by one.
+// Newton's cradle and related scenes through WM.update(): jointed circles hit one another in turn.
 #include <array>
 
 #include "tests/server/physics/BodyScene.h"

@@ -1,4 +1,4 @@
-// Shapes of no area, joints of no length, springs that are too stiff and masses that do not fit together.
+// Shapes without area, joints without length, springs that are too stiff, and incompatible masses.
 
 #include <limits>
 

@@ -1,5 +1,5 @@
-// What no game should do, done to each kind of body: it stays bounded, it is the same every time, what cannot
-// be worked out is frozen, counted and named in the log, and no other body is affected.
+// Misuse of each kind of body. Every body stays bounded, and every run is identical. A body that cannot be
+// computed is frozen, counted and logged, and affects no other body.
 
 #include <bit>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Fields however stiff: what they cost, and what stays of the energy.
+// Force fields of any stiffness: their cost, and how much of the energy they preserve.
 #include <cstdint>
 
 #include "physics/body/Field.h"

@@ -1,5 +1,5 @@
-// A world with bodies is a pure function of its seed: one long run with all kinds of them has one hash,
-// whatever compiled it.
+// A world with bodies is a pure function of its seed: one long run with all kinds of bodies has one hash, for
+// every compiler.
 #include <bit>
 #include <cstdint>
 

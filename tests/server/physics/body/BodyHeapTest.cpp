@@ -1,5 +1,5 @@
-// Large groups at ACCURACY_DEFAULT: what moves, or costs too much to be solved at once, goes on in soft
-// sub-steps, and the change sends no event.
+// Large groups at ACCURACY_DEFAULT: a group that moves, or costs too much for one solution, continues in soft
+// sub-steps, and the change of solver sends no event.
 #include <algorithm>
 
 #include "tests/server/physics/BodyScene.h"

@@ -1,5 +1,5 @@
-// What happens when bodies touch, through WM.update(): the problems of the laboratory that need no rotation,
-// with its targets as bounds.
+// Impacts of bodies through WM.update(): the problems of the laboratory (docs/physics/lab.md) without
+// rotation, with its targets as bounds.
 #include <bit>
 #include <cstdint>
 #include <numbers>

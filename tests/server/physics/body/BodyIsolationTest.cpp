@@ -1,5 +1,5 @@
-// Groups that do not touch do not see each other: two bodies on a joint move by the same bits alone and with
-// another pair far away, whatever that one does.
+// Groups that do not touch have no effect on each other: two jointed bodies move identically, bit for bit,
+// alone and with another pair far away, whatever that pair does.
 #include <algorithm>
 #include <array>
 #include <bit>

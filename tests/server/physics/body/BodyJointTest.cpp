@@ -1,4 +1,4 @@
-// Joined bodies through WM.update(), with the laboratory's targets as bounds.
+// Jointed bodies through WM.update(), with the targets of the laboratory (docs/physics/lab.md) as bounds.
 #include <limits>
 #include <numbers>
 

@@ -1,4 +1,4 @@
-// How bodies look: pictures at some angles, turns made of pictures, and what is published of them.
+// The look of bodies: sprites at some angles, rotations composed of sprites, and the published looks.
 
 #include <string>
 

@@ -1,4 +1,4 @@
-// Bodies that turn, through WM.update(): that they reach their solver, and the events that games get.
+// Turning bodies through WM.update(): they reach their solver, and games get their events.
 #include <numbers>
 
 #include "engine/world/Capture.h"

@@ -1,5 +1,5 @@
-// Scenes that have gone wrong: bodies that meet in a point, blocks, springs of any stiffness on what is held,
-// nets, leaning stacks, crowds. Nothing is frozen, nothing gains energy, and the work is bounded.
+// Scenes that once failed: bodies that meet in a point, blocks, springs of any stiffness on held bodies,
+// nets, leaning stacks, crowds. No body is frozen or gains energy, and the work is bounded.
 #include <algorithm>
 #include <array>
 #include <numbers>

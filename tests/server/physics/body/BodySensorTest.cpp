@@ -1,4 +1,4 @@
-// SOFT bodies: every begin and end that the paths say, and no cost for what is elsewhere.
+// SOFT bodies: they get every begin and end of a contact on their path, and distant bodies cost nothing.
 #include <algorithm>
 #include <set>
 #include <tuple>

@@ -1,7 +1,7 @@
-// Boxes that turn, shot at walls: whatever their speed and spin, and however long the wall, none goes through
-// it, none misses it, none gains energy from it, and none is frozen.
+// Spinning boxes shot at walls. At any speed, spin and length of the wall, no box passes through the wall,
+// misses it, gains energy or is frozen.
 //
-// NAIAD_SHOTS=100000 makes as many of them.
+// NAIAD_SHOTS sets the number of shots, for example 100000.
 #include <algorithm>
 #include <array>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Every type that a public function of the physics takes or returns, by the headers that a game has.
-// tests/install/public-headers compiles this file against the installed tree, too.
+// Uses every type that a public physics function takes or returns, with only the headers that a game has.
+// tests/install/public-headers also compiles this file against the installed tree.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,4 +1,4 @@
-// df::Cloth with as many threads as a game asks for.
+// df::Cloth with any number of threads.
 #include <algorithm>
 
 #include "physics/body/SoftObject.h"

@@ -1,4 +1,4 @@
-// Soft bodies as Objects: rest, events, what lies and hangs on them, their stiffness and their drawing.
+// Soft bodies as Objects: rest, events, objects that lie or hang on them, stiffness and drawing.
 #include <algorithm>
 
 #include "engine/world/Capture.h"

@@ -1,5 +1,4 @@
-// Crowds in the broad phase: the rule by which they are thinned, and that it costs no more than they are
-// many.
+// Crowds in the broad phase: the rule that limits their pairs, and a cost that grows only with their number.
 
 #include <cstdlib>
 #include <set>

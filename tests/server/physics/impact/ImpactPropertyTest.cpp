@@ -1,4 +1,4 @@
-// What holds for every scene of an ImpactWorld, on random ones.
+// Properties of every ImpactWorld scene, tested on random scenes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What each kind of joint promises, one or two bodies at a time.
+// The properties of each kind of joint, tested with one or two bodies.
 #include <gtest/gtest.h>
 
 #include "JointScene.h"

@@ -1,4 +1,5 @@
-// Pendulums: the period by Gauss's mean, the double one by a formulation in angles.
+// Pendulums, compared with the period by Gauss's mean and, for double pendulums, with a formulation in
+// angles.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// Ropes of rods: weights at their end, hanging at rest, and more weight than double precision carries.
+// Ropes of rods: with a weight at the end, at rest, and with weights beyond double precision.
 #include <gtest/gtest.h>
 
 #include "JointScene.h"

@@ -1,4 +1,4 @@
-// Scenes of jointed bodies for the tests, and what is measured on them.
+// Scenes of jointed bodies for tests, with functions that measure them.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ struct JointScene {
     joints.push_back(joint);
     return joints.back();
   }
-  /// Both anchors at one point of the world; the bodies are not turned.
+  /// Joins two bodies, which are not rotated, with both anchors at this point of the world.
   Joint& joinAt(JointKind kind, int a, int b, Vec2 where) {
     Joint& joint = join(kind, a, b);
     joint.anchor_a = placeAt(where) - bodies[static_cast<std::size_t>(a)].place;
@@ -88,7 +88,7 @@ struct JointScene {
     const JointBody &a = body(joint.a), &b = body(joint.b);
     return (b.place - a.place) + (b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
   }
-  /// By how much the hard joints are off, at most.
+  /// Returns the largest error of the hard joints, in lengths or sines of angles.
   double worstGap() const {
     double worst = 0;
     for (const Joint& joint : joints) {
@@ -109,14 +109,14 @@ struct JointScene {
   }
 };
 
-/// Body 0 is an immovable point at the origin.
+/// Makes a scene in which body 0 is an immovable point at the origin.
 inline JointScene nailed() {
   JointScene scene;
   scene.point({0, 0}, 0);
   return scene;
 }
 
-/// A rope of `links` rods from (0, 0) along x; the last of its points is `ratio` times as heavy.
+/// Makes a rope of `links` rods from (0, 0) along x. Its last point is `ratio` times as heavy as the others.
 inline JointScene ropeOf(int links, double ratio) {
   JointScene scene = nailed();
   for (int i = 1; i <= links; ++i) {

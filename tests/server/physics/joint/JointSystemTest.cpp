@@ -1,4 +1,4 @@
-// Many bodies: random trees and loops, closed systems, redundant rows, and numbers that are out of range.
+// Systems of many bodies: random trees and loops, closed systems, redundant rows, and numbers out of range.
 #include <gtest/gtest.h>
 
 #include "JointScene.h"

@@ -1,4 +1,4 @@
-// The factors of J·M⁻¹·Jᵀ: what they solve is held against the matrix itself.
+// The factors of J·M⁻¹·Jᵀ; their solutions are checked with the matrix itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>

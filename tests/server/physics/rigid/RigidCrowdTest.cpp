@@ -1,4 +1,4 @@
-// Bodies that are made in one place: bounded work, and no effect on what can lie side by side.
+// Bodies created in one place: the work is bounded, and bodies that can lie side by side are not affected.
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
-// Groups that do not touch do not see each other: how often one is swept, or solved at once, is its own
-// affair.
+// Groups that do not touch have no effect on each other: whether one is swept, or solved at once, does not
+// change another.
 
 #include <string>
 #include <tuple>

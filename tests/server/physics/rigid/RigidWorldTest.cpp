@@ -1,4 +1,4 @@
-// What rigid bodies promise: each bound is a target of the laboratory.
+// Properties of rigid bodies. Each bound is a target of the laboratory (docs/physics/lab.md).
 
 #include <limits>
 

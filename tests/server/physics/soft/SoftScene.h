@@ -1,4 +1,4 @@
-// What tests of soft bodies share.
+// Helpers for tests of soft bodies.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ inline SoftObstacle obstacleAt(int id, const ConvexShape& shape, Vec2 at, double
   obstacle.friction = friction;
   return obstacle;
 }
-/// An obstacle of that mass which gravity pulls; `inverse_inertia` is that of a mass of 1.
+/// Makes an obstacle of this mass with gravity. `inverse_inertia` is for a mass of 1.
 inline SoftObstacle crateAt(int id, const ConvexShape& shape, Vec2 at, double mass, double inverse_inertia,
                             double friction = 0.5) {
   SoftObstacle crate = obstacleAt(id, shape, at, friction);
@@ -52,7 +52,7 @@ inline SoftObstacle crateAt(int id, const ConvexShape& shape, Vec2 at, double ma
   crate.acceleration = {0, kGravity};
   return crate;
 }
-/// What the layer of rigid bodies would do after a step.
+/// Moves the obstacle after a step, as the layer of rigid bodies would.
 inline void goOn(SoftObstacle& o, double dt = 1) {
   o.velocity += dt * o.acceleration + o.inverse_mass * o.impulse;
   o.spin += o.inverse_inertia * o.angular_impulse;

@@ -1,4 +1,5 @@
-// Rows of contacts side by side: each gets what it would get alone, pushes only, and rubs within its cone.
+// Contact rows solved side by side: each gets the result it would get alone, only pushes, and keeps its
+// friction within the cone.
 #include <gtest/gtest.h>
 
 #include <algorithm>

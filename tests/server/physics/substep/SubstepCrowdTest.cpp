@@ -1,4 +1,4 @@
-// Bodies that are made in one place at the fast level: bounded work, and they come apart.
+// Bodies created in one place at the fast level: the work is bounded, and the bodies separate.
 
 #include <algorithm>
 

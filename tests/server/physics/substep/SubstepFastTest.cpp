@@ -1,4 +1,4 @@
-// What moves far in a tick stops where it first touches something.
+// Bodies that move far in a tick stop where they first touch something.
 
 #include "SubstepScene.h"
 #include "tests/server/physics/SceneRandom.h"

@@ -1,4 +1,5 @@
-// Groups that do not touch do not see each other: a group steps to the same bits alone and among others.
+// Groups that do not touch have no effect on each other: a group moves identically, bit for bit, alone and
+// among others.
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-// What joints hold in a SubstepWorld.
+// Joints in a SubstepWorld.
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// Which pairs a SubstepWorld examines, and whose shapes it does that with.
+// The pairs that a SubstepWorld examines, and bodies that have equal shapes.
 
 #include <algorithm>
 #include <numeric>

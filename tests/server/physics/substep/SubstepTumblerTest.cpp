@@ -1,4 +1,4 @@
-// A heap that moves: a drum that turns.
+// A moving heap in a rotating drum.
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// What bodies do in a SubstepWorld: they rest, sleep, wake, push, bounce and send events.
+// Bodies in a SubstepWorld: they rest, sleep, wake, push, bounce and send events.
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
-// Loaded into a server before all others: a disk for the files of rounds (.dfr) that stalls, is full, or
-// cannot be written. $DF_TEST_DISK is a folder:
+// A preloaded library that gives a server a disk for its round files (.dfr) that stalls, is full, or cannot
+// be written. $DF_TEST_DISK is a folder with these files:
 //
-//   stall, full, read-only   while such a file is there, calls wait, end with ENOSPC, or with EROFS
-//   stalled                  a call has begun to wait
-//   syncs                    appended for each sync: SyncNote
+//   stall, full, read-only   while the file exists, calls wait, or fail with ENOSPC or EROFS
+//   stalled                  created when a call begins to wait
+//   syncs                    a SyncNote for each sync
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -65,7 +65,7 @@ int64_t nanos() {
   return int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-/// 0, or what the call fails with.
+/// Waits while the disk stalls. Returns the error number of the call, or 0.
 int meetDisk() {
   if (isThere("stall")) append("stalled", "", 0);
   while (isThere("stall")) usleep(1000);

@@ -1,8 +1,7 @@
-// A game that is another one each time, from tick 47 on, in the way that its module's name says:
-// unsteady_instruction.so, _entropy, _clock, _thread, _file cannot be repeated; unsteady_time.so, _device,
-// _pointers can, by the server's help. unsteady_frail.so crashes by the key Q, in draw()
-// by D, hangs by H, and takes its time by S; by T it has a thread, by P it is where its process's number
-// says.
+// A game that differs in each run from tick 47 on, in the way that its module's name says.
+// unsteady_instruction.so, _entropy, _clock, _thread and _file cannot be replayed; unsteady_time.so, _device
+// and _pointers can, because the server controls their sources. unsteady_frail.so reacts to keys: Q crashes,
+// D crashes in draw(), H hangs, S is slow, T starts a thread, P moves by the process id.
 #include <dlfcn.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -99,7 +98,7 @@ std::uint64_t number() {
   return value;
 }
 
-/// 0.45 s of a processor: the clocks that a game sees stand still within a tick.
+/// Uses 0.45 s of processor time, by a system call, because the clocks of a game stand still within a tick.
 void takeTime() {
   const auto now = [] {
     timespec time{};
@@ -110,7 +109,7 @@ void takeTime() {
   while (now() < end) continue;
 }
 
-/// Moves with each key, but for those that end it.
+/// Moves with each key except those that end it.
 class Frail : public df::Object {
  public:
   Frail() {
@@ -149,14 +148,14 @@ class Wanderer : public df::Object {
   }
   int eventHandler(const df::Event* p_event) override {
     if (p_event->getType() != df::STEP_EVENT || ++m_ticks != kTick) return 0;
-    // All of the number's bits count, and it stays in the window.
+    // Depends on all bits of the number and stays in the window.
     const std::uint64_t value = number() * 0x9e3779b97f4a7c15u;
     const double unit = static_cast<double>(value >> 32) / 4294967296.0;
     setPosition(df::Vector(5 + 60 * unit, 10));
     m_text = std::to_string(value);
     return 1;
   }
-  // The number itself: two of them are seldom in the same column, but sometimes.
+  // Draws the number itself, because two numbers may lead to one column.
   int draw() override { return DM.drawString(df::Vector(5, 10), m_text, df::LEFT_JUSTIFIED, df::YELLOW); }
 
  private:
