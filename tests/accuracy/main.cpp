@@ -1,5 +1,5 @@
 // naiad_lab: runs problems with every method and number of sub-steps, prints a line per point and metric, and
-// writes what the report is drawn from.
+// writes the data of the report.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -34,16 +34,16 @@ constexpr const char* kUsage =
 
 constexpr int kRuns = 5;
 constexpr int kFewestRuns = 2;
-constexpr int kCrowdRuns = 3;  // of thousands of bodies
+constexpr int kCrowdRuns = 3;  // runs of cases with thousands of bodies
 constexpr int kMaxCpuSeconds = 120;
-constexpr int kMaxShorterTicks = 16;  // of the product's curves
+constexpr int kMaxShorterTicks = 16;  // limit for the product's curves
 
 struct Options {
   bool quick = false;
-  int runs = 0;  // 0: as many as the case asks for
+  int runs = 0;  // 0: as many as the case needs
   std::string output;
   std::vector<const lab::Method*> methods;
-  std::vector<int> substeps;  // none: all
+  std::vector<int> substeps;  // empty: all
   std::vector<lab::ProblemEntry> problems;
 };
 
@@ -73,10 +73,10 @@ std::vector<int> substepCounts(const Options& options, const lab::Problem& probl
   for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
     const bool quick = count == 1 || count == 4 || count == 16;
     const std::vector<int>& asked = options.substeps;
-    // What a level is judged at is always measured.
+    // The number at which a level is judged is always measured.
     const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), count) != asked.end() ||
                           (problem.kind == lab::Problem::Kind::DIAGRAM && count == method.own_substeps);
-    if (count < method.own_substeps) continue;  // ticks get shorter, not longer
+    if (count < method.own_substeps) continue;  // ticks can only get shorter, not longer
     if (problem.kind == lab::Problem::Kind::DIAGRAM && method.isProduct() && count > kMaxShorterTicks)
       continue;
     if (is_asked && count <= its_case.most_substeps && (quick || !options.quick)) counts.push_back(count);
@@ -84,7 +84,7 @@ std::vector<int> substepCounts(const Options& options, const lab::Problem& probl
   return counts;
 }
 
-// All points of a problem, from case to case.
+// One point of a problem.
 struct Run {
   const lab::Case* its_case;
   const lab::Method* method;
@@ -114,7 +114,7 @@ const Run* findRun(const std::vector<Run>& runs, const std::string& case_name, c
   return found == runs.end() ? nullptr : &*found;
 }
 
-// NaN: what is compared with was not measured.
+// Returns the time relative to the bound's unit; NaN if that was not measured.
 double partOf(const lab::CpuBound& bound, const Run& run, const std::vector<Run>& runs) {
   const double own = run.measurement.cpu.median;
   if (bound.is_of_later) return run.measurement.cpu.first_part;
@@ -125,7 +125,7 @@ double partOf(const lab::CpuBound& bound, const Run& run, const std::vector<Run>
   return compared == nullptr ? std::nan("") : own / compared->measurement.cpu.median;
 }
 
-// What is asked for in terms of other times, once those are known.
+// Computes the limits that are relative to other times, once those are known.
 void compareTimes(const lab::Problem& problem, const std::vector<Run>& runs, lab::Records& records) {
   for (const Run& run : runs) {
     if (!run.measurement.expressed) continue;
@@ -177,14 +177,14 @@ const lab::Method* findMethod(const std::string& name) {
   return nullptr;
 }
 
-// `kind`: of the things that the names are of.
+// `kind` is the kind of thing that the names belong to.
 void sayUnknown(const char* kind, const std::string& name, const std::vector<std::string>& names) {
   const std::string near = naiad::nearestName(name, names);
   std::fprintf(stderr, "naiad_lab: there is no %s '%s'%s\n", kind, name.c_str(),
                near.empty() ? "" : ("; '" + near + "' is the nearest").c_str());
 }
 
-// False, with a word on stderr, if an argument means nothing.
+// Parses the arguments. For an invalid one, prints a message and returns false.
 bool read(const std::vector<std::string>& arguments, Options& options) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
@@ -224,7 +224,7 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
   return true;
 }
 
-// One case for so many ticks, and nothing else.
+// Runs one case for a number of ticks without measuring.
 int work(const std::vector<std::string>& arguments) {
   if (arguments.size() != 5) return usage(stderr, 2);
   const auto all = lab::allProblems();

@@ -34,7 +34,7 @@ int Hero::eventHandler(const df::Event *p_e) {
 """
 SPRITE = "frames 1\nwidth 3\nheight 1\ncolor green\n<=>\nend\neof\n"
 
-# In one file, as one compile tells of it all. Nothing of it is a fault of the engine.
+# A single file, because one compilation then reports everything. None of its problems is the engine's fault.
 ALONE = """#include "GameManager.h"
 #include "Object.h"
 #include "WorldManager.h"
@@ -42,7 +42,7 @@ ALONE = """#include "GameManager.h"
 
 
 def write(folder, files):
-    """Makes a folder of these files."""
+    """Writes these files into a folder."""
     for name, text in files.items():
         path = os.path.join(folder, name)
         os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -51,11 +51,11 @@ def write(folder, files):
 
 
 def engine_header(name):
-    """What a copy of the published engine's header looks like from far. It does not compile."""
+    """Returns text that resembles a header of a copy of the published engine. It does not compile."""
     return f"#pragma once\nnamespace df {{\nclass {name} {{ a copy that must not be taken }};\n}}\n"
 
 
-# Written with Visual Studio on Windows, with the engine beside it, packed on a Mac.
+# Written with Visual Studio on Windows, with a copy of the engine, packed on a Mac.
 WINDOWS = {
     "src/game.cpp": MAIN.replace('"Hero.h"', '"..\\Things\\hero.H"').replace('"WorldManager.h"', '"worldmanager.h"')
     .replace("int main(int argc, char *argv[])", "#include <Player.h>\nint _tmain(int argc, _TCHAR *argv[])")
@@ -73,7 +73,7 @@ class Hero : public df::Object {
 };
 """,
     "Things/Hero.cpp": HERO.replace("  return 1;\n}", "}") + "const df::Vector &Hero::home() const { return m_home; }\n",
-    # A name that Naiad has, too.
+    # A name that Naiad also has.
     "Things/Player.h": "#include \"Object.h\"\nusing namespace df;\nclass Player : public Object { public: Vector start() const; };\n",
     "Things/Player.cpp": "#include \"player.h\"\nVector Player::start() const { return df::Vector(1, ROCKS); }\n"
                          "#if defined(WIN32)\n#error\n#endif\n",
@@ -88,7 +88,7 @@ class Hero : public df::Object {
     "sprites/hero-spr.txt": SPRITE,
 }
 
-# An early engine's game, in UTF-16 as Visual Studio may save it; its handler deletes by chance nothing.
+# A game for an early engine, in UTF-16 as Visual Studio may save it. Its handler happens to delete nothing.
 EARLY = {
     "game.cpp": ("\ufeff" + ALONE + """class Hero : public df::Object {
  public:
@@ -109,7 +109,7 @@ MISSING_SPRITE = {
   GM.shutDown();
 }
 """,
-    # As the published engine takes it.
+    # A format that the published engine accepts.
     "run it/sprites/odd-spr.txt": "frames 1\nwidth 1\nheight 1\ncolor green\nslowdown\n@\nend\neof\n",
     "run it/sprites/torn-spr.txt": "frames 1\nwidth 3\nheight 2\ncolor green\n<=>\n<=\nend\neof\n"}
 
@@ -135,7 +135,7 @@ NO_RUN = {"game.cpp": ALONE + "int main() { GM.startUp(); new df::Object; GM.shu
 
 NO_FILE = {"game.cpp": '#include "GameManager.h"\n#include "Level.h"\nint main() { GM.startUp(); Level level; GM.run(); }\n'}
 
-# Of the author's own engine, which has what the published one has not; in part with its own names.
+# Uses the author's own engine, which has features that the published one lacks, some under other names.
 OWN_ENGINE = {
     "game.cpp": ALONE + """int main() {
   GM.startUp();
@@ -148,22 +148,22 @@ OWN_ENGINE = {
     **{f"engine/{name}.cpp": f'#include "{name}.h"\nvoid df::{name}::startTheParty(int) {{}}\n'
        for name in ("GameManager", "WorldManager", "LogManager", "DisplayManager", "Object")}}
 
-# The Makefile is older than the game: it does not list what is needed, and lists what is no longer used.
+# The Makefile is older than the game: it lacks a needed file and lists an unused one.
 STALE_LIST = {"game.cpp": MAIN, "Hero.h": HERO_H, "Hero.cpp": HERO, "sprites/hero-spr.txt": SPRITE,
               "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n', "Makefile": "game: game.cpp\n\tg++ game.cpp Old.cpp -o game\n"}
 
-# A folder after a term of work, without a list of what belongs to it.
+# A folder after a term of work, without a list of the files that belong to the game.
 COPIES = {
     "src/game.cpp": MAIN.replace('#include "Hero.h"', '#include "Hero.h"\n#include "Points.cpp"'), "src/Points.cpp": "int points() { return 3; }\n",
     "src/include/Hero.h": HERO_H, "src/Hero.Cpp": HERO, **{f"src/Hero{suffix}.cpp": HERO for suffix in (" - Copy", " copy", " (1)", "_old")},
     "old/Hero.h": "this is no C++ yet\n", "old/Hero.cpp": HERO,
     "tests/HeroTest.cpp": '#include "../src/include/Hero.h"\nHero::Hero() {}\nint Hero::eventHandler(const df::Event *p_e) { return 7; }\n'}
 
-# Two programs beside each other; one only makes an Object.
+# Two programs in one folder; one only makes an Object.
 TWO_MAINS = {"Driver.cpp": '#include "hero.h"\nint main() { Hero hero; return 0; }\n', "main.cpp": MAIN, "hero.h": HERO_H, "hero.cpp": HERO,
              "Again.cpp": '#include "GameManager.h"\nvoid again() { GM.run(); }\n'}
 
-# Visual Studio's folders, and what looks for leaks there.
+# Visual Studio's folders, and its tools that look for leaks.
 STUDIO = {
     "Project 1/Game/Game.vcxproj": '<ClCompile Include="main.cpp" />\r\n<ClCompile Include="Source Files\\Hero.cpp" />',
     "Project 1/Game/main.cpp": "#include <vld.h>\n#include <crtdbg.h>\n" +
@@ -171,7 +171,7 @@ STUDIO = {
     "Project 1/Game/Header Files/Hero.h": HERO_H.replace('"Object.h"', '"../../dragonfly/include/object.h"'),
     "Project 1/Game/Source Files/Hero.cpp": HERO.replace("return 0;", 'return _stricmp("a", "A");')}
 
-# It tries what the sandbox forbids, and prints what of it was possible.
+# Tries what the sandbox forbids, and prints what succeeded.
 PRISONER = {
     "game.cpp": ALONE + r"""#include <arpa/inet.h>
 #include <fcntl.h>
@@ -204,9 +204,9 @@ int main() {
 }
 """}
 
-# Names without df::, headers that used to come along, a base that is private by mistake, enumerators of a scoped type, a name
-# that the game and the engine have, a setter of another type, main() of another type; draw() of an early engine beside one of
-# today's, and what only MSVC takes; and a source that is no longer used.
+# Names without df::, headers that were once included indirectly, an accidentally private base, enumerators of a scoped type,
+# a name of both game and engine, a setter and main() of other types; draw() of an early engine and of today's, code that
+# only MSVC accepts; and an unused source.
 NAMES = {
     "game.cpp": ALONE + """#include <math.h>
 class Contact { public: int touch() { return 1; } };
@@ -248,7 +248,7 @@ class Thing : df::Object {};
 """,
     "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n'}
 
-# With a copy of the engine's headers beside it, which has a name that Naiad lacks. (Here one that no engine has.)
+# Has a copy of the engine's headers, with a name that Naiad lacks. (Here it is one that no engine has.)
 BUNDLE = {
     "game.cpp": """#include "GameManager.h"
 #include "Object.h"

@@ -1,4 +1,4 @@
-"""What the tests of dragonfly-adopt share: a folder to work in, a run of the program, limits of time."""
+"""Shared by the tests of dragonfly-adopt: a scratch folder, a run of the program, time limits."""
 import atexit
 import contextlib
 import json
@@ -21,7 +21,7 @@ atexit.register(shutil.rmtree, WORK, ignore_errors=True)
 
 
 def fingerprint(place):
-    """Everything that a folder has: names, kinds, sizes, times."""
+    """Returns path, mode, size and time of everything in a folder."""
     found = []
     for where, folders, files in os.walk(place):
         for name in sorted(folders + files):
@@ -32,7 +32,7 @@ def fingerprint(place):
 
 
 class Adopted:
-    """A fixture's folder, and what dragonfly-adopt said of it."""
+    """A fixture's folder, and the output of dragonfly-adopt for it."""
 
     def __init__(self, name, files, *arguments, prepare=None):
         self.name, self.files, self.arguments, self.prepare, self.code = name, files, arguments, prepare, None
@@ -61,7 +61,7 @@ class Adopted:
 
 @contextlib.contextmanager
 def within(test, seconds, what):
-    """Fails the test, and ends what is in it, after some seconds of this process."""
+    """Fails the test if the body of the `with` statement takes more than `seconds` of this process's CPU time."""
     before = signal.signal(signal.SIGPROF, lambda *_: test.fail(f"{what} takes longer than {seconds} s"))
     signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
@@ -72,7 +72,7 @@ def within(test, seconds, what):
 
 
 def run_as_user(test, script, *arguments):
-    """Runs Python as an ordinary user, for root's limits are others; skips the test if that cannot be."""
+    """Runs Python as an ordinary user, because root has other limits. Skips the test if that is not possible."""
     other = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
     try:
         return subprocess.run(["/usr/bin/python3", "-c", script, MODULES, *arguments], capture_output=True, text=True, check=False,

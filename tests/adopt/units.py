@@ -10,7 +10,7 @@ from adopt import (blame, bounded, compiler, engine, folder, game, includes, key
                    treatments, verdicts)
 from support import MODULES, WORK, run_as_user, within
 
-# Limits itself where the system allows less.
+# Sets its own limits if the system does not allow more.
 LIMITED = """
 import resource, sys
 sys.dont_write_bytecode = True
@@ -24,7 +24,7 @@ print(resource.getrlimit(resource.RLIMIT_NOFILE), resource.getrlimit(resource.RL
 
 
 class ListsTest(unittest.TestCase):
-    """Project files are read as text."""
+    """Tests how project files are read."""
 
     def lists(self, files):
         place = tempfile.mkdtemp(dir=WORK)
@@ -101,7 +101,8 @@ class ListsTest(unittest.TestCase):
 
 
 class EngineTest(unittest.TestCase):
-    """What of a folder is an engine: a class of it in namespace df, and not a name that Naiad has, too."""
+    """Tests which files count as a copy of the engine: those that declare a name of it in namespace df. A file name of Naiad's
+    is not enough."""
 
     def engine_files(self, files):
         place = tempfile.mkdtemp(dir=WORK)
@@ -133,7 +134,7 @@ class EngineTest(unittest.TestCase):
         one.take_in()
         self.assertEqual((one.engine.files, one.files), (["Event.h", "dragonfly/Object.h"], ["Base.h"]))
         self.assertIn(("Thing.h", "a link to what was left out"), [(row.where, row.text) for row in said.rows])
-        verdicts.Verdicts(one, None)  # reads what was left out
+        verdicts.Verdicts(one, None)  # reads what an earlier run skipped
 
     def test_BesideAnEngineOfOnesOwnTheGameKeepsItsSources(self):
         core = {f"engine/{name}.cpp": "" for name in ("GameManager", "LogManager", "WorldManager", "Music")}
@@ -144,7 +145,7 @@ class EngineTest(unittest.TestCase):
 
 
 class TextTest(unittest.TestCase):
-    """What is read of sources and compilers."""
+    """Tests how sources and compiler messages are read."""
 
     def test_CodeOnlyKeepsPlaces(self):
         source = 'a /* int main( */ "x\\"y" // z\nb \'"\' "open\nc /* to the end'
@@ -185,7 +186,7 @@ class TextTest(unittest.TestCase):
 
 
 class CompilerTest(unittest.TestCase):
-    """What is concluded from how a compiler ends."""
+    """Tests the conclusions from how a compiler run ends."""
 
     def compiler(self, body, name="g++", seconds=20):
         place = tempfile.mkdtemp(dir=WORK)
@@ -218,7 +219,7 @@ class CompilerTest(unittest.TestCase):
 
 
 class BlameTest(unittest.TestCase):
-    """Whose fault it is."""
+    """Tests which side a fault is attributed to."""
 
     def blame(self, main_code):
         ours = types.SimpleNamespace(header_of=lambda name: None, was_published=lambda name, classes=(): False)
@@ -233,7 +234,7 @@ class BlameTest(unittest.TestCase):
 
 
 class MicrosoftTest(unittest.TestCase):
-    """What Visual Studio's templates and library have of their own."""
+    """Tests how the constructs of Visual Studio's templates and library are treated."""
 
     def treated(self, *lines):
         place = tempfile.mkdtemp(dir=WORK)
@@ -255,7 +256,7 @@ class MicrosoftTest(unittest.TestCase):
 
 
 class TreatmentTest(unittest.TestCase):
-    """What is not changed, and what is."""
+    """Tests which lines are changed and which are left as they are."""
 
     def treated(self, line, message, column):
         place = tempfile.mkdtemp(dir=WORK)
@@ -280,7 +281,7 @@ class TreatmentTest(unittest.TestCase):
 
 
 class FilesTest(unittest.TestCase):
-    """What a game loads."""
+    """Tests which files a game is found to load."""
 
     def test_WhatDeadCodeLoadsIsNotMissing(self):
         place = tempfile.mkdtemp(dir=WORK)
@@ -304,7 +305,7 @@ class FilesTest(unittest.TestCase):
 
 
 class BoundedTest(unittest.TestCase):
-    """Commands end, with what they started."""
+    """Tests that commands end together with the processes that they started."""
 
     def test_EndlessOutputAndTimeAreCut(self):
         done = bounded.run(["/bin/sh", "-c", "yes & yes"], timeout=0.5)

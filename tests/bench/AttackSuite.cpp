@@ -1,4 +1,4 @@
-// attack: strangers attack the real programs while honest players play. docs/bench.md says how.
+// attack: attacks the real programs while honest players play. docs/bench.md describes it.
 #include "ResultLine.h"
 #include "Suite.h"
 

@@ -1,4 +1,4 @@
-// Boxes by the square bin in which their corner lies: the plain way to find those near an area.
+// Boxes sorted into square bins by their corners, a simple way to find those near an area.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace bench {
 
 class Bins {
  public:
-  /// Of boxes with corners in [0, side)² and sizes up to `largest`, in cells; others are in the outermost
-  /// bins.
+  /// Sorts boxes with corners in [0, side)² and sizes up to `largest`, in cells. Boxes outside go into the
+  /// outermost bins.
   Bins(const std::vector<df::FixedBox>& boxes, double side, double bin, double largest)
       : m_bin(static_cast<df::Fixed>(bin * df::kFixedOne)),
         m_largest(static_cast<df::Fixed>(largest * df::kFixedOne)),
@@ -27,7 +27,7 @@ class Bins {
     }
   }
 
-  /// Call `visit(index)` for all boxes that may touch `area`, and for some that do not.
+  /// Calls `visit(index)` for all boxes that may touch `area`, and for some that do not.
   template <class Visit>
   void near(const df::FixedBox& area, Visit visit) const {
     const int last_x = indexOf(area.corner.x + area.size.x);
@@ -52,7 +52,7 @@ class Bins {
   df::Fixed m_bin;
   df::Fixed m_largest;
   int m_row;
-  std::vector<std::uint32_t> m_begins;  // of each bin in m_members, and the end
+  std::vector<std::uint32_t> m_begins;  // start of each bin in m_members, and the end
   std::vector<std::uint32_t> m_members;
 };
 

@@ -1,5 +1,5 @@
-// capacity: how many players of the 1000-object world one core serves, and what a bare sender would need for
-// the same datagrams. docs/bench.md says how.
+// capacity: the number of players in the 1000-object world that one core serves, and the cost of a bare
+// sender of equal datagrams. docs/bench.md describes it.
 #include <sched.h>
 #include <stdlib.h>
 #include <sys/resource.h>
@@ -33,10 +33,10 @@ using namespace std::chrono_literals;
 
 constexpr int kStep = 250;
 constexpr double kTick = 1.0 / 30;
-/// Bots beyond this share of their core are what limits.
+/// Above this share of their core, the bots are the limit.
 constexpr double kBotsBusy = 0.95;
 
-/// Of the screens looked at: what may be due to a moment in which this machine did something else.
+/// Share of wrong screens allowed for moments in which this machine was busy with other work.
 constexpr double kMaxWrong = 0.02;
 
 struct Effort {
@@ -47,24 +47,24 @@ struct Effort {
   int trials = 12;
 };
 
-/// One number of players.
+/// The results for one number of players.
 struct Trial {
   int clients = 0;
-  double busy = 0;       ///< share of its core that the server used
-  double cpu_us = 0;     ///< per client and tick
-  double datagrams = 0;  ///< per tick, in all
-  double bytes = 0;      ///< of one
+  double busy = 0;       ///< share of its core used by the server
+  double cpu_us = 0;     ///< microseconds per client and tick
+  double datagrams = 0;  ///< total per tick
+  double bytes = 0;      ///< per datagram
   double delivered = 0;
   double tick_p50_ms = 0, tick_p99_ms = 0;
   double ticks = 0, late = 0;
   double bots_busy = 0;
   double checked = 0, wrong = 0;
-  std::string limit;  ///< what was exceeded; empty: nothing
+  std::string limit;  ///< exceeded limit; empty: none
 };
 
 using Pictures = std::map<std::pair<std::string, std::string>, std::string>;
 
-/// The lines up to `done`.
+/// Returns the lines up to `done`.
 Pictures picturesOf(Worker& worker) {
   Pictures pictures;
   for (std::string line = worker.hear(); line != "done"; line = worker.hear()) {
@@ -123,7 +123,7 @@ class Arena {
     trial.bots_busy = bots["busy"];
     for (const auto& [key, sum] : seen) {
       const auto found = truth.find(key);
-      if (found == truth.end()) continue;  // before or after
+      if (found == truth.end()) continue;  // outside the measurement
       ++trial.checked;
       trial.wrong += found->second != sum ? 1 : 0;
     }
@@ -131,7 +131,7 @@ class Arena {
     return trial;
   }
 
-  /// Processor time of a bare sender per client and tick.
+  /// Returns a bare sender's processor time per client and tick.
   double bare(const Trial& trial, double seconds) {
     m_bots->ask("sink", "sunk");
     m_server.reset();
@@ -185,7 +185,7 @@ int stepped(double clients) {
   return std::max(kStep, static_cast<int>(clients) / kStep * kStep);
 }
 
-/// Search for the largest number that passes, from a guess by what a client costs.
+/// Searches for the largest number of players that passes. Guesses from the cost of a client.
 void search(const std::function<std::unique_ptr<Arena>()>& open, const Effort& effort, bool quick) {
   std::unique_ptr<Arena> arena = open();
   std::map<int, Trial> trials;
@@ -194,7 +194,7 @@ void search(const std::function<std::unique_ptr<Arena>()>& open, const Effort& e
     if (found != trials.end()) return found->second;
     const Trial& trial = trials[clients] = arena->run(clients, effort);
     print(trial, trial.limit.empty() ? "passed" : "failed");
-    // Whoever was served badly gets snapshots less often for a while: the next trial begins afresh.
+    // The server sends to badly served clients less often for a while, so the next trial uses a new one.
     if (!trial.limit.empty()) {
       arena.reset();
       arena = open();
@@ -210,7 +210,7 @@ void search(const std::function<std::unique_ptr<Arena>()>& open, const Effort& e
     const int guess = stepped(0.93 * clients / trial.busy);
     clients = std::max(clients + kStep, std::min(guess, clients + 2000));
   }
-  // One step at a time between the best and the first that failed; from above, when that is not far.
+  // Tries the steps between the best and the lowest failed number, if they are few; else the middle.
   int above = trials.empty() ? 0 : trials.rbegin()->first;
   if (above > best && !quick) {
     for (int n = above - kStep; n > best && n > above - 8 * kStep; n -= kStep) {
@@ -228,8 +228,7 @@ void search(const std::function<std::unique_ptr<Arena>()>& open, const Effort& e
     }
   }
   const Trial& result = best > 0 ? trials[best] : trials.begin()->second;
-  arena->run(result.clients,
-             {.settle_s = 2, .measure_s = 2});  // for the sockets that the bare sender is to use
+  arena->run(result.clients, {.settle_s = 2, .measure_s = 2});  // makes the sockets that the bare sender uses
   const double bare = arena->bare(result, quick ? 5 : 20);
   Line line("capacity");
   line.add("clients_per_core", best)

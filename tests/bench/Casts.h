@@ -1,5 +1,4 @@
-// A field of obstacles and sweeps through it: the same for all who are asked, with the answers that are
-// right.
+// A field of obstacles and casts through it, used for all engines, and the exact answers.
 #pragma once
 
 #include <cstdint>
@@ -11,39 +10,39 @@
 
 namespace bench {
 
-/// 1×1 boxes at random positions, to the last bit of a coordinate. They may overlap.
+/// 1×1 boxes at random positions with all bits of a coordinate. They may overlap.
 struct Field {
   Field(int n, double density);
 
-  double side;  ///< in cells
+  double side;  ///< width and height in cells
   std::vector<df::FixedBox> obstacles;
   Bins bins;
 };
 
-/// A 1×1 box that is to go from one position to another.
+/// A move of a 1×1 box from one position to another.
 struct Cast {
-  df::FixedVector from;  ///< of its middle
+  df::FixedVector from;  ///< position of the centre
   df::FixedVector to;
 };
 
-/// Nobody.
+/// No obstacle.
 inline constexpr std::uint32_t kNobody = UINT32_MAX;
 
-/// Whom a cast meets first: of several at the same time, the first obstacle.
+/// The obstacle that a cast meets first. At equal times, the one with the lowest index.
 struct Answer {
   std::uint32_t who = kNobody;
   double time = 1;
-  df::FixedVector position;  ///< of the middle just before
+  df::FixedVector position;  ///< centre just before the contact
 };
 
-/// So many casts from random places in the field in random directions, each `length` cells long. None touches
-/// an obstacle where it begins, and none leaves the field, if that is more than twice as wide.
+/// Returns this many casts of `length` cells from random places in random directions. None touches an
+/// obstacle at its start, and none leaves the field if that is more than twice as wide.
 std::vector<Cast> drawCasts(const Field& field, int count, double length);
 
-/// The exact answer, by looking at everybody near the path.
+/// Returns the exact answer from all obstacles near the path.
 Answer solve(const Field& field, const Cast& cast);
 
-/// The same obstacle at the same time (to 1e-9 of the way), and exactly the same place to stop?
+/// True if obstacle and final position are equal, and the times too, within 1e-9 of the way.
 bool areEqual(const Answer& a, const Answer& b);
 
 }  // namespace bench

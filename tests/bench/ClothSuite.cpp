@@ -1,4 +1,4 @@
-// What a cloth of many nodes costs per tick, the whole WM.update(), and how far its threads stretch.
+// The cost per tick of a cloth with many nodes, for a whole WM.update(), and the stretch of its threads.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@
 namespace bench {
 namespace {
 
-/// Of threads, over their length at rest; `mesh` in cells.
+/// Returns the largest stretch of a thread, relative to its rest length. `mesh` is in cells.
 double stretchOf(const df::Cloth& cloth, df::Vector mesh) {
   double most = 0;
   const auto see = [&](int from, int to, double rest) {

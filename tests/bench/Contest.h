@@ -1,9 +1,8 @@
-// Several engines run the same scene and are timed by turns, A B C A B C …, so that a busy minute of the
-// machine meets them all. Every tick that any two of them ran is compared.
+// Several engines run a scene and are timed in turn, A B C A B C …, so that a busy minute of the machine
+// affects all. Every tick that any two of them ran is compared.
 //
-// First all run the same number of ticks to warm up, and are compared event by event and position by
-// position. Then each repetition lasts a number of ticks that is long enough to be timed; of the repetitions
-// the median counts. The machine's clock is CPU time.
+// First all run a number of warm-up ticks and are compared event by event and position by position. Then each
+// repetition lasts enough ticks to be timed. The median of the repetitions counts. The clock is CPU time.
 #pragma once
 
 #include <cstdint>
@@ -20,30 +19,30 @@ class Contest {
   struct Rules {
     int warm_up_ticks = 10;
     std::size_t compared_ticks = SIZE_MAX;  ///< counted from the start, warm-up included
-    int repetitions = 5;                    ///< that are timed
-    double least_seconds = 0.05;            ///< that a repetition lasts (a tick at least)
-    double most_seconds = 2;                ///< of all timed ones: a peer that has taken longer is done …
-    int least_repetitions = 3;              ///< … after so many
+    int repetitions = 5;                    ///< ticks to compare, from the start with the warm-up
+    double least_seconds = 0.05;            ///< a repetition takes at least this time and a tick
+    double most_seconds = 2;                ///< total time after which an engine needs only the minimum
+    int least_repetitions = 3;              ///< minimum number of repetitions
   };
 
-  /// What suits a world of `n` objects.
+  /// Returns suitable rules for a world of `n` objects.
   static Rules rulesFor(int n, const Options& options);
 
   explicit Contest(const Rules& rules) : m_rules(rules) {}
 
-  /// The first one is the one that the others are compared with: in time, and in what happens, unless it is
-  /// another scene (`same_scene`).
+  /// Adds an engine. The others are compared with the first: their time, and what happens in them, unless
+  /// they run another scene (`same_scene`).
   void add(const std::string& name, EnginePtr engine, bool same_scene = true);
   void run();
 
   bool has(const std::string& name) const { return find(name) != nullptr; }
-  /// CPU time per tick, of the engine with this name. It must be there.
+  /// Returns the CPU time per tick of the engine with this name, which must exist.
   double nanosecondsPerTick(const std::string& name) const;
-  /// How many times longer this engine takes than the first.
+  /// Returns the engine's time relative to the first one's.
   double ratio(const std::string& name) const;
-  /// Have all engines that ran whole ticks done the same?
+  /// True if all engines that ran whole ticks gave equal results.
   bool equal() const;
-  /// Of the first engine: what it counted in its timed ticks, divided by their number.
+  /// Returns the first engine's events per timed tick.
   double eventsPerTick() const;
   double blockedPerTick() const;
 
@@ -54,7 +53,7 @@ class Contest {
     bool compared = true;
     std::vector<std::uint64_t> checksums;  // after each tick
     std::uint64_t state = 0;               // after the warm-up
-    Tally warm;                            // then, too
+    Tally warm;                            // after the warm-up
     int ticks_per_repetition = 1;
     std::vector<double> times;  // ns per whole tick, one per repetition
   };

@@ -1,12 +1,11 @@
-// CPU time of this thread: what others do on the machine meanwhile is not in it (what they do to its caches
-// is).
+// CPU time of this thread. Other programs do not add to it, except through their effect on the caches.
 #pragma once
 
 #include <ctime>
 
 namespace bench {
 
-/// In nanoseconds, since some moment.
+/// Returns nanoseconds since a fixed moment.
 inline double cpuNanoseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -1,4 +1,4 @@
-// A world that runs a Scene: ours, or a peer's.
+// A world that runs a Scene, in our engine or a peer's.
 #pragma once
 
 #include <cmath>
@@ -13,24 +13,24 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// Everybody with a velocity takes a turn, in id order.
+  /// Runs a tick: each body with a velocity takes a turn, in id order.
   virtual void tick() = 0;
   virtual const Tally& tally() const = 0;
-  /// Of all positions and velocities, in id order: equal in two engines if those are.
+  /// Returns a hash of all positions and velocities in id order, equal in engines that agree.
   virtual std::uint64_t stateHash() const = 0;
-  /// 1 if tick() is a whole tick; less if it is only that part of one, because a whole one takes too long.
-  /// Such an engine is not compared with others.
+  /// Returns 1 if tick() is a whole tick. Less if it is only that part of one, because a whole one takes too
+  /// long; then the engine is not compared with others.
   virtual double partOfTick() const { return 1; }
 };
 
 using EnginePtr = std::unique_ptr<Engine>;
 
-/// For stateHash(): coordinates are whole multiples of 2^-10 cell.
+/// Computes stateHash(). Coordinates must be multiples of 2^-10 cell.
 class StateHash {
  public:
   void add(double coordinate) {
     m_hash ^= static_cast<std::uint64_t>(std::llround(coordinate * 1024));
-    m_hash *= 0x100000001b3u;  // FNV-1a, a word at a time
+    m_hash *= 0x100000001b3u;  // FNV-1a on whole words
   }
   std::uint64_t value() const { return m_hash; }
 

@@ -1,5 +1,5 @@
 // fleet: ten servers, a bus and a directory; servers and bus are killed while players play. docs/bench.md
-// says how.
+// describes it.
 #include "ResultLine.h"
 #include "Suite.h"
 

@@ -1,6 +1,5 @@
-// games: the games that ship, played by four who press keys at random: how fast they run without anybody
-// watching, and what a player costs the server while somebody does, over a link of 100 ms there and back in
-// virtual time.
+// games: the shipped games with four players pressing random keys. Measures their speed without clients, and
+// the server's cost per player with clients over a link of 100 ms round trip, in virtual time.
 #include <chrono>
 #include <cstdio>
 #include <map>
@@ -30,7 +29,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t kPlayers = 4;
 constexpr std::uint64_t kSeed = 7;
 
-/// Runs a game's main() in a world of its own, with `play` where it waits for players.
+/// Runs a game's main() in its own world, and calls `play` where it waits for players.
 class Stage : public df::Runner {
  public:
   template <class Play>
@@ -49,7 +48,7 @@ class Stage : public df::Runner {
   std::function<void(df::World&)> m_play;
 };
 
-/// Ticks, the bots' keys and joins among them, per second of this thread's processor time.
+/// Returns ticks per second of this thread's processor time, including the bots' keys and joins.
 double ticksPerSecond(const GameModule& game, int ticks) {
   double nanoseconds = 0;
   const Stage stage(game, [&](df::World& world) {
@@ -64,7 +63,7 @@ double ticksPerSecond(const GameModule& game, int ticks) {
   return ticks / (nanoseconds / 1e9);
 }
 
-/// What all players saw in 1,000 ticks.
+/// Returns a hash of all players' pictures in 1,000 ticks.
 std::uint64_t hashOf(const GameModule& game) {
   PictureHash hash;
   const Stage stage(game, [&](df::World& world) {
@@ -79,8 +78,8 @@ std::uint64_t hashOf(const GameModule& game) {
 }
 
 struct Cost {
-  double microseconds = 0;  ///< of the server: the tick, publishing, encoding
-  double bytes = 0;         ///< down
+  double microseconds = 0;  ///< server time for the tick, publishing and encoding
+  double bytes = 0;         ///< sent to the clients
   double player_ticks = 0;
 };
 

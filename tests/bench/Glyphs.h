@@ -1,5 +1,4 @@
-// Characters of which some are set, kept as the plain rows that they are: what precise collisions are judged
-// by.
+// Characters in plain rows, some of them set. A reference for precise collisions.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +14,10 @@ namespace bench {
 
 class Glyphs {
  public:
-  /// 3×2 to 12×4 characters, 55 % of them set, at random.
+  /// Returns 3×2 to 12×4 characters, each set with a probability of 55 %.
   static Glyphs random(naiad::SplitMix64& random);
 
-  /// As for Object::setMask().
+  /// Returns the rows for Object::setMask().
   const std::vector<std::string>& rows() const { return m_rows; }
   int width() const { return static_cast<int>(m_rows.front().size()); }
   int height() const { return static_cast<int>(m_rows.size()); }
@@ -28,12 +27,11 @@ class Glyphs {
   std::vector<std::string> m_rows;
 };
 
-/// Do two of them, each with its box in world coordinates, share a drawn cell? Every character is compared.
+/// True if the two, with their boxes in world coordinates, share a drawn cell. Compares every character.
 bool shareCell(const Glyphs& a, const df::FixedBox& a_box, const Glyphs& b, const df::FixedBox& b_box);
 
-/// When a moving one first touches the other by the boxes and shares a cell with it; nothing if it does not.
-/// Not for one with which it shares a cell at the start. Every position at which one of the two may begin is
-/// looked at.
+/// Returns when the moving one first touches the obstacle's box and shares a cell with it; nullopt if never,
+/// or if they share a cell at the start. Checks each position at which this may begin.
 std::optional<Fraction> firstShare(const Path& path, const Glyphs& own, const df::FixedBox& obstacle,
                                    const Glyphs& others);
 

@@ -1,5 +1,5 @@
-// What an event costs, handler included: the time of a tick by the events delivered in it, in a crowded world
-// whose handlers only count, or change velocities, or delete and create. (Moving and finding are in it, too.)
+// Time per event including its handler: the time of a tick divided by its events, in a crowded world.
+// Handlers only count, or change velocities, or delete and create. (The time includes moving and finding.)
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,8 +26,8 @@ constexpr std::uint64_t kSpawnEvery = 100;  // collision events
 
 enum class Kind {
   COUNT,     ///< handlers count
-  VELOCITY,  ///< and reverse their Object, whoever moved
-  SPAWN,     ///< and every 100th deletes its Object and makes another one elsewhere
+  VELOCITY,  ///< and reverse their Object, whether it moved or not
+  SPAWN,     ///< and every 100th deletes its Object and creates another one elsewhere
 };
 
 struct Crowd {
@@ -88,7 +88,7 @@ class Citizen : public df::Object {
 };
 
 std::string nameOf(Kind kind) {
-  constexpr const char* kNames[] = {"count", "velocity", "spawn"};  // in its order
+  constexpr const char* kNames[] = {"count", "velocity", "spawn"};  // in the enum's order
   return kNames[static_cast<int>(kind)];
 }
 

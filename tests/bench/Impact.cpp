@@ -8,7 +8,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-// Mirrored if need be, so that the box goes up.
+// Mirrors the problem if necessary, so that the coordinate increases.
 std::optional<Steps> stepsOf(df::Fixed low, df::Fixed size, df::Fixed way, df::Fixed other,
                              df::Fixed other_size) {
   if (way < 0) return stepsOf(-low - size, size, -way, -other - other_size, other_size);

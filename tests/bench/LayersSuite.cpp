@@ -1,10 +1,10 @@
-// What a scene pays for what it does not use, by counts that no other program on the machine can disturb:
-// valgrind's of instructions, and the heap's.
+// The cost to a scene of layers that it does not use, by counts that other programs cannot disturb:
+// valgrind's count of instructions, and the heap's of allocations.
 //
-// layer=motion, motion_hard: nothing but motion, here and in a build that has no layers (-DNAIAD_LAYERS=OFF).
-// The others: the everyday workload of HARD boxes, in which one Object far from all others uses the layer or
-// does not; bytes_extra and allocations_per_tick are of a world in which all use it. layer=sprite, wall: one
-// such Object, or sixteen scattered (who=sixteen), larger than a character.
+// layer=motion, motion_hard: only motion, here and in a build without layers (-DNAIAD_LAYERS=OFF). The
+// others: the everyday workload of HARD boxes, in which an Object far from all others uses the layer or does
+// not; bytes_extra and allocations_per_tick are for a world in which all use it. layer=sprite, wall: such an
+// Object, or sixteen scattered (who=sixteen), larger than a character.
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -25,12 +25,12 @@ std::filesystem::path fullProgram() {
   return besideThis("naiad_layers");
 }
 
-// Where deploy/bench puts it.
+// Returns the path where deploy/bench puts the program.
 std::filesystem::path bareProgram() {
   return besideThis("../../bench-bare/bin/naiad_layers").lexically_normal();
 }
 
-// Everything that it prints, stderr too.
+// Returns all output, including stderr.
 std::string outputOf(const std::string& command) {
   const auto [code, output] = naiad::test::runProgram(command + " 2>&1");
   if (code != 0) throw std::runtime_error(command + ": " + output);
@@ -43,7 +43,7 @@ double numberAfter(const std::string& text, const std::string& label) {
   return std::stod(text.substr(at + label.size()));
 }
 
-/// A scene as naiad_layers runs it.
+/// Arguments of a naiad_layers run.
 struct Setting {
   std::filesystem::path program;
   std::string scene;
@@ -62,7 +62,7 @@ double instructions(const Setting& setting, int ticks) {
       "Collected :");
 }
 
-// Building the scene costs the same in a run that is twice as long.
+// The difference of two runs removes the cost of building the scene.
 double instructionsPerObject(const Setting& setting, int ticks) {
   return (instructions(setting, 2 * ticks) - instructions(setting, ticks)) / ticks / setting.objects;
 }

@@ -17,7 +17,7 @@ void turnBack(df::Object& object, double side) {
   object.setVelocity(df::Vector(left_x ? -v.x() : v.x(), left_y ? -v.y() : v.y()));
 }
 
-/// The workload's handlers, written as a game writes them.
+/// The workload's handlers, written like a game's.
 class Ball : public df::Object {
  public:
   Ball(const Body& body, std::uint64_t number, double side, Tally& tally)
@@ -43,7 +43,7 @@ class Ball : public df::Object {
     m_tally.event(m_number);
     const bool is_mover = p_e->getObject1() == this;
     if (!is_mover || getSolidness() != df::HARD || p_e->getObject2()->getSolidness() != df::HARD) return 1;
-    if (m_turned == m_tally.tick) return 1;  // it met several
+    if (m_turned == m_tally.tick) return 1;  // it met several boxes in this tick
     m_turned = m_tally.tick;
     ++m_tally.blocked;
     const df::Vector v = getVelocity();
@@ -53,7 +53,7 @@ class Ball : public df::Object {
 
   Tally& m_tally;
   std::uint64_t m_number;
-  std::uint64_t m_turned = 0;  // the tick in which it was blocked last
+  std::uint64_t m_turned = 0;  // last tick in which it was blocked
   double m_side;
 };
 

@@ -1,5 +1,4 @@
-// A Scene in this project's engine, through nothing but what a game has: Objects, their handlers,
-// WM.update().
+// A Scene in this project's engine, with only the means of a game: Objects, their handlers and WM.update().
 #pragma once
 
 #include <vector>
@@ -13,7 +12,7 @@ namespace bench {
 
 class Ball;
 
-/// For an Object that has left a square world: back to where it came from, and reflected at the border.
+/// Puts an Object that has left a square world back, and reflects its velocity at the border.
 void turnBack(df::Object& object, double side);
 
 class NaiadEngine : public Engine {
@@ -29,7 +28,7 @@ class NaiadEngine : public Engine {
  private:
   df::World m_world;
   Tally m_tally;
-  std::vector<Ball*> m_balls;  // the world's, by id
+  std::vector<Ball*> m_balls;  // owned by the world, by id
 };
 
 }  // namespace bench

@@ -1,4 +1,4 @@
-// What people at terminals get across a bad network: dfclient, and what they use today.
+// The quality of dfclient and its alternatives at terminals over a bad network.
 #include <cmath>
 #include <exception>
 #include <fstream>
@@ -18,17 +18,17 @@ using path::Condition;
 using path::Effort;
 using path::Figures;
 
-// What ssh is known to need for this scene in the first condition; if it does not, then the scene or the link
-// is not the one that others have measured.
+// ssh's known rate for this scene in the first condition. A different rate means that scene or link are not
+// those of the reference measurement.
 constexpr double kSshKbitS = 713;
 constexpr double kSshTolerance = 0.25;
-// A link that is later than this does not do what it says.
+// Maximum delay of packets beyond their time in a valid run.
 constexpr double kLateMs = 2;
 
 const Condition kUsual{100, 2, 0};
 const std::vector<Condition> kConditions = {kUsual, {200, 2, 0}, {100, 0, 512}};
 
-/// In the order in which they are printed; a program that lacks one has no such key.
+/// Keys of the line in printing order. A program that lacks a figure has no such key.
 const std::vector<std::string> kKeys = {"kbit_s_down",      "kbit_s_up",        "fps",
                                         "staleness_p50_ms", "staleness_p99_ms", "freeze_ms",
                                         "key_p50_ms",       "key_p99_ms",       "predicted_key_p99_ms",
@@ -87,7 +87,7 @@ class Run {
   }
 
   Effort m_effort;
-  std::optional<bool> m_as_known;  // once ssh has been measured
+  std::optional<bool> m_as_known;  // set once ssh has been measured
 };
 
 void run(const Options& options) {

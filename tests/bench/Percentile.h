@@ -1,4 +1,4 @@
-// Percentiles of what was measured.
+// Percentiles of measured values.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace bench {
 
-/// The value below which `percent` of all values lie, at 100 the largest; 0 without values.
+/// Returns the value below which `percent` of all values are; at 100 the largest; 0 without values.
 template <class Value>
 Value percentile(std::vector<Value> values, std::size_t percent) {
   if (values.empty()) return 0;

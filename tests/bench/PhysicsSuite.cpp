@@ -1,6 +1,6 @@
-// What scenes of rigid bodies cost per tick, against Box2D, and how deep bodies lie in each other meanwhile.
+// Cost per tick of scenes of rigid bodies, compared with Box2D, and how deep bodies overlap during them.
 //
-// Both engines start from the same places and run by turns; every tick counts, from the first.
+// Both engines start from equal positions and run in turn; every tick counts, including the first.
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -24,10 +24,10 @@ namespace {
 using physics::Run;
 
 constexpr int kRounds = 3;
-constexpr double kMostSeconds = 20;  // of CPU time, for one run
+constexpr double kMostSeconds = 20;  // CPU time limit of a run
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-/// What `ok` asks for.
+/// Requirements for `ok`.
 struct Target {
   double least_ratio = 1;
   double most_overlap = kAny;
@@ -37,7 +37,7 @@ struct Target {
 struct Level {
   df::Accuracy accuracy;
   Target target;
-  bool quick = true;  ///< also with --quick?
+  bool quick = true;  ///< also runs with --quick
 
   const char* name() const { return accuracy == df::ACCURACY_FAST ? "fast" : "default"; }
 };
@@ -66,7 +66,7 @@ struct Round {
   Run ours;
   Run box2d;
 
-  /// Where one was cut, only the ticks that both ran are compared.
+  /// If a run was cut short, only the ticks that both ran are compared.
   std::size_t ticks() const { return std::min(ours.tick_ms.size(), box2d.tick_ms.size()); }
   double ratio() const { return box2d.meanMs(ticks()) / ours.meanMs(ticks()); }
 };
@@ -83,7 +83,7 @@ double medianOf(const std::vector<Round>& rounds, Value value) {
   return median(values);
 }
 
-// Both engines do the same in each round, so the first one says what the judge saw.
+// The engines repeat their results in each round, so the first round's errors are reported.
 void addErrors(Line& line, const std::string& prefix, const physics::Scene& scene, const Run& run) {
   if (run.looks == 0) return;
   if (scene.collide) line.add(prefix + "overlap_m", run.meanOverlap());
@@ -125,7 +125,7 @@ void measure(const Case& c, const Level& level, const Options& options) {
   report(line, level, scene, rounds);
 }
 
-/// Those that NAIAD_PHYSICS_SCENES names, or all.
+/// Returns the cases named in NAIAD_PHYSICS_SCENES, or all.
 std::vector<Case> wantedCases() {
   std::vector<std::string> all;
   for (const Case& c : kCases) all.emplace_back(c.name);

@@ -1,9 +1,9 @@
-// What it costs to compare characters, and whether the answers are right.
+// The cost of comparing characters, and the correctness of the answers.
 //
-// Precise Objects with masks fly about (WM.update) and turn around when they are blocked. Where they are
-// then, each is asked whom it touches (WM.getCollisions), once as it is and once with only the boxes
-// compared; the difference, divided by the pairs whose boxes touch, is a test. All lists are compared with a
-// plain loop over all characters.
+// Precise Objects with masks fly about (WM.update) and turn around when blocked. Then each is asked at its
+// position for its collisions (WM.getCollisions), once precisely and once with boxes only. The difference,
+// divided by the pairs whose boxes touch, is the cost of a test. All lists are compared with a simple loop
+// over all characters.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -65,9 +65,9 @@ class Sprite : public df::Object {
   }
 };
 
-// Of one arrangement.
+// The result for one arrangement.
 struct Verdict {
-  long pairs = 0;  ///< whose boxes touch
+  long pairs = 0;  ///< pairs whose boxes touch
   long mismatches = 0;
 };
 
@@ -97,12 +97,12 @@ class Crowd {
   }
   ~Crowd() { m_world.shutDown(); }
 
-  /// Move everybody for a tick. Return the time per Object.
+  /// Moves all sprites for a tick. Returns the time per Object.
   double tick() {
     return timePerObject([] { WM.update(); });
   }
 
-  /// The time to ask everybody whom it touches, per Object.
+  /// Asks all sprites for their collisions. Returns the time per Object.
   double askAll(bool precise) {
     for (Sprite* p_sprite : m_sprites) p_sprite->setPrecise(precise);
     const double time = timePerObject([this] {
@@ -130,7 +130,7 @@ class Crowd {
     return (cpuNanoseconds() - begin) / static_cast<double>(m_sprites.size());
   }
 
-  // A pair is wrong if it should be in the list and is not, or the other way round.
+  // Counts pairs that are missing in the engine's list or wrongly in it.
   void judge(std::size_t i, const std::vector<df::FixedBox>& boxes, const Bins& bins,
              Verdict& verdict) const {
     std::vector<const df::Object*> right;
@@ -154,7 +154,7 @@ class Crowd {
   df::World m_world;
   df::World::Scope m_scope;
   double m_side = 0;
-  std::vector<Sprite*> m_sprites;  // the world's
+  std::vector<Sprite*> m_sprites;  // owned by the world
   long m_found = 0;
 };
 

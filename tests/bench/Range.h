@@ -1,14 +1,14 @@
-// Where shots are fired: a world of two Objects that fly through a tick, and the exact account of what should
-// have happened.
+// A range for shots: a world of two Objects that fly through a tick, with an exact account of the expected
+// events.
 //
-// Objects move one after another, the older first, and a swept one is tested against the other where it is at
-// that turn. So its own path in the tick is what it must not pass through anything on: that is asked of every
-// turn of every swept Object, exactly. Two that move in one tick never are where a clock would see them both
-// half-way; what two clocked movers would have hit, two sequential ones may go around, when the first is past
-// before the second begins (`simultaneous` counts those). But they cannot change sides within a corridor: if
-// their extents on one axis overlap at the start, after the first turn and after the second, then they do in
-// between, too, and their order on the other axis must not change without a collision. That is asked besides,
-// without any times.
+// Objects move one after another, the older first. A swept one is tested against the other at that one's
+// position in this turn. So it must not pass through anything on its own path, which is checked exactly for
+// every turn of every swept Object. Two that move in one tick are never where a clock would see them both
+// half-way: two sequential movers may miss each other where two simultaneous ones would have hit, because the
+// first has passed before the second starts (`simultaneous` counts these). But they cannot change sides
+// within a corridor: if their extents on one axis overlap at the start, after the first turn and after the
+// second, they do in between, and their order on the other axis must not change without a collision. This is
+// checked, too, without computing times.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +22,17 @@
 
 namespace bench {
 
-/// One of the two, as it is before a tick.
+/// One of the two Objects before a tick.
 struct Flier {
   df::FixedBox box;  ///< relative to the position
   df::FixedVector position;
   df::FixedVector velocity;
-  std::optional<Glyphs> glyphs;  ///< if it is precise
+  std::optional<Glyphs> glyphs;  ///< set if it is precise
 
   df::FixedBox boxAt(df::FixedVector at) const { return df::translate(box, at); }
 };
 
-/// How an Object is made; all shots of a pair share it.
+/// Properties of an Object, used for all shots of a pair.
 struct Make {
   df::Solidness solidness = df::HARD;
   bool no_soft = false;
@@ -40,29 +40,28 @@ struct Make {
 };
 
 struct Account {
-  long shots = 0;    ///< ticks in which something was fired
-  long hits = 0;     ///< in which some swept turn had to meet the other
-  long through = 0;  ///< in which it was not reported to both, or a blocking one did not stop just before
-  long ghosts = 0;   ///< in which a swept turn met or stopped, and had no reason to
-  long simultaneous = 0;  ///< nobody met anybody, but two clocked movers would have
+  long shots = 0;    ///< ticks in which an Object was fired
+  long hits = 0;     ///< ticks in which a swept turn had to meet the other
+  long through = 0;  ///< ticks with a hit that was not reported to both, or without a stop just before it
+  long ghosts = 0;   ///< ticks in which a swept turn met or stopped without reason
+  long simultaneous = 0;  ///< ticks without a hit in which two simultaneous movers would have hit
 };
 
 class Shooter;
 
 class Range {
  public:
-  /// `older` and `younger`, by the order of their turns.
+  /// `older` takes the first turn.
   Range(const Make& older, const Make& younger);
   ~Range();
 
-  /// All moves of the world are swept, whatever its Objects say (WM.setSweptCollisions).
+  /// Makes all moves of the world swept, whatever its Objects' own setting (WM.setSweptCollisions).
   void sweepAll();
-  /// Put both where they begin.
+  /// Puts both at their starts.
   void set(const Flier& older, const Flier& younger);
-  /// Judge unswept ones, too, but only by whether they are told of whom they meet on the way. (Else nobody
-  /// minds where they go.)
+  /// Also judges unswept Objects, but only by the collisions reported on their way, not by where they stop.
   void judgeUnswept() { m_judge_unswept = true; }
-  /// A tick from where they are now, accounted for.
+  /// Runs a tick from the present positions and adds it to the account.
   void tick(Account& account);
 
  private:
@@ -76,11 +75,11 @@ class Range {
   df::World::Scope m_scope;
   Make m_makes[2];
   Flier m_fliers[2];
-  Shooter* m_p_shooters[2];  // the world's
+  Shooter* m_p_shooters[2];  // owned by the world
   bool m_judge_unswept = false;
 };
 
-/// Do the two share a place where they are, so that the rules for the start of a move would apply?
+/// True if the two overlap now, so that the rules for the start of a move would apply.
 bool areMet(const Flier& a, const Flier& b);
 
 }  // namespace bench

@@ -1,5 +1,5 @@
-// recovery: a server is killed again and again while clients play, and journals are measured. docs/bench.md
-// says how.
+// recovery: a server is killed repeatedly while clients play, and the cost of journals is measured.
+// docs/bench.md describes it.
 #include "ResultLine.h"
 #include "Suite.h"
 

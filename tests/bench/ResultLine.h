@@ -1,4 +1,4 @@
-// One measurement, as one line on stdout: `suite key=value …`. Keys are lower case with the unit in the name,
+// One measurement, as one line on stdout: `suite key=value …`. Keys are lower case and end with the unit,
 // values have no blanks, numbers no exponents.
 #pragma once
 
@@ -17,25 +17,25 @@ class Line {
   Line& add(const std::string& key, const std::string& value);
   Line& add(const std::string& key, long long value);
   Line& add(const std::string& key, int value) { return add(key, static_cast<long long>(value)); }
-  /// With four significant digits.
+  /// Adds a number with four significant digits.
   Line& add(const std::string& key, double value);
-  /// `equal=1` if all engines that ran agree, else `equal=0`; then the program fails in the end.
+  /// Adds `equal=1` if all engines that ran agree, otherwise `equal=0`; then the program exits with an error.
   Line& addEqual(bool equal);
-  /// A number of errors: if it is not 0, the program fails in the end.
+  /// Adds a number of errors. If it is not 0, the program exits with an error.
   Line& addZero(const std::string& key, long long errors);
 
  private:
   std::string m_text;
 };
 
-/// Call it before the first Line: stdout belongs to Lines from then on, and what libraries print there goes
-/// to stderr (Chipmunk introduces itself).
+/// Call before the first Line. Reserves stdout for Lines and redirects other output, for example of
+/// libraries, to stderr (Chipmunk prints a banner).
 void reserveStdout();
 
-/// Has every line so far that compared engines found them equal, and no errors?
+/// True if each line so far that compared engines found them equal, and without errors.
 bool allEqual();
 
-/// A word to whoever waits, on stderr.
+/// Prints a progress message on stderr.
 void progress(const std::string& what);
 
 }  // namespace bench

@@ -1,4 +1,4 @@
-// rooms: sixteen rooms of one server, of which three fail. docs/bench.md says how.
+// rooms: sixteen rooms of one server, three of which fail. docs/bench.md describes it.
 #include "ResultLine.h"
 #include "Suite.h"
 

@@ -13,7 +13,7 @@ namespace {
 
 using naiad::SplitMix64;
 
-constexpr double kMovingPart = 0.01;  // of REST
+constexpr double kMovingPart = 0.01;  // share of moving boxes in REST
 
 void chooseKind(Body& body, Mix mix, SplitMix64& random) {
   if (mix == Mix::MOVING) body.solidness = df::SPECTRAL;
@@ -25,7 +25,7 @@ void chooseKind(Body& body, Mix mix, SplitMix64& random) {
   body.height = 1 + static_cast<int>(random.below(4));
 }
 
-// Is this velocity the product of its length and its direction, in the book's floats?
+// True if this velocity equals its length times its direction in the book's float arithmetic.
 bool survivesBook(double x, double y) {
   const auto fx = static_cast<float>(x);
   const auto fy = static_cast<float>(y);
@@ -42,13 +42,13 @@ void chooseVelocity(Body& body, double grain, SplitMix64& random) {
   } while (!body.moves() || !survivesBook(body.vx, body.vy));
 }
 
-// The finest grain, from 2^-10 on, with which a float's 24 bits still reach across the world.
+// Returns the finest grain, at least 2^-10, with which the 24 bits of a float cover the world.
 double grainFor(double side) {
   const int bits = std::min(10, 24 - std::ilogb(side) - 1);
   return std::ldexp(1.0, -bits);
 }
 
-// Distinct cells, at random.
+// Puts the bodies on distinct random cells.
 void scatter(std::vector<Body>& bodies, std::uint64_t side, SplitMix64& random) {
   std::vector<bool> taken(side * side);
   for (Body& body : bodies) {
@@ -61,7 +61,7 @@ void scatter(std::vector<Body>& bodies, std::uint64_t side, SplitMix64& random) 
   }
 }
 
-// The points of a lattice, in random order.
+// Puts the bodies on the points of a lattice, in random order.
 void spread(std::vector<Body>& bodies, std::uint64_t side, SplitMix64& random) {
   const auto rows = static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(bodies.size()))));
   const std::uint64_t pitch = side / rows;
@@ -80,7 +80,7 @@ void spread(std::vector<Body>& bodies, std::uint64_t side, SplitMix64& random) {
 
 std::string nameOf(Mix mix) {
   constexpr const char* kNames[] = {"hard",   "mixed",       "sprites",
-                                    "moving", "moving_hard", "rest"};  // in its order
+                                    "moving", "moving_hard", "rest"};  // in the enum's order
   return kNames[static_cast<int>(mix)];
 }
 

@@ -1,15 +1,15 @@
-// The everyday workload: n boxes in a square world, each with a place, a velocity and a solidness. The same
-// arguments give the same scene everywhere.
+// The everyday workload: n boxes in a square world, each with a position, a velocity and a solidness. Equal
+// arguments give an equal scene everywhere.
 //
 // Boxes start on distinct whole cells, in no particular order, and fly in random directions at up to one cell
 // per tick. All numbers are multiples of a grain so coarse that float, double and fixed point hold every
-// position exactly; and each velocity is one that survives the book's float arithmetic (length × normalised
-// vector). So engines of all number types must send exactly the same events.
+// position exactly; and each velocity survives the book's float arithmetic (length × normalised vector). So
+// engines of all number types must send exactly equal events.
 //
-// What happens then, in every engine: those with a velocity move one after another in id order. A solid mover
-// meets all solid boxes that its own would touch at its target (edges included); each pair is reported to
-// both, the mover first, pairs in id order. HARD on HARD blocks: the mover stays and reverses. A target
-// outside [0, side) on an axis: the mover stays and reverses on that axis. Else it moves.
+// Every engine then does this: boxes with a velocity move one after another in id order. A solid mover meets
+// all solid boxes that its own would touch at its target (edges included); each pair is reported to both, the
+// mover first, pairs in id order. HARD on HARD blocks: the mover stays and reverses. If the target is outside
+// [0, side) on an axis, the mover stays and reverses on that axis. Otherwise it moves.
 #pragma once
 
 #include <string>
@@ -22,19 +22,19 @@ namespace bench {
 enum class Mix {
   HARD_ONLY,    ///< HARD, 1×1
   MIXED,        ///< 60 % HARD, 30 % SOFT, 10 % SPECTRAL, 1×1
-  SPRITES,      ///< the same kinds, 1 to 12 wide and 1 to 4 high
-  MOVING,       ///< SPECTRAL: motion and nothing else
-  MOVING_HARD,  ///< HARD, 1×1, far apart: nobody meets anybody for kLonelyTicks
+  SPRITES,      ///< kinds as in MIXED, 1 to 12 wide and 1 to 4 high
+  MOVING,       ///< SPECTRAL: only motion
+  MOVING_HARD,  ///< HARD, 1×1, far apart: no collisions for kLonelyTicks
   REST,         ///< HARD, 1×1, 99 % without velocity
 };
 
-/// For so many ticks nobody meets anybody in MOVING_HARD.
+/// Number of ticks without collisions in MOVING_HARD.
 inline constexpr int kLonelyTicks = 48;
 
-/// As in the key `mix`.
+/// Returns the value of the key `mix`.
 std::string nameOf(Mix mix);
 
-/// A box as it starts. Lengths are in cells, velocities in cells per tick, the position is the box's centre.
+/// A box at its start. Lengths are in cells, velocities in cells per tick; the position is the box's centre.
 struct Body {
   double x = 0;
   double y = 0;
@@ -50,11 +50,11 @@ struct Body {
 
 struct Scene {
   Mix mix = Mix::HARD_ONLY;
-  double density = 0;  ///< covered area per world area; of 1×1 boxes, boxes per cell
-  double side = 0;     ///< of the world, a whole number of cells
+  double density = 0;  ///< covered area per world area; for 1×1 boxes, boxes per cell
+  double side = 0;     ///< width and height of the world, a whole number of cells
   std::vector<Body> bodies;
 
-  /// `n` boxes.
+  /// Makes a scene of `n` boxes.
   Scene(Mix its_mix, int n, double its_density);
 
   int count() const { return static_cast<int>(bodies.size()); }

@@ -1,11 +1,11 @@
-// screen: how much of what a player sees is not what the server sees at the same instant, and what that takes
-// of the line and the processor: error against run time, for the network.
+// screen: share of a player's picture that differs from the server's at an equal instant, and the cost in
+// bytes and processor time, for several network conditions.
 //
 // The 1000-object world in an 80 by 24 view, over a line in virtual time. At 1000 random instants the
 // client's picture is compared with the truth of the server's newest tick, over the cells that are not blank
-// in one of them. `floor_percent`: the same for a client that knows the exact state of the newest tick that
-// could have arrived, and goes on from there. `still_percent`: for one that shows that tick as it was.
-// `ahead`: does the picture make up for the way of the snapshots?
+// in one of them. `floor_percent`: for a client that knows the exact state of the newest tick that could have
+// arrived, and extrapolates from there. `still_percent`: for one that shows that tick unchanged. `ahead`: 1
+// if the picture is drawn ahead by the snapshots' delay.
 #include <algorithm>
 #include <chrono>
 #include <deque>
@@ -26,7 +26,7 @@ namespace {
 using namespace naiad;
 using namespace std::chrono_literals;
 
-/// Cells that differ, of those that are not blank in both.
+/// Share of different cells, among those that are not blank in both pictures.
 struct Share {
   long long wrong = 0;
   long long all = 0;
@@ -65,10 +65,10 @@ void measure(const Case& c, bool quick) {
   for (int i = 0; i < kPlayers; ++i) {
     clients.push_back(std::make_unique<LinkedClient>(clock, link, static_cast<std::uint64_t>(i), c.resend));
   }
-  // Of the newest tick that can have arrived, and of all since then.
+  // Number of ticks whose pictures are kept: the newest that can have arrived, and all since.
   const auto kept = static_cast<std::size_t>(link.delay / kTickLength) + 2;
   std::vector<std::deque<df::Canvas>> truths(kPlayers);
-  // Those who hear of everything at once, and what they knew.
+  // Ideal clients that receive everything at once, and their past replicas.
   std::vector<std::unique_ptr<LinkedClient>> ideals;
   std::vector<std::deque<Replica>> known(kPlayers);
   for (int i = 0; i < kPlayers; ++i) {
@@ -92,7 +92,7 @@ void measure(const Case& c, bool quick) {
       truths[p].push_front(scene.truth(facts[p].id));
       if (truths[p].size() > kept) truths[p].pop_back();
     }
-    // An instant between this tick and the next.
+    // A random instant between this tick and the next.
     const std::chrono::microseconds offset(random.below(static_cast<std::uint64_t>(kTickLength.count())));
     clock.advanceBy(offset);
     for (std::size_t p = 0; p < facts.size(); ++p) {

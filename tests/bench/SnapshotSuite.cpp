@@ -1,5 +1,5 @@
-// snapshot: what a client of the 1000-object world costs on the line, and the processor to encode, over a
-// link of 100 ms there and back in virtual time that loses nothing.
+// snapshot: bytes per client of the 1000-object world and the processor time to encode them, over a lossless
+// link of 100 ms round trip in virtual time.
 #include <chrono>
 #include <map>
 #include <memory>
@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr double kSecondsPerTick = 1.0 / 30;
 
-/// A client, and how far what it showed was from the truth, tick by tick.
+/// A client, and the errors of its pictures, tick by tick.
 class Client {
  public:
   Client(VirtualClock& clock, const LinkConditions& conditions, std::uint64_t seed, Resend resend)
@@ -40,7 +40,7 @@ class Client {
   long long wrong() const { return m_wrong; }
 
  private:
-  // Between snapshots the picture runs on: each tick before `tick` was on the screen as the replica has it
+  // The client extrapolates between snapshots, so each tick before `tick` was shown as its replica has it
   // now.
   void compareUntil(std::uint32_t tick) {
     auto it = m_truths.begin();
@@ -51,14 +51,14 @@ class Client {
   }
 
   LinkedClient m_linked;
-  std::map<std::uint32_t, df::Canvas> m_truths;  ///< that were not compared yet
+  std::map<std::uint32_t, df::Canvas> m_truths;  ///< not compared yet
   long long m_wrong = 0;
 };
 
 struct Scene {
   const char* world;
   BusyScene::Kind kind;
-  bool all;  ///< the view is the world
+  bool all;  ///< the view is the whole world
   double loss;
   Resend resend;
   const char* policy;
@@ -78,7 +78,7 @@ void measure(const Scene& scene, bool quick) {
     clients.push_back(std::make_unique<Client>(clock, link, static_cast<std::uint64_t>(i), scene.resend));
   }
   std::chrono::steady_clock::duration publish{};
-  // A minute to settle: coarse models of paths that never end have been replaced by then.
+  // A minute to settle, after which coarse motion models of endless paths have been replaced.
   const int warm_up = 60 * 30;
   for (int i = 0; i < warm_up + seconds * 30; ++i) {
     if (i == warm_up) {

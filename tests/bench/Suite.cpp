@@ -9,13 +9,13 @@
 namespace bench {
 namespace {
 
-// Made by the first suite that registers, whichever that is.
+// Created by whichever suite registers first.
 std::map<std::string, const Suite*>& registry() {
   static std::map<std::string, const Suite*> s_suites;
   return s_suites;
 }
 
-/// "suite key=value …", as a Line.
+/// Prints "suite key=value …" as a Line.
 void printLine(const std::string& text) {
   std::istringstream words(text);
   std::string suite;

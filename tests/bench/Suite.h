@@ -1,8 +1,8 @@
-// A family of measurements with a name. A suite is one source file that registers itself:
+// A named group of measurements. A suite is a source file that registers itself:
 //
 //     const Suite suite("sweep", "swept moves against Box2D's", [](const Options& options) { … });
 //
-// It prints its measurements as Lines and keeps stdout to itself.
+// It prints its measurements as Lines and nothing else on stdout.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 namespace bench {
 
 struct Options {
-  bool quick = false;  ///< small worlds and short measurements: does it work, rather than how fast is it
+  bool quick = false;  ///< small worlds and short measurements, to test that the suite works
 };
 
 class Suite {
@@ -25,7 +25,7 @@ class Suite {
   const std::string& summary() const { return m_summary; }
   void run(const Options& options) const { m_run(options); }
 
-  /// All there are, by name.
+  /// Returns all suites by name.
   static const std::map<std::string, const Suite*>& all();
 
  private:
@@ -33,15 +33,15 @@ class Suite {
   Run m_run;
 };
 
-/// What a variable of the environment lists, separated by commas; `all` if it is not set.
+/// Returns the comma-separated names in an environment variable; `all` if it is not set.
 std::vector<std::string> namesFrom(const char* variable, const std::vector<std::string>& all);
 
 struct Ending {
   int code = 0;         ///< exit code
-  bool silent = false;  ///< it has printed nothing
+  bool silent = false;  ///< the program printed nothing
 };
 /// Runs a program of the build that prints `suite key=value …`, and prints that as Lines. A `failed` other
-/// than 0 makes naiad_bench fail, too.
+/// than 0 makes naiad_bench exit with an error, too.
 Ending printLinesOf(const std::string& program, const std::vector<std::string>& arguments);
 
 }  // namespace bench

@@ -1,9 +1,9 @@
-// What it costs to look along a way for the first obstacle, against Box2D's ray cast, and whether the answer
-// is right: every cast is compared with the exact one.
+// Cost of finding the first obstacle on a way, compared with Box2D's ray cast. Every answer is compared with
+// the exact one.
 //
-// A 1×1 box is put somewhere (setPosition) and asked whom it would meet `speed` cells further on
-// (WM.firstContact). kind=move: it moves there (WM.moveObject), swept, hears, and stops. Box2D only answers
-// the question; its tree need not be told of the mover.
+// A 1×1 box is put somewhere (setPosition) and asked for the first obstacle within `speed` cells
+// (WM.firstContact). kind=move: it moves there (WM.moveObject), swept, receives events, and stops. Box2D only
+// answers the question; its tree does not contain the mover.
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +23,7 @@
 namespace bench {
 namespace {
 
-/// Notes whom it has met.
+/// Records the first Object that it meets.
 class Runner : public df::Object {
  public:
   int eventHandler(const df::Event* p_e) override {
@@ -43,7 +43,7 @@ df::FixedVector exactly(df::Vector v) {
   return df::toFixed(v).value_or(df::FixedVector{});
 }
 
-/// A field of obstacles in this project's engine, and the one that is sent through it.
+/// A field of obstacles in this project's engine, and the runner that is sent through it.
 class Course {
  public:
   explicit Course(const Field& field) : m_scope(m_world) {
@@ -60,22 +60,22 @@ class Course {
   }
   ~Course() { m_world.shutDown(); }
 
-  /// Put the runner where the cast begins.
+  /// Puts the runner at the start of the cast.
   void place(const Cast& cast) { m_p_runner->setPosition(df::Vector::fromFixed(cast.from)); }
-  /// Place it, and ask whom it would meet (WM.firstContact).
+  /// Places the runner and returns its first contact (WM.firstContact).
   Answer ask(const Cast& cast) {
     place(cast);
     const df::Contact contact = WM.firstContact(m_p_runner, df::Vector::fromFixed(cast.to));
     return {numberOf(contact.p_object), contact.time, exactly(contact.position)};
   }
-  /// Place it, and have it move (WM.moveObject), swept: whom it met and where it stopped. When, nobody is
-  /// told.
+  /// Places the runner and moves it (WM.moveObject), swept. Returns the Object that it met and where it
+  /// stopped, but no time, because moves do not report it.
   Answer move(const Cast& cast) {
     place(cast);
     WM.moveObject(m_p_runner, df::Vector::fromFixed(cast.to));
     return {numberOf(m_p_runner->takeMet()), 0, exactly(m_p_runner->getPosition())};
   }
-  /// Would the book's test, at the end of the way, find somebody?
+  /// True if the book's test at the end of the way finds a collision.
   bool isBlockedAtEnd(const Cast& cast) {
     place(cast);
     return WM.isCollision(m_p_runner, df::Vector::fromFixed(cast.to));
@@ -88,8 +88,8 @@ class Course {
 
   df::World m_world;
   df::World::Scope m_scope;
-  int m_first_id = 0;  // of the obstacles, which are numbered from there
-  Runner* m_p_runner;  // the world's
+  int m_first_id = 0;  // id of the first obstacle; the others follow
+  Runner* m_p_runner;  // owned by the world
 };
 
 enum class Kind { FIRST, MOVE };
@@ -101,7 +101,7 @@ double nanosecondsPerCast(const std::vector<Cast>& casts, Do run) {
   return (cpuNanoseconds() - begin) / static_cast<double>(casts.size());
 }
 
-// Everything that has been asked in one case, and how long it took.
+// All answers and times of one case.
 struct Result {
   std::vector<Answer> ours;
   std::vector<Answer> box2d;
@@ -115,7 +115,7 @@ Result run(Kind kind, Course& course, const Box2dCasts& box2d, const std::vector
   Result result;
   result.ours.resize(casts.size());
   result.box2d.resize(casts.size());
-  for (int i = 0; i <= repetitions; ++i) {  // the first one is to warm up
+  for (int i = 0; i <= repetitions; ++i) {  // the first repetition is a warm-up
     const double ns = nanosecondsPerCast(casts, [&](std::size_t c) {
       result.ours[c] = kind == Kind::FIRST ? course.ask(casts[c]) : course.move(casts[c]);
     });

@@ -1,5 +1,5 @@
-// What the handlers of a world have counted. Every engine's handlers do this and nothing more per event, and
-// engines that send the same events in the same order end with the same checksum.
+// Counters of a world's handlers. The handlers of every engine do only this per event. Engines that send
+// equal events in equal order end with equal checksums.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 namespace bench {
 
 struct Tally {
-  std::uint64_t tick = 0;      ///< the tick that runs, from 1
-  std::uint64_t events = 0;    ///< collision events that were received
-  std::uint64_t blocked = 0;   ///< moves that a HARD object refused
-  std::uint64_t checksum = 0;  ///< of the receivers, in the order they were told
+  std::uint64_t tick = 0;      ///< present tick, from 1
+  std::uint64_t events = 0;    ///< collision events received
+  std::uint64_t blocked = 0;   ///< moves blocked by a HARD object
+  std::uint64_t checksum = 0;  ///< over the receivers, in order of their events
 
   void event(std::uint64_t receiver) {
     ++events;

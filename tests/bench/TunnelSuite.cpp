@@ -1,6 +1,6 @@
-// Does anything pass through anything? A million shots at all kinds of targets, in random directions, at
-// speeds from a tenth of a cell per second to a million, and some of a million per tick. Range.h says what
-// counts.
+// Tests that nothing passes through anything: a million shots at all kinds of targets, in random directions,
+// at speeds from a tenth of a cell to a million cells per second, and some of a million per tick. Range.h
+// defines what counts.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,21 +19,21 @@ using naiad::SplitMix64;
 
 enum class Shape {
   UNIT,    ///< 1×1
-  SPRITE,  ///< 3×2 to 12×4, all of it set
-  GLYPHS,  ///< the same sizes, characters with holes, precise
+  SPRITE,  ///< 3×2 to 12×4, all cells set
+  GLYPHS,  ///< 3×2 to 12×4 characters with holes, precise
   THIN,    ///< 0.01×8 or 8×0.01
   NEEDLE,  ///< 0.01×0.01
   WALL,    ///< 10,000×1 or 1×10,000
 };
 
 enum class Motion {
-  REST,     ///< the younger one flies at the older one, which is at rest
-  FIRES,    ///< the older one flies, the younger one is at rest
-  BOTH,     ///< both fly, in any direction
-  HEAD_ON,  ///< both fly along an axis, towards each other, hardly aside
+  REST,     ///< the older one rests, the younger one flies at it
+  FIRES,    ///< the older one flies, the younger one rests
+  BOTH,     ///< both fly in any direction
+  HEAD_ON,  ///< both fly along an axis towards each other, almost straight
 };
 
-/// A pair of kinds: the older one takes the first turn.
+/// A pair of kinds. The older Object takes the first turn.
 struct Pairing {
   const char* name;
   Shape older;
@@ -41,12 +41,12 @@ struct Pairing {
   Motion motion = Motion::REST;
   Make make_older{};
   Make make_younger{};
-  int ticks = 1;     ///< of a shot, which then begins so far away
-  double speed = 0;  ///< cells per tick, if not at random
+  int ticks = 1;     ///< ticks of a shot, which sets its initial distance
+  double speed = 0;  ///< cells per tick; 0: random
 };
 
 constexpr double kTicksPerSecond = 30;
-constexpr double kFastPart = 0.1;  // of the shots that are faster than a million cells per second
+constexpr double kFastPart = 0.1;  // share of shots faster than a million cells per second
 constexpr double kFieldSide = 1000;
 
 df::Fixed fixed(double cells) {
@@ -84,8 +84,8 @@ Flier shape(Shape shape, SplitMix64& random) {
   return flier;
 }
 
-// How far a shot goes in a tick. Positions are read as doubles, so it must not go on for ticks at the highest
-// speeds.
+// Returns the distance of a shot per tick. Positions are read as doubles, so shots at the highest speeds last
+// only one tick.
 double drawSpeed(const Pairing& pairing, SplitMix64& random) {
   if (pairing.speed > 0) return pairing.speed;
   const double usual = 1e6 / kTicksPerSecond;
@@ -112,7 +112,7 @@ void chooseVelocities(const Pairing& pairing, Flier& older, Flier& younger, Spli
   for (Flier* p_flier : {&older, &younger}) std::swap(p_flier->velocity.x, p_flier->velocity.y);
 }
 
-// A place of the younger one relative to the older one at which they touch: mostly just so.
+// Returns a position of the younger one relative to the older one at which they touch, mostly just barely.
 df::FixedVector drawContact(const Flier& older, const Flier& younger, SplitMix64& random) {
   const double reach_x = df::toCells(older.box.size.x + younger.box.size.x) / 2;
   const double reach_y = df::toCells(older.box.size.y + younger.box.size.y) / 2;
@@ -127,8 +127,8 @@ df::FixedVector times(df::FixedVector v, double factor) {
   return {fixed(df::toCells(v.x) * factor), fixed(df::toCells(v.y) * factor)};
 }
 
-/// Draw a shot: set the two up so that they are at a contact at some moment - of the first turn, of the
-/// second, or of a flight in which both fly at the same time - and do not touch at the start.
+/// Draws a shot: places the two so that they touch at a moment of the first turn, of the second, or of a
+/// flight in which both move at once, and do not touch at the start.
 void aim(const Pairing& pairing, Flier& older, Flier& younger, SplitMix64& random) {
   do {
     older = shape(pairing.older, random);

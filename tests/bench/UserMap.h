@@ -1,4 +1,4 @@
-// What a user may be in a user namespace of their own.
+// User and group ids in a user namespace.
 #pragma once
 
 #include <sys/types.h>
@@ -7,11 +7,11 @@
 
 namespace bench {
 
-/// In a new user namespace `user` and `group` are what they were outside, so that files keep their owner.
-/// False if the system refuses it.
+/// Maps `user` and `group` in a new user namespace to their ids outside, so that files keep their owner.
+/// False if the system refuses.
 bool mapUser(uid_t user, gid_t group);
 
-/// False unless the whole text was written to the file, which exists.
+/// Writes the text to an existing file. False unless all was written.
 bool writeText(const std::string& file, const std::string& text);
 
 }  // namespace bench

@@ -1,4 +1,4 @@
-// What an object costs per tick in the everyday workload (Scene.h), against Chipmunk, Box2D and the book's
+// Cost of an object per tick in the everyday workload (Scene.h), compared with Chipmunk, Box2D and the book's
 // loop.
 #include <algorithm>
 #include <string>
@@ -15,8 +15,8 @@
 namespace bench {
 namespace {
 
-constexpr int kLarge = 1'000'000;  // here only one of each library takes part
-// Where a whole tick of a peer would take long, it moves only some of its objects.
+constexpr int kLarge = 1'000'000;  // at this size, only one engine of each library
+// If a peer's whole tick would take long, it moves only some of its objects.
 constexpr int kWholeTextbook = 10'000;
 constexpr int kLargestTextbook = 100'000;
 constexpr int kTextbookTurns = 200;
@@ -33,7 +33,7 @@ struct Case {
 
 void addTextbook(Contest& contest, const Scene& scene) {
   const int n = scene.count();
-  const bool loops = scene.mix != Mix::MOVING;  // nobody else is looked at where nobody is solid
+  const bool loops = scene.mix != Mix::MOVING;  // without solid objects, moves do not look at others
   if (scene.mix == Mix::SPRITES || scene.mix == Mix::MOVING_HARD || scene.mix == Mix::REST) return;
   if (loops && n > kLargestTextbook) return;
   const int turns = loops && n > kWholeTextbook ? kTextbookTurns : n;
@@ -68,7 +68,7 @@ void addChipmunk(Line& line, const Contest& contest, const ChipmunkTuning& tunin
   line.add("chipmunk_cell", tuning.cell).add("chipmunk_table_per_object", tuning.table_per_object);
 }
 
-// Of all turns: how they were taken. (Looks of the broad phase are fewer: who flies does not look.)
+// Adds the share of turns taken on each path. (The broad phase has fewer looks, because flights need none.)
 void addPaths(Line& line, const df::MoverStats& paths) {
   const auto turns = static_cast<double>(paths.flown + paths.walked + paths.met + paths.unheard +
                                          paths.deferred + paths.special);
@@ -109,7 +109,7 @@ void measure(const Case& c, const Options& options) {
   }
   Contest contest(rules);
   auto p_ours = std::make_unique<NaiadEngine>(scene);
-  const df::MoverStats& paths = p_ours->moverStats();  // the contest keeps what it is given
+  const df::MoverStats& paths = p_ours->moverStats();  // remains valid because the contest keeps the engine
   contest.add("naiad", std::move(p_ours));
   ChipmunkTuning tuning;
   if (c.isMotionOnly()) {

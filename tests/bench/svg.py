@@ -1,4 +1,4 @@
-"""What every picture of this project is drawn with: logarithmic axes, text and lines as SVG."""
+"""Elements of the project's pictures: logarithmic axes, text and lines as SVG."""
 
 import html
 import math
@@ -22,7 +22,7 @@ class Axis:
 
 
 def duration(ns):
-    """Three digits and a unit."""
+    """Formats a duration with three digits and a unit."""
     for unit, size in (("ms", 1e6), ("µs", 1e3)):
         if ns >= size:
             return f"{ns / size:.3g} {unit}"
@@ -30,13 +30,13 @@ def duration(ns):
 
 
 def number(value):
-    """A coordinate: a tenth of a pixel, without a zero behind the point."""
+    """Formats a coordinate to a tenth of a pixel, without a trailing zero."""
     digits = f"{value:.1f}".removesuffix(".0")
     return "0" if digits == "-0" else digits
 
 
 def text(x, y, words, size=13, colour=INK, anchor="start", weight="normal", turn=None):
-    """What is as the page has it (size 13, INK, from the left) is not repeated."""
+    """Returns a text element. Attributes that equal the page's defaults (size 13, INK, anchored left) are left out."""
     more = "".join(f' {name}="{value}"' for name, value, usual in
                    (("font-size", size, 13), ("fill", colour, INK), ("text-anchor", anchor, "start"),
                     ("font-weight", weight, "normal")) if value != usual)
@@ -58,7 +58,7 @@ def polyline(points, colour, width):
 
 
 def page(width, height, title, parts):
-    """The whole picture on white."""
+    """Returns the whole picture on a white background."""
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
            f'viewBox="0 0 {width} {height}" font-family="system-ui, -apple-system, Segoe UI, Helvetica, Arial, '
            f'sans-serif" font-size="13" fill="{INK}" role="img">',

@@ -1,4 +1,4 @@
-// A channel of datagrams that leads nowhere: the target plays the other end.
+// A datagram channel without a network: the target plays the other end.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace naiad::fuzz {
 
-/// Where its packets come from. Must outlive the channel.
+/// The source of its packets. Must outlive the channel.
 struct FakeAir {
   std::function<void(std::string_view packet)> on_packet;
 };

@@ -11,9 +11,9 @@
 namespace naiad::fuzz {
 namespace {
 
-/// The numbers of bits behind the point, by code.
+/// Number of fractional bits, by code.
 constexpr std::array<int, 16> kFractions = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 16, 22, 32};
-/// What no number that is written needs to exceed: enough for every limit, and nothing overflows.
+/// Upper limit of written numbers: exceeds every limit of the protocol without overflow.
 constexpr std::uint64_t kHuge = std::uint64_t{1} << 62;
 constexpr std::int64_t kMaxCells = 1'000'000'000;
 constexpr std::int64_t kMaxBoxCells = 1'000'000;
@@ -33,8 +33,8 @@ void HostileWriter::begin() {
   m_good_before = bad >> kKindBits;
 }
 
-/// One byte gives a small number, or a power of two or one less: that is where limits are. Always one byte,
-/// so that nothing behind it moves when it becomes another one.
+/// Makes a small number, or 2^n or 2^n − 1, near which limits are. Uses exactly one byte, so that a change of
+/// it does not move the fields after it.
 std::uint64_t HostileWriter::any() {
   const std::uint8_t head = m_script.byte();
   if (head < 0x80) return head;
@@ -70,7 +70,7 @@ std::uint64_t HostileWriter::golomb(Kind kind, int order, std::uint64_t most, st
   return value;
 }
 
-/// From -most to most.
+/// Returns a number from -most to most.
 std::int64_t HostileWriter::centered(Kind kind, std::int64_t most) {
   const auto zigzag = std::min(choose(kind, 2 * static_cast<std::uint64_t>(most)), kHuge >> kGlyphUnitBits);
   return static_cast<std::int64_t>(zigzag >> 1) ^ -static_cast<std::int64_t>(zigzag & 1);
@@ -102,7 +102,7 @@ void HostileWriter::fraction() {
   field(bits);
 }
 
-/// Components of a whole number of cells in this range, and a fraction.
+/// Writes components of a whole number of cells in this range, and a fraction.
 void HostileWriter::vector(std::int64_t least, std::int64_t most) {
   m_out.flag(false);
   for (int i = 0; i < 2; ++i) {
@@ -113,8 +113,8 @@ void HostileWriter::vector(std::int64_t least, std::int64_t most) {
   fraction();
 }
 
-/// As wide as a number of steps can be that is no faster than allowed: 26 bits before the point. Beyond 64 it
-/// is none that fits a type.
+/// Writes steps of up to 26 whole bits, the width that the speed limit allows. In the bad field the width may
+/// exceed 64 bits, which no type can hold.
 void HostileWriter::steps() {
   const int bits = kFractions[field(4)];
   const std::uint64_t width =
@@ -133,7 +133,7 @@ void HostileWriter::motion() {
   if (kind == 2) steps();
 }
 
-/// Narrow ones, or Latin letters beyond them.
+/// Writes an ASCII character, or a Latin letter beyond ASCII.
 void HostileWriter::character() {
   const bool wide = flag();
   const std::uint64_t first = wide ? 0xAE : 0x20;
@@ -142,12 +142,12 @@ void HostileWriter::character() {
 }
 
 void HostileWriter::appearance(bool whole) {
-  constexpr std::uint64_t kEnough = 2 * kMaxGlyphs;  // one more than the limit is what must be tried
+  constexpr std::uint64_t kEnough = 2 * kMaxGlyphs;  // enough to test one more than the limit
   const std::uint64_t glyphs = golomb(Kind::kGlyphs, 3, 15, kMaxGlyphs);
   constexpr std::int64_t kStep = 1 << kGlyphUnitBits;
   const std::int64_t unit = whole ? kStep : 1;
   const int order = whole ? 1 : 8;
-  std::int64_t dx = -kStep;  // half a cell less than they are, maybe
+  std::int64_t dx = -kStep;  // without the half cell that a look may add
   std::int64_t dy = 0;
   for (std::uint64_t i = 0; i < std::min(glyphs, kEnough); ++i) {
     const bool at_edge = dx + 2 * kStep > kMaxGlyphOffset;
@@ -171,7 +171,7 @@ void HostileWriter::appearance(bool whole) {
   }
 }
 
-/// How many appearances it says it has.
+/// Writes a sequence and returns the number of appearances that it claims.
 std::uint64_t HostileWriter::sequence() {
   const bool one = flag();
   const std::uint64_t frames = one ? 1 : 2 + golomb(Kind::kFrames, 3, 3, kMaxFrames - 2);
@@ -247,7 +247,7 @@ void HostileWriter::view() {
   field(2);
 }
 
-/// As the prelude has them, so that what is counted from them later is where it should be.
+/// Writes the prelude's origin, so that later positions relative to it are where they should be.
 void HostileWriter::origin() {
   const std::uint64_t slot = 1 + choose(Kind::kSlot, kOriginSlots - 1);
   const Origin& origin = preludeOrigin(slot);
@@ -268,7 +268,7 @@ void HostileWriter::text() {
   for (std::uint64_t i = 0; i < std::min<std::uint64_t>(length, 2 * kMaxViewWidth); ++i) character();
 }
 
-/// Without controls: these have a target of their own.
+/// Writes no controls, which have their own target.
 void HostileWriter::extras() {
   if (flag()) {
     const bool has_world = flag();
@@ -306,7 +306,7 @@ void HostileWriter::object() {
   if ((parts & kLife) != 0) {
     field(2);
     auto order = static_cast<std::int64_t>(std::min(choose(Kind::kOrder, kMaxOrder), kHuge));
-    if (order > kMaxOrder && order % 2 != 0) order = kMaxOrder - order;  // below zero
+    if (order > kMaxOrder && order % 2 != 0) order = kMaxOrder - order;  // negative
     m_out.signedGolomb(order - static_cast<std::int64_t>(preludeOrigin(m_slot).order), 10);
   }
   if ((parts & kMotion) != 0) motion();

@@ -1,9 +1,9 @@
-// Snapshots and updates as only a hostile peer writes them: the fields in the order of the protocol, all of
-// them in their ranges but one, which may hold any number.
+// Snapshots and updates as only a hostile peer writes them: the fields are in the protocol's order and in
+// range, except for one, which may have any value.
 //
-// One bad field at a time, since a decoder refuses the whole for the first one that it notices: a check that
-// is missing shows only where nothing else is wrong. And a byte of the script for a field, so that what the
-// fuzzer changes is one number and not the place of all bits behind it.
+// Only one field is bad, because a decoder rejects the whole at the first problem, so a missing check shows
+// only if all else is right. Each field takes one byte of the script, so that a change by the fuzzer alters
+// one number and does not shift the bits after it.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,16 @@ namespace naiad::fuzz {
 
 class HostileWriter {
  public:
-  /// Of each snapshot or update the first byte of the script says which field is the bad one: of which kind,
-  /// and which of them. If there is none such, all is in order.
+  /// The first byte of the script for each snapshot or update selects the bad field by its kind and index. If
+  /// there is no such field, all are good.
   explicit HostileWriter(Script& script) : m_script(script) {}
 
-  /// Of the given number and tick, in epoch 0, for a client that knows the world of the prelude (Prelude.h).
+  /// Writes a snapshot in epoch 0 for a client that knows the prelude's world (Prelude.h).
   std::string snapshot(std::uint32_t number, std::uint32_t tick);
   std::string update();
 
  private:
-  /// Numbers that have a limit. What may be anything cannot be bad.
+  /// Kinds of numbers with a limit. Numbers without a limit cannot be bad.
   enum class Kind {
     kCell,
     kVector,
@@ -63,7 +63,7 @@ class HostileWriter {
 
   void begin();
   std::uint64_t any();
-  /// At most `most`. In the bad field: any number, and often one that is just beyond `limit`.
+  /// Returns at most `most`. In the bad field: any number, often one just beyond `limit`.
   std::uint64_t choose(Kind kind, std::uint64_t most, std::uint64_t limit);
   std::uint64_t choose(Kind kind, std::uint64_t most) { return choose(kind, most, most); }
   std::uint64_t field(int bits);
@@ -98,7 +98,7 @@ class HostileWriter {
   Script& m_script;
   BitWriter m_out;
   Kind m_bad{};
-  int m_good_before = 0;  ///< fields of the bad one's kind that are good, still
+  int m_good_before = 0;  ///< good fields of this kind before the bad one
   std::uint64_t m_slot = 0;
 };
 

@@ -1,5 +1,4 @@
-// A small world that a replica may know before the fuzzer's snapshots come, so that they can name what is in
-// it.
+// A small world that a replica may know before the fuzzer's snapshots arrive, so that they can refer to it.
 #pragma once
 
 #include <array>
@@ -12,12 +11,12 @@ namespace naiad::fuzz {
 inline constexpr std::uint32_t kPreludeTick = 1000;
 inline constexpr std::uint32_t kPreludeNames = 4;  ///< sequences 0 … 3 have names
 
-/// How many appearances the sequence with this name has; others than the prelude's: 1.
+/// Returns how many appearances the sequence with this name has; 1 if the prelude does not define it.
 inline std::uint64_t preludeFrames(std::uint64_t name) {
   return name == 2 || name == 3 ? name : 1;
 }
 
-/// What the prelude has in an origin slot.
+/// Returns the prelude's origin in this slot.
 inline const Origin& preludeOrigin(std::uint64_t slot) {
   static const std::array<Origin, kOriginSlots + 1> kOrigins = [] {
     std::array<Origin, kOriginSlots + 1> origins;
@@ -28,8 +27,8 @@ inline const Origin& preludeOrigin(std::uint64_t slot) {
   return kOrigins[slot % kOrigins.size()];
 }
 
-/// The snapshot (number 1, epoch 0) that tells it: world, a view that follows object 0, the three origins, a
-/// text, the names, and six objects.
+/// Returns the snapshot (number 1, epoch 0) with this world: its size, a view that follows object 0, the
+/// three origins, a text, the names, and six objects.
 inline std::string preludeSnapshot() {
   SnapshotWriter writer;
   writer.beginSnapshot({1, kPreludeTick, 0, true, false, 0, 0}, 0, {});

@@ -1,5 +1,4 @@
-// Runs a target over the files (and the files of the directories) on its command line, once each, without
-// libFuzzer.
+// Runs a target once on each file on its command line, and on the files in each directory, without libFuzzer.
 #include <filesystem>
 #include <fstream>
 #include <iterator>

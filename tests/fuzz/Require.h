@@ -1,4 +1,4 @@
-// What must hold whatever the input: a target that finds it broken crashes, and libFuzzer keeps the input.
+// Conditions for every input. A target that finds one broken crashes, and libFuzzer keeps the input.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,4 @@
-// The fuzzer's bytes, read from the front as numbers and pieces: what a target is to do, one step after
-// another.
+// Reads the fuzzer's bytes from the front as numbers and pieces. They tell a target what to do step by step.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +16,7 @@ class Script {
   Script(const std::uint8_t* data, std::size_t size) : m_left(reinterpret_cast<const char*>(data), size) {}
 
   bool atEnd() const { return m_left.empty(); }
-  /// Little-endian; missing bytes are 0.
+  /// Returns the next number, little-endian; missing bytes count as 0.
   template <std::unsigned_integral Number>
   Number number() {
     Number value = 0;
@@ -26,10 +25,10 @@ class Script {
     return value;
   }
   std::uint8_t byte() { return number<std::uint8_t>(); }
-  /// In 0 … n − 1.
+  /// Returns a number in 0 … n − 1.
   std::size_t below(std::size_t n) { return byte() % n; }
   bool flag() { return (byte() & 1) != 0; }
-  /// At most `count` bytes, in memory of just that size, so that the sanitizer sees who reads beyond.
+  /// Returns at most `count` bytes.
   std::string bytes(std::size_t count) {
     const std::string piece(m_left.substr(0, count));
     m_left.remove_prefix(piece.size());
@@ -41,8 +40,8 @@ class Script {
   std::string_view m_left;
 };
 
-/// The same bytes in an allocation of exactly their size (a std::string keeps short ones within itself, and a
-/// zero behind all).
+/// A copy of the bytes in an allocation of exactly their size, so that the sanitizer detects reads beyond it.
+/// (A std::string keeps short texts in itself and has a zero at the end.)
 class Exactly {
  public:
   explicit Exactly(std::string_view bytes) : m_size(bytes.size()), m_bytes(new char[m_size]) {
@@ -58,7 +57,7 @@ class Exactly {
   char* m_bytes;
 };
 
-/// Gives the stream to `take` in pieces: all at once (0), byte by byte (1), or of random sizes below `how`.
+/// Passes the stream to `take` in pieces: all at once (0), byte by byte (1), or of random sizes below `how`.
 template <class Take>
 void forEachPiece(std::string_view stream, std::uint8_t how, Take take) {
   SplitMix64 random(how);
@@ -72,5 +71,5 @@ void forEachPiece(std::string_view stream, std::uint8_t how, Take take) {
 
 }  // namespace naiad::fuzz
 
-/// What libFuzzer calls.
+/// The function that libFuzzer calls.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

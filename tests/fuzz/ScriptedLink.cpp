@@ -86,7 +86,7 @@ void ScriptedLink::tick(Fate fate, Script* p_script) {
   m_sender.applyTick(m_publisher, m_world.view().players[0]);
   for (const SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
     REQUIRE(packet.bytes.size() <= (packet.large ? kMaxSnapshot : kMaxDatagramSnapshot));
-    if (packet.large) {  // goes on the stream, which loses nothing
+    if (packet.large) {  // sent over the stream, which loses nothing
       hear(packet.bytes);
       answer(true);
       continue;
@@ -100,7 +100,7 @@ void ScriptedLink::tick(Fate fate, Script* p_script) {
       damage(sent, *p_script);
     } else if (fate != Fate::kLost) {
       deliver(sent, fate != Fate::kUnanswered);
-      if (fate == Fate::kDoubled) hear(packet.bytes);  // as if it came on both channels
+      if (fate == Fate::kDoubled) hear(packet.bytes);  // as if it arrived on both channels
     }
   }
 }
@@ -115,7 +115,7 @@ void ScriptedLink::deliver(const Sent& sent, bool answered) {
   answer(answered);
 }
 
-/// The seal refuses what was changed; and even if it did not, the replica would come to no harm.
+/// The seal must reject the damaged packet, and even without the seal it must not harm the replica.
 void ScriptedLink::damage(const Sent& sent, Script& script) {
   const std::size_t where = script.number<std::uint16_t>();
   const auto flipped = [where](std::string bytes) {
@@ -181,7 +181,7 @@ void ScriptedLink::answer(bool arrives) {
   REQUIRE(m_sender.matchesChecksum(read->acks, *read->checksum) != std::optional(false));
 }
 
-// As a client asks for that lost all hope; not before it has seen the reset before.
+// Resets like a client that cannot recover, but only after the client has seen the last reset.
 void ScriptedLink::reset() {
   if (m_server_epoch != m_epoch) return;
   m_sender.reset();

@@ -1,5 +1,5 @@
-// Server and client of one session over datagrams that get lost, doubled, reordered and damaged as a script
-// says. Publisher, SnapshotSender, SealedLink and Replica are the product's; the world is a ScriptedWorld.
+// Server and client of a session over datagrams that are lost, duplicated, reordered and damaged by a script.
+// Publisher, SnapshotSender, SealedLink and Replica are the product's; the world is a ScriptedWorld.
 #pragma once
 
 #include <deque>
@@ -17,16 +17,16 @@ class ScriptedLink {
  public:
   explicit ScriptedLink(Resend resend);
 
-  /// What the script says, for at most `ticks` ticks.
+  /// Executes the script for at most `ticks` ticks.
   void run(Script& script, int ticks);
-  /// Nothing new happens and nothing is lost, until nothing is pending, for so many ticks at most.
+  /// Runs at most `ticks` ticks without events and losses, until nothing is pending.
   void heal(int ticks);
-  /// The replica holds what the server thinks was sent to it, and draws what the world draws.
+  /// Requires that the replica has what the server believes it has, and draws the world's picture.
   void requireSame() const;
 
-  /// Called with each snapshot that the client got, before it was read.
+  /// Called with each snapshot that arrives at the client, before it is read.
   std::function<void(const std::string&)> on_snapshot;
-  /// … and with each update that the server got.
+  /// Called with each update that arrives at the server.
   std::function<void(const std::string&)> on_update;
 
  private:
@@ -54,10 +54,10 @@ class ScriptedLink {
   SealedLink m_client_link;
   SealedLink::Time m_now{std::chrono::hours(1)};
   std::deque<Sent> m_held;
-  std::deque<std::string> m_updates;  ///< sealed, on their way up
+  std::deque<std::string> m_updates;  ///< sealed, on their way to the server
   Replica m_replica;
   AckWindow m_acks;
-  std::uint8_t m_epoch = 0;  ///< of the replica
+  std::uint8_t m_epoch = 0;  ///< epoch of the replica
   std::uint8_t m_server_epoch = 0;
   std::uint32_t m_input = 0;
 };

@@ -15,7 +15,7 @@ df::FixedVector cells(int x, int y) {
 }
 
 df::Fixed coordinate(Script& script, int extent) {
-  const auto fine = script.number<std::uint16_t>();  // in 1/256 cell
+  const auto fine = script.number<std::uint16_t>();  // in 1/256 of a cell
   return static_cast<df::Fixed>(fine % ((extent + 8) * 256)) * (df::kFixedOne / 256) - df::fromCells(4);
 }
 
@@ -96,13 +96,13 @@ void ScriptedWorld::turn(Thing& thing, Script& script) {
   thing.facts.velocity = thing.facts.acceleration = {};
   if ((how & 1) != 0) thing.facts.velocity.x = signedByte(script, df::kFixedOne / 64);
   if ((how & 2) != 0) thing.facts.velocity.y = signedByte(script, df::kFixedOne / 128);
-  if ((how & 4) != 0) thing.facts.velocity.x += script.byte();  // numbers that no coarse grid has
+  if ((how & 4) != 0) thing.facts.velocity.x += script.byte();  // values that no coarse grid has
   if ((how & 24) == 24) thing.facts.acceleration.x = signedByte(script, df::kFixedOne / 4096);
   if ((how & 40) == 40) thing.facts.acceleration.y = signedByte(script, df::kFixedOne / 4096);
   thing.changed = true;
 }
 
-/// A word whose letters go round, by a clock or an angle.
+/// A word whose frames change by a clock or an angle.
 void ScriptedWorld::animate(Thing& thing, Script& script) {
   const std::uint8_t how = script.byte();
   std::vector<Appearance> frames(2 + how % 4);
@@ -137,10 +137,10 @@ void ScriptedWorld::restyle(Thing& thing, Script& script) {
     case 3:
       return row(6, df::fromCells(-3), df::fromCells(1));
     case 4:
-      return row(4, -kHalf * 3, 0);  // a sprite of even width: its cells lie at half offsets
+      return row(4, -kHalf * 3, 0);  // a sprite of even width: its cells are at half offsets
     case 5:
       return row(2, signedByte(script, df::kFixedOne / 64 + 3), signedByte(script, df::kFixedOne / 64 + 5));
-    case 6:  // too large for a datagram, now and then
+    case 6:  // sometimes too large for a datagram
       for (int y = 0, rows = script.byte() % 64; y < rows; ++y)
         row(30, df::fromCells(-15), df::fromCells(y - 8));
       return;

@@ -1,4 +1,4 @@
-// A small world in which just that happens which a script says, and which reports itself as the engine does.
+// A small world in which only the events of a script happen. It reports itself like the engine does.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@ namespace naiad::fuzz {
 
 class ScriptedWorld {
  public:
-  static constexpr std::size_t kThings = 16;  ///< alive at a time, at most
-  static constexpr int kWidth = 120;          ///< of the boundary, in cells
+  static constexpr std::size_t kThings = 16;  ///< limit of living objects
+  static constexpr int kWidth = 120;          ///< width of the boundary, in cells
   static constexpr int kHeight = 50;
   static constexpr int kViewWidth = 30;
   static constexpr int kViewHeight = 12;
 
   ScriptedWorld();
 
-  /// One thing happens to one object or the player: two bytes of the script say what and to whom, more say
-  /// how.
+  /// Does one thing to one object or the player. Two bytes of the script select action and object; more bytes
+  /// are its parameters.
   void happen(Script& script);
-  /// All that moves moves, and everything is drawn.
+  /// Moves all objects and draws everything.
   void tick();
   const df::WorldView& view() const { return m_view; }
-  /// What the player ought to see.
+  /// Returns the picture that the player should see.
   df::Canvas picture() const;
 
  private:
@@ -37,7 +37,7 @@ class ScriptedWorld {
     bool alive = false;
     bool changed = false;
     std::vector<df::DrawCommand> look;   ///< relative to the position
-    std::shared_ptr<const Look> p_told;  ///< frames that take turns, instead
+    std::shared_ptr<const Look> p_told;  ///< animated frames instead of `look`, or null
   };
 
   void bear(Thing& thing, Script& script);
@@ -52,7 +52,7 @@ class ScriptedWorld {
   void noteMoved(const Thing& thing);
 
   std::array<Thing, kThings> m_things;
-  std::vector<df::ObjectKey> m_gone;     ///< since the last tick
+  std::vector<df::ObjectKey> m_gone;     ///< deleted since the last tick
   std::vector<df::DrawCommand> m_loose;  ///< drawn outside any object in the next tick
   std::uint64_t m_next_order = 1;
   df::WorldView m_view;

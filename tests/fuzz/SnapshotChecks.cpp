@@ -85,7 +85,7 @@ bool same(const ObjectRecord& a, const ObjectRecord& b) {
   return a.id == b.id && a.generation == b.generation && a.groups == b.groups && a.state == b.state;
 }
 
-/// Spelled out, counted from no origin, it reads the same.
+/// Requires that the snapshot, written without names and origins, decodes to equal records.
 void requireSameWhenWrittenAgain(const Snapshot& snapshot) {
   const Records& records = snapshot.records;
   const Exactly bytes(test::writeSnapshot(snapshot.header, snapshot.records));
@@ -112,7 +112,7 @@ std::size_t glyphsIn(const Records& records) {
 }  // namespace
 
 void receiveAndCheck(Replica& replica, std::string_view received, bool again) {
-  constexpr std::size_t kSmall = 20'000;  // glyphs: naming is short, and spelling out takes time
+  constexpr std::size_t kSmall = 20'000;  // glyphs; few names can mean many glyphs, which take time to write
   const Exactly bytes(received);
   Snapshot snapshot;
   peekEpoch(bytes.view());

@@ -1,4 +1,4 @@
-// What has to hold of every snapshot that a client takes in, whoever wrote it.
+// Requirements for every snapshot that a client accepts, from any writer.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace naiad::fuzz {
 
-/// Read a snapshot and, if it is well-formed, require: what came out is in its ranges, says the same when
-/// written again, and does no harm when it is applied (twice). `again`: read it once more.
+/// Reads a snapshot and, if it is valid, requires that its values are in range, that it survives being
+/// written and read again, and that applying it twice is harmless. `again`: reads it once more.
 void receiveAndCheck(Replica& replica, std::string_view received, bool again);
-/// The picture at `tick` is of the size of the view.
+/// Requires that the picture at `tick` has the size of the view.
 void drawAndCheck(const Replica& replica, std::uint32_t tick);
 
 }  // namespace naiad::fuzz

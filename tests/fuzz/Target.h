@@ -1,4 +1,4 @@
-// What libFuzzer calls, for the one file that makes a program a target: it hands the target its input.
+// Included by the one file of each target. Passes libFuzzer's input to tryInput().
 #pragma once
 
 #include "Require.h"
@@ -6,7 +6,7 @@
 
 namespace naiad::fuzz {
 
-/// Each target defines it.
+/// Defined by each target.
 void tryInput(Script script);
 
 }  // namespace naiad::fuzz

@@ -60,7 +60,7 @@ def cpp_tokens(text, pattern=CPP, line=1):
 
 def javascript_tokens(text):
     line, position, end = 1, 0, 0
-    open_braces = []  # for each template that is open: braces within its current ${…}
+    open_braces = []  # per open template: number of open braces in its current ${…}
     before = ("punct", "")
     while match := JAVASCRIPT.search(text, end):
         kind, token, start = match.lastgroup, match.group(), match.start()
@@ -98,7 +98,7 @@ def directive_tokens(text, line):
     head = re.match(r"#\s*define\s+\w+\(?|#\s*\w*", text)
     yield "directive", re.sub(r"#\s+", "#", " ".join(head.group().split())), line
     yield from cpp_tokens(text[head.end():], IN_DIRECTIVE, line)
-    yield "directive", "", line  # the end of the line counts
+    yield "directive", "", line  # the end of the line is a token
 
 
 def body(literal):
@@ -117,7 +117,7 @@ def joined(tokens_of_text):
             continue
         if kind == "string" and held and token[0] not in "'`}":
             first, second = body(held[1]), body(token)
-            # An escape of digits ends where the literal ends: "\x4" "1" is not "\x41".
+            # An escape with digits ends with its literal: "\x4" "1" is not "\x41".
             gap = '""' if re.search(r"\\(?:x[\da-fA-F]+|[0-7]{1,3})$", first) and re.match(r"[\da-fA-F]", second) else ""
             prefix = re.match(PREFIX, held[1]).group() or re.match(PREFIX, token).group()
             held = ("string", f'{prefix}"{first}{gap}{second}"', held[2])

@@ -56,7 +56,7 @@ def read(kind, text):
     if kind == "python":
         try:
             return list(python_tokens(text))
-        except (SyntaxError, tokenize.TokenError):  # a template that becomes Python
+        except (SyntaxError, tokenize.TokenError):  # a template of a Python file
             kind = "hash"
     others = {"shell": shell_tokens, "cmake": cmake_tokens, "html": html_tokens}
     return others[kind](text) if kind in others else line_tokens(text, kind)

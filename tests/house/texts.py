@@ -24,7 +24,7 @@ TEST = re.compile(r"^(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", re.M)
 
 
 class Text:
-    """Pieces of a file, joined with the glue before each, and the line of the file that each comes from."""
+    """Pieces of a file joined by the glue before each, and the line of the file that each piece comes from."""
 
     def __init__(self):
         self.text, self.starts, self.lines, self.begins = io.StringIO(), [], [], []
@@ -41,14 +41,14 @@ class Text:
             yield self.lines[bisect.bisect_right(self.starts, match.start()) - 1]
 
     def blocks(self):
-        """(first line, last line, its text) of each block."""
+        """Yields (first line, last line, text) for each block."""
         first = [at for at, begins in enumerate(self.begins) if begins]
         for at, behind, words in zip(first, [*first[1:], len(self.lines)], self.text.getvalue().split("\n")[1:]):
             yield self.lines[at], self.lines[behind - 1], words
 
 
 def split(text, kind):
-    """The comment blocks of a source, and its string literals."""
+    """Returns the comment blocks and the string literals of a source."""
     comments, strings = Text(), Text()
     line, last, end, place = 1, 0, 0, None
     for match in TOKENS[kind].finditer(text):
@@ -72,7 +72,7 @@ def split(text, kind):
 
 
 def by_lines(text, comment_start):
-    """The # comments of a script, and its other lines, those of a paragraph joined."""
+    """Returns the # comments of a script, and its other lines joined by paragraph."""
     comments, others, in_comment = Text(), Text(), False
     for number, line in enumerate(text.splitlines(), 1):
         line = line.strip()
@@ -85,7 +85,7 @@ def by_lines(text, comment_start):
 
 
 def comments_and_others(path, text):
-    """The comments of a file, and its string literals or, in scripts that are not Python, all other lines."""
+    """Returns the comments of a file, and its string literals. For a script not in Python, all other lines instead of literals."""
     suffix = os.path.splitext(path)[1]
     if suffix in SLASHES:
         return split(text, "JavaScript" if "js" in suffix else "C++")
@@ -93,7 +93,7 @@ def comments_and_others(path, text):
 
 
 def files(root):
-    """(path, text) of each file of the product, the tests and the pages."""
+    """Yields (path, text) for each file of the product, the tests and the pages."""
     paths = [name for name in os.listdir(root) if name.endswith(".md")]
     for top in (*PRODUCT, "tests", "docs"):
         for folder, _, names in os.walk(f"{root}/{top}"):
@@ -107,7 +107,7 @@ def files(root):
 
 @contextlib.contextmanager
 def tree(root, commit=None):
-    """The folder of the sources: root, or a temporary one with those of `commit`. Exits with 2 if there is no such commit."""
+    """Yields the folder of the sources: `root`, or a temporary folder with `commit`. Exits with 2 if the commit does not exist."""
     if not commit:
         yield root
         return

@@ -16,7 +16,7 @@
 #include "engine/world/ObjectRegistry.h"
 #include "engine/world/Views.h"
 
-/// The games' main()s, compiled into this program under other names.
+/// The games' main() functions, compiled into this program under other names.
 int breakout_main();
 int lander_main();
 int platformer_main();
@@ -28,7 +28,7 @@ namespace {
 using df::Keyboard::Key;
 using Keys = std::set<Key>;
 
-constexpr int kSettle = 24;  // ticks after a pattern until the places are compared
+constexpr int kSettle = 24;  // ticks after a pattern before positions are compared
 constexpr int kMinute = 1800;
 constexpr int kLearn = 40;  // ticks of a first hold, for methods that learn
 
@@ -44,7 +44,7 @@ void removeAll(df::World& world, const char* type) {
   for (int i = 0; i < list.getCount(); ++i) world.objects().markForDelete(list[i]);
 }
 
-/// Host the game and join it; `play` begins when the player's Object is there.
+/// Hosts the game and joins it. Calls `play` once the player's Object exists.
 void withPlayer(const std::string& game, std::uint64_t seed,
                 const std::function<void(df::World&, std::uint32_t)>& play) {
   const auto joined = [&](df::World& world) {
@@ -62,7 +62,7 @@ df::Object* objectOf(df::World& world, std::uint32_t player) {
 
 // --- scripted patterns
 
-/// Fingers do this for so many ticks.
+/// Keys held for this many ticks.
 struct Stroke {
   Keys keys;
   int ticks;
@@ -71,7 +71,7 @@ struct Stroke {
 struct Pattern {
   std::vector<Stroke> strokes;
   bool tap = false;
-  int direction = 1;  ///< of the last key
+  int direction = 1;  ///< direction of the last key
 };
 
 const std::vector<Pattern>& patterns() {
@@ -93,7 +93,7 @@ const std::vector<Pattern>& patterns() {
   return s_patterns;
 }
 
-/// Where the player's Object is after each tick of the pattern, and whether a direction was held.
+/// Position of the player's Object after each tick of the pattern, and whether a direction was held.
 struct Track {
   std::vector<double> x;
   std::vector<bool> held;
@@ -110,8 +110,8 @@ Track follow(const std::string& game, const Pattern& pattern, const KeyMethod& m
       objectOf(world, ann)->setVelocity(df::Vector());
     }
     Typist typist(world, ann, method, keyboard);
-    // The terminal's pause is known from an earlier hold, of a key that the games make nothing of; for the
-    // habit, of the keys themselves the script says.
+    // An earlier hold of a key that the games ignore teaches the terminal's repeat delay. A habit is learned
+    // from the keys themselves, by the script.
     typist.hold({Key::X});
     for (int t = 0; t < 30; ++t) typist.tick();
     typist.hold({});
@@ -172,11 +172,11 @@ PatternFigures runPatterns(const std::string& game, const KeyMethod& method,
   return figures;
 }
 
-// --- persons who play
+// --- simulated players
 
 namespace {
 
-/// Fingers that are not faster than a person's: what goes down stays down for kMinPress ticks.
+/// Fingers not faster than a person's: a pressed key stays down for at least kMinPress ticks.
 class Hands {
  public:
   explicit Hands(Typist& typist) : m_typist(typist) {}
@@ -189,7 +189,7 @@ class Hands {
     for (auto& [key, age] : m_age)
       if (!keys.contains(key)) age = 0;
   }
-  /// So long has the key been down, in ticks.
+  /// Returns how long the key has been down, in ticks.
   int age(Key key) { return m_age[key]; }
 
  private:
@@ -198,14 +198,14 @@ class Hands {
   std::map<Key, int> m_age;
 };
 
-/// Lifts a held key and presses it again when nothing moves although it should: as people do.
+/// Releases a held key and presses it again if nothing moves although it should, like people do.
 class Impatience {
  public:
-  /// True: let go of the key for now.
+  /// True if the key should be released for now.
   bool gaveUp(bool wanted, bool moves, int key_age) {
     if (m_lift > 0) return --m_lift, true;
     m_still = wanted && !moves ? m_still + 1 : 0;
-    // At first it may be the keyboard's pause, which everybody knows.
+    // It may be the keyboard's repeat delay, which players know.
     if (m_still < kReaction || (key_age > 3 && key_age < kPause)) return false;
     m_still = 0;
     m_lift = 2;
@@ -226,7 +226,7 @@ bool isThere(df::World&, df::Box box, const char* type) {
   return false;
 }
 
-/// Runs to the right and jumps where it must.
+/// Runs to the right and jumps over gaps and spikes.
 PlayFigures playPlatformer(df::World& world, std::uint32_t ann, Typist& typist, df::Random& random) {
   PlayFigures figures;
   Hands hands(typist);
@@ -241,7 +241,7 @@ PlayFigures playPlatformer(df::World& world, std::uint32_t ann, Typist& typist, 
       const df::Vector at = p_runner->getPosition();
       const bool moves = at.x() > before;
       const bool step = isThere(world, df::Box(at + df::Vector(0.6, -0.3), 1, 0.6), "Ground");
-      // Nobody jumps at the same place each time.
+      // People do not always jump at an equal distance.
       if (moves != moved) ahead = 0.3 + 0.05 * random.below(8);
       const bool gap = !isThere(world, df::Box(at + df::Vector(ahead, 0.6), 0.9, 1), "Ground");
       const bool sharp = isThere(world, df::Box(at + df::Vector(0.6, -0.3), ahead + 1.2, 0.6), "Spikes");
@@ -264,7 +264,7 @@ PlayFigures playPlatformer(df::World& world, std::uint32_t ann, Typist& typist, 
   return figures;
 }
 
-/// Keeps the paddle under the ball, by taps when it is near and holds when it is far.
+/// Keeps the paddle under the ball: taps if it is near, holds if it is far.
 PlayFigures playBreakout(df::World& world, std::uint32_t ann, Typist& typist, df::Random&) {
   PlayFigures figures;
   Hands hands(typist);
@@ -281,7 +281,7 @@ PlayFigures playBreakout(df::World& world, std::uint32_t ann, Typist& typist, df
       const bool flies = v != df::Vector();
       if (flew && !flies) ++figures.bad;
       flew = flies;
-      // Where it comes down, if it does and hits no wall before.
+      // The point where the ball comes down, if it hits no wall before.
       const double ticks = v.y() > 0 ? (22 - at.y()) / v.y() : 0;
       const double off =
           std::clamp(at.x() + v.x() * ticks, 5.0, 74.0) + (t / 90 % 5 - 2) - p_paddle->getPosition().x();
@@ -307,7 +307,7 @@ std::optional<df::Vector> nearestPad(df::World& world, double x) {
   for (int i = 0; i < list.getCount(); ++i)
     tops[static_cast<int>(list[i]->getPosition().x())] = static_cast<int>(list[i]->getPosition().y());
   for (const auto& [column, top] : tops) {
-    // Pads are flat and eight wide; each has its place in a stretch of 20.
+    // Pads are flat and eight wide, one in each stretch of 20.
     if (column % 20 != 6) continue;
     const df::Vector pad(column + 3.5, top);
     if (!best || std::abs(pad.x() - x) < std::abs(best->x() - x)) best = pad;
@@ -315,7 +315,7 @@ std::optional<df::Vector> nearestPad(df::World& world, double x) {
   return best;
 }
 
-/// Flies by what the instruments say: first across, then down, the slower the lower.
+/// Flies by the instruments: first across, then down, slower near the ground.
 PlayFigures playLander(df::World& world, std::uint32_t ann, Typist& typist, df::Random&) {
   PlayFigures figures;
   Hands hands(typist);
@@ -347,7 +347,7 @@ PlayFigures playLander(df::World& world, std::uint32_t ann, Typist& typist, df::
   return figures;
 }
 
-/// Goes to the row of the nearest saucer and shoots.
+/// Moves to the row of the nearest saucer and shoots.
 PlayFigures playSaucerShoot(df::World& world, std::uint32_t ann, Typist& typist, df::Random&) {
   PlayFigures figures;
   Hands hands(typist);
@@ -357,7 +357,7 @@ PlayFigures playSaucerShoot(df::World& world, std::uint32_t ann, Typist& typist,
     const df::Object* p_ship = objectOf(world, ann);
     Keys keys;
     if (p_ship == nullptr) {
-      tap(world, ann, df::Keyboard::P);  // another round
+      tap(world, ann, df::Keyboard::P);  // starts another round
     } else {
       if (!p_ship->isVisible() && !lost) ++figures.bad;
       lost = !p_ship->isVisible();

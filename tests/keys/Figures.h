@@ -1,5 +1,5 @@
-// What a way of holding keys costs in a game: scripted key patterns compared with a terminal that reports
-// releases, and persons who play.
+// Measures the cost of a method of holding keys in a game, with scripted key patterns, compared with a
+// terminal that reports releases, and with simulated players.
 #pragma once
 
 #include <chrono>
@@ -10,22 +10,22 @@
 
 namespace naiad {
 
-/// Of the scripted patterns, as means over them.
+/// Means over the scripted patterns.
 struct PatternFigures {
-  double tap_over = 0;   ///< cells beyond where real releases end, of a tap of 90 ms
-  double hold_over = 0;  ///< likewise, of longer holds and changes of direction
-  double behind = 0;     ///< cells short of it, of longer holds
-  double stalled = 0;    ///< milliseconds of a hold without the motion that it should give
+  double tap_over = 0;   ///< cells beyond the end with real releases, after a tap of 90 ms
+  double hold_over = 0;  ///< cells beyond that end, after longer holds and changes of direction
+  double behind = 0;     ///< cells short of that end, after longer holds
+  double stalled = 0;    ///< milliseconds of a hold without the expected motion
   int missed = 0;        ///< patterns without any motion
 };
 
-/// Of a person who plays for a minute.
+/// Results of a simulated player in a minute.
 struct PlayFigures {
   int good = 0;  ///< flags reached, bricks hit, landings, points
   int bad = 0;   ///< falls, balls lost, crashes, ships lost
 };
 
-/// platformer, breakout, lander, saucershoot
+/// Returns platformer, breakout, lander, saucershoot.
 const std::vector<std::string>& keyGames();
 
 PatternFigures runPatterns(const std::string& game, const KeyMethod& method,

@@ -1,4 +1,4 @@
-// What held keys do in the games, typed at a terminal that reports no releases, in virtual time.
+// The effect of held keys in the games at a terminal that does not report releases, in virtual time.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
-// A keyboard at a terminal, in virtual time: what a person presses and lets go becomes the bytes that a
-// terminal sends, with the keyboard's repeats.
+// A keyboard at a terminal in virtual time. Turns pressed and released keys into the terminal's bytes, with
+// the keyboard's repeats.
 #pragma once
 
 #include <chrono>
@@ -16,17 +16,17 @@ class TypedKeyboard {
   using Milliseconds = std::chrono::milliseconds;
 
   struct Options {
-    Milliseconds pause{250};    ///< before the first repeat
-    Milliseconds interval{33};  ///< between repeats
+    Milliseconds pause{250};    ///< delay before the first repeat
+    Milliseconds interval{33};  ///< time between repeats
     bool kitty = false;         ///< the terminal speaks the kitty protocol
   };
 
   explicit TypedKeyboard(const Options& options) : m_options(options) {}
 
-  /// A key goes down or up at `now`; returns the bytes. Only the arrows, space and X are there.
+  /// Presses a key at `now` and returns the terminal's bytes. Supports only the arrows, space and X.
   std::string press(df::Keyboard::Key key, Time now);
   std::string release(df::Keyboard::Key key);
-  /// The repeats that are due by `now`: of the key pressed last alone, while it is down.
+  /// Returns the repeats due by `now`. Only the key pressed last repeats, while it is down.
   std::string repeat(Time now);
   const std::set<df::Keyboard::Key>& down() const { return m_down; }
 

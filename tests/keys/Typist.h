@@ -1,5 +1,5 @@
-// A person at a terminal who plays a game: their keys go through the client's own decoder and HeldKeys into
-// the world, one world tick after another, in virtual time.
+// Simulates a person at a terminal, in virtual time. The keys pass through the client's own decoder and
+// HeldKeys into the world, tick by tick.
 #pragma once
 
 #include <chrono>
@@ -16,28 +16,28 @@
 
 namespace naiad {
 
-/// How keys are held in a terminal.
+/// A method of holding keys in a terminal.
 struct KeyMethod {
   std::string name;
   HoldRule rule;
-  bool kitty = false;      ///< the terminal reports releases: what all others are compared with
-  bool tap_to_go = false;  ///< the game offers: a tap of a direction goes on until another direction or X
+  bool kitty = false;      ///< the terminal reports releases; the reference for the other methods
+  bool tap_to_go = false;  ///< the game's mode in which a tapped direction lasts until another direction or X
 };
 
 class Typist {
  public:
   using Time = TypedKeyboard::Time;
   using Milliseconds = TypedKeyboard::Milliseconds;
-  /// Of the world; not a whole number of the keyboard's intervals.
+  /// Time of a world tick, not a multiple of the keyboard's interval.
   static constexpr Milliseconds kTick{33};
 
   Typist(df::World& world, std::uint32_t player, const KeyMethod& method, TypedKeyboard::Options keyboard);
 
-  /// Fingers: from now on these keys and no others are down.
+  /// Sets the keys that are down from now on.
   void hold(const std::set<df::Keyboard::Key>& keys);
-  /// Let a tick go by: a millisecond after another, then the world's.
+  /// Simulates a tick: each millisecond at the keyboard, then the world's tick.
   void tick();
-  /// So many milliseconds since the beginning.
+  /// Returns the milliseconds since the beginning.
   long elapsed() const { return static_cast<long>((m_now - Time{}) / Milliseconds(1)) - kBegin; }
   bool tapsToGo() const { return m_method.tap_to_go; }
   const std::set<df::Keyboard::Key>& fingers() const { return m_keyboard.down(); }
@@ -48,7 +48,7 @@ class Typist {
   void type(const std::string& bytes);
   void take(const std::vector<TerminalEvent>& events);
   void send(const std::vector<KeyAction>& actions);
-  /// Tap-to-go: returns true if the key is a direction or X, which are handled here.
+  /// Handles tap-to-go. True if the key is a direction or X.
   bool takeGo(const KeyEvent& event);
 
   df::World& m_world;

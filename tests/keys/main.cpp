@@ -1,5 +1,5 @@
-// naiad_keys: what ways of holding keys cost in the games, as lines `keys key=value ...`, or with --markdown
-// as the table of docs/terminals.md.
+// naiad_keys: the cost of methods of holding keys in the games, as lines `keys key=value ...`, or with
+// --markdown as the table of docs/terminals.md.
 #include <cstdio>
 #include <cstring>
 

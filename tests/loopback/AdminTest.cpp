@@ -1,4 +1,4 @@
-// Looking after a server that runs: by its control socket, by dfctl, and in the chat.
+// Administers a running server through its control socket, dfctl and chat commands.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -34,7 +34,7 @@ class AdminTest : public VisitedServer {
   bool reads(TestClient& client, const std::string& text) {
     return serveUntil(context, {&client}, [&] { return hasRead(client, text); });
   }
-  /// Say a line until the answer comes: a player, and an address, may say some lines a second alone.
+  /// Repeats a chat line until it is answered, because players and addresses may send few lines a second.
   bool saysAndReads(TestClient& client, const std::string& line, const std::string& text) {
     const std::size_t before = client.session().chat().size();
     const auto answered = [&] {
@@ -52,7 +52,7 @@ class AdminTest : public VisitedServer {
     return false;
   }
   std::string ask(const std::string& line) const { return Talk(options.control).ask(line); }
-  /// The command is carried out.
+  /// True if the command succeeds.
   testing::AssertionResult does(const std::string& name, const std::string& arguments) const {
     return has(ask(command(name, arguments)), R"("ok":true)");
   }
@@ -74,7 +74,7 @@ TEST_F(AdminTest, AKickEndsAPlayerWithinTwoTicksAndTheirTokenWithThem) {
   const auto step = [&server] {
     return server.inWorld([](df::World& world) { return static_cast<std::uint32_t>(world.getStepCount()); });
   };
-  const std::uint32_t kicked = step();  // or a moment later
+  const std::uint32_t kicked = step();  // or the tick after it
   while (step() < kicked + 2) {
   }
   EXPECT_FALSE(server.truth(kicked + 2, player));
@@ -85,7 +85,7 @@ TEST_F(AdminTest, AKickEndsAPlayerWithinTwoTicksAndTheirTokenWithThem) {
   EXPECT_NE(again.player(), player);
 }
 
-/// The bytes that a visitor at this address gets before the server hangs up.
+/// Returns the bytes that a visitor from this address receives until the server closes the connection.
 std::string bytesFor(const std::string& visitors, const std::string& address) {
   asio::io_context context;
   Local::socket socket(context);
@@ -106,7 +106,7 @@ TEST_F(AdminTest, ABanTakesEffectOnTheNextConnectionBeforeTls) {
   ASSERT_TRUE(joins(ann));
   ASSERT_TRUE(does("ban", R"("who":"192.0.2.0/24","for":"2h")"));
   ASSERT_TRUE(ends(ann));
-  // TlsListenerTest.ABannedAddressGetsNotAByte says a hello, too.
+  // TlsListenerTest.ABannedAddressGetsNotAByte also sends a hello.
   EXPECT_EQ(bytesFor(options.visitors, "192.0.2.7:50001"), "");
   TestClient eve(context, server.port(), from("192.0.2.200:50003", "eve"));
   EXPECT_FALSE(joins(eve));
@@ -128,7 +128,7 @@ TEST_F(AdminTest, WhoIsBannedWhilePlayingIsToldWhyAndUntilWhen) {
   EXPECT_TRUE(has(sentence, "until 20"));
   EXPECT_TRUE(has(sentence, "spam"));
   EXPECT_TRUE(bob.joined());
-  // By the name, from elsewhere: refused in words.
+  // A ban of the name, tried from another address, is refused with a message.
   TestClient again(context, server.port(), from("198.51.100.1:50000", "ann"));
   EXPECT_FALSE(joins(again));
   EXPECT_TRUE(has(again.connection().sentence(), "banned"));
@@ -146,7 +146,7 @@ TEST_F(AdminTest, ABanLastsBeyondARestart) {
   EXPECT_TRUE(has(eve.connection().sentence(), "banned"));
 }
 
-/// dfserver and dfctl as they are: what descends from a server may give no commands, so dfctl must not.
+/// The real dfserver and dfctl. dfctl is not a descendant of the server, because those may not give commands.
 class CtlTest : public LoopbackFixture {
  protected:
   std::pair<int, std::string> ctl(const std::string& arguments) const {
@@ -254,7 +254,7 @@ TEST_F(AdminTest, NoCommandReachesOthersWhateverItIs) {
   int number = 0;
   for (const char* line : {"/admin wrong sesame", "  /admin typo", "\xe2\x80\x8b/admin hidden",
                            "\x01/nonsense secret", "/", "//secret", "/ admin secret"}) {
-    // Each by another player: one alone may say three lines at once.
+    // A new player for each line, because one player may send only three lines at once.
     TestClient ann(context, server.port(), home.player("ann" + std::to_string(number++)));
     ASSERT_TRUE(joins(ann));
     const std::size_t before = ann.session().chat().size();

@@ -24,7 +24,7 @@ df::Vector somehow() {
           static_cast<double>(WM.randomInt(200) - 100) / 240.0};
 }
 
-/// One to five characters, sometimes a 2x2 sprite; lives for a while, turns now and then.
+/// One to five characters, or a 2x2 sprite. Turns sometimes and has a limited lifetime.
 class Creature : public df::Object {
  public:
   Creature() {
@@ -72,7 +72,7 @@ class Creature : public df::Object {
 
   int draw() override {
     if (!m_square) return DM.drawString(getPosition(), m_text, df::LEFT_JUSTIFIED, m_color);
-    // A sprite of even width: its cells lie at half offsets, and the positions go through floats.
+    // Tests a sprite of even width: its cells are at half offsets, and the positions pass through floats.
     for (int i = 0; i < 4; ++i) {
       const df::Vector at(getPosition().getX() - 0.5 + i % 2, getPosition().getY() - 0.5 + i / 2);
       DM.drawCh(at, m_text.front(), m_color);
@@ -119,7 +119,7 @@ class Ship : public df::Object {
   int m_keys = 0;
 };
 
-/// Gives every player a ship, and takes it away.
+/// Gives each player a ship, and removes it when they leave.
 class Harbour : public df::Object {
  public:
   Harbour() {

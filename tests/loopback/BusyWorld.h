@@ -1,14 +1,14 @@
-// A world in which everything happens that can be seen: objects fly, bounce, turn, are blocked, change their
-// look, die and are born, and every player steers a ship.
+// A world with every visible change: objects fly, bounce, turn, are blocked, change their look, are created
+// and deleted, and each player steers a ship.
 #pragma once
 
 #include "engine/world/World.h"
 
 namespace naiad::test {
 
-/// Fill the world with `count` creatures and the object that welcomes players.
+/// Fills the world with `count` creatures and an object that gives each player a ship.
 void populateBusyWorld(df::World& world, int count);
-/// The same for a TestServer.
+/// Returns a function that does so, for a TestServer.
 inline auto busyWorld(int count) {
   return [count](df::World& world) { populateBusyWorld(world, count); };
 }

@@ -1,4 +1,4 @@
-// Counts the players who join and leave, as the game sees it.
+// Counts the game's join and leave events.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace naiad::test {
 
-/// Events of any player; read from any thread. Must outlive the server.
+/// Counts for all players; may be read from any thread. Must outlive the server.
 struct Census {
   std::atomic<int> joins = 0;
   std::atomic<int> leaves = 0;
@@ -34,7 +34,7 @@ class Clerk : public df::Object {
   Census& m_census;
 };
 
-/// A busy world in which they are counted.
+/// Returns a function that makes a busy world with `census` in it, for a TestServer.
 inline auto countedWorld(Census& census, int count) {
   return [&census, count](df::World& world) {
     populateBusyWorld(world, count);

@@ -1,4 +1,4 @@
-// What others say costs nobody their session: floods, and receivers who are far or away.
+// Chat floods, and receivers that are slow or disconnected: no other player loses the session.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Says as much as it can, and comes back with its token as often as it can, to say more.
+/// Sends as much chat as possible, and reconnects with its token as often as possible to send more.
 class Chatterer {
  public:
   explicit Chatterer(std::uint16_t port) : m_port(port), m_thread([this] { run(); }) {}
@@ -32,7 +32,7 @@ class Chatterer {
  private:
   void run() {
     std::string wide;
-    for (int i = 0; i < 200; ++i) wide += "\u2588";  // of three bytes
+    for (int i = 0; i < 200; ++i) wide += "\u2588";  // three bytes each
     std::uint32_t number = 0;
     while (!m_stopping) {
       ++m_attempts;
@@ -108,7 +108,7 @@ TEST(Chat, AFloodByResumesIsBoundedAndThrowsNobodyOut) {
   EXPECT_EQ(census.leaves, 0);
 }
 
-/// Joins, says all that a new player may say at once, and leaves, again and again.
+/// Repeatedly joins, sends as many lines as a new player may, and leaves.
 class Revenant {
  public:
   Revenant(std::uint16_t port, int visits) : m_thread([this, port, visits] { run(port, visits); }) {}

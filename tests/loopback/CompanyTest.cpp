@@ -1,4 +1,4 @@
-// Joining, leaving, being refused, talking, stalling: what players of one server do to each other.
+// Players of one server affect each other only as intended: joining, leaving, refusal, chat, stalled clients.
 #include <gtest/gtest.h>
 
 #include "Compare.h"
@@ -12,7 +12,7 @@ namespace {
 
 using Reason = wire::Refused;
 
-/// Ticks in five seconds of real play.
+/// Ticks in five seconds at the default rate.
 constexpr std::uint32_t kFiveSeconds = 150;
 
 int countShips(df::World& world) {
@@ -50,17 +50,17 @@ TEST_F(Company, StalledClientCostsTheOthersNothing) {
   stalled.send(RawClient::hello("mud"));
   bob.keepPictures(false);
 
-  // `mud` is not served: it neither reads nor acknowledges.
+  // `mud` neither reads nor acknowledges.
   const std::uint32_t begin = ann.newestTick();
   ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return ann.newestTick() > begin + kFiveSeconds; }));
-  // All that time the others had every tick, and the right picture.
+  // The others had every tick and correct pictures all the time.
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
   expectSame(ann, server, kFiveSeconds - 1);
 }
 
 TEST_F(Company, StalledClientCatchesUpWhenItReadsAgain) {
   TestServer server(busyWorld(300));
-  asio::io_context asleep;  // serving it or not is what stalls the second client
+  asio::io_context asleep;  // polling this context or not decides whether the second client is stalled
   TestClient ann(context, server.port(), "ann");
   TestClient mud(asleep, server.port(), "mud");
   ASSERT_TRUE(serveUntil(asleep, {&mud}, [&] { return mud.joined(); }));
@@ -68,7 +68,7 @@ TEST_F(Company, StalledClientCatchesUpWhenItReadsAgain) {
   ASSERT_TRUE(
       serveUntil(context, {&ann}, [&] { return ann.joined() && ann.newestTick() > begin + kFiveSeconds; }));
   const std::uint32_t stalled_until = ann.newestTick();
-  // Once it reads again, it soon shows what the server has.
+  // Once it reads again, it soon shows the server's picture.
   EXPECT_TRUE(serveUntil(asleep, {&mud}, [&] {
     return mud.newestTick() > stalled_until + 50 && !mud.pictures().empty() &&
            mud.pictures().rbegin()->first > stalled_until && showsTheTruth(mud, server);

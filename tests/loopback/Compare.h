@@ -1,4 +1,4 @@
-// Holding a client's pictures against what the server drew.
+// Compares a client's pictures with the server's.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 namespace naiad::test {
 
 struct Comparison {
-  int ticks = 0;  ///< compared
+  int ticks = 0;  ///< number of compared ticks
   int cells = 0;
   int wrong = 0;
-  std::uint64_t wrong_ticks = 0;  ///< with at least one wrong cell
-  std::string first_difference;   ///< for people: the tick, its wrong cells, both pictures
+  std::uint64_t wrong_ticks = 0;  ///< ticks with a wrong cell
+  std::string first_difference;   ///< text with the tick, its wrong cells and both pictures
 };
 
-/// Compare every picture that `client` kept with the server's truth for its player.
+/// Compares every picture that `client` kept with the server's truth for its player.
 Comparison compare(TestClient& client, const TestServer& server);
 
-/// Is the newest picture that `client` kept the server's?
+/// True if the newest picture that `client` kept equals the server's.
 bool showsTheTruth(TestClient& client, const TestServer& server);
-/// Expect `least_ticks` pictures and no wrong cell, but for ticks that the server skipped for this client on
-/// purpose (none, unless the machine stands still for a fifth of a second). Print what was compared.
+/// Expects at least `least_ticks` pictures and no wrong cell. Ticks that the server skipped for this client
+/// on purpose count as pictures (none, unless the machine stalls for 0.2 s). Prints the result.
 void expectSame(TestClient& client, TestServer& server, int least_ticks);
 
 }  // namespace naiad::test

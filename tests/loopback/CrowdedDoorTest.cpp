@@ -1,5 +1,5 @@
-// Crowds at the door of a server with shipped settings: hostile ones keep no player out and throw none out,
-// and honest ones get in.
+// Many clients connect at once to a server with default settings: hostile ones neither keep out nor
+// disconnect players, and honest ones get in.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::vector<std::string> addresses(int count, const std::function<std::string(in
 
 class CrowdedDoor : public LoopbackFixture {
  protected:
-  /// A player whose stream comes from an address of its own.
+  /// A player whose stream comes from its own address.
   struct Visitor {
     Visitor(asio::io_context& context, const TestServer& server, const std::string& address)
         : proxy(context, server.port()) {
@@ -69,7 +69,7 @@ class CrowdedDoor : public LoopbackFixture {
         clients, [](const auto& client) { return client->state() == LightClient::State::kWelcome; }));
   }
   bool serve(const std::function<bool()>& done) { return serveUntil(context, {}, done); }
-  /// It joins and is judged.
+  /// Joins and waits until the server has accepted or refused the client.
   LightClient::State judge(LightClient& client, const std::string& password = {}) {
     client.join(password);
     EXPECT_TRUE(serve([&] { return client.state() != LightClient::State::kJoining; }));
@@ -84,9 +84,9 @@ struct Flood {
   const char* name;
   SilentCrowd::Kind kind;
   int addresses;
-  const char* form;  ///< of an address; %d: its number
+  const char* form;  ///< printf format of the addresses; %d: index
   int connections = 400;
-  bool with_players = false;  ///< one at each address
+  bool with_players = false;  ///< one player at each address
   int max_players = HostOptions().max_players;
 };
 
@@ -211,8 +211,8 @@ TEST_F(CrowdedDoor, AnAddressThatMayHaveTwoHundredPlayersHasThemAtOnce) {
   EXPECT_EQ(countWelcome(players), players.size());
 }
 
-// ---- places
-// -----------------------------------------------------------------------------------------------------
+// ---- session slots
+// ----------------------------------------------------------------------------------------------
 
 TEST_F(CrowdedDoor, OneAddressHoldsItsShareOfThePlacesHoweverOftenItComes) {
   HostOptions options = home.server();
@@ -223,7 +223,7 @@ TEST_F(CrowdedDoor, OneAddressHoldsItsShareOfThePlacesHoweverOftenItComes) {
   for (const auto& client : greedy) {
     const std::uint64_t detached = server.counters().detached;
     if (judge(*client) != LightClient::State::kWelcome) continue;
-    client->drop();  // and its place is kept for the grace time
+    client->drop();  // its slot is kept for the grace time
     ASSERT_TRUE(serve([&] { return server.counters().detached > detached; }));
   }
   EXPECT_EQ(server.counters().joined, 2u);
@@ -236,7 +236,7 @@ TEST_F(CrowdedDoor, OneAddressHoldsItsShareOfThePlacesHoweverOftenItComes) {
   for (const auto& other : others) EXPECT_EQ(judge(*other), LightClient::State::kWelcome);
 }
 
-/// Clients that come again as soon as they are answered or hung up on; in a thread of their own.
+/// Clients, in a thread of their own, that reconnect as soon as they are answered or disconnected.
 class InsistentCrowd {
  public:
   InsistentCrowd(std::uint16_t server, const std::vector<std::string>& from, const std::string& password,
@@ -312,7 +312,7 @@ TEST_F(CrowdedDoor, PlayersWhoComeBackWithoutEndGetFewHandshakesAndOthersAreNotL
 
 TEST_F(CrowdedDoor, EightyAddressesDoNotCloseAServerWithAPassword) {
   HostOptions options = home.server();
-  options.password = PasswordHash::of("xyzzy", {.memory_kib = 4 * 1024, .passes = 6}).text();  // some 10 ms
+  options.password = PasswordHash::of("xyzzy", {.memory_kib = 4 * 1024, .passes = 6}).text();  // about 10 ms
   TestServer server(busyWorld(20), options);
   const auto player = [&](const std::string& name) {
     ClientSetup setup = home.player(name);

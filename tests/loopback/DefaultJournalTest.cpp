@@ -1,4 +1,4 @@
-// dfserver without any option about journals: it is killed, and its players lose nothing. Real processes.
+// dfserver without any journal option is killed, and its players lose nothing. Real processes.
 #include <signal.h>
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 namespace naiad::test {
 namespace {
 
-/// Two servers with one folder for their state, as two of one user have by themselves.
+/// Two servers that share one state folder, like two servers of one user do by default.
 class DefaultJournal : public RoomsFixture {
  protected:
   struct Server {
@@ -20,7 +20,7 @@ class DefaultJournal : public RoomsFixture {
     std::uint16_t port = 0;
     std::unique_ptr<GameProgram> program = nullptr;
     std::unique_ptr<TestClient> player = nullptr;
-    const ClientSession* p_before = nullptr;  ///< of the player, when the server was killed
+    const ClientSession* p_before = nullptr;  ///< the player's session when the server was killed
   };
 
   std::unique_ptr<GameProgram> startOne(const std::string& key, std::uint16_t port = 0) const {
@@ -67,7 +67,7 @@ class DefaultJournal : public RoomsFixture {
   std::string state() const { return home.identity("state"); }
 };
 
-// At once: not even the file of the round need be there.
+// Killed immediately, possibly before the file of the round exists.
 TEST_F(DefaultJournal, TwoServersOfOneUserAreKilledAndGoOn) {
   Server servers[2] = {{"ann"}, {"bob"}};
   for (Server& one : servers) {

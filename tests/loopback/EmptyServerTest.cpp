@@ -1,4 +1,4 @@
-// The first player of a server that stood empty for long: ticks that nobody watched count, too.
+// The first player on a server that was empty for long. Ticks without players also count.
 #include <gtest/gtest.h>
 
 #include "TestClient.h"
@@ -10,10 +10,10 @@
 namespace naiad::test {
 namespace {
 
-/// More than half of what 16 bits count, and less than all: 18 to 36 minutes at 30 Hz.
+/// More than half the range of 16 bits, and less than all: 18 to 36 minutes at 30 Hz.
 constexpr std::uint32_t kEmptyTicks = 40'000;
 
-/// Moves, so that a wrong tick draws it in a wrong place.
+/// Moves, so that a wrong tick shows it in a wrong place.
 struct Walker : df::Object {
   Walker() {
     setSolidness(df::SPECTRAL);

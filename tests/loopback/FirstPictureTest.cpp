@@ -1,4 +1,4 @@
-// A player who joins a world that takes many snapshots sees nothing of it before all of it has arrived.
+// A player who joins a world that takes many snapshots sees no part of it before all of it has arrived.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kObjects = 3000;
 
-/// A word of its own, so that each object takes its own place in a snapshot.
+/// A unique word, so that the objects do not share a look in the snapshot.
 struct Word : df::Object {
   explicit Word(int number) : text("word " + std::to_string(number)) {
     setSolidness(df::SPECTRAL);
@@ -49,8 +49,8 @@ TEST(FirstPicture, IsTheWholeWorld) {
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
   const auto held = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - *began);
   EXPECT_LT(at_first, kObjects);
-  // On a busy machine the snapshots may take longer than the client waits for the rest of a picture, which it
-  // counts from the first one, so from its connection or later.
+  // The snapshots may take longer on a busy machine than the client waits for the rest of a picture. It waits
+  // from the first snapshot, so not earlier than from its connection.
   if (held < WorldFeed::kPatience) {
     EXPECT_GE(frames, 3u);
     EXPECT_EQ(ann.session().replica().aliveCount(), kObjects);

@@ -1,5 +1,5 @@
-// dfserver in a fleet: what it says to the sidecar of a cluster and to the bus, and that players notice
-// neither when they go. Real processes and sockets, a fake sidecar, the real nats-server.
+// dfserver in a fleet: its messages to the sidecar of a cluster and to the bus. Players do not notice when
+// these two disappear. Real processes and sockets, a fake sidecar, the real nats-server.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -61,7 +61,7 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
   posix_spawn_file_actions_adddup2(&actions, errors >= 0 ? errors : STDOUT_FILENO, STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // What ignores SIGHUP, such as nohup, hands that on.
+  // Reset SIGHUP, because a parent that ignores it, such as nohup, passes that on.
   sigset_t defaults;
   sigemptyset(&defaults);
   sigaddset(&defaults, SIGHUP);
@@ -74,7 +74,7 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
   if (error != 0) throw std::system_error(error, std::generic_category(), words.front());
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (m_port == 0 && !hasEnded() && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // before the file is read again
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // pause before the file is read again
     std::ifstream(m_directory / "port") >> m_port;
   }
 }

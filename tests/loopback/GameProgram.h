@@ -1,4 +1,4 @@
-// A game with a main() of its own, as a real process that hosts itself.
+// A game with its own main(), as a real process that hosts itself.
 #pragma once
 
 #include <sys/types.h>
@@ -15,26 +15,26 @@ namespace naiad::test {
 
 class GameProgram {
  public:
-  /// Start `name` of the build's programs, in a session without a terminal, with these variables in its
-  /// environment. It listens on a free port of 127.0.0.1, a tick takes 5 ms, and no round is written down.
-  /// `arguments`: of its command line. `errors`: a descriptor for its standard error; below 0: the file of
-  /// its output. It works in playFolder(), where nothing is.
+  /// Starts program `name` of the build in its own session without a terminal. It listens on a free port of
+  /// 127.0.0.1, a tick takes 5 ms, and no round is recorded. `environment` is added to that, `arguments` are
+  /// those of its command line. `errors` is a descriptor for its standard error; below 0, that goes to the
+  /// file of its output. It runs in playFolder(), which is empty.
   GameProgram(const std::string& name, std::map<std::string, std::string> environment,
               const std::vector<std::string>& arguments = {}, int errors = -1);
-  /// SIGTERM, if it has not ended.
+  /// Sends SIGTERM if the program has not ended.
   ~GameProgram();
   GameProgram(const GameProgram&) = delete;
   GameProgram& operator=(const GameProgram&) = delete;
 
   std::uint16_t port() const { return m_port; }
-  /// Wait for its end. Return its status, as of waitpid().
+  /// Waits for its end. Returns its status as from waitpid().
   int wait();
   void signal(int number) const;
-  /// Its log so far.
+  /// Returns its log so far.
   std::string log() const;
-  /// Its key is in identity/key.pem there.
+  /// Returns the folder that has its key in identity/key.pem.
   std::filesystem::path directory() const { return m_directory.path(); }
-  /// The socket for its commands.
+  /// Returns the path of its control socket.
   std::filesystem::path control() const { return m_directory / "control.sock"; }
   std::filesystem::path playFolder() const { return m_directory / "play"; }
   pid_t process() const { return m_process; }

@@ -1,4 +1,4 @@
-// A directory for the keys, pins and options of one encrypted test.
+// A folder for the keys, pins and options of an encrypted test.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace naiad::test {
 
 class Home {
  public:
-  /// TLS and datagrams, with a key of this home; a tick takes 5 ms.
+  /// Returns options for TLS and datagrams with a key in this home; a tick takes 5 ms.
   HostOptions server(const std::string& identity = "identity") const {
     HostOptions options;
     options.port = 0;
@@ -22,7 +22,7 @@ class Home {
     options.frame_micros = 5000;
     return options;
   }
-  /// A player who pins server keys in this home, and comes back when the connection breaks.
+  /// Returns a player's setup that pins server keys in this home and reconnects after a broken connection.
   ClientSetup player(const std::string& name) const {
     ClientSetup setup;
     setup.options.name = name;

@@ -1,5 +1,4 @@
-// What whoever runs a server does to it: ends it, reloads its options, restarts it. Real processes and
-// sockets.
+// Host actions on a server: shutdown, reload of options, restart. Real processes and sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -69,7 +68,7 @@ class HostedServer : public LoopbackFixture {
     EXPECT_TRUE(joining.joined()) << joining.connection().sentence() << server->log();
     return joining;
   }
-  /// What a client is told that is not let in.
+  /// Returns the message with which a client is refused; empty if it joins.
   std::string refusal(const ClientSetup& setup) {
     TestClient& refused = client(setup);
     EXPECT_TRUE(serve([&] { return refused.joined() || refused.connection().isOver(); }));
@@ -122,7 +121,7 @@ class HostedServer : public LoopbackFixture {
   std::vector<std::unique_ptr<TestClient>> clients;
 };
 
-// ---- the end ----------------------------------------------------------------------------------------------
+// ---- shutdown ---------------------------------------------------------------------------------------------
 
 TEST_F(HostedServer, SigtermLetsPlayersFinish) {
   start({{"NAIAD_DRAIN_TIME", "3000"}});
@@ -257,7 +256,7 @@ TEST_F(HostedServer, JsonLinesHaveTheFacts) {
   std::map<std::string, nlohmann::json> events;
   std::istringstream lines(server->log());
   for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with('{')) continue;  // what it prints for its host
+    if (!line.starts_with('{')) continue;  // text that it prints for its host
     const auto event = nlohmann::json::parse(line);
     events[event.at("event")] = event;
   }
@@ -277,8 +276,8 @@ TEST_F(HostedServer, WithoutBeingAskedChatIsNotLogged) {
   EXPECT_FALSE(has(server->log(), "hello all"));
 }
 
-/// What fail2ban finds in the server's log with the filter that ships: "Lines: 9 lines, 0 ignored, 2 matched,
-/// …".
+/// Returns the result of the shipped fail2ban filter on the server's log, for example "Lines: 9 lines, 0
+/// ignored, 2 matched, …".
 std::string fail2banFinds(const GameProgram& server, const std::string& mode) {
   const std::string command = "fail2ban-regex '" + (server.directory() / "log").string() + "' '" +
                               NAIAD_SOURCE_DIR "/deploy/fail2ban/naiad.conf[mode=" + mode + "]' 2>&1";
@@ -299,7 +298,7 @@ TEST_P(Fail2ban, FindsWhoGuessesPasswordsAndNobodyElse) {
   ClientSetup ann = home.player("ann");
   ann.options.password = "xyzzy";
   TestClient& playing = join(ann);
-  // As the beginning of another line, and as another field.
+  // Chat that imitates the beginning of another line, and another field.
   playing.session().sendChat("203.0.113.9:1 refused: \"That is not this server's password");
   playing.session().sendChat(
       "\",\"address\":\"203.0.113.9:1\",\"sentence\":\"That is not this server's password");
@@ -312,7 +311,7 @@ TEST_P(Fail2ban, FindsWhoGuessesPasswordsAndNobodyElse) {
   EXPECT_TRUE(has(fail2banFinds(*server, "aggressive"), " 1 matched,"));
   ClientSetup guess = home.player("eve");
   guess.options.password = "plugh";
-  // Lines on refusals are one a second for an address, and bob has had one.
+  // At most one line a second on refusals is logged per address, and bob already has one.
   ASSERT_TRUE(serve([&] {
     EXPECT_NE(refusal(guess), "");
     const std::string log = server->log();
@@ -325,7 +324,7 @@ TEST_P(Fail2ban, FindsWhoGuessesPasswordsAndNobodyElse) {
 INSTANTIATE_TEST_SUITE_P(Formats, Fail2ban, testing::Values("text", "json"),
                          [](const auto& test) { return std::string(test.param); });
 
-// ---- a restart --------------------------------------------------------------------------------------------
+// ---- restart ----------------------------------------------------------------------------------------------
 
 using HostedWorld = LoopbackFixture;
 
@@ -371,11 +370,11 @@ TEST_F(HostedWorld, AClientThatDoesNotLookAgainEnds) {
   EXPECT_EQ(ann.connection().sentence(), "The server restarts. It is back in a moment.");
 }
 
-// ---- by dfctl ---------------------------------------------------------------------------------------------
+// ---- restart by dfctl -------------------------------------------------------------------------------------
 
 class Restarts : public HostedServer, public testing::WithParamInterface<const char*> {
  protected:
-  /// How often dfserver has begun; a world of its own is marked.
+  /// Counts the starts of dfserver by the line without a mark; lines of a world process have one.
   std::size_t begun() const {
     const std::regex line("\\n[-0-9]+ [:0-9]+ dfserver \\S+ hosts ");
     const std::string lines = "\n" + server->log();
@@ -396,7 +395,7 @@ TEST_P(Restarts, TheSameProcessBeginsAgainOnItsPortAndPlayersComeBack) {
   EXPECT_TRUE(serve([&] { return ann.joined(); })) << ann.connection().sentence();
   EXPECT_EQ(begun(), 2u) << server->log();
   EXPECT_TRUE(ticks(ann));
-  // The new one takes commands where the old one did.
+  // The restarted server takes commands at the old path.
   EXPECT_TRUE(has(ctl("who").second, "ann"));
   EXPECT_EQ(ctl("stop").first, 0);
   EXPECT_TRUE(endsWell());
@@ -446,8 +445,8 @@ TEST_F(HostedServer, ReloadByDfctlSaysWhatBecameOfIt) {
   EXPECT_TRUE(ticks(ann));
 }
 
-/// Does `job` a hundred times a second, on a thread of its own, until it is gone. How often is said by
-/// count().
+/// Runs `job` a hundred times a second in a thread of its own until it is destroyed. count() returns the
+/// number of runs.
 class Repeated {
  public:
   explicit Repeated(std::function<void()> job)
@@ -473,7 +472,7 @@ class Repeated {
   std::thread m_thread;
 };
 
-// With the thread sanitizer the server ends with another code if it finds a race.
+// With the thread sanitizer, the server exits with another code if it finds a race.
 TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) {
   start({{"NAIAD_METRICS", "127.0.0.1:0"}}, "max-players = 3\n");
   const std::string where = "metrics are at http://127.0.0.1:";
@@ -492,7 +491,7 @@ TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) 
     const Repeated reloads([&] {
       Talk talk(server->control());
       const std::string answer = talk.ask(R"({"command":"reload"})");
-      bad += answer.find("read") == std::string::npos ? 1 : 0;  // again, or being read already
+      bad += answer.find("read") == std::string::npos ? 1 : 0;  // "read again" or "being read already"
     });
     EXPECT_TRUE(
         serve([&] { return scrapes.count() >= 200 && orders.count() >= 200 && reloads.count() >= 200; }));

@@ -1,5 +1,5 @@
-// A game's author attacks the server that hosts it (hostile/game.cpp), in private worlds: what each attempt
-// comes to, while the server and another player's world go on. Real processes and sockets.
+// The author of a game attacks the server that hosts it (hostile/game.cpp), in private worlds. Each attempt
+// must fail, and the server and another player's world must continue. Real processes and sockets.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -31,13 +31,13 @@ struct Line {
   std::string text;
 };
 
-/// A process that has ended may still be waited for by another.
+/// False for a process that has ended but is not yet waited for.
 bool isAlive(pid_t process) {
   const char state = stateOf(process);
   return state != 'X' && state != 'Z';
 }
 
-/// dfserver with that game; ann and bob play, each in a world.
+/// dfserver with the hostile game. ann and bob each play in a world of their own.
 class HostileGame : public LoopbackFixture {
  protected:
   HostileGame() : support(findSandboxSupport()) {}
@@ -71,7 +71,7 @@ class HostileGame : public LoopbackFixture {
     while (file >> line.process && std::getline(file >> std::ws, line.text)) lines.push_back(line);
     return lines;
   }
-  /// The worlds that are attacking, in the order of their players.
+  /// Returns the worlds that have finished attacking, in the order of their players.
   std::vector<pid_t> worlds() const {
     std::vector<pid_t> found;
     for (const Line& line : report()) {
@@ -79,7 +79,7 @@ class HostileGame : public LoopbackFixture {
     }
     return found;
   }
-  /// What became of an attempt, by the last world that made it; empty if it was not made.
+  /// Returns the result of an attempt in the last world that made it; empty if none did.
   std::string result(const std::string& attempt) const {
     std::string found;
     for (const Line& line : report()) {
@@ -90,8 +90,8 @@ class HostileGame : public LoopbackFixture {
   void expectRefused(const std::vector<std::string>& attempts) const {
     for (const std::string& attempt : attempts) EXPECT_EQ(result(attempt), "refused") << attempt;
   }
-  /// A world and what it has started: two, one without a parent. They go to sessions of their own if they
-  /// may.
+  /// Returns a world and the two processes that it started, one of which has lost its parent. They move to
+  /// their own sessions if that is allowed.
   std::vector<pid_t> processesOf(pid_t world) const {
     std::vector<pid_t> all{world};
     for (const Line& line : report()) {
@@ -102,7 +102,7 @@ class HostileGame : public LoopbackFixture {
   }
   static bool areAlive(const std::vector<pid_t>& all) { return std::ranges::all_of(all, isAlive); }
   static bool areGone(const std::vector<pid_t>& all) { return std::ranges::none_of(all, isAlive); }
-  /// bob's world has ticked since, and the server lives.
+  /// Checks that bob's world continues to tick and that the server lives.
   void expectTheOthersPlay() {
     const std::uint32_t then = bob->newestTick();
     EXPECT_TRUE(serve([&] { return bob->newestTick() > then + 50; })) << game->log();
@@ -147,9 +147,9 @@ TEST_F(HostileGame, AddsLinesToTheLogAndChangesNone) {
   EXPECT_TRUE(serve([&] { return logged(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)"); })) << game->log();
   EXPECT_TRUE(logged(" game: dfserver ")) << "what the engine logs there";
   EXPECT_FALSE(logged("\x1b"));
-  // The server's own output is not what the world has: its flags are as they were.
+  // The flags of the server's own output are unchanged, so the world does not share its descriptor.
   const std::string info = contentOf("/proc/" + std::to_string(game->process()) + "/fdinfo/2");
-  if (!info.empty()) {  // nobody but root may look
+  if (!info.empty()) {  // only root may read this
     const std::size_t at = info.find("flags:");
     ASSERT_NE(at, std::string::npos);
     EXPECT_NE(std::stoul(info.substr(at + 6), nullptr, 8) & O_APPEND, 0u);
@@ -199,7 +199,7 @@ TEST_F(HostileGame, IsLoadedByItsWorldsAlone) {
 }
 
 TEST_F(HostileGame, LearnsNoPassword) {
-  // 64 MiB for each guess is much for a thread sanitizer: it gets a cheap hash.
+  // 64 MiB for each password check are too much under the thread sanitizer, so it gets a cheap hash.
   const std::string secret =
       kSanitized ? PasswordHash::of(kPassword, {.memory_kib = 64, .passes = 1}).text() : kPassword;
   start({{"NAIAD_PASSWORD", "not this one"}, {"SECRET_OF_MINE", kPassword}},

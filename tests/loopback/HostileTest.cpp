@@ -1,4 +1,4 @@
-// Hostile bytes end the connection they came on, are counted, and change nothing for other players.
+// Hostile bytes end the connection that sent them, are counted, and change nothing for other players.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -58,10 +58,10 @@ void attack(SplitMix64& random, RawClient& client) {
   const std::uint64_t kind = random.below(7);
   if (kind != 0) client.send(RawClient::hello("evil"));
   switch (kind) {
-    case 0:  // no greeting, just noise
+    case 0:  // random bytes instead of a greeting
       client.sendBytes(randomBytes(random, 1 + random.below(300)));
       break;
-    case 1:  // noise in a frame
+    case 1:  // random bytes in a frame
       client.sendFrame(randomBytes(random, 1 + random.below(300)));
       break;
     case 2:  // a frame over the limit
@@ -70,7 +70,7 @@ void attack(SplitMix64& random, RawClient& client) {
     case 3:  // an empty frame
       client.sendBytes(std::string(2, '\0'));
       break;
-    case 4: {  // a message cut short, and the end of the stream in the middle of a frame
+    case 4: {  // a truncated message, and the stream ends within a frame
       std::string bytes;
       appendFrame(bytes, validMessage(random).SerializeAsString());
       client.sendBytes(bytes.substr(0, 1 + random.below(bytes.size())));
@@ -92,10 +92,10 @@ void attack(SplitMix64& random, RawClient& client) {
   }
 }
 
-/// As shipped: encrypted, and a player whose connection breaks has a grace time.
+/// Default settings: encrypted, and a disconnected player has a grace time.
 class Hostile : public LoopbackFixture {
  protected:
-  /// On the stream, where no picture is ever provisional.
+  /// Returns a setup without datagrams, because pictures from the stream are never provisional.
   ClientSetup player(const std::string& name) const {
     ClientSetup setup = home.player(name);
     setup.options.open_socket = [](const Endpoint&) { return nullptr; };
@@ -106,8 +106,8 @@ constexpr auto kTls = RawClient::Line::kTls;
 
 TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
   HostOptions options = home.server();
-  options.grace = 0.1;            // of those who only break off, few are there at once: each picture is kept
-  options.max_per_address = 500;  // twice as many may join one after the other (PrefixRates)
+  options.grace = 0.1;            // few attackers are detached at once, so each picture is kept
+  options.max_per_address = 500;  // twice as many may join in sequence (PrefixRates)
   TestServer server(busyWorld(50), options);
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
@@ -116,7 +116,7 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
   for (int i = 0; i < 1000; ++i) {
     RawClient evil(server.port(), kTls);
     attack(random, evil);
-    // A reset may take the bytes with it, so most attackers stay until all of theirs were read.
+    // A reset may discard bytes, so most attackers wait until the server has read all of theirs.
     if (i % 10 == 0) {
       evil.reset();
     } else {
@@ -129,7 +129,7 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
     const std::uint32_t tick = ann.newestTick();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick; })) << "after attack " << i;
   }
-  // Once the last attacker is swept away, Ann plays alone and undisturbed.
+  // After the last attacker is removed, Ann plays alone and undisturbed.
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
     return ann.pictures().size() >= 100 &&
            server.inWorld([](df::World& world) { return world.views().getPlayers().size(); }) == 1;
@@ -183,7 +183,7 @@ TEST_F(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNoOthersWorld) {
   std::vector<std::thread> floods;
   for (int i = 0; i < 2; ++i) {
     floods.emplace_back([&] {
-      wire::ClientMessage nothing;  // valid, small, and never a reason to hang up by itself
+      wire::ClientMessage nothing;  // valid, small, and in itself no reason to disconnect
       nothing.set_update(writeUpdate({}));
       std::string many;
       for (int k = 0; k < 20'000; ++k) appendFrame(many, nothing.SerializeAsString());

@@ -1,4 +1,4 @@
-// Hostile datagrams and half-open connections: nothing comes back, nothing changes.
+// Hostile datagrams and half-open connections get no answer and change nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 using asio::ip::udp;
 using Clock = std::chrono::steady_clock;
 
-/// Keeps what it sends, so that an attacker can send it again.
+/// Keeps what it sends so that an attacker can replay it.
 class Sniffed : public DatagramSocket {
  public:
   Sniffed(std::unique_ptr<DatagramSocket> socket, std::vector<std::string>& seen)
@@ -54,7 +54,7 @@ class HostileTls : public LoopbackFixture {
   }
 
   std::shared_ptr<Valve> valve = std::make_shared<Valve>();
-  std::vector<std::string> seen;  ///< datagrams of the client
+  std::vector<std::string> seen;  ///< datagrams sent by the client
 };
 
 TEST_F(HostileTls, GarbageAndForgeriesAreNeverAnswered) {
@@ -77,20 +77,20 @@ TEST_F(HostileTls, GarbageAndForgeriesAreNeverAnswered) {
   for (int i = 0; i < 2000; ++i) {
     std::string bytes = genuine[random.below(genuine.size())];
     switch (random.below(5)) {
-      case 0:  // noise of any length
+      case 0:  // random bytes of any length
         bytes.resize(1 + random.below(1400));
         for (char& c : bytes) c = static_cast<char>(random.next());
         break;
-      case 1:  // a bit flipped
+      case 1:  // a flipped bit
         bytes[random.below(bytes.size())] ^= static_cast<char>(1 << random.below(8));
         break;
-      case 2:  // cut short
+      case 2:  // truncated
         bytes.resize(random.below(bytes.size()));
         break;
-      case 3:  // the right head, another body
+      case 3:  // the correct head with another body
         for (std::size_t k = 11; k < bytes.size(); ++k) bytes[k] = static_cast<char>(random.next());
         break;
-      default:  // seen on the way, and sent again
+      default:  // captured and replayed
         break;
     }
     strike(bytes);
@@ -111,8 +111,8 @@ TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNoPlayer) {
   TestServer server(busyWorld(20), home.server());
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(settles(ann));
-  // One that never arrived, and is authentic; but a newer one names the address already. What was sent before
-  // has arrived, or it would look like the newer one.
+  // An authentic datagram that never arrived, replayed after a newer one from the current address. All
+  // earlier datagrams must have arrived, or else they would count as the newer one.
   const auto arrived = [&] { return server.datagrams().delivered; };
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return arrived() == valve->sent; }));
   const std::uint64_t before = arrived();
@@ -172,11 +172,11 @@ TEST_F(HostileTls, HalfOpenConnectionsAreHungUpOn) {
   for (int i = 0; i < 30; ++i) {
     HalfOpen& one = *crowd.emplace_back(std::make_unique<HalfOpen>(context));
     one.socket.connect({asio::ip::address_v4::loopback(), server.port()});
-    // Silent, or with the beginning of a ClientHello that never goes on.
+    // Half of them are silent, the others send only the beginning of a ClientHello.
     if (i % 2 == 0) asio::write(one.socket, asio::buffer("\x16\x03\x01\x02\x00\x01", 6));
     one.socket.async_read_some(asio::buffer(&one.byte, 1), [&one](auto, std::size_t) { one.over = true; });
   }
-  // Meanwhile another player gets in.
+  // Another player can join at this time.
   TestClient bob(context, server.port(), home.player("bob"));
   EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return bob.joined(); }));
   EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] {

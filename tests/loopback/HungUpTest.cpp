@@ -1,4 +1,4 @@
-// Servers that hang up on a client in its handshake, as they do where too many come from one address.
+// Servers that disconnect a client in its handshake, as with too many connections from one address.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace {
 
 class HungUp : public LoopbackFixture {
  protected:
-  /// A server that answers no handshakes but those from the `first` on, and nothing else.
+  /// Joins a server that drops the handshakes before the `first`-th and sends nothing itself.
   TestClient& joinWhereAnswered(int first) {
     TlsListening tls;
     tls.context =

@@ -1,4 +1,4 @@
-// A click on what the player sees hits it, however far the server is and however fast the target.
+// A click on what the player sees hits it, however far the server is and however fast the target moves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,20 +24,20 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSlow = 12;     ///< the row of a target that flies half a cell a tick
-constexpr int kFast = 14;     ///< … a cell a tick
-constexpr int kPillars = 16;  ///< the row of what stands still in a wide world
-/// A busy machine delays most clicks for longer than the server compensates.
+constexpr int kSlow = 12;     ///< row of the target that moves half a cell a tick
+constexpr int kFast = 14;     ///< row of the target that moves a cell a tick
+constexpr int kPillars = 16;  ///< row of the fixed pillars in a wide world
+/// Enough clicks for a busy machine, where most arrive later than the server compensates.
 constexpr std::size_t kMaxClicks = 100;
 
 struct Click {
-  std::uint32_t tick = 0;  ///< the one before that which took it in
+  std::uint32_t tick = 0;  ///< last tick before the one that handled the click
   bool hit_as_drawn = false;
   bool hit_now = false;
-  double corner = 0;  ///< where the view is by then that scrolls
+  double corner = 0;  ///< left edge of the scrolling view at that tick
 };
 
-/// A character that flies to and fro in its row, and records what clicks in that row hit.
+/// A character that moves back and forth in its row, and records whether clicks in that row hit.
 class Target : public df::Object {
  public:
   Target(std::vector<Click>& clicks, int row, double speed) : m_clicks(clicks), m_speed(speed) {
@@ -72,7 +72,7 @@ class Target : public df::Object {
   double m_speed;
 };
 
-/// Runs to the right, and the view of its player with it.
+/// Moves to the right, followed by its player's view.
 struct Runner : df::Object {
   Runner() {
     setSolidness(df::SPECTRAL);
@@ -90,7 +90,7 @@ struct Pillar : df::Object {
   int draw() override { return DM.drawCh(getPosition(), '#', df::RED); }
 };
 
-/// Gives each player a Runner, and notes whether clicks hit anything.
+/// Gives each player a Runner, and records whether clicks hit anything.
 class Watcher : public df::Object {
  public:
   explicit Watcher(std::vector<Click>& clicks) : m_clicks(clicks) {
@@ -109,7 +109,7 @@ class Watcher : public df::Object {
     Click click;
     click.tick = df::World::current().picture().view().tick;
     click.hit_as_drawn = WM.objectsSeenAt(p_mouse->getMousePosition()).getCount() > 0;
-    click.corner = m_p_runner->getPosition().getX() - 80 * 2 / 3.0;  // it pushes the view before it
+    click.corner = m_p_runner->getPosition().getX() - 80 * 2 / 3.0;  // the runner pushes the view
     m_clicks.push_back(click);
     return 1;
   }
@@ -140,12 +140,12 @@ class LagCompensatorPlay : public testing::Test {
   }
   HostOptions options() const {
     HostOptions options = home.server();
-    options.frame_micros = 0;  // 30 Hz, as people play
+    options.frame_micros = 0;  // 30 Hz, the default
     return options;
   }
 
   Home home;
-  std::vector<Click> clicks;  ///< the server's thread's
+  std::vector<Click> clicks;  ///< used on the server's thread
   asio::io_context context;
   std::shared_ptr<Valve> valve = std::make_shared<Valve>();
   TestServer server;
@@ -162,7 +162,7 @@ class LagCompensatorPlay : public testing::Test {
              ann.session().counters().datagrams_in > 30;
     });
   }
-  /// Serve ann until `count` clicks have reached the game; false: they did not.
+  /// Serves ann until `count` clicks have reached the game; false after a timeout.
   bool clicked(TestClient& ann, std::size_t count, std::vector<Click>& now) {
     return serveUntil(context, {&ann}, [&] {
       now = server.inWorld([this](df::World&) { return clicks; });
@@ -176,12 +176,12 @@ TEST_F(LagCompensatorPlay, AClickHitsWhatWasOnTheScreen) {
   ASSERT_TRUE(plays(ann));
   int judged = 0;
   int fast = 0;
-  int hits_now = 0;  ///< on the fast one, without compensation
+  int hits_now = 0;  ///< clicks on the fast target that would also hit without compensation
   for (std::size_t i = 0; judged < 30 && i < kMaxClicks; ++i) {
     const std::uint32_t tick = ann.newestTick();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() >= tick + 3; }));
     const int row = i % 2 == 0 ? kSlow : kFast;
-    const auto present = Clock::now();  // of the picture and of the click in it
+    const auto present = Clock::now();  // time of the picture and of the click in it
     const std::uint32_t drawn = ann.session().displayTick(present);
     const df::Canvas picture = ann.session().replica().render(drawn);
     int x = 0;
@@ -190,7 +190,7 @@ TEST_F(LagCompensatorPlay, AClickHitsWhatWasOnTheScreen) {
     ASSERT_TRUE(ann.session().sendMouse(df::CLICKED, df::Mouse::LEFT, x, row, present));
     std::vector<Click> now;
     ASSERT_TRUE(clicked(ann, i + 1, now));
-    // On a busy machine a click may come later than the server compensates for.
+    // A click may arrive later than the server compensates if the machine is busy.
     const Click& click = now.back();
     if (click.tick - drawn > LagCompensator::kMaxBehind) continue;
     ++judged;
@@ -228,7 +228,7 @@ TEST_F(LagCompensatorScrolling, AClickHitsWhatWasOnTheScreen) {
     const std::uint32_t tick = ann.newestTick();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() >= tick + 3; }));
     const Replica& replica = ann.session().replica();
-    const auto present = Clock::now();  // of the picture and of the click in it
+    const auto present = Clock::now();  // time of the picture and of the click in it
     const std::uint32_t drawn = ann.session().displayTick(present);
     const df::Canvas picture = replica.render(drawn);
     const std::int32_t corner = replica.viewCorner(drawn).x;
@@ -238,8 +238,8 @@ TEST_F(LagCompensatorScrolling, AClickHitsWhatWasOnTheScreen) {
     ASSERT_TRUE(ann.session().sendMouse(df::CLICKED, df::Mouse::LEFT, x, kPillars, present));
     std::vector<Click> now;
     ASSERT_TRUE(clicked(ann, i + 1, now));
-    // On a busy machine a click may come later than the server compensates for, or the server may be behind
-    // the picture, in which the client drew the view ahead.
+    // A click may arrive later than the server compensates if the machine is busy. If the server is behind
+    // the picture, the client drew a predicted view.
     const auto behind = static_cast<std::int32_t>(now.back().tick - drawn);
     if (behind < 2 || behind > static_cast<std::int32_t>(LagCompensator::kMaxBehind)) continue;
     EXPECT_GT(now.back().corner, corner + 0.5) << "the view has not gone on";

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Made once: it reads all of the machine's certificates.
+/// Created once because it reads all of the machine's certificates.
 const std::shared_ptr<const TlsContext>& clientTls() {
   static const std::shared_ptr<const TlsContext> made = TlsContext::forClient();
   return made;
@@ -40,7 +40,7 @@ void LightClient::join(const std::string& password) {
   const auto socket = std::make_shared<tcp::socket>(m_context, m_own);
   m_socket = socket;
   socket->async_connect(m_server, [this, socket](const std::error_code& error) {
-    if (m_socket != socket) return;  // dropped
+    if (m_socket != socket) return;  // drop() was called
     m_socket.reset();
     if (error) return end(State::kHungUp);
     m_handshake = std::make_shared<TlsHandshake>(

@@ -1,5 +1,5 @@
-// A client that says hello and then only listens: so light that a thousand of them fit into a test. It comes
-// from an address of its own.
+// A client that sends hello and then only listens, so a thousand of them fit into a test. Each can have its
+// own address.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -21,27 +21,27 @@ class LightClient {
  public:
   enum class State { kIdle, kJoining, kWelcome, kRefused, kHungUp };
 
-  /// `address`: in 127/8. Runs in `context`, which must outlive it.
+  /// `address` is the client's own, in 127/8. Runs in `context`, which must outlive it.
   LightClient(asio::io_context& context, std::uint16_t server, const std::string& address);
   ~LightClient();
   LightClient(const LightClient&) = delete;
   LightClient& operator=(const LightClient&) = delete;
 
-  /// Connect with TLS and say hello, with the token of the last welcome if there was one.
+  /// Connects with TLS and sends hello, with the token of the last welcome if there was one.
   void join(const std::string& password = {});
-  /// The same after a time.
+  /// Calls join() after a pause.
   void joinAfter(std::chrono::milliseconds pause);
-  /// Until it is welcome, as Connection does: after 0.25 s, 0.5 s, … 2 s.
+  /// Retries until it is welcome, like Connection does: after 0.25 s, 0.5 s, … 2 s.
   void joinUntilWelcome();
-  /// Hang up, without a goodbye.
+  /// Closes the connection without a goodbye.
   void drop();
 
   State state() const { return m_state; }
   const wire::Welcome& welcome() const { return m_welcome; }
   const wire::Refused& refusal() const { return m_refused; }
-  /// Connections that were made or refused so far.
+  /// Returns the number of connections made or refused so far.
   int attempts() const { return m_attempts; }
-  /// Called when a join ends, one way or the other.
+  /// Sets a function that is called when a join succeeds or fails.
   void onJudged(std::function<void(LightClient&)> callback) { m_on_judged = std::move(callback); }
 
  private:
@@ -52,7 +52,7 @@ class LightClient {
   asio::ip::tcp::endpoint m_server;
   asio::ip::tcp::endpoint m_own;
   asio::steady_timer m_timer;
-  std::shared_ptr<asio::ip::tcp::socket> m_socket;  ///< while it connects
+  std::shared_ptr<asio::ip::tcp::socket> m_socket;  ///< set while it connects
   std::shared_ptr<TlsHandshake> m_handshake;
   std::unique_ptr<ReliableChannel> m_channel;
   State m_state = State::kIdle;

@@ -1,4 +1,4 @@
-// Players who walk about in the lobby that ships, and into its first door.
+// Players walk about in the shipped lobby and into its first door.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,16 +11,16 @@
 
 namespace naiad::test {
 
-inline constexpr int kDoorColumn = 10;  ///< of the first door, in its middle
+inline constexpr int kDoorColumn = 10;  ///< middle column of the first door
 inline constexpr int kDoorRow = 6;
-inline constexpr int kFirstRow = 2;  ///< where players appear
+inline constexpr int kFirstRow = 2;  ///< row where players appear
 inline constexpr int kRows = 24;
 
 class LobbyFixture : public RoomsFixture {
  protected:
   using Place = std::pair<int, int>;
 
-  /// Of a player who stands in these rows; nothing if none does.
+  /// Returns the position of a player in these rows; nullopt if none is there.
   static std::optional<Place> walker(TestClient& client, int first, int last) {
     const df::Canvas picture = client.session().replica().render(client.newestTick());
     for (int y = first; y <= last; ++y) {
@@ -29,7 +29,7 @@ class LobbyFixture : public RoomsFixture {
     }
     return std::nullopt;
   }
-  /// One step, of which the lobby takes one every second tick.
+  /// Makes one step. The lobby allows one every second tick.
   void step(TestClient& client, df::Keyboard::Key key) {
     const auto before = walker(client, kFirstRow, kRows - 1);
     ASSERT_TRUE(before);
@@ -38,7 +38,7 @@ class LobbyFixture : public RoomsFixture {
     const std::uint32_t moved = client.newestTick();
     ASSERT_TRUE(serve([&] { return client.newestTick() >= moved + 4; }));
   }
-  /// To where the next step leads into the door.
+  /// Walks to where the next step leads into the door.
   void walkToDoor(TestClient& client) {
     while (!HasFatalFailure() && walker(client, kFirstRow, kDoorRow - 1)->first > kDoorColumn)
       step(client, df::Keyboard::LEFTARROW);

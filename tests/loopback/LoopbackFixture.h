@@ -1,4 +1,4 @@
-// Clients that are served by a test's own thread, and a home for their files.
+// Clients served by the test's own thread, and a home for their files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ class LoopbackFixture : public testing::Test {
     return testing::AssertionFailure() << "state " << static_cast<int>(client.connection().state()) << ": "
                                        << client.connection().sentence();
   }
-  /// The sentence with which a client is not let in; empty: it is.
+  /// Returns the message with which a client is refused; empty if it joins.
   std::string refusal(TestClient& client) {
     EXPECT_TRUE(isJudged(client));
     return client.joined() ? "" : client.connection().sentence();
@@ -32,16 +32,16 @@ class LoopbackFixture : public testing::Test {
   bool ends(TestClient& client) {
     return serveUntil(context, {&client}, [&] { return client.connection().isOver(); });
   }
-  /// Its pictures come as datagrams.
+  /// Waits until the client's pictures come as datagrams.
   bool settles(TestClient& client) {
     return serveUntil(context, {&client}, [&] { return isOnDatagrams(client); });
   }
-  /// It hears of so many more ticks.
+  /// Waits until the client has received this many more ticks.
   bool hears(TestClient& client, std::uint32_t ticks) {
     const std::uint32_t until = client.newestTick() + ticks;
     return serveUntil(context, {&client}, [&] { return client.newestTick() >= until; });
   }
-  /// A key reaches the game, whose world is busy: its number is in the player's score.
+  /// Presses a key. True if the score rises, which in a busy world is the number of keys that reached it.
   bool keyWorks(TestClient& client) {
     const std::int32_t before = client.session().score();
     press(client, df::Keyboard::RIGHTARROW);

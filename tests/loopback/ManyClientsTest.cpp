@@ -1,4 +1,4 @@
-// Many at once, and what must not hold up the tick: a class behind one address, floods from many, guesses.
+// Many clients at once must not delay the tick: many players behind one address, floods, password guesses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ TEST_F(ManyClients, AClaimedSizeIsNoAdvantage) {
   EXPECT_LE(answer->welcome().view_height(), static_cast<unsigned>(window.second));
 }
 
-/// A wrong password takes as long to compare as the right one.
+/// Comparing a wrong password takes as long as comparing the right one.
 TEST_F(ManyClients, TheWorldGoesOnWhileAPasswordIsCompared) {
   HostOptions options = fastOptions();
   options.frame_micros = 1000;
@@ -101,7 +101,7 @@ TEST_F(ManyClients, TheWorldGoesOnWhileAPasswordIsCompared) {
   EXPECT_EQ(answer->refused().reason(), wire::Refused::PASSWORD);
 }
 
-/// Keeps the newest datagram that a client sent, as an eavesdropper could.
+/// Keeps the newest datagram of a client, like an eavesdropper could.
 class Overheard : public DatagramSocket {
  public:
   Overheard(std::unique_ptr<DatagramSocket> socket, std::string& newest)
@@ -131,7 +131,7 @@ TEST_F(ManyClients, ASpooferOfManyAddressesLocksNoPlayerOut) {
   TestClient ann(context, server.port(), setup);
   ASSERT_TRUE(settles(ann));
 
-  // Forgeries from two hundred addresses, half of them with her id.
+  // Sends forgeries from two hundred addresses, half of them with ann's id.
   std::atomic<bool> done = false;
   std::atomic<std::uint64_t> sent = 0;
   std::thread spoofer([&, port = server.port(), genuine = overheard] {
@@ -152,7 +152,7 @@ TEST_F(ManyClients, ASpooferOfManyAddressesLocksNoPlayerOut) {
       ++sent;
     }
   });
-  // Ann plays on; another player gets in, gets datagrams, and moves to another port.
+  // Ann continues to play. Another player joins, gets datagrams, and moves to another port.
   const auto bobs = std::make_shared<Valve>();
   ClientSetup other = home.player("bob");
   other.options.open_socket = through(context, bobs);

@@ -1,4 +1,4 @@
-// What a server says of itself on --metrics, while it is played on: real sockets.
+// The metrics page (--metrics) of a server with players. Real sockets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ class Metrics : public testing::Test {
     EXPECT_TRUE(serve([&client] { return client.joined() && client.newestTick() > 0; }));
     return client;
   }
-  /// Serve the clients until it is so; false after kPatience.
+  /// Serves the clients until `done` returns true; false after kPatience.
   bool serve(const std::function<bool()>& done) {
     const auto end = Clock::now() + kPatience;
     while (!done()) {
@@ -64,7 +64,7 @@ class Metrics : public testing::Test {
     return HttpClient::get(server->metricsPort(), path);
   }
   double value(const std::string& sample) const { return metricOf(get("/metrics").body, sample); }
-  /// It may take a second until a value is on the page.
+  /// Waits for a value. It may take a second until a value is on the page.
   bool reaches(const std::string& sample, const std::function<bool(double)>& wanted) {
     return serve([&] { return wanted(value(sample)); });
   }
@@ -79,7 +79,7 @@ class Metrics : public testing::Test {
   std::atomic<bool> blocks = false;
   std::unique_ptr<TestServer> server;
   std::list<TestClient> clients;
-  mutable int pages = 0;  ///< that were asked for
+  mutable int pages = 0;  ///< number of requested pages
 };
 
 TEST_F(Metrics, ValuesFollowTheGame) {
@@ -142,7 +142,7 @@ TEST_F(Metrics, AFullServerIsHealthyAndNotReady) {
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
 }
 
-/// Keeps the tick from its end for as long as it is wanted.
+/// Blocks the tick while `blocks` is set.
 class Blocker : public df::Object {
  public:
   explicit Blocker(const std::atomic<bool>& blocks) : m_blocks(blocks) { registerInterest(df::STEP_EVENT); }
@@ -188,7 +188,7 @@ TEST_F(Metrics, StrangersWhoCannotSpeakHttpCostTheGameNothing) {
   EXPECT_EQ(value("naiad_divergences_total"), 0);
 }
 
-// With the thread sanitizer this is the proof that nothing is read while it is written.
+// This proves, with the thread sanitizer, that no value is read while it is written.
 TEST_F(Metrics, AScraperAtAHundredHertzDisturbsNobody) {
   start(busyWorld(30));
   std::atomic<bool> stop = false;
@@ -218,7 +218,7 @@ TEST_F(Metrics, AScraperAtAHundredHertzDisturbsNobody) {
   EXPECT_TRUE(enough()) << rounds << " rounds, " << scrapes << " scrapes";
 }
 
-// ---- the audit --------------------------------------------------------------------------------------------
+// ---- audit of pictures ------------------------------------------------------------------------------------
 
 TEST_F(Metrics, TheAuditFindsNoWrongCellInAnHonestGame) {
   start(busyWorld(100));
@@ -258,7 +258,7 @@ TEST_F(Metrics, TheAuditFindsNoWrongCellOverALineThatLosesDatagrams) {
            value(R"(naiad_snapshots_total{path="datagram"})") > datagrams + 100;
   }));
   EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
-  clients.clear();  // before the home
+  clients.clear();  // before their home is destroyed
   server.reset();
 }
 
@@ -268,12 +268,11 @@ TEST_F(Metrics, WithoutTheAuditNothingIsCompared) {
   start(busyWorld(5), options);
   TestClient& ann = join("ann");
   const std::uint32_t from = ann.newestTick();
-  ASSERT_TRUE(
-      serve([&] { return ann.newestTick() > from + 700; }));  // a second, and one until it is on the page
+  ASSERT_TRUE(serve([&] { return ann.newestTick() > from + 700; }));  // until a page would show it
   EXPECT_EQ(value("naiad_audit_pictures_total"), 0);
 }
 
-// The time is that of the thread which makes the pages, so it does not depend on what else the machine does.
+// Measures the CPU time of the thread that makes the pages, so other load on the machine does not matter.
 TEST_F(Metrics, APageTakesLittleTime) {
   const std::string sample = R"(naiad_thread_cpu_seconds_total{thread="metrics"})";
   start(busyWorld(5));
@@ -282,8 +281,7 @@ TEST_F(Metrics, APageTakesLittleTime) {
   constexpr int kPages = 200;
   const double before = value(sample);
   for (int i = 0; i < kPages; ++i) ASSERT_TRUE(serve([this] { return get("/metrics").status == 200; }));
-  // Values that were measured after that. The pages of which this is read are not counted, but take time,
-  // too.
+  // Wait for values measured after those pages. The pages requested for that are not counted, but take time.
   ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
   ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
   const double spent = value(sample) - before;
@@ -294,7 +292,7 @@ TEST_F(Metrics, APageTakesLittleTime) {
   }
 }
 
-// A scraper that comes every two seconds costs at most 0.5 % of a core then.
+// A scraper that requests a page every two seconds then costs at most 0.5 % of a core.
 TEST_F(Metrics, APageOfAThousandPlayersTakesNoMoreThanTenMilliseconds) {
   constexpr std::size_t kPlayers = kSanitized ? 100 : 1000;
   const std::string sample = R"(naiad_thread_cpu_seconds_total{thread="metrics"})";
@@ -324,7 +322,7 @@ TEST_F(Metrics, APageOfAThousandPlayersTakesNoMoreThanTenMilliseconds) {
     ASSERT_TRUE(serve([this] { return get("/metrics").status == 200; }));
     millis.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
   }
-  // Values that were measured after that; the pages until then count, too.
+  // Wait for values measured after those pages. The pages requested before the first such value count, too.
   ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
   const int made = pages - pages_before;
   ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));

@@ -1,6 +1,5 @@
-// Rooms of one server (--room), each with a game in a process of its own (rooms/game.cpp): joining them by
-// name, going from one to another, sleep, and what the failure of one is to the others. Real processes and
-// sockets.
+// Rooms of one server (--room), each with a game in its own process (rooms/game.cpp): joining by name, moving
+// between rooms, sleep, and isolation from another room's failure. Real processes and sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -75,7 +74,7 @@ TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
   EXPECT_EQ(ann->session().counters().bad_messages, 0u);
 }
 
-// A world that has missed ticks counts behind the others.
+// A world that has missed ticks is behind the others in its tick number.
 TEST_F(NamedRooms, PlayerMovesToAWorldWhoseTicksAreBehind) {
   start({"one", "slow"});
   auto ann = join("ann", "one");
@@ -118,10 +117,10 @@ TEST_F(NamedRooms, RoomSleepsWithoutPlayersAndWakes) {
   EXPECT_FALSE(has(server->log(), "crashed"));
 }
 
-/// What a room's game does is nothing to the players of another: their ticks go on.
+/// The game of one room does not affect players in another: their ticks continue.
 class Isolation : public RoomsFixture {
  protected:
-  /// `key` in the room "bad". `done`: enough has happened there.
+  /// Presses `key` in the room "bad" and waits until `done` returns true.
   void expectOthersGoOn(df::Keyboard::Key key, const std::function<bool(TestClient& bad)>& done) {
     start({"good", "bad", "other"});
     auto ann = join("ann", "good");
@@ -134,8 +133,8 @@ class Isolation : public RoomsFixture {
     press(*bob, key);
     ASSERT_TRUE(serve([&] { return done(*bob); })) << server->log();
     const auto passed = std::chrono::duration<double>(Clock::now() - began).count();
-    // Far from all, for the machine may be busy; a world that waited for the bad one would have had hardly
-    // any.
+    // A small part of the ticks is enough, because the machine may be busy. A world that waited for the bad
+    // one would have had almost none.
     const int least = static_cast<int>(passed / 0.005 * 0.15);
     EXPECT_GE(shown(*ann).ticks - first, least) << passed;
     EXPECT_GE(shown(*cid).ticks - other, least) << passed;
@@ -165,7 +164,7 @@ TEST_F(Isolation, LoadIsOneRoomsOwn) {
   int ticks = -1;
   expectOthersGoOn(df::Keyboard::B, [&](TestClient& bad) {
     if (ticks < 0) ticks = shown(bad).ticks;
-    return shown(bad).ticks > ticks + 2;  // each takes a tenth of a second of a processor
+    return shown(bad).ticks > ticks + 2;  // each takes a tenth of a second of processor time
   });
 }
 
@@ -176,7 +175,7 @@ TEST_F(NamedRooms, GameThatFailsAgainAndAgainClosesItsRoomAlone) {
   std::ofstream(server->playFolder() / "fails") << "yes";
   press(*bob, df::Keyboard::C);
   ASSERT_TRUE(serve([&] { return bob->session().welcome().room == "one"; })) << server->log();
-  EXPECT_TRUE(serve([&] {  // a thread of its own writes the log
+  EXPECT_TRUE(serve([&] {  // another thread writes the log
     return server->log().find("the room two is closed for 30 s") != std::string::npos;
   })) << server->log();
   EXPECT_TRUE(serve([&] { return shown(*bob).process == shown(*ann).process; }));

@@ -1,4 +1,4 @@
-// The pause of a game with players: which of them decide, and what they read.
+// The pause of a game with players: which players decide, and which messages they read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST_F(PausePlay, IsAVoteAndAllPlayersReadHowItStands) {
 
 TEST_F(PausePlay, ThePlayerWhomOthersWatchDecidesAlone) {
   start("first");
-  pressP(*bob);  // only watches
+  pressP(*bob);  // bob only watches
   pressP(*ann);
   ASSERT_TRUE(until([this] { return isPaused(); }));
   EXPECT_FALSE(reads(*ann, "pause: 1 of 2"));

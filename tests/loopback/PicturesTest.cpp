@@ -1,4 +1,4 @@
-// What clients see is what the server's own display shows, cell for cell, over real sockets.
+// Clients show the pictures of the server's own display, cell for cell, over real sockets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ TEST_F(Loopback, ClientSeesWhatTheServerHasForAThousandTicks) {
   expectSame(client, server, 1000);
   const std::string last = client.pictures().rbegin()->second.text();
   EXPECT_TRUE(has(last, "keys "));
-  // Something else may cover the ship in one picture or another.
+  // Another object may cover the ship in some pictures.
   const auto shown = std::ranges::count_if(
       client.pictures(), [](const auto& each) { return each.second.text().find('@') != std::string::npos; });
   EXPECT_GT(shown, 500) << last;
@@ -51,7 +51,7 @@ TEST_F(Loopback, TwoClientsSeeTheSameWorldAndALateOneCatchesUp) {
   expectSame(ann, server, 150);
   expectSame(bob, server, 150);
   expectSame(cal, server, 150);
-  // No player has a text of their own yet, so all see exactly the same.
+  // No player has a text of their own yet, so all pictures are equal.
   int shared = 0;
   std::uint64_t different = 0;
   for (const auto& [tick, picture] : cal.pictures()) {
@@ -103,7 +103,7 @@ struct Scout : df::Object {
   int draw() override { return DM.drawCh(getPosition(), '@', df::CYAN); }
 };
 
-/// Gives each player a Scout far from the others'; counts them in a frame on the view.
+/// Gives each player a Scout far from the others, and shows their number in a frame on the view.
 struct Scouts : df::ViewObject {
   Scouts() {
     setViewString("Scouts");

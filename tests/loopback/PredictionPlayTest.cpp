@@ -1,4 +1,4 @@
-// A key shows at once, however far the server is, and what is shown is what then happens.
+// A key has a visible effect at once, however far the server is, and the prediction comes true.
 #include <gtest/gtest.h>
 
 #include "Home.h"
@@ -48,7 +48,7 @@ class PredictionPlay : public testing::Test {
   }
   HostOptions options() const {
     HostOptions options = home.server();
-    options.frame_micros = 0;  // 30 Hz, as people play
+    options.frame_micros = 0;  // 30 Hz, the default
     return options;
   }
   ClientSetup player() {
@@ -89,7 +89,7 @@ TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
     const auto key = right ? df::Keyboard::RIGHTARROW : df::Keyboard::LEFTARROW;
     ASSERT_TRUE(ann.session().sendKey(key, df::KEY_PRESSED, Clock::now()));
     x += right ? 1 : -1;
-    // Before anything can have come back.
+    // No answer can have arrived yet.
     EXPECT_EQ(shown(ann), (start + df::FixedVector{df::fromCells(x), 0})) << i;
     const std::uint32_t tick = ann.newestTick();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
@@ -106,7 +106,7 @@ TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
   const Prediction::Counters& counters = ann.session().predict(Clock::now()).counters();
   EXPECT_EQ(counters.unpredicted, 0u);
   EXPECT_GE(counters.confirmed, 10u);
-  // No obstacle is near: only a key that came too late may have been shown otherwise than it happened.
+  // No obstacle is near, so only a key that arrived too late may have been mispredicted.
   const bool none_late = ann.session().inputTickEstimator().margin() == InputTickEstimator::kMinMargin;
   EXPECT_TRUE(counters.mispredicted == 0 || !none_late) << counters.mispredicted;
   std::printf("confirmed=%d mispredicted=%d margin=%.2f\n", static_cast<int>(counters.confirmed),

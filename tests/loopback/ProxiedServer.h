@@ -1,4 +1,4 @@
-// A busy server whose clients' streams go through a proxy, and their datagrams straight to it.
+// A busy server. Its clients' streams pass through a proxy, and their datagrams go straight to it.
 #pragma once
 
 #include <memory>
@@ -25,14 +25,14 @@ class ProxiedServer : public LoopbackFixture {
     valve->server_port = server->port();
   }
   void start() { start(home.server()); }
-  /// What a suite has in its world besides.
+  /// Adds a suite's own objects to the world.
   virtual void addObjects() {}
   virtual ClientSetup player(const std::string& name) {
     ClientSetup setup = home.player(name);
     setup.options.open_socket = through(context, valve);
     return setup;
   }
-  /// From now on the newest picture is the server's.
+  /// Waits until a picture after this call equals the server's.
   bool seesTheTruth(TestClient& client) {
     client.forgetPictures();
     return serveUntil(context, {&client}, [&] { return showsTheTruth(client, *server); });

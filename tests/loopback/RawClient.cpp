@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kPatienceMillis = 30'000;
 
-/// Any server is trusted.
+/// Returns a context that accepts any server certificate.
 SSL_CTX* anyServer() {
   static const auto context = TlsContext::forClient();
   return context->get();
@@ -41,14 +41,14 @@ RawClient::RawClient(std::uint16_t port, Line line) {
   transfer(true, nullptr, 0);
 }
 
-// Can bytes be sent, or read, within kPatienceMillis?
+// Waits until bytes can be sent (`out`) or read. False after kPatienceMillis.
 bool RawClient::await(bool out) {
   pollfd watched{m_socket.native_handle(), static_cast<short>(out ? POLLOUT : POLLIN), 0};
   m_timed_out = poll(&watched, 1, kPatienceMillis) <= 0;
   return !m_timed_out;
 }
 
-// How many of the bytes were sent or read; 0 or less at the end. No bytes: shake hands.
+// Returns how many bytes were sent or read; 0 or less at the end. A count of 0 does the TLS handshake.
 int RawClient::transfer(bool out, char* bytes, std::size_t count) {
   const int size = static_cast<int>(count);
   while (m_socket.is_open()) {

@@ -1,4 +1,4 @@
-// A connection that sends whatever bytes a test wants, well-formed or not. Blocking, with deadlines.
+// A blocking connection that sends arbitrary bytes, well-formed or not. With timeouts.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -18,26 +18,26 @@ class RawClient {
  public:
   enum class Line { kPlain, kTls };
 
-  /// With TLS the handshake is done afterwards, unless the server has hung up in it.
+  /// Connects; with kTls, also does the handshake. The server may close the connection during it.
   explicit RawClient(std::uint16_t port, Line line = Line::kPlain);
   RawClient(const RawClient&) = delete;
   RawClient& operator=(const RawClient&) = delete;
 
-  /// Send bytes as they are. Errors (the server hung up) are ignored.
+  /// Sends these bytes. Errors, for example because the server closed the connection, are ignored.
   void sendBytes(const std::string& bytes);
-  /// Send one frame around `payload`.
+  /// Sends a frame with this payload.
   void sendFrame(const std::string& payload);
   void send(const wire::ClientMessage& message) { sendFrame(message.SerializeAsString()); }
-  /// A hello that the server accepts, unless changed by the caller.
+  /// Returns a hello that the server accepts.
   static wire::ClientMessage hello(const std::string& name);
 
-  /// The next message from the server; nothing once it hung up (or after 30 s).
+  /// Returns the server's next message; nullopt if the server closed the connection, or after 30 s.
   std::optional<wire::ServerMessage> receive();
-  /// Read until the server hangs up. False if it did not within 30 s.
+  /// Reads until the server closes the connection. False after 30 s.
   bool waitForHangup();
-  /// Send no more; read until the server has taken in everything and hangs up. False after 30 s.
+  /// Ends its side of the stream, then reads until the server has read all and closes. False after 30 s.
   bool finish();
-  /// Hang up so that the server sees a reset, as if the process was killed.
+  /// Closes the connection with a reset, as if the process was killed.
   void reset();
 
  private:
@@ -52,7 +52,7 @@ class RawClient {
   asio::io_context m_context;
   asio::ip::tcp::socket m_socket{m_context};
   SocketBio m_bio;
-  std::unique_ptr<ssl_st, FreeTls> m_tls;  ///< null: plain
+  std::unique_ptr<ssl_st, FreeTls> m_tls;  ///< null for plain TCP
   bool m_timed_out = false;
 };
 

@@ -27,7 +27,7 @@ std::string RecordingServer::heard() const {
   return m_heard;
 }
 
-// False: the server stops.
+// Waits until the socket is ready. False if the server stops.
 bool RecordingServer::await(int socket, bool out) const {
   pollfd watched{socket, static_cast<short>(out ? POLLOUT : POLLIN), 0};
   while (!m_stopping) {

@@ -1,5 +1,4 @@
-// A server with a key of its own that says nothing and keeps every byte that clients say to it after the
-// handshake.
+// A server with its own key that sends nothing and records every byte that clients send after the handshake.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -15,10 +14,10 @@
 
 namespace naiad::test {
 
-/// Serves one connection after the other, on a thread of its own.
+/// Serves one connection after another in its own thread.
 class RecordingServer {
  public:
-  /// The key is in that directory, or made there.
+  /// Loads the key from that folder, or creates it there.
   explicit RecordingServer(const std::filesystem::path& identity);
   ~RecordingServer();
   RecordingServer(const RecordingServer&) = delete;
@@ -26,10 +25,10 @@ class RecordingServer {
 
   std::uint16_t port() const { return m_port; }
   const Fingerprint& fingerprint() const { return m_identity.fingerprint(); }
-  /// So many connections with a complete handshake are over, since the client has closed them, and all that
-  /// it sent has been read; or it has said something.
+  /// True if clients have closed this many connections after a complete handshake, and all their bytes have
+  /// been read. Also true once any byte has been recorded.
   bool isDecided(int connections) const { return m_finished >= connections || !heard().empty(); }
-  /// What was in the TLS records of all connections.
+  /// Returns the content of the TLS records of all connections.
   std::string heard() const;
 
  private:

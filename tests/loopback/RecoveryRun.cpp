@@ -32,25 +32,24 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenKeys{20};
-/// Ticks that clients may have on their way.
+/// Number of further ticks that each client must see after the harm.
 constexpr std::uint32_t kSeenTicks = 10;
-/// Of these, what a tick that was answered before a kill can be.
+/// Number of those ticks that may have been under way when the world failed.
 constexpr std::uint32_t kOnTheWay = 3;
 
-/// The one that executes its program; 0: there is none. A second world of the round, which is held against
-/// it, begins later.
+/// Returns the world process that runs the round; 0 if missing. The second world, a check, starts later.
 pid_t worldOf(pid_t server) {
-  const std::vector<pid_t> worlds = processesBelow(server, "exe");  // of /proc/self/exe
+  const std::vector<pid_t> worlds = processesBelow(server, "exe");  // name of /proc/self/exe
   return worlds.empty() ? 0 : worlds.front();
 }
 
-constexpr std::chrono::seconds kForLog{3};  ///< a line of the server's that was written before
+constexpr std::chrono::seconds kForLog{3};  ///< timeout for a log line that should already be written
 constexpr const char* kIsBack = "\" is back, in the round that goes on";
 constexpr const char* kGoesOn = "the round goes on after ";
 
 }  // namespace
 
-/// Plays at random, and remembers the newest picture that has all that the server sent.
+/// Plays at random and keeps the newest complete picture.
 class RecoveryClient {
  public:
   RecoveryClient(asio::io_context& context, std::uint16_t port, const ClientSetup& setup, std::uint64_t seed)
@@ -90,25 +89,25 @@ class RecoveryClient {
   }
   void leave() { m_connection.leave(); }
   bool isJoined() { return m_connection.state() == Connection::State::kJoined; }
-  /// In another session than before forgetSession(), or the first one.
+  /// True in any session that began after forgetSession().
   bool isBack() { return isJoined() && m_sessions != m_sessions_before; }
   void forgetSession() { m_sessions_before = m_sessions; }
-  /// Do as forgetSession() now, and as freezePicture() when the next session begins.
+  /// Calls forgetSession(), and keeps the last picture when the next session starts.
   void expectNextSession() {
     forgetSession();
     m_freezes = true;
     m_pause = {};
   }
-  /// Since expectNextSession(), the longest time between two pictures.
+  /// Returns the longest time between two pictures since expectNextSession().
   Clock::duration pause() const { return m_pause; }
   bool isOver() const { return m_connection.isOver(); }
   const std::string& sentence() const { return m_connection.sentence(); }
   const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
   const ClientSession* session() { return m_connection.session(); }
   std::uint32_t newestTick() const { return m_whole.tick(); }
-  /// It has had one since freezePicture().
+  /// True if it has had a picture since freezePicture().
   bool hasPicture() const { return m_picture.has_value() || m_whole.isWhole(); }
-  /// The last one before freezePicture().
+  /// Returns the last picture before freezePicture().
   const std::optional<df::Canvas>& picture() const { return m_frozen; }
   std::uint32_t pictureTick() const { return m_frozen_tick; }
   void freezePicture() {
@@ -116,7 +115,7 @@ class RecoveryClient {
     freezeLastPicture();
     m_whole = WholePicture();
   }
-  /// The newest that it had by then.
+  /// Returns the newest tick at that time.
   std::uint32_t frozenAfter() const { return m_frozen_after; }
 
  private:
@@ -163,7 +162,7 @@ void RecoveryRun::addPlayers(int count) {
   }
 }
 
-// It is in the file once the disk has taken it.
+// Waits until the first tick is in the round's file, that is, written to disk.
 void RecoveryRun::waitForFirstTick() {
   const auto end = Clock::now() + kPatience;
   while (m_first_tick == 0 && Clock::now() < end) {
@@ -255,7 +254,7 @@ KillResult RecoveryRun::killTwice(std::chrono::milliseconds between) {
   m_server->signal(SIGKILL);
   m_server->wait();
   m_log += m_server->log();
-  for (const auto& client : m_clients) client->forgetSession();  // some may have been back there
+  for (const auto& client : m_clients) client->forgetSession();  // some may have been back already
   return comeBack();
 }
 
@@ -285,7 +284,7 @@ void RecoveryRun::killServer() {
   m_server->signal(SIGKILL);
   m_server->wait();
   m_log += m_server->log();
-  play(std::chrono::milliseconds(20));  // what was sent arrives
+  play(std::chrono::milliseconds(20));  // for messages under way
   m_before.clear();
   m_seen = 0;
   for (const auto& client : m_clients) {
@@ -296,7 +295,7 @@ void RecoveryRun::killServer() {
   }
 }
 
-// A client can have its answer before the line is in the file.
+// Waits, because a client may have its answer before the line is in the file.
 bool RecoveryRun::isLogged(const std::string& text) {
   const auto end = Clock::now() + kForLog;
   while (m_server->log().find(text) == std::string::npos) {
@@ -315,7 +314,7 @@ KillResult RecoveryRun::comeBack() {
   return result;
 }
 
-// The command is answered just before the server begins again.
+// The command is answered just before the server restarts.
 KillResult RecoveryRun::keepRound() {
   m_before.clear();
   for (const auto& client : m_clients) {
@@ -358,7 +357,7 @@ void RecoveryRun::judge(bool back, KillResult& result) {
   }
   const std::string log = m_server->log();
   const std::uint32_t turns = recoveredTurns();
-  const std::uint32_t last = m_seen + 1 - m_first_tick;  // by the world's own numbers
+  const std::uint32_t last = m_seen + 1 - m_first_tick;  // counted by the world
   if (last > turns) {
     result.ticks_lost = last - turns;
     result.problem = "a client saw tick " + std::to_string(m_seen) + ", the world's " + std::to_string(last) +
@@ -392,7 +391,7 @@ std::optional<std::chrono::milliseconds> RecoveryRun::timeToNextPicture(const st
   while (!sees_more(kSeenTicks)) {
     if (Clock::now() > began + kPatience) return std::nullopt;
     play(std::chrono::milliseconds(2));
-    // What was on its way when the world died comes still.
+    // Pictures that were under way when the world died still arrive.
     if (!next_picture && sees_more(kOnTheWay)) next_picture = Clock::now();
   }
   for (std::size_t i = 0; i < m_clients.size(); ++i) {
@@ -405,7 +404,7 @@ std::vector<pid_t> RecoveryRun::copies() const {
   return processesBelow(m_server->process(), "df-copy");
 }
 
-// The world that goes on was executed from the file; executed again, it shows what its players saw.
+// Replays the round's file, from which the world was recovered, and compares it with the last pictures.
 void RecoveryRun::compare(KillResult& result) {
   const RecordedRound recorded(round());
   const RoundStage stage(recorded, replayedGame());

@@ -1,5 +1,5 @@
-// A server of a game whose rounds are journaled is killed again and again, while clients play: does each of
-// them come back as the same player, into the same world?
+// Kills the server of a journaled game repeatedly while clients play, and checks that each client returns as
+// the same player to the same world.
 #pragma once
 
 #include <sys/types.h>
@@ -22,76 +22,75 @@
 
 namespace naiad::test {
 
-/// What came of one kill.
+/// The result of one kill.
 struct KillResult {
   int players = 0;
-  int returned = 0;              ///< of them, as the same player
-  std::uint32_t ticks_lost = 0;  ///< that a client had seen, and the round that goes on had not
-  std::uint64_t cells = 0;       ///< compared: of the last picture that each client had whole
+  int returned = 0;              ///< players that returned as the same player
+  std::uint32_t ticks_lost = 0;  ///< ticks that a client had seen and the recovered round does not have
+  std::uint64_t cells = 0;       ///< compared cells of each client's last complete picture
   std::uint64_t wrong_cells = 0;
-  std::chrono::milliseconds took{0};   ///< from the kill, or the command, to when the last client is back
-  std::chrono::milliseconds pause{0};  ///< of keepRound(): the longest between two pictures of a client
-  std::string problem;                 ///< the first, in words
+  std::chrono::milliseconds took{0};   ///< time until the last client is back
+  std::chrono::milliseconds pause{0};  ///< after keepRound(): longest time between two pictures of a client
+  std::string problem;                 ///< text of the first problem
 };
 
-/// The server's file of scores, held against those that the round adds when it is executed again.
+/// Compares the server's score file with the scores that a replay of the round adds.
 struct ScoreCheck {
-  std::size_t kept = 0;     ///< rows of the file
-  std::size_t missing = 0;  ///< that the round adds, and the file does not have
-  std::size_t foreign = 0;  ///< of the file, that the round does not add, or that come twice
+  std::size_t kept = 0;     ///< rows in the file
+  std::size_t missing = 0;  ///< rows added by the round that are missing in the file
+  std::size_t foreign = 0;  ///< rows in the file that the round does not add, or duplicates
 };
 
-/// A module that adds a score for every key (scores/game.cpp).
+/// A game module that adds a score for each key (scores/game.cpp).
 inline constexpr const char* kScoresModule = NAIAD_BINARY_DIR "/../lib/scores_module.so";
 
 class RecoveryClient;
 
 class RecoveryRun {
  public:
-  /// Starts the server with so many players, who press keys at random. Ticks take `frame`.
+  /// Starts the server and this many players that press keys at random. Ticks take `frame`.
   RecoveryRun(const std::string& game, int players, std::uint64_t seed,
               std::chrono::microseconds frame = std::chrono::microseconds(5000));
   ~RecoveryRun();
   RecoveryRun(const RecoveryRun&) = delete;
   RecoveryRun& operator=(const RecoveryRun&) = delete;
 
-  /// Let them play for so long.
+  /// Lets the players play for this time.
   void play(std::chrono::milliseconds time);
-  /// Let them play until each of them has had a picture that can be compared. False: they never have.
+  /// Plays until each player has had a complete picture. False after a timeout.
   bool playUntilPictured();
-  /// Kill the server, start it again, and wait until all are back.
+  /// Kills the server, starts it again, and waits until all players are back.
   KillResult kill();
-  /// The same, but the next server is killed as well, so much later: while it executes the round again, or at
-  /// some step of a client's return.
+  /// Like kill(), but also kills the next server `between` later: during the replay of the round, or at some
+  /// step of a client's return.
   KillResult killTwice(std::chrono::milliseconds between);
-  /// The same, but the world's process is killed just before the server is.
+  /// Like kill(), but kills the world's process just before the server.
   KillResult killBoth();
-  /// Let them play until the world has had so many turns since its first. False: it takes too long.
+  /// Plays until the world has had this many turns in all. False after `patience`.
   bool playUntilTurn(std::uint32_t turn, std::chrono::seconds patience);
-  /// Kill the server and start it again when none of its players is waited for any more: `away` later, as its
-  /// round's file tells the time. `newcomers` join in their place. How many of them see the game.
+  /// Kills the server, changes the time of the round's file as if `away` had passed, and starts it again. The
+  /// old players' grace time must have ended; `newcomers` join. Returns how many of these see the game.
   int replacePlayers(std::chrono::seconds away, int newcomers);
   /// The two halves of kill().
   void killServer();
   KillResult comeBack();
-  /// dfctl restart --keep, while they play; then wait until all are back.
+  /// Runs `dfctl restart --keep` while the players play, then waits until all are back.
   KillResult keepRound();
-  /// Kill the world's process alone, and wait until its players see more of it, and go on to. How long it
-  /// took to the last one's next picture; nothing: they do not go on, or not in the sessions that they had.
+  /// Kills only the world's process. Returns the time until the last player's next picture; nullopt if a
+  /// player gets no further pictures, or only in another session.
   std::optional<std::chrono::milliseconds> killWorld();
-  /// The same, but one of the players presses a key by which the world hangs, with the server's own
-  /// --hang-time.
+  /// Like killWorld(), but a player presses a key that makes the world hang until --hang-time of the server.
   std::optional<std::chrono::milliseconds> hangWorld(df::Keyboard::Key key);
-  /// The copies of the world's process that wait.
+  /// Returns the waiting copies of the world's process.
   std::vector<pid_t> copies() const;
-  /// End the server, and execute its round from the beginning. Is it the same, tick by tick? `said`: what
-  /// dfreplay --verify prints.
+  /// Ends the server and replays its round. True if all ticks are equal; `said` is the output of dfreplay
+  /// --verify.
   bool verify(std::string& said);
-  /// After verify(). All rows have to be of this round.
+  /// Call after verify(). All rows must be from this round.
   ScoreCheck checkScores() const;
-  /// The next server plays this one.
+  /// Sets the game of the next server.
   void setGame(const std::string& game) { m_game = game; }
-  /// What the servers logged.
+  /// Returns the log of the ended servers.
   const std::string& log() const { return m_log; }
   std::filesystem::path round() const;
 
@@ -99,9 +98,9 @@ class RecoveryRun {
   void startServer();
   bool serveUntilJoined();
   void addPlayers(int count);
-  /// From what `harm` does to the world to the last player's next picture.
+  /// Calls `harm` and returns the time until the last player's next picture.
   std::optional<std::chrono::milliseconds> timeToNextPicture(const std::function<void()>& harm);
-  /// By which dfreplay finds the game.
+  /// Returns the game argument for dfreplay; empty for a game that it finds by itself.
   std::string replayedGame() const { return m_game.find('/') != std::string::npos ? m_game : ""; }
   void waitForFirstTick();
   void judge(bool back, KillResult& result);
@@ -117,11 +116,11 @@ class RecoveryRun {
   asio::io_context m_context;
   std::unique_ptr<GameProgram> m_server;
   std::uint16_t m_port = 0;
-  std::uint32_t m_first_tick = 0;  ///< what the server calls the world's first one
+  std::uint32_t m_first_tick = 0;  ///< the server's number of the world's first tick
   std::vector<std::unique_ptr<RecoveryClient>> m_clients;
-  int m_names = 0;                       ///< given to players so far
-  std::vector<WelcomeMessage> m_before;  ///< of the clients, before the kill
-  std::uint32_t m_seen = 0;              ///< the newest tick that one of them had
+  int m_names = 0;                       ///< number of names given to players so far
+  std::vector<WelcomeMessage> m_before;  ///< welcomes of the clients before the kill
+  std::uint32_t m_seen = 0;              ///< newest tick that a client had
   std::string m_log;
   std::chrono::steady_clock::time_point m_killed_at;
 };

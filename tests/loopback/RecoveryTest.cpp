@@ -1,5 +1,5 @@
-// A server that is killed while clients play: its next start goes on with the round, and each of them is back
-// as the same player. deploy/bench recovery does it a thousand times.
+// A server is killed while clients play. Its next start resumes the round, and all clients return as the
+// players that they were. `deploy/bench recovery` does this a thousand times.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -23,7 +23,7 @@ namespace {
 bool isGone(pid_t process) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (kill(process, 0) == 0 && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before it is asked again
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // pause before the next check
   return kill(process, 0) != 0;
 }
 
@@ -47,7 +47,7 @@ TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
-// dfctl restart --keep: the same as for a kill is true of the program that goes on.
+// After dfctl restart --keep, the new program meets the promises made for a kill.
 TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNoPlayerAndNothing) {
   const int restarts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1;
   std::mt19937_64 random(11);
@@ -68,7 +68,7 @@ TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNoPlayerAndNothing) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
-// A machine that was off for longer than the grace time: the world has used the ids of players who are gone.
+// The machine was off for longer than the grace time. The world still uses the ids of lost players.
 TEST(Recovery, NewcomersSeeARoundThatGoesOnWithoutItsPlayers) {
   constexpr std::chrono::hours kDay{24};
   RecoveryRun run("saucershoot", 2, 13);
@@ -83,7 +83,7 @@ TEST(Recovery, NewcomersSeeARoundThatGoesOnWithoutItsPlayers) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
-// The long form: deploy/bench recovery, a hundred kills.
+// The long form is `deploy/bench recovery`, with a hundred kills.
 TEST(Recovery, ScoresOutliveKillsAndAreThoseOfTheRound) {
   RecoveryRun run(kScoresModule, 2, 11);
   for (int i = 0; i < 2; ++i) {
@@ -110,7 +110,7 @@ TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {
     RecordProperty("next_picture_ms_" + std::to_string(i), static_cast<int>(took->count()));
     EXPECT_LT(*took, std::chrono::seconds(10)) << i;
   }
-  // What its players saw of the world that took over is what it was.
+  // The players saw correct pictures of the world that took over.
   run.play(std::chrono::milliseconds(300));
   ASSERT_TRUE(run.playUntilPictured());
   const std::vector<pid_t> copies = run.copies();

@@ -1,4 +1,4 @@
-// A session outlives its stream: the game notices nothing, the player keeps their ship.
+// A session outlives its stream: the game does not notice, and the player keeps their ship.
 #include <gtest/gtest.h>
 
 #include "ProxiedServer.h"
@@ -31,7 +31,7 @@ class Resume : public ProxiedServer {
       return client.joined() && !client.session().isDetached() && server->counters().resumed >= times;
     });
   }
-  /// And gets no other one.
+  /// Breaks the stream and refuses new ones.
   bool losesItsStream(TestClient& client) {
     proxy->setOpen(false);
     proxy->cut();
@@ -87,7 +87,7 @@ TEST_F(Resume, ASessionThatTheClientHasGivenUpIsGoneOnWith) {
 TEST_F(Resume, DatagramsGoOnWhileThereIsNoStream) {
   TestClient& ann = startAndSettle();
   ASSERT_TRUE(losesItsStream(ann));
-  // Two seconds of play, and keys as well.
+  // Two seconds of play, with keys.
   const std::uint32_t tick = ann.newestTick();
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 400; }));
   EXPECT_TRUE(ann.session().isDetached());
@@ -157,7 +157,7 @@ TEST_F(Resume, AClientThatDoesNotComeBackLeavesWhenTheGraceIsOver) {
   start(options);
   auto ann = std::make_unique<TestClient>(context, proxy->port(), player("ann"));
   ASSERT_TRUE(settle(*ann));
-  ann.reset();  // killed: nothing is said
+  ann.reset();  // killed without a goodbye
   const auto killed = Clock::now();
   ASSERT_TRUE(serveUntil(context, {}, [&] { return census.leaves == 1; }));
   EXPECT_GT(Clock::now() - killed, std::chrono::milliseconds(400));
@@ -180,7 +180,7 @@ TEST_F(Resume, ATokenWorksOnce) {
   EXPECT_EQ(token.size(), 16u);
   proxy->cut();
   ASSERT_TRUE(resumes(ann, 1));
-  // The token is void once the server has heard that its successor came.
+  // The token becomes void when the server knows that the client has the next one.
   const std::uint32_t heard = ann.newestTick() + 30;
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() >= heard; }));
 
@@ -214,7 +214,7 @@ TEST_F(Resume, AnotherServerInItsPlaceIsToldNotAByte) {
   TestClient& ann = startAndSettle("xyzzy");
   RecordingServer impostor(home.identity("another identity"));
   proxy->setServer(impostor.port());
-  proxy->cut();  // datagrams still go to the right one
+  proxy->cut();  // datagrams still reach the real server
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "");
   ASSERT_TRUE(ends(ann));
@@ -241,7 +241,7 @@ TEST_F(Resume, AnotherServerBehindASecondStreamIsToldNotAByte) {
 TEST_F(Resume, AClientThatIsRefusedForNowComesBackByItself) {
   TestClient& ann = startAndSettle();
   const std::uint32_t id = ann.player();
-  // The line breaks as soon as there is one, until the server has had enough of it.
+  // Break each new stream at once, until the server asks the client to wait.
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
     if (ann.joined() && !ann.session().isDetached()) proxy->cut();
     return ann.connection().isPutOff();

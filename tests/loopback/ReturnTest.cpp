@@ -1,4 +1,4 @@
-// A client is killed, and another process goes on with its session: the game notices nothing.
+// A client is killed and another process resumes its session. The game does not notice.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kElsewhere = "You went on playing in another terminal.";
 
-/// What the game heard of keys, as counts by action.
+/// Keys that the game received, counted by action.
 struct Keys {
   std::atomic<int> pressed = 0;
   std::atomic<int> released = 0;
@@ -43,7 +43,7 @@ class KeyClerk : public df::Object {
 
 class Return : public ProxiedServer {
  protected:
-  ~Return() override { server.reset(); }  // it counts keys
+  ~Return() override { server.reset(); }  // the server counts into `keys`, so it must end first
   void addObjects() override { new KeyClerk(keys); }
   ClientSetup player(const std::string& name) override {
     ClientSetup setup = ProxiedServer::player(name);
@@ -60,7 +60,7 @@ class Return : public ProxiedServer {
     EXPECT_TRUE(settles(*ann));
     return ann;
   }
-  /// Its process is killed, and another one joins.
+  /// Destroys the client as if its process was killed, and joins with another one.
   testing::AssertionResult comesBack(std::unique_ptr<TestClient>& ann) {
     ann.reset();
     ann = client("ann");
@@ -69,7 +69,7 @@ class Return : public ProxiedServer {
   bool scores(TestClient& client, std::int32_t score) {
     return serveUntil(context, {&client}, [&] { return client.session().score() == score; });
   }
-  /// As many presses, each seen to arrive; the score is theirs.
+  /// Presses a key this many times, waiting for each. The score counts the presses.
   bool press(TestClient& client, int times) {
     const std::int32_t from = client.session().score();
     for (int i = 1; i <= times; ++i) {
@@ -78,7 +78,7 @@ class Return : public ProxiedServer {
     }
     return true;
   }
-  /// Play for a while; the checksums of it must be right.
+  /// Plays for a while. True if the pictures and the checksums are right.
   bool playsOn(TestClient& client) {
     return hears(client, 300) && seesTheTruth(client) && server->counters().divergences == 0;
   }
@@ -182,7 +182,7 @@ TEST_F(Return, ASecondTerminalDoesNotTakeTheSessionOfOneThatRuns) {
   EXPECT_NE(other->player(), ann->player());
   EXPECT_EQ(other->session().welcome().name, "ann2");
   expectNoJoinOrLeave(2);
-  // Both are killed: each comes back in one of the two sessions.
+  // Both are killed. Each returns in one of the two sessions.
   const std::uint32_t ids = ann->player() + other->player();
   ann.reset();
   other.reset();
@@ -240,7 +240,7 @@ TEST_F(Return, TheSessionGoesToTheClientThatProvesTheToken) {
   EXPECT_TRUE(scores(*elsewhere, 2) && press(*elsewhere, 1));
   EXPECT_TRUE(playsOn(*elsewhere));
   expectNoJoinOrLeave();
-  // The first has not kept what is void.
+  // The first client has deleted its void session file.
   EXPECT_TRUE(std::filesystem::exists(home.sessions()));
   for (const auto& entry : std::filesystem::directory_iterator(home.sessions())) {
     EXPECT_EQ(entry.path().filename(), "lock");
@@ -323,7 +323,7 @@ TEST_F(Return, ChatSentWithoutAStreamArrivesOnceAndInOrder) {
     const std::size_t had = linesOf(bob).size();
     const std::string number = std::to_string(round);
     proxy->setOpen(false);
-    round == 1 ? proxy->stall() : proxy->cut();  // lost with the stream, or said without one
+    round == 1 ? proxy->stall() : proxy->cut();  // lost with the stream, or sent without one
     ann->session().sendChat("one " + number);
     bob.session().sendChat("hello? " + number);
     ann->session().sendChat("two " + number);

@@ -1,5 +1,5 @@
-// A server with rooms that is killed while players are in them: the next one goes on with the round of each
-// room, and every player is back in theirs, as the same player. Real processes.
+// A server with rooms is killed while players are in them. The next one resumes the round of each room, and
+// all players return to their rooms under their ids. Real processes.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 class RoomRecovery : public LobbyFixture {
  protected:
-  /// The same server each time.
+  /// Starts a server, always with equal options.
   void startJournaled() {
     const std::uint16_t port = server ? m_port : 0;
     server.reset();
@@ -37,7 +37,7 @@ class RoomRecovery : public LobbyFixture {
            {"DRAGONFLY_CONFIG", home.identity("none")}});
     m_port = server->port();
   }
-  /// Once the round of every player's room can be gone on with: a thread of its own begins its file.
+  /// Kills the server once each player's round can be resumed, because another thread writes its file.
   void kill() {
     ASSERT_TRUE(serve([&] {
       return std::ranges::all_of(
@@ -53,11 +53,11 @@ class RoomRecovery : public LobbyFixture {
     if (files.empty()) return false;
     try {
       return !OpenRound(files.front().string()).fact(kFactFirstTick).empty();
-    } catch (const OpenRoundError&) {  // not even its head
+    } catch (const OpenRoundError&) {  // the head of the file is incomplete
       return false;
     }
   }
-  /// Those who played before are back in a session of the new server, and see something of their room.
+  /// Waits until all players have a session of the new server and see their room.
   bool serveUntilBack() {
     return serve([&] {
       for (std::size_t i = 0; i < clients.size(); ++i) {
@@ -67,7 +67,7 @@ class RoomRecovery : public LobbyFixture {
       return true;
     });
   }
-  /// The server went on with the sessions of so many players.
+  /// Returns the number of sessions that the server has resumed.
   std::size_t returned() const {
     constexpr const char* kIsBack = "is back, in the round that goes on";
     return static_cast<std::size_t>(countIn(server->log(), kIsBack));
@@ -79,7 +79,7 @@ class RoomRecovery : public LobbyFixture {
     for (const auto& entry : fs::directory_iterator(rounds() / room, error)) found.push_back(entry.path());
     return found;
   }
-  /// Keys that one after the other have arrived.
+  /// Presses a key this many times and waits for each to arrive.
   void type(TestClient& client, int count) {
     for (const int before = shown(client).keys; shown(client).keys < before + count;) {
       const int keys = shown(client).keys;
@@ -92,7 +92,7 @@ class RoomRecovery : public LobbyFixture {
 
  private:
   std::uint16_t m_port = 0;
-  std::vector<const ClientSession*> m_before;  ///< of the clients, when the server was killed
+  std::vector<const ClientSession*> m_before;  ///< the clients' sessions when the server was killed
 };
 
 TEST_F(RoomRecovery, EachPlayerIsBackInTheirRoomAsTheSamePlayer) {
@@ -133,7 +133,7 @@ TEST_F(RoomRecovery, EachPlayerIsBackInTheirRoomAsTheSamePlayer) {
   })) << server->log();
 }
 
-// Two copies of a world wait at most, so three are of both rooms.
+// At most two copies of a world wait, so three copies must be of both rooms.
 TEST_F(RoomRecovery, AWorldThatCrashesGoesOnFromACopyAndTheOtherRoomNoticesNothing) {
   startJournaled();
   auto ann = join("ann", "one");
@@ -171,7 +171,7 @@ TEST_F(RoomRecovery, AWorldThatCrashesGoesOnFromACopyAndTheOtherRoomNoticesNothi
   EXPECT_EQ(shown(*bob).keys, 3);
 }
 
-// What the lobby knows of rooms is part of its round.
+// The lobby's knowledge of rooms is part of its round.
 TEST_F(RoomRecovery, DoorsLeadToRoomsAfterwards) {
   rooms = {"hall=lobby", "one"};
   startJournaled();

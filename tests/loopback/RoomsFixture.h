@@ -18,20 +18,19 @@
 
 namespace naiad::test {
 
-/// rooms/game.cpp
+/// The module of rooms/game.cpp.
 inline constexpr const char* kRoomModule = NAIAD_BINARY_DIR "/../lib/room_module.so";
 
-/// What that game draws.
+/// Values that this game draws.
 struct Shown {
-  int process = 0;  ///< 0: nothing yet
+  int process = 0;  ///< 0: not drawn yet
   int keys = 0;
   int ticks = 0;
 };
 
 class RoomsFixture : public testing::Test {
  protected:
-  /// Rooms of these names, with these settings behind the game. A room that names no game plays
-  /// rooms/game.cpp.
+  /// Starts a server with rooms given as NAME[=GAME][,SETTINGS]. A room without a game plays rooms/game.cpp.
   void start(const std::vector<std::string>& rooms, std::vector<std::string> arguments = {},
              const std::map<std::string, std::string>& environment = {}) {
     for (const std::string& room : rooms) {
@@ -51,13 +50,13 @@ class RoomsFixture : public testing::Test {
     clients.push_back(client.get());
     return client;
   }
-  /// In a room that plays rooms/game.cpp.
+  /// Joins a room that plays rooms/game.cpp.
   std::unique_ptr<TestClient> join(const std::string& name, const std::string& room) {
     auto client = connect(name, room);
     EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).process > 0; })) << server->log();
     return client;
   }
-  /// Why the server does not let a player in.
+  /// Returns the message with which the server refuses a player.
   std::string refusal(const std::string& room) {
     auto client = connect("eve", room);
     EXPECT_TRUE(serve([&] { return client->connection().isOver(); }));

@@ -1,5 +1,5 @@
-// Games that are programs, with a process for each round or each player (rounds/game.cpp): what players
-// notice when a world ends, crashes or hangs. Real processes and sockets.
+// Games that are programs, with a process for each round or each player (rounds/game.cpp). Players notice
+// little when a world ends, crashes or hangs. Real processes and sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -25,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-/// What the game draws of its globals.
+/// Globals that the game draws.
 struct Shown {
   int mains = 0;
   int steps = -1;
@@ -58,7 +58,7 @@ class Rounds : public LoopbackFixture {
     const auto& chat = client.session().chat();
     return std::ranges::any_of(chat, [&](const ChatEntry& entry) { return entry.text == line; });
   }
-  /// The game's theme as the client has heard it: + began, - ended.
+  /// Returns the changes of the game's theme that the client heard: + started, - stopped.
   static std::string theme(TestClient& client) {
     std::string heard;
     for (const SoundLine& sound : client.session().takeSounds()) {
@@ -67,13 +67,13 @@ class Rounds : public LoopbackFixture {
     }
     return heard;
   }
-  /// An end that still waits to be sent when the theme begins again is replaced by that beginning.
+  /// A start of the theme replaces a stop that still waits to be sent.
   static bool beganAgain(const std::string& theme) { return theme == "+-+" || theme == "++"; }
-  /// What those who watch the server read of its game, which writes a line at this key.
+  /// Presses a key at which the game writes a line. Returns the line from the server's `watch` command.
   std::string watchedLine(TestClient& client, df::Keyboard::Key key) {
     Talk talk(game->control());
     EXPECT_EQ(talk.ask(R"({"command":"watch"})"), R"({"ok":true,"text":"The log follows."})");
-    EXPECT_TRUE(has(talk.ask(R"({"command":"ping"})"), "\"ok\":true"));  // it watches by now
+    EXPECT_TRUE(has(talk.ask(R"({"command":"ping"})"), "\"ok\":true"));  // so the watch has begun
     press(client, key);
     std::string line;
     const bool comes = serve([&] {
@@ -86,7 +86,7 @@ class Rounds : public LoopbackFixture {
     return comes ? line : "nothing";
   }
   std::string gamesOwnLog() const { return contentOf(game->directory() / "game.log"); }
-  /// Are there pictures of all ticks, from the first to the last?
+  /// Succeeds if there are pictures of all ticks from the first to the last.
   static testing::AssertionResult hasNoGap(const TestClient& client) {
     const auto& pictures = client.pictures();
     const std::uint32_t ticks = pictures.rbegin()->first - pictures.begin()->first + 1;
@@ -98,7 +98,7 @@ class Rounds : public LoopbackFixture {
   std::vector<TestClient*> clients;
 };
 
-/// A round ends by what ann's key does; ann and bob go on in the next one.
+/// ann's key ends the round; ann and bob continue in the next one.
 class RoundEnd : public Rounds {
  protected:
   void expectAnotherRound(df::Keyboard::Key key, const std::string& line) {
@@ -272,7 +272,7 @@ TEST_F(Rounds, PrivateWorldsHaveRounds) {
   EXPECT_EQ(bob->session().counters().resets, 0u);
 }
 
-// ---- what a game writes -----------------------------------------------------------------------------------
+// ---- output of games --------------------------------------------------------------------------------------
 
 TEST_F(Rounds, WhoWatchesTheServerReadsWhatAWorldPrints) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
@@ -309,14 +309,14 @@ TEST_F(Rounds, ARestartAtTheRoundsEndWaitsForItAndPlayersComeBack) {
 
 // ---- an upgrade -------------------------------------------------------------------------------------------
 
-/// The game's library is a copy of this build's, until it is replaced by one with another build's id, as a
-/// package manager replaces it.
+/// The game uses a copy of this build's library. upgrade() replaces the copy by one with another build id,
+/// like a package manager does.
 class Upgrade : public Rounds {
  protected:
   void start(std::map<std::string, std::string> environment) {
     fs::create_directory(m_libraries);
     const fs::path built = fs::path(NAIAD_BINARY_DIR).parent_path() / "lib" / kLibrary;
-    m_code.resize(fs::file_size(built));  // with a sanitizer far too long to be read byte by byte
+    m_code.resize(fs::file_size(built));  // in a sanitizer build it is too long to be read byte by byte
     std::ifstream(built, std::ios::binary).read(m_code.data(), static_cast<std::streamsize>(m_code.size()));
     write(m_code);
     environment["LD_LIBRARY_PATH"] = m_libraries;
@@ -338,7 +338,7 @@ class Upgrade : public Rounds {
   bool logs(const std::string& part) {
     return serve([&] { return game->log().find(part) != std::string::npos; });
   }
-  /// The server has stopped, and begun again.
+  /// True if the server has stopped and started again.
   static bool isBack(const std::string& log) {
     const std::size_t stopped = log.find("stopped: ");
     return stopped != std::string::npos && log.find("is a server on", stopped) != std::string::npos;
@@ -368,7 +368,7 @@ TEST_F(Upgrade, IsNoticedByTheNextRoundAndTheServerBeginsAgain) {
   EXPECT_NE(shown(*ann).process, process);
   EXPECT_TRUE(logs("program was upgraded while it runs: a new world is of another build (")) << game->log();
   EXPECT_FALSE(has(game->log(), "sent what no world sends"));
-  // All is of one build by now.
+  // Now everything is of the new build.
   press(*ann, df::Keyboard::X);
   EXPECT_TRUE(serve([&] { return heard(*ann, "The round is over; the next one begins."); })) << game->log();
 }

@@ -1,4 +1,4 @@
-// dfctl, as it is.
+// Runs the real dfctl.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace naiad::test {
 
-/// Its exit code, and what it says, on standard error as well.
+/// Returns its exit code and its output, standard error included.
 inline std::pair<int, std::string> runCtl(const std::string& arguments) {
   return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfctl " + arguments + " 2>&1 </dev/null");
 }

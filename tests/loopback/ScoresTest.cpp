@@ -1,5 +1,5 @@
-// Scores of a game in processes of its own (rounds/game.cpp), from one round to the next and from one server
-// to the next. Real processes and sockets.
+// Scores of a game in processes of its own (rounds/game.cpp) are kept from round to round and from server to
+// server. Real processes and sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -43,7 +43,7 @@ class Scores : public LoopbackFixture {
   void press(df::Keyboard::Key key) {
     client->session().sendKey(key, df::KEY_PRESSED, std::chrono::steady_clock::now());
   }
-  /// As dfctl lists them on disk.
+  /// Returns the scores on disk as listed by dfctl.
   std::string listed() const {
     return runCtl("--control " + game->control().string() + " scores --json").second;
   }
@@ -94,9 +94,9 @@ class RoomScores : public RoomsFixture {
                       recording + " --game " + kScoresModule + " " + words + " 2>&1")
         .second;
   }
-  /// What the game has drawn.
+  /// Returns the number of keys that the game has drawn.
   static int keysIn(const std::string& picture) { return numberAfter(picture, "keys=").value_or(-1); }
-  /// Behind "NAME":, without quotes.
+  /// Returns the value of "NAME":, without quotes.
   static std::string valueIn(const std::string& json, const std::string& name) {
     const std::string key = "\"" + name + "\":";
     const std::size_t at = json.find(key);

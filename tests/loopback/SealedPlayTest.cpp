@@ -1,4 +1,4 @@
-// Encrypted play: a stream in TLS, sealed datagrams beside it, and what happens where datagrams do not pass.
+// Encrypted play: a stream in TLS and sealed datagrams. Also covers networks that block datagrams.
 #include <gtest/gtest.h>
 
 #include "Compare.h"
@@ -20,7 +20,7 @@ class SealedPlay : public LoopbackFixture {
   }
   static bool onDatagrams(TestClient& client) { return client.session().hasDatagrams(Clock::now()); }
   static std::uint64_t datagrams(TestClient& client) { return client.session().counters().datagrams_in; }
-  /// Snapshots that came on the stream.
+  /// Returns the number of snapshots received on the stream.
   static std::uint64_t streamed(TestClient& client) {
     const SessionCounters& counters = client.session().counters();
     return counters.snapshots + counters.stale_snapshots - counters.datagrams_in;
@@ -33,7 +33,7 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
   TestServer server(busyWorld(200), home.server());
   TestClient ann(context, server.port(), home.player("ann"));
   ASSERT_TRUE(settles(ann));
-  // What comes on the stream may be overtaken; then a picture is not final when it is taken.
+  // A snapshot on the stream may be overtaken; pictures recorded before it arrives are not final.
   std::uint64_t on_stream = streamed(ann);
   ann.forgetPictures();
   std::uint32_t pressed = 0;
@@ -48,7 +48,7 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
   }));
   expectSame(ann, server, 500);
   EXPECT_TRUE(onDatagrams(ann));
-  // On a machine that is too busy the line looks full, and the server leaves ticks out.
+  // The connection seems full on a very busy machine, and then the server skips ticks.
   EXPECT_GT(datagrams(ann) + server.skippedTicks(ann.player()), 400u);
   EXPECT_EQ(server.counters().divergences, 0u);
 }
@@ -58,7 +58,7 @@ TEST_F(SealedPlay, KeysArriveAndTheStreamFallsSilent) {
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(settles(ann));
   EXPECT_TRUE(keyWorks(ann));
-  // Over a thousand ticks the stream carries none, unless the machine stood still for a second.
+  // The stream carries no snapshot in a thousand ticks, unless the machine stalls for a second.
   const std::uint64_t on_stream = streamed(ann);
   const std::uint64_t before = datagrams(ann);
   EXPECT_TRUE(hears(ann, 300));
@@ -137,7 +137,7 @@ TEST_F(SealedPlay, AStreamThatWaitsDoesNotHoldUpTheGame) {
   ASSERT_TRUE(joins(ann));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().hasSecondStream(); }));
   ann.forgetPictures();
-  ann.keepWholePictures();  // what goes only to the stalled stream, since the other one has no room, is lost
+  ann.keepWholePictures();  // data sent only on the stalled stream, while the other was full, is lost
   proxy.stallOldest();
   EXPECT_TRUE(hears(ann, 200));
   expectSame(ann, server, 100);

@@ -1,4 +1,4 @@
-// What a game asks for in its settings, what its clients get of it, and which players may end it.
+// The settings that a game requests: how its clients get them, and which players may end the game.
 #include <gtest/gtest.h>
 
 #include "TestClient.h"
@@ -47,7 +47,7 @@ TEST(Settings, TheBackgroundReachesClientsWheneverItChanges) {
   EXPECT_TRUE(shows(df::RED));
 }
 
-/// Q ends the game, as in most of them.
+/// Q ends the game, like in most games.
 struct Quitter : df::Object {
   Quitter() {
     setSolidness(df::SPECTRAL);

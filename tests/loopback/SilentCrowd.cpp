@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// As a client of ours sends it.
+/// Returns the ClientHello of our own client.
 std::string clientHello() {
   asio::io_context context;
   tcp::acceptor acceptor(context, {asio::ip::address_v4::loopback(), 0});
@@ -66,7 +66,7 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
     handshake->run(30s, [self = shared_from_this()](TlsHandshake::End, auto made, const auto&) {
       if (!made) return self->noteEnd();
       self->stream = std::move(made);
-      self->stream->socket().async_wait(  // nothing comes but the end
+      self->stream->socket().async_wait(  // the server sends nothing, so this waits for the end
           tcp::socket::wait_read, [self](const std::error_code&) { self->noteEnd(); });
     });
   }
@@ -86,7 +86,7 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
                              self->noteEnd();
                            });
   }
-  /// As fast as a few hundred connections in a second; a sanitizer's machine has enough to do with some ten.
+  /// Reconnects after 200 ms: a few hundred connections a second, or some ten with a sanitizer.
   void comeAgain() {
     timer.expires_after(kSlowness * 200ms);
     timer.async_wait([self = shared_from_this()](const std::error_code& error) {
@@ -99,9 +99,9 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
   std::atomic<std::uint64_t>& hung_up;
   tcp::endpoint own, server;
   std::string words;
-  std::shared_ptr<const TlsContext> tls;  // null: no handshake of its own
-  std::unique_ptr<TlsStream> stream;      // once it is done
-  bool begun = false;                     // once at least
+  std::shared_ptr<const TlsContext> tls;  // null: no TLS handshake
+  std::unique_ptr<TlsStream> stream;      // set after the handshake
+  bool begun = false;                     // true after the first connection
   std::function<void()> on_begun;
   std::array<char, 4096> in{};
 };
@@ -130,8 +130,8 @@ SilentCrowd::SilentCrowd(std::uint16_t server, const std::vector<std::string>& a
   });
 }
 
-// The first hellos are completed when all of them have begun and the server has had time to accept them; from
-// then on each is completed at once.
+// Completes the first hellos once all have begun and the server has had time to accept them. Later ones are
+// completed at once.
 void SilentCrowd::finishHello(One& one) {
   if (m_finished) return one.say(m_rest);
   if (!std::ranges::all_of(m_all, [](const auto& other) { return other->begun; })) return;

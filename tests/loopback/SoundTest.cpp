@@ -1,4 +1,4 @@
-// A game's sounds reach all players.
+// All players hear a game's sounds.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -13,7 +13,7 @@
 namespace naiad::test {
 namespace {
 
-/// The theme plays from the beginning, and M pauses it; SPACE fires.
+/// Plays the theme from the beginning. M pauses it; SPACE fires.
 struct Band : df::Object {
   Band() {
     setSolidness(df::SPECTRAL);
@@ -33,7 +33,7 @@ struct Band : df::Object {
   df::Music theme;
 };
 
-/// All that a client has heard, as "label", and "-label" of what stopped.
+/// Returns all sounds that a client has heard: "label" when one starts, "-label" when it stops.
 std::vector<std::string> heardBy(TestClient& client, std::vector<std::string>& heard) {
   for (const SoundLine& sound : client.session().takeSounds())
     heard.push_back((sound.action == SoundLine::Action::kPlay ? "" : "-") + sound.label);

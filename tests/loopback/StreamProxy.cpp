@@ -8,7 +8,7 @@ namespace naiad::test {
 
 using asio::ip::tcp;
 
-/// A client's socket and the server's.
+/// A client's socket and the proxy's socket to the server.
 struct StreamProxy::Line {
   explicit Line(asio::io_context& context)
       : ends{tcp::socket(context), tcp::socket(context)},
@@ -24,7 +24,7 @@ struct StreamProxy::Line {
   std::array<asio::steady_timer, 2> timers;
   std::array<std::array<char, 16384>, 2> buffers{};
   bool stalled = false;
-  bool closed = false;  ///< and the proxy may be gone
+  bool closed = false;  ///< the proxy may be destroyed then
 };
 
 StreamProxy::StreamProxy(asio::io_context& context, std::uint16_t server_port)

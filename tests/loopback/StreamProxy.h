@@ -1,4 +1,4 @@
-// Stands between clients and a server's stream, and can take the line away.
+// A proxy between clients and a server's stream that can break, stall or delay connections.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -18,23 +18,23 @@ class StreamProxy {
   StreamProxy(asio::io_context& context, std::uint16_t server_port);
   ~StreamProxy();
 
-  /// Clients connect here.
+  /// Returns the port to which clients connect.
   std::uint16_t port() const { return m_acceptor.local_endpoint().port(); }
-  /// Both ends of all present connections lose them.
+  /// Closes both ends of all present connections.
   void cut();
-  /// Nothing goes through the present connections any more, and neither end gets an error.
+  /// Stops all bytes on the present connections without an error at either end.
   void stall();
-  /// The same for the one that was made first.
+  /// Like stall(), but only for the oldest connection.
   void stallOldest();
-  /// Closed: later connections are closed at once.
+  /// If not open, later connections are closed at once.
   void setOpen(bool open) { m_open = open; }
-  /// Bytes are delayed by this, in each direction.
+  /// Sets the delay of bytes in each direction.
   void setDelay(std::chrono::milliseconds delay) { m_delay = delay; }
-  /// Later connections come to the server from this address in 127/8.
+  /// Sets the address in 127/8 from which later connections reach the server.
   void setOwnAddress(const std::string& address) { m_own_address = asio::ip::make_address(address); }
-  /// Later connections lead to another server.
+  /// Sets the server of later connections.
   void setServer(std::uint16_t port) { m_server_port = port; }
-  /// Connections so far that went through.
+  /// Returns how many connections have reached the server so far.
   int count() const { return m_count; }
 
  private:

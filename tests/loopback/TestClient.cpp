@@ -33,8 +33,8 @@ TestClient::TestClient(asio::io_context& context, std::uint16_t port, const Clie
   m_connection.start();
 }
 
-// Before a snapshot of a new tick is applied, all ticks since the last one are final: what no snapshot
-// corrected is what the replica extrapolates.
+// When a snapshot of a new tick is about to be applied, all ticks before it are final: the replica
+// extrapolates those that no snapshot corrected.
 void TestClient::record(ClientSession& session, std::uint32_t tick) {
   const std::uint32_t known = session.clock().newestTick();
   if (!m_keep || known == 0 || tick == known) return;
@@ -99,7 +99,7 @@ std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
     const auto before = std::exchange(now, std::chrono::steady_clock::now());
     took += std::min<std::chrono::nanoseconds>(now - before, kMaxTurn);
   }
-  // Several threads wait at once, and what a thread waited is forgotten when it ends.
+  // At most half is deducted: several threads may wait at once, and an ended thread's wait is forgotten.
   return took -
          std::clamp<std::chrono::nanoseconds>(runDelay() - delay, std::chrono::nanoseconds(0), took / 2);
 }

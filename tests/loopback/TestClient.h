@@ -1,4 +1,4 @@
-// A client without a screen, driven by the test's thread: the same library as dfclient and dfbot.
+// A client without a screen, driven by the test's thread. Uses the client library of dfclient and dfbot.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -18,20 +18,20 @@
 
 namespace naiad::test {
 
-/// Long enough for a loaded machine; a test that needs it has failed anyway.
+/// Timeout for a loaded machine. A test that reaches it has failed anyway.
 inline constexpr std::chrono::seconds kPatience{kSanitized ? 120 : 60};
 
-/// A client's options, the keys it trusts, and whether it comes back.
+/// A client's options, the keys it trusts, and whether it reconnects.
 struct ClientSetup {
   SessionOptions options;
   ServerTrust trust;
   bool rejoin = false;
-  std::filesystem::path sessions;  ///< where session files lie; empty: nowhere
+  std::filesystem::path sessions;  ///< folder of the session files; empty: none are kept
 };
-/// Plain TCP, without coming back.
+/// Returns a setup for plain TCP without reconnects.
 ClientSetup insecurely(const std::string& name);
 
-/// Destroying it is as if its process was killed.
+/// Destroying it acts as if the client's process was killed.
 class TestClient {
  public:
   TestClient(asio::io_context& context, std::uint16_t port, const std::string& name)
@@ -39,18 +39,17 @@ class TestClient {
   TestClient(asio::io_context& context, std::uint16_t port, const ClientSetup& setup);
 
   Connection& connection() { return m_connection; }
-  /// The session being played; must be joined.
+  /// Returns the session being played; the client must be joined.
   ClientSession& session() { return *m_connection.session(); }
   bool joined() const { return m_connection.state() == Connection::State::kJoined; }
   std::uint32_t player() { return session().welcome().player; }
   std::uint32_t newestTick() { return session().clock().newestTick(); }
-  /// What the client's replica shows at each tick that can no longer change, by tick.
+  /// Returns the pictures of ticks that can no longer change, by tick.
   const std::map<std::uint32_t, df::Canvas>& pictures() const { return m_pictures; }
   void keepPictures(bool keep) { m_keep = keep; }
-  /// Keep those from now on only.
+  /// Keeps only later pictures.
   void forgetPictures() { m_pictures.clear(); }
-  /// Where snapshots may be lost on the way: from now on, keep only pictures of a snapshot's own tick that
-  /// show all which was sent until then.
+  /// Keeps only complete pictures from now on, at ticks of snapshots. For networks that lose snapshots.
   void keepWholePictures() { m_only_whole = true; }
 
  private:
@@ -65,24 +64,24 @@ class TestClient {
   bool m_only_whole = false;
 };
 
-/// The player presses this key now.
+/// Presses this key for the player now.
 void press(TestClient& client, df::Keyboard::Key key);
 
-/// It is in the game, and its pictures come as datagrams.
+/// True if the client is in the game and receives its pictures as datagrams.
 bool isOnDatagrams(TestClient& client);
-/// It is in the game, and this player is in its list.
+/// True if the client is in the game and lists this player.
 bool lists(TestClient& client, const std::string& name);
-/// It has read a line of chat with this in it.
+/// True if the client has received a chat line that contains `text`.
 bool hasRead(TestClient& client, const std::string& text);
 
-/// The number behind `label` in a row of a picture; nothing if there is none.
+/// Returns the number after `label` in a row of a picture; nullopt if missing.
 std::optional<int> numberAfter(const std::string& row, const std::string& label);
 
-/// Serve the clients' sockets until `done`, or give up after kPatience and return false.
+/// Serves the clients' sockets until `done` returns true. False after kPatience.
 bool serveUntil(asio::io_context& context, const std::vector<TestClient*>& clients,
                 const std::function<bool()>& done);
-/// The same; returns how long it took, nothing if it gave up. Time in which the threads of this process wait
-/// for a processor does not count, and a turn of the loop counts for 10 ms at most.
+/// Like serveUntil(), but returns the time it took; nullopt after kPatience. Time in which this process's
+/// threads wait for a processor does not count, and one iteration of the loop counts as at most 10 ms.
 std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
                                                   const std::vector<TestClient*>& clients,
                                                   const std::function<bool()>& done);

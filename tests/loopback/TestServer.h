@@ -20,7 +20,7 @@
 
 namespace naiad::test {
 
-/// Options for tests: any free port, plain TCP, no grace, short ticks so that a thousand of them take
+/// Returns options for tests: any free port, plain TCP, no grace time, ticks so short that a thousand take
 /// seconds.
 HostOptions fastOptions();
 
@@ -31,10 +31,10 @@ class TestServer {
   ~TestServer();
 
   std::uint16_t port() const { return m_host->endpoint().port(); }
-  /// As the log says it; 0: it does not.
+  /// Returns the port that the log names; 0 without metrics.
   std::uint16_t metricsPort() const { return m_metrics_port; }
   std::optional<Fingerprint> fingerprint() const { return m_host->endpoint().fingerprint(); }
-  /// Run `job` on the server's thread between two ticks and return what it returns.
+  /// Runs `job` on the server's thread between two ticks and returns its result.
   template <class Job>
   auto inWorld(Job job) {
     std::promise<decltype(job(std::declval<df::World&>()))> result;
@@ -44,26 +44,26 @@ class TestServer {
   Counters counters() {
     return inWorld([this](df::World&) { return m_host->context().counters; });
   }
-  /// What became of the datagrams that have arrived.
+  /// Returns counters of received datagrams and their fates.
   DatagramGateCounters datagrams() {
     return inWorld([this](df::World&) { return m_host->endpoint().network().gateCounters(); });
   }
-  /// Ticks at whose end the server knew that this player was not up to date.
+  /// Returns at how many ticks' ends the server knew that this player was not up to date.
   std::uint64_t skippedTicks(std::uint32_t player) {
     return inWorld([this, player](df::World&) { return m_host->clients().sessions().skippedTicks(player); });
   }
-  /// What the book's draw path shows `player` at the end of `tick`, if they were in that tick.
+  /// Returns the picture that the book's draw path makes for `player` after `tick`, if they were in it.
   std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
-  /// From now on, is the truth kept? With many players it takes longer than all the rest.
+  /// Sets whether the truth is kept. With many players this takes longer than all else.
   void keepTruth(bool keep) { m_draws = keep; }
-  /// End the server so; it goes on until then.
+  /// Starts a shutdown by this plan and returns. The server runs until then.
   void end(const Ending::Plan& plan) {
     inWorld([&](df::World&) {
       m_host->controls().end(plan);
       return true;
     });
   }
-  /// End the server with this sentence to the players, and wait for it.
+  /// Ends the server with this message to the players, and waits for its end.
   void stop(const std::string& sentence);
 
  private:
@@ -75,7 +75,7 @@ class TestServer {
   std::unique_ptr<Host> m_host;
   std::atomic<bool> m_draws = true;
   mutable std::mutex m_mutex;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, df::Canvas> m_truth;  ///< by tick and player
+  std::map<std::pair<std::uint32_t, std::uint32_t>, df::Canvas> m_truth;  ///< indexed by tick and player
   std::thread m_thread;
 };
 

@@ -1,4 +1,4 @@
-// A server whose log is not read, or whose game crashes or hangs (trouble/game.cpp). Real processes.
+// A server whose log reader stalls or exits, or whose game crashes or hangs (trouble/game.cpp).
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -42,17 +42,17 @@ struct Pipe {
     if (ends[0] >= 0) close(ends[0]);
     ends[0] = -1;
   }
-  /// From now on nothing goes in until it is read, whatever the program has written into it already.
+  /// Fills the pipe, whatever it contains, so that writing blocks until the pipe is read.
   void fill() const {
     const int end = open(("/proc/self/fd/" + std::to_string(ends[1])).c_str(),
-                         O_WRONLY | O_NONBLOCK | O_CLOEXEC);  // of its own: the program's end still blocks
+                         O_WRONLY | O_NONBLOCK | O_CLOEXEC);  // the program's must block
     ASSERT_GE(end, 0);
     while (write(end, "#", 1) == 1) {
     }
     EXPECT_EQ(errno, EAGAIN);
     close(end);
   }
-  /// What is in it now.
+  /// Returns the bytes that are in the pipe now.
   std::string read() const {
     std::string all;
     char piece[65536];
@@ -69,7 +69,7 @@ struct Pipe {
 class Trouble : public LoopbackFixture {
  protected:
   void TearDown() override {
-    if (game) game->signal(SIGKILL);  // nothing is left to see
+    if (game) game->signal(SIGKILL);  // the tests check nothing after this
   }
   void start(std::map<std::string, std::string> environment = {}, int errors = -1) {
     game = std::make_unique<GameProgram>("trouble_game", std::move(environment), std::vector<std::string>{},
@@ -86,7 +86,7 @@ class Trouble : public LoopbackFixture {
   bool logs(const std::string& part) {
     return serve([&] { return game->log().find(part) != std::string::npos; });
   }
-  /// Does the world go on?
+  /// True if the world continues to tick.
   bool ticks(TestClient& client, std::uint32_t count = 100) {
     const std::uint32_t from = client.newestTick();
     return serve([&] { return client.newestTick() > from + count; });
@@ -208,7 +208,7 @@ TEST_F(Trouble, TheSecondSignalEndsAtOnceWithAGoodbye) {
   };
   ASSERT_TRUE(serve(stands));
   game->signal(SIGTERM);
-  game->signal(SIGINT);  // another one: two of a kind may be delivered as one
+  game->signal(SIGINT);  // another signal, because two equal ones may be delivered as one
   EXPECT_TRUE(isDismissed(*ann)) << ann->connection().sentence();
   const int status = game->wait();
   EXPECT_TRUE(WIFSIGNALED(status)) << status << game->log();
@@ -260,7 +260,7 @@ TEST_F(Crash, AfterTheHandlerThatItCalledNamesTheOuterOne) {
   expectLine(df::Keyboard::N, SIGSEGV, "SIGSEGV");
 }
 
-/// The same in a world of its own, of which the front reads the shared page.
+/// Like the tests above, with the world in a process that shares its crash page with the front.
 TEST_F(Trouble, AWorldThatCrashesLeavesTheSameLines) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
@@ -283,9 +283,9 @@ TEST_F(Trouble, AWorldThatCrashesLeavesTheSameLines) {
   EXPECT_TRUE(logs("the game did not answer any more in tick ")) << game->log();
 }
 
-// ---- a program that plays nothing -------------------------------------------------------------------------
+// ---- programs that never play -----------------------------------------------------------------------------
 
-/// What is left of a program with this mistake; its exit code in `code`.
+/// Returns the log of a program with this mistake, and its exit code in `code`.
 std::string lastWords(const std::string& mistake, int& code) {
   GameProgram game("trouble_game", {{"TROUBLE", mistake}});
   const int status = game.wait();
@@ -305,14 +305,14 @@ TEST(ProgramMistakes, EndInALine) {
   EXPECT_TRUE(has(exits,
                   "trouble_game: exit() was called in tick 1, while Exits handled EventStep; "
                   "GM.setGameOver() ends a game in order\n"));
-  if (kSanitized) return;  // which reports crashes itself
+  if (kSanitized) return;  // the sanitizer reports crashes itself
   const std::string before = lastWords("crash-before-run", code);
   EXPECT_TRUE(has(before, "trouble_game: crashed (SIGSEGV) before the first tick\n"));
   EXPECT_TRUE(
       has(before, "trouble_game: the game's log: Sprite ship: no/such.txt: cannot be read; looked in "));
 }
 
-/// A log that a game can hold: as the engine's own is, which writes to a file under a lock.
+/// A log that a game can block: like the engine's own, it writes under a lock.
 struct HeldLog {
   void operator()(const std::string& line) {
     if (line.find("the game has not finished tick") != std::string::npos) reported = true;
@@ -322,7 +322,7 @@ struct HeldLog {
   std::atomic<bool> reported = false;
 };
 
-/// Hangs while it logs; two signals come once that has been reported.
+/// Hangs while it holds the log's lock. Raises two signals after the report of the hang.
 class HangsWhileItLogs : public df::Object {
  public:
   explicit HangsWhileItLogs(HeldLog& log) : m_log(log) { registerInterest(df::STEP_EVENT); }
@@ -341,7 +341,7 @@ class HangsWhileItLogs : public df::Object {
 TEST(TroubleDeathTest, SignalsEndAGameThatHangsInTheLog) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   const auto hang = [] {
-    alarm(30);  // ends what would go on for ever
+    alarm(30);  // ends a test that hangs
     HeldLog log;
     Host host(fastOptions(), "test", [&log](const std::string& line) { log(line); });
     df::World world;
@@ -350,7 +350,7 @@ TEST(TroubleDeathTest, SignalsEndAGameThatHangsInTheLog) {
     new HangsWhileItLogs(log);
     host.run(world);
   };
-  EXPECT_EXIT(hang(), testing::ExitedWithCode(1), "");  // as a game that hangs ends it
+  EXPECT_EXIT(hang(), testing::ExitedWithCode(1), "");  // the exit code for a game that hangs
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which players are let in, and which servers are trusted: passwords, pins, fingerprints.
+// Passwords decide which players may join; pins and fingerprints decide which servers are trusted.
 #include <gtest/gtest.h>
 
 #include "LoopbackFixture.h"
@@ -21,7 +21,7 @@ class TrustTest : public LoopbackFixture {
     TestClient client(context, port, setup);
     return refusal(client);
   }
-  /// A hash that is soon made, so that a busy machine does not make a guess late.
+  /// Returns a cheap hash, so that a busy machine does not make a guess late.
   static std::string quick(const std::string& password) {
     return PasswordHash::of(password, {.memory_kib = 64, .passes = 1}).text();
   }
@@ -83,10 +83,10 @@ TEST_F(TrustTest, AnotherKeyIsRefusedLoudly) {
   EXPECT_TRUE(has(sentence, "HAS CHANGED"));
   EXPECT_TRUE(has(sentence, server->fingerprint()->text()));
   EXPECT_EQ(pins(), before);
-  // It has not even been greeted.
+  // The client has not sent a hello.
   EXPECT_EQ(server->counters().joined, 0u);
 
-  // The host says that this is the key now.
+  // The host confirms that this is the key now.
   ClientSetup informed = home.player("ann");
   informed.trust.fingerprint = server->fingerprint();
   EXPECT_EQ(refusal(port, informed), "");
@@ -127,8 +127,8 @@ TEST_F(TrustTest, AServerWithoutTheKeyOfTheLinkIsToldNotAByte) {
   EXPECT_EQ(pins(), "");
 }
 
-/// The password is the player's best secret, and the hello has it. With a pin from before, or with a key that
-/// the host gave.
+/// The password is a secret, and the hello contains it. Tested with a pin from an earlier session and with a
+/// key given by the host.
 TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {
   RecordingServer impostor(home.identity("another identity"));
   ClientSetup setup = home.player("ann");
@@ -152,7 +152,7 @@ TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {
   ASSERT_TRUE(serveUntil(context, {&informed}, [&] { return impostor.isDecided(2); }));
   EXPECT_EQ(impostor.heard(), "");
 
-  // The recorder does hear what is said to it.
+  // Checks the recorder itself: it records bytes when the client trusts it.
   setup.trust.fingerprint = impostor.fingerprint();
   auto trusting = std::make_unique<TestClient>(context, impostor.port(), setup);
   EXPECT_TRUE(serveUntil(context, {trusting.get()},

@@ -1,4 +1,4 @@
-// A client's UDP socket with something in the way: datagrams vanish, are late, or come from another port.
+// A client's UDP socket with an obstacle: datagrams vanish, are delayed, or come from another port.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -11,21 +11,21 @@
 
 namespace naiad::test {
 
-/// What becomes of the datagrams; may be changed at any time. Outlives the socket.
+/// Controls the datagrams; may be changed at any time. Must outlive the socket.
 struct Valve {
-  bool up = true;                      ///< what is sent reaches the server
-  bool down = true;                    ///< what it sends reaches the client
-  std::chrono::milliseconds delay{0};  ///< in each direction
-  std::uint16_t server_port = 0;       ///< where they really go; 0: where they should
-  std::uint64_t sent = 0;              ///< let through
-  std::uint64_t arrived = 0;           ///< likewise
-  DatagramSocket* p_socket = nullptr;  ///< the newest one
+  bool up = true;                      ///< datagrams of the client reach the server
+  bool down = true;                    ///< datagrams to the client reach it
+  std::chrono::milliseconds delay{0};  ///< added in each direction
+  std::uint16_t server_port = 0;       ///< port where datagrams really go; 0: unchanged
+  std::uint64_t sent = 0;              ///< passed on to the server
+  std::uint64_t arrived = 0;           ///< passed on to the client
+  DatagramSocket* p_socket = nullptr;  ///< the newest socket
 
-  /// They come from another port from now on, without notice, as when a NAT forgets.
+  /// Sends from another port from now on, like a NAT that forgets a mapping.
   void rebind() { p_socket->reopen(); }
 };
 
-/// For SessionOptions::open_socket.
+/// Returns a function for SessionOptions::open_socket.
 std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> through(asio::io_context& context,
                                                                                std::shared_ptr<Valve> valve);
 

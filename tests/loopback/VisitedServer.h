@@ -1,4 +1,4 @@
-// A server with a visitors' socket, and clients who come through it from wherever the test says.
+// A server with a visitors' socket, and clients that connect through it with any visitor address.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ class VisitedServer : public LoopbackFixture {
     options = home.server();
     options.visitors = home.identity("visitors");
   }
-  /// A client who comes through the visitors' socket, from "192.0.2.7:50312".
+  /// Returns the setup of a client that uses the visitors' socket, for example from "192.0.2.7:50312".
   ClientSetup from(const std::string& address, const std::string& name) const {
     ClientSetup setup = home.player(name);
     setup.options.visit = Visit{options.visitors, *visitorFromText(address)};

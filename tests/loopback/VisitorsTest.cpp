@@ -1,4 +1,4 @@
-// The visitors' socket of a real server: who comes through it counts as whoever is behind it.
+// The visitors' socket of a real server: a client that connects through it counts with its visitor's address.
 #include <gtest/gtest.h>
 
 #include <asio/local/stream_protocol.hpp>
@@ -82,7 +82,7 @@ TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
   asio::ip::tcp::socket socket(context);
   socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
   asio::write(socket, asio::buffer(visitorHeader({asio::ip::make_address("192.0.2.9"), 9})));
-  // The server takes it for a broken TLS hello: it hangs up, after an alert at most.
+  // The server takes it for a broken TLS hello and closes the connection, after an alert at most.
   socket.non_blocking(true);
   std::string heard;
   TestClient ann(context, server.port(), home.player("ann"));

@@ -1,4 +1,4 @@
-// Prints the moving picture of docs/games.md: Saucer Shoot with eight pilots, as an SVG with a group for each
+// Prints the moving picture of docs/games.md: Saucer Shoot with eight pilots, as an SVG with a group per
 // picture. usage: moving-picture GAME.so >docs/page/eight-pilots.svg
 #include <cstdint>
 #include <cstdio>
@@ -17,7 +17,7 @@ constexpr int kCellWidth = 8;
 constexpr int kCellHeight = 16;
 const char* const kColors[] = {"#555", "#f66", "#6d6", "#ee5", "#79f", "#d7d", "#5dd", "#ddd"};
 
-/// Presses keys as somebody might who has never played it.
+/// Presses keys like a beginner.
 void pressSome(df::GameTest& game, std::mt19937& random, std::uint32_t pilot) {
   using namespace df::Keyboard;
   constexpr Key kWays[] = {UPARROW, DOWNARROW, LEFTARROW, RIGHTARROW};
@@ -37,7 +37,7 @@ std::string escaped(char32_t ch) {
   return text;
 }
 
-/// Runs of one colour, each at its place.
+/// Prints runs of one colour, each at its position.
 void printRow(const df::Canvas& canvas, int y) {
   for (int x = 0; x < canvas.width();) {
     if (canvas.at(x, y).ch == U' ') {
@@ -50,7 +50,7 @@ void printRow(const df::Canvas& canvas, int y) {
     for (; x < canvas.width() && canvas.at(x, y).ch != U' ' && canvas.at(x, y).color == color; ++x)
       text += escaped(canvas.at(x, y).ch);
     std::printf("<text x=\"%d\" y=\"%d\" class=\"c%d\"", begin * kCellWidth, y * kCellHeight + 12, color & 7);
-    if (x > begin + 1) std::printf(" textLength=\"%d\"", (x - begin) * kCellWidth);  // whatever the font
+    if (x > begin + 1) std::printf(" textLength=\"%d\"", (x - begin) * kCellWidth);  // for any font
     std::printf(">%s</text>", text.c_str());
   }
 }

@@ -1,11 +1,11 @@
-"""The code blocks of a page, and what the sentences around them say to do with them.
+"""Reads the code blocks of a page, and applies them to files as the sentences around them say.
 
-A page that builds something says what each block is in the sentence before it, which the reader follows and so does the test:
+The sentence before a block tells the reader, and the test, what to do with it:
 
   The new file `X`:                      (or: The file `X`:)  the block is that file
-  In `X`, below `LINE`, add:             the block comes behind the one line of X that reads so
+  In `X`, below `LINE`, add:             the block goes below the only such line of X
   In `X`, instead of `LINE`, write:      the block replaces that line
-  In `X`, take out `LINE`.               no block: the line goes
+  In `X`, take out `LINE`.               no block: the line is removed
 """
 import os
 import re
@@ -18,12 +18,12 @@ COMMENT = re.compile(r"^<!-- (.*) -->$")
 
 
 class PageError(Exception):
-    """What is wrong with a page; the text says where."""
+    """An error in a page. Its text says where."""
 
 
 class Block:
-    """A fenced block. `before`: the paragraph before it in one line; `comments`: HTML comments since the last block; `section`: the
-    heading it stands under; `begin`, `end`: numbers of its first and last line of text, from 0, end excluded."""
+    """A fenced block. `before`: the paragraph before it, in one line; `comments`: HTML comments since the last block; `section`:
+    the heading above it; `begin`, `end`: its lines of text, counted from 0, without the line `end`."""
 
     def __init__(self, page, language, begin, before, comments, section):
         self.page, self.language, self.begin, self.end = page, language, begin, begin
@@ -39,7 +39,7 @@ class Block:
 
 
 def blocks(path, name=None):
-    """All fenced blocks of a page, and between them the sentences that take lines out, as (file, line, place)."""
+    """Returns all fenced blocks of a page, and between them (file, line, place) for each sentence that removes a line."""
     with open(path, encoding="utf-8") as file:
         lines = file.read().split("\n")
     found, current, paragraph, comments, section = [], None, [], [], ""
@@ -80,7 +80,7 @@ def _index(lines, wanted, where, file):
 
 
 def apply(block, folder):
-    """Does to the folder's files what the block is said to be. Returns whether it was said."""
+    """Applies a block to the files of the folder as the page says. Returns false if the page does not say what the block is."""
     if isinstance(block, tuple):
         file, line, where = block
         _change(folder, file, where, lambda lines: lines.pop(_index(lines, line, where, file)))
@@ -120,7 +120,7 @@ def _change(folder, file, where, change):
 
 
 def unmet(outcome, picture):
-    """What an outcome (`N REGEX; N REGEX`: each N times at least) asks for and the picture has not."""
+    """Returns the parts of an outcome (`N REGEX; N REGEX`: each at least N times) that the picture does not meet."""
     missing = []
     for one in outcome.split("; "):
         number, pattern = one.split(" ", 1)

@@ -1,17 +1,17 @@
-"""Terminals of tmux that tests of pages play in and read, and their rows as SVG."""
+"""Terminals of tmux in which tests of pages play and read, and their rows as SVG."""
 import html
 import os
 import re
 import subprocess
 import time
 
-COLUMNS, ROWS = 80, 24  # a status line comes below
+COLUMNS, ROWS = 80, 24  # plus a status line below
 CELL_WIDTH, CELL_HEIGHT = 8, 16
 COLORS = ("#777", "#f66", "#6d6", "#ee5", "#79f", "#d7d", "#5dd", "#ddd")
 
 
 class Failed(Exception):
-    """Why there is no picture."""
+    """Raised when no picture can be made. Its text is the reason."""
 
 
 def write(path, text, mode=0o600):
@@ -28,7 +28,7 @@ def wait_for(what, condition, seconds=30):
 
 
 class Terminals:
-    """tmux, spoken to through one client that stays."""
+    """A tmux server, controlled through one client that stays connected."""
 
     def __init__(self, folder):
         self.command = ["tmux", "-S", f"{folder}/tmux", "-f", "/dev/null", "-u"]
@@ -42,7 +42,7 @@ class Terminals:
         self._answer()
 
     def _answer(self):
-        """The lines of the next answer."""
+        """Returns the lines of the next answer."""
         lines = []
         inside = False
         for line in self.client.stdout:
@@ -65,14 +65,14 @@ class Terminals:
         self.ask(f"new-session -d -s {name} -x {COLUMNS} -y {ROWS + 1} 'sh {script}'")
 
     def screen(self, name):
-        """Rows of (character, colour)."""
+        """Returns the terminal's rows of (character, colour)."""
         return [colored(line) for line in self.ask(f"capture-pane -p -e -t {name}:")]
 
     def text(self, name):
         return "\n".join(self.ask(f"capture-pane -p -t {name}:"))
 
     def press(self, key, names):
-        """In these terminals, at the same moment."""
+        """Presses a key in these terminals at one moment."""
         self.client.stdin.write("".join(f"send-keys -t {name}: {key}\n" for name in names))
         self.client.stdin.flush()
         for _ in names:
@@ -83,7 +83,7 @@ class Terminals:
 
 
 def colored(line):
-    """The cells of a line with SGR sequences: (character, colour from 0 to 15)."""
+    """Returns the cells of a line with SGR sequences as (character, colour from 0 to 15)."""
     cells, color = [], 7
     for match in re.finditer(r"\x1b\[([0-9;]*)m|\x1b[()].|(.)|\x0f|\x0e", line):
         if match.group(2) is not None:

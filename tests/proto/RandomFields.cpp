@@ -7,7 +7,7 @@
 namespace naiad::test {
 namespace {
 
-/// Texts around what UTF-8 allows.
+/// Texts near the limits of valid UTF-8.
 constexpr std::array<std::string_view, 14> kTexts = {"\x7F",
                                                      "\x80",
                                                      "\xC1\xBF",
@@ -30,8 +30,7 @@ std::string varint(std::uint64_t value) {
   return bytes;
 }
 
-/// The same number in more bytes than it needs; up to ten are accepted for a number, five for a key or a
-/// length.
+/// Encodes the number in more bytes than needed. Ten are allowed for a number, five for a key or a length.
 std::string longVarint(RandomFields& random, std::uint64_t value) {
   std::string bytes = varint(value);
   for (std::uint64_t more = random.below(12); more > 0; --more) {
@@ -74,7 +73,7 @@ std::string randomField(RandomFields& random, int depth) {
       return head +
              sized(random, random.flag() ? random.text() : std::string(kTexts[random.below(kTexts.size())]));
     case 3: {
-      std::string end = head;  // the same key, but for the wire type
+      std::string end = head;  // the key with another wire type
       end.front() = static_cast<char>(end.front() ^ 7);
       if (random.below(8) == 0) end = key(random, 4);
       return head + (depth > 0 ? randomFields(random, depth - 1) : "") + end;
@@ -89,12 +88,12 @@ std::string randomField(RandomFields& random, int depth) {
 std::uint64_t RandomFields::number() {
   const std::uint64_t bits = m_random.next();
   const std::uint64_t value = bits >> below(64);
-  if (below(8) == 0) return bits << below(64);  // low bits that are 0
+  if (below(8) == 0) return bits << below(64);  // the low bits are 0
   return below(8) == 0 ? ~value : value;
 }
 
 std::size_t RandomFields::length() {
-  constexpr std::array<std::size_t, 4> kSteps = {126, 127, 128, 300};  // around a length of two bytes
+  constexpr std::array<std::size_t, 4> kSteps = {126, 127, 128, 300};  // near a length of two bytes
   return below(32) == 0 ? kSteps[below(kSteps.size())] : below(12);
 }
 
@@ -149,7 +148,7 @@ void mutate(RandomFields& random, std::string& bytes, const std::string& other) 
       bytes.insert(place(bytes), bytes.substr(at, length));
       break;
     case 6:
-      bytes += other;  // merged
+      bytes += other;  // parses as a merge
       break;
     case 7:
       bytes.insert(at, other.substr(place(other), length));

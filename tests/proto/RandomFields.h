@@ -1,4 +1,4 @@
-// Values for the fields of messages, and bytes that are nearly messages.
+// Random values for fields of messages, and bytes that are almost messages.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,18 @@
 
 namespace naiad::test {
 
-/// Values as fields have them: of all sizes, more small than large.
+/// Values of all sizes, more small than large ones.
 class RandomFields {
  public:
   explicit RandomFields(std::uint64_t seed) : m_random(seed) {}
 
   std::uint64_t below(std::uint64_t limit) { return m_random.next() % limit; }
   bool flag() { return below(2) != 0; }
-  /// Of 64 bits; setters take what fits.
+  /// Returns a 64-bit number; setters take the bits that fit.
   std::uint64_t number();
-  /// How many elements a repeated field has.
+  /// Returns a number of elements for a repeated field.
   int count() { return static_cast<int>(below(16) == 0 ? below(20) : below(3)); }
-  /// Valid UTF-8.
+  /// Returns valid UTF-8.
   std::string text();
   std::string bytes();
 
@@ -29,12 +29,11 @@ class RandomFields {
   SplitMix64 m_random;
 };
 
-/// Changes `bytes` as an attacker or a broken peer would: flips, cuts, repeats and moves pieces, adds fields
-/// with any key, wire type and length, closes and opens groups. `other` is another message, whose pieces get
-/// in between.
+/// Changes `bytes` like an attacker or a broken peer: flips, cuts, repeats and moves pieces, adds fields with
+/// any key, wire type and length, closes and opens groups. Inserts pieces of the message `other`.
 void mutate(RandomFields& random, std::string& bytes, const std::string& other);
 
-/// Fields with any keys and fitting or unfitting values, some of them in one another.
+/// Returns fields with any keys and valid or invalid values, some of them nested.
 std::string randomFields(RandomFields& random, int depth);
 
 }  // namespace naiad::test

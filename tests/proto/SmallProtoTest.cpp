@@ -1,5 +1,5 @@
-// The small codec is protobuf, as far as it goes: what one writes the other reads, what one refuses the other
-// refuses.
+// The small codec agrees with protobuf for the features that it has: each reads what the other writes, and
+// both accept or reject an input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,11 +17,11 @@
 namespace naiad::test {
 namespace {
 
-constexpr int kDepth = 2;                                ///< of random messages in themselves
-constexpr int kMessages = kSanitized ? 200 : 2'000;      ///< of each type
-constexpr int kMutations = kSanitized ? 5'000 : 60'000;  ///< of each type
+constexpr int kDepth = 2;                                ///< depth of random nested messages
+constexpr int kMessages = kSanitized ? 200 : 2'000;      ///< number per type
+constexpr int kMutations = kSanitized ? 5'000 : 60'000;  ///< number per type
 
-/// What a failure prints.
+/// Returns bytes in hex for failures.
 std::string hex(const std::string& bytes) {
   std::string text;
   for (const char byte : bytes) {
@@ -39,7 +39,7 @@ std::string validBytes(RandomFields& random) {
   return message.SerializeAsString();
 }
 
-/// Both codecs read `bytes`. Returns whether they accept them; they must agree, and find the same fields.
+/// Both codecs read `bytes`. They must agree and find equal fields. Returns true if they accept.
 template <class Twins>
 bool readByBoth(const std::string& bytes) {
   typename Twins::Real real, known;
@@ -92,7 +92,7 @@ TYPED_TEST(SmallProto, EachReadsWhatTheOtherWrites) {
     ASSERT_TRUE(small.ParseFromString(bytes)) << hex(bytes);
     ASSERT_EQ(hex(small.SerializeAsString()), hex(bytes));
     ASSERT_TRUE(real_again.ParseFromString(small.SerializeAsString()));
-    // Getters say the same, field by field.
+    // The getters return equal values, field by field.
     typename TypeParam::Real from_small;
     TypeParam::copy(small, from_small);
     ASSERT_EQ(hex(from_small.SerializeAsString()), hex(bytes));
@@ -134,7 +134,7 @@ TYPED_TEST(SmallProto, BothJudgeChangedBytesAlike) {
     accepted += readByBoth<TypeParam>(bytes) ? 1 : 0;
     if (i % 64 == 0 && testing::Test::HasFailure()) return;
   }
-  // Neither kind is rare, so the comparison means something.
+  // Both results are frequent, so the comparison is meaningful.
   EXPECT_GT(accepted, kMutations / 10);
   EXPECT_LT(accepted, kMutations * 9 / 10);
 }
@@ -159,7 +159,7 @@ TYPED_TEST(SmallProto, BothJudgeEveryTwoBytesAlike) {
 }
 
 TYPED_TEST(SmallProto, BothJudgeAFieldOfEveryWireTypeAlike) {
-  // Lengths of 2^31 − 1 and more, numbers of ten bytes and more, and what fits by chance.
+  // Lengths of 2^31 − 1 and more, numbers of ten bytes and more, and some valid values.
   const std::vector<std::string> values = {std::string(8, '\0'),
                                            "\x01\x01",
                                            "\x80",
@@ -187,7 +187,7 @@ bool bothAccept(const std::string& bytes) {
   return readByBoth<kinds_twins::Kinds>(bytes);
 }
 
-/// `levels` messages in each other, or groups that no one knows.
+/// Returns `levels` nested messages, or nested unknown groups.
 std::string nested(int levels, bool group) {
   std::string bytes;
   for (int i = 0; i < levels; ++i) {
@@ -237,7 +237,7 @@ TEST(SmallProtoLimits, ANegativeSizeIsRefused) {
 
 TEST(SmallProtoLimits, BothKnowTheSameUtf8) {
   silenceParseErrors();
-  // All of two bytes, and of three and four whose last ones are at the ends of their ranges.
+  // All texts of two bytes, and those of three and four whose last bytes are at the ends of their ranges.
   const std::string lasts = "\x7F\x80\x8F\x90\x9F\xA0\xBF\xC0";
   for (int bytes = 0; bytes < 0x10000; ++bytes) {
     const std::string two = {static_cast<char>(bytes), static_cast<char>(bytes >> 8)};
@@ -252,7 +252,7 @@ TEST(SmallProtoLimits, BothKnowTheSameUtf8) {
       Real real;
       const std::string field = "\x8A\x01" + std::string(1, static_cast<char>(text.size())) + text;
       ASSERT_EQ(small::isUtf8(text), real.ParseFromString(field)) << hex(text);
-      // Where it checks eight bytes at a time.
+      // After eight bytes, which isUtf8() checks at once.
       const std::string behind = "12345678" + text;
       ASSERT_EQ(small::isUtf8(behind), small::isUtf8(text)) << hex(text);
     }
@@ -269,7 +269,7 @@ TEST(SmallProtoFields, AMessageThatIsThereTwiceIsMerged) {
 }
 
 TEST(SmallProtoFields, AOneofKeepsTheLastAndMergesTheSame) {
-  // deeper { number 7 }, deeper { signed_number 2 }: merged; with a text between them: not.
+  // deeper { number 7 }, deeper { signed_number 2 } are merged, but not with a text between them.
   const std::string one("\xE2\x12\x02\x20\x07", 5), two("\xE2\x12\x02\x18\x04", 5), text("\xF2\x01\x01x", 4);
   for (const bool between : {false, true}) {
     const std::string bytes = one + (between ? text : "") + two;

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""dfserver as a service of systemd, without systemd: what it says to the manager, sockets that it is given, and its unit's
-system call filter, under which games in processes of their own must still play in their sandbox.
+"""Tests dfserver as a service of systemd, without systemd: notifications, sockets passed to it, and the system call filter
+of its unit, which must allow games to run in processes of their own in their sandbox.
 usage: service_test.py BUILD_DIR SOURCE_DIR [TEST...]"""
 import ctypes
 import os
@@ -17,7 +17,7 @@ import unittest
 
 BUILD, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 UNITS = os.path.join(SOURCE, "deploy", "systemd")
-PATIENCE = 60  # seconds, on a busy machine
+PATIENCE = 60  # timeout in seconds, for a busy machine
 TICK = "5000"  # microseconds
 ALPN = "naiad/1"  # kAlpn in shared/net/stream/TlsContext.h
 GAPS = r"this kernel has no .*"  # sandboxGaps() in server/host/world/Sandbox.cpp
@@ -28,13 +28,13 @@ def program(name):
 
 
 def unit_values(unit, key):
-    """The values of a key, in order."""
+    """Returns the values of a key in a unit file, in order."""
     with open(os.path.join(UNITS, unit), encoding="utf-8") as file:
         return [line.split("=", 1)[1].strip() for line in file if line.startswith(key + "=")]
 
 
 class Manager:
-    """Plays systemd's part: hears what the service says."""
+    """Stands in for systemd: receives the service's notifications."""
 
     def __init__(self, folder):
         self.path = os.path.join(folder, "notify")
@@ -43,7 +43,7 @@ class Manager:
         self.heard = []
 
     def wait_for(self, wanted):
-        """Until something is said that begins so; what was said before it stays in `heard`."""
+        """Waits for a notification that begins so. Keeps the earlier ones in `heard`."""
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             self.socket.settimeout(max(0.01, end - time.monotonic()))
@@ -58,7 +58,7 @@ class Manager:
 
 
     def drain(self):
-        """Forget what was said so far."""
+        """Discards the notifications received so far."""
         self.socket.setblocking(False)
         try:
             while True:
@@ -67,7 +67,7 @@ class Manager:
             pass
 
 
-# Gives the descriptors that it is called with, as 3, 4, ...; it is the process that it becomes.
+# Takes descriptors as arguments, passes them on as 3, 4, ..., and becomes the program given after them.
 GIVE = """
 import os, sys
 end = sys.argv.index("--")
@@ -125,13 +125,13 @@ class ServiceTest(unittest.TestCase):
         self.assertEqual(server.wait(PATIENCE), 0, self.text("errors"))
 
     def play(self, port, ticks=20):
-        """A bot joins and plays; what it prints."""
+        """Plays with a bot. Returns its output."""
         bot = subprocess.run([program("dfbot"), f"127.0.0.1:{port}", "--ticks", str(ticks), "--random", "1", "--known-servers",
                               self.file("known")], capture_output=True, text=True, timeout=PATIENCE, check=False)
         self.assertEqual(bot.returncode, 0, bot.stdout + bot.stderr + self.text("log"))
         return bot.stdout
 
-    # ---- what it says -----------------------------------------------------------------------------------------------
+    # ---- messages to the manager ------------------------------------------------------------------------------------
 
     def test_ready_once_it_listens_alive_by_its_ticks_stopping_at_the_end(self):
         server = self.start("--address", "127.0.0.1", "--port", "0", "--port-file", self.file("port"), "--game", "hello",
@@ -144,7 +144,7 @@ class ServiceTest(unittest.TestCase):
             self.manager.wait_for("WATCHDOG=1")
         self.play(port, ticks=200)
         self.manager.wait_for(f"STATUS=127.0.0.1:{port}, 1 player")
-        self.manager.drain()  # its queue is full by now, and what is said to a full one is lost
+        self.manager.drain()  # its queue is full now, and messages to a full queue are lost
         self.stop(server)
         self.manager.wait_for("STOPPING=1")
 
@@ -162,10 +162,10 @@ class ServiceTest(unittest.TestCase):
             self.manager.socket.recv(4096)
         self.assertIsNone(server.poll())
 
-    # ---- sockets that it is given -----------------------------------------------------------------------------------
+    # ---- sockets from the manager -----------------------------------------------------------------------------------
 
     def give_sockets(self, *kinds):
-        """Sockets on one port of all addresses, as of dfserver@.socket; to be given to the server as descriptors 3 and 4."""
+        """Returns sockets on one port of all addresses as dfserver@.socket makes them, for the server's descriptors 3 and 4."""
         while True:
             first = socket.create_server(("::", 0), family=socket.AF_INET6, dualstack_ipv6=True)
             port = first.getsockname()[1]
@@ -183,7 +183,7 @@ class ServiceTest(unittest.TestCase):
             return port, [both[kind] for kind in kinds]
 
     def start_with(self, sockets, *options):
-        # Not 3 and 4 in this process: what Popen does between fork and exec uses descriptors of its own.
+        # Not 3 and 4 in this process, because Popen uses descriptors of its own between fork and exec.
         high = [os.dup2(one.fileno(), 200 + i) for i, one in enumerate(sockets)]
         words = [sys.executable, "-c", GIVE, *(str(one) for one in high), "--"]
         server = self.start(*options, words=words, pass_fds=high)
@@ -193,7 +193,7 @@ class ServiceTest(unittest.TestCase):
 
     def test_it_listens_with_the_sockets_that_it_is_given(self):
         port, sockets = self.give_sockets("tcp", "udp")
-        # Who comes before the server is there waits for it.
+        # A client that connects before the server starts waits for it.
         early = socket.create_connection(("127.0.0.1", port), PATIENCE)
         self.addCleanup(early.close)
         server = self.start_with(sockets, "--game", "hello", "--port-file", self.file("port"))
@@ -230,7 +230,7 @@ class ServiceTest(unittest.TestCase):
         self.assertEqual(server.wait(PATIENCE), 4)
         self.assertIn("The sockets from the service manager (LISTEN_FDS) cannot be used: two are for TCP.", self.text("errors"))
 
-    # ---- its unit -----------------------------------------------------------------------------------------------------
+    # ---- the unit files -----------------------------------------------------------------------------------------------------
 
     def analyze(self, *words):
         if not shutil.which("systemd-analyze"):
@@ -238,7 +238,7 @@ class ServiceTest(unittest.TestCase):
         return subprocess.run(["systemd-analyze", *words], capture_output=True, text=True, timeout=PATIENCE, check=False)
 
     def test_units_are_in_order(self):
-        # Programs where they are here, and no manual: whether these pages are there is another test's.
+        # Uses the paths of the built programs, and no manual pages, which another test checks.
         for name in os.listdir(UNITS):
             with open(os.path.join(UNITS, name), encoding="utf-8") as file:
                 text = re.sub(r"^Documentation=.*\n", "", file.read(), flags=re.M)
@@ -257,7 +257,7 @@ class ServiceTest(unittest.TestCase):
             self.assertLessEqual(float(exposure.group(1)), 1.5, said)
 
     def filtered_calls(self):
-        """The names of system calls that the unit's SystemCallFilter allows, as systemd resolves it."""
+        """Returns the names of the system calls that the unit's SystemCallFilter allows, as systemd resolves it."""
         known = self.analyze("syscall-filter")
         sets, current = {}, None
         for line in known.stdout.splitlines():
@@ -278,10 +278,10 @@ class ServiceTest(unittest.TestCase):
         for value in unit_values("dfserver@.service", "SystemCallFilter"):
             names = set().union(*(resolve(one) for one in value.lstrip("~").split()))
             allowed = allowed - names if value.startswith("~") else allowed | names
-        return allowed | resolve("@default") | {"execve"}  # systemd's own additions
+        return allowed | resolve("@default") | {"execve"}  # added by systemd itself
 
     def sandbox_gaps(self):
-        """What dfserver says of this kernel's sandbox, without any filter."""
+        """Returns what dfserver reports as missing in this kernel's sandbox, without any filter."""
         other = os.path.join(self.folder, "other")
         subprocess.run([program("dfserver"), "--address", "127.0.0.1", "--port", "0", "--game", "hello", "--on-game-over", "restart",
                         "--ticks", "3", "--log", other, "--identity", other + "-key"], cwd=self.file("game"),
@@ -295,7 +295,7 @@ class ServiceTest(unittest.TestCase):
             self.skipTest("no list of system calls of this processor (linux-libc-dev)")
 
         def harden():
-            if os.getuid() == 0:  # the service has a user without rights
+            if os.getuid() == 0:  # the service's user is unprivileged
                 os.setgroups([])
                 os.setgid(65534)
                 os.setuid(65534)
@@ -338,7 +338,7 @@ def readable_by_others(path):
     return True
 
 
-# ---- seccomp, as systemd has it --------------------------------------------------------------------------------------------
+# ---- seccomp like systemd's -------------------------------------------------------------------------------------------------
 
 LIBC = ctypes.CDLL(None, use_errno=True)
 PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, PR_SET_MDWE = 38, 22, 65
@@ -368,7 +368,7 @@ def call_numbers():
 
 
 def seccomp_installer(names):
-    """A function that allows this process no other system calls: EPERM, as of SystemCallErrorNumber."""
+    """Returns a function that forbids this process all other system calls with EPERM, as SystemCallErrorNumber does."""
     numbers, arch = call_numbers()
     if not numbers:
         return None
@@ -376,7 +376,7 @@ def seccomp_installer(names):
     code = [Instruction(LOAD, 0, 0, 4), Instruction(JUMP_EQUAL, 1, 0, arch), Instruction(RETURN, 0, 0, refused),
             Instruction(LOAD, 0, 0, 0)]
     for name in sorted(names):
-        if name in numbers:  # others are other processors'
+        if name in numbers:  # other names are of other processors
             code += [Instruction(JUMP_EQUAL, 0, 1, numbers[name]), Instruction(RETURN, 0, 0, SECCOMP_RET_ALLOW)]
     code.append(Instruction(RETURN, 0, 0, refused))
     array = (Instruction * len(code))(*code)
@@ -389,7 +389,7 @@ def seccomp_installer(names):
 
 
 def deny_writable_code():
-    """MemoryDenyWriteExecute, by the kernel's own means, where it has them (6.3)."""
+    """Applies MemoryDenyWriteExecute directly, in kernels that support it (6.3)."""
     LIBC.prctl(PR_SET_MDWE, 1, 0, 0, 0)
 
 

@@ -1,4 +1,4 @@
-// A stream in virtual time that says where it leads, as a client has to know to send datagrams there.
+// A stream in virtual time that knows its address, to which a client sends its datagrams.
 #pragma once
 
 #include <memory>

@@ -13,9 +13,9 @@ using namespace std::chrono_literals;
 
 constexpr std::chrono::milliseconds kFirstBackoff{250};
 constexpr std::chrono::milliseconds kLastBackoff{2000};
-/// Without news for so long a client is stuck.
+/// Time without news after which a client counts as stuck.
 constexpr std::chrono::seconds kStuck{3};
-/// The stream alone waits for its own timers first.
+/// Limit for a client without datagrams, because the stream first waits for its own timers.
 constexpr std::chrono::seconds kStuckOnStream{15};
 
 }  // namespace
@@ -35,7 +35,7 @@ std::uint32_t Bot::player() const {
   return m_shown.session ? m_shown.session->welcome().player : 0;
 }
 
-// ---- joining, and joining again
+// ---- joining and rejoining
 
 void Bot::attempt() {
   if (!m_connecting) {  // TCP and TLS take two round trips
@@ -164,7 +164,7 @@ void Bot::update() {
   if (now() >= m_next_attempt) attempt();
 }
 
-// ---- fate
+// ---- network conditions and events
 
 void Bot::applyTo(const Seat& seat) const {
   if (seat.link) {
@@ -183,7 +183,7 @@ void Bot::applyWeather() {
   applyTo(m_pending);
 }
 
-// No word to the server.
+// Disappears without a message to the server.
 void Bot::quit(std::chrono::milliseconds pause) {
   m_shown = {};
   m_pending = {};
@@ -249,8 +249,7 @@ void Bot::press() {
   if (m_random.below(3000) == 0) session.sendChat("all is well with " + std::to_string(m_number));
 }
 
-// The server lets go of the keys of one who is cut off; that may come before their own release of the same
-// key.
+// The server releases the keys of a disconnected player, possibly before the player's own release arrives.
 void Bot::heard(const Heard& what) {
   const bool is_release = !what.is_mouse && what.action == df::KEY_RELEASED;
   const bool is_next = !m_unheard.empty() && m_unheard.front().what == what.what &&

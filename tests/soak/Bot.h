@@ -1,5 +1,5 @@
-// A client with a random player at the keys, over a bad network: what client/session/Connection does for
-// dfclient, in virtual time.
+// A client with a random player, over a bad network in virtual time. Does what client/session/Connection does
+// for dfclient.
 #pragma once
 
 #include <deque>
@@ -27,33 +27,33 @@ class Bot {
     Endpoint server;
     Tally& tally;
   };
-  /// Called after each snapshot of the session shown.
+  /// Called after each snapshot of the shown session.
   using OnSnapshot = std::function<void(Bot& bot, const SnapshotHeader& header, const AckWindow& acks)>;
 
   Bot(Place place, int number, std::uint64_t seed, double haste, OnSnapshot on_snapshot);
 
-  /// Strokes of fate, the player's keys, and whether there is news. Once a tick.
+  /// Applies random events, presses keys, and checks for news. Call once a tick.
   void tick();
-  /// Deadlines. A few times a tick.
+  /// Checks timeouts. Call a few times a tick.
   void update();
-  /// The game heard something of this player.
+  /// Call when the game received an input of this player.
   void heard(const Heard& what);
-  /// Fine weather, and no more keys.
+  /// Ends bad conditions and key presses.
   void rest();
 
-  /// The session shown; null while there is none.
+  /// Returns the shown session; null if it is missing.
   ClientSession* session() { return m_shown.session.get(); }
-  /// Of the session shown; 0 while there is none.
+  /// Returns the player of the shown session; 0 without one.
   std::uint32_t player() const;
   int number() const { return m_number; }
-  /// Keys and clicks that were sent, and the game has not heard of.
+  /// Returns how many sent keys and clicks the game has not received.
   std::size_t unheard() const { return m_unheard.size(); }
   const Weather& weather() const { return m_weather; }
   std::string describe() const;
 
  private:
   using Time = ClientSession::Time;
-  /// A session with what carries it.
+  /// A session with its stream and datagram socket.
   struct Seat {
     std::unique_ptr<ClientSession> session;
     std::unique_ptr<VirtualStreamLink> link;
@@ -89,8 +89,8 @@ class Bot {
   Time m_next_attempt{};
   bool m_connecting = false;
   std::deque<Heard> m_unheard;
-  std::set<int> m_down;    ///< keys, as far as the game has heard
-  std::set<int> m_let_go;  ///< … whose release may have been the server's, so that another one comes
+  std::set<int> m_down;    ///< keys that are down in the game
+  std::set<int> m_let_go;  ///< released in the game, maybe by the server before the player's own release
   Time m_calm_since{};
   Time m_news_at{};
   std::uint64_t m_snapshots_seen = 0;

@@ -9,8 +9,8 @@ namespace naiad::soak {
 
 namespace {
 
-constexpr int kMaxAge = 90;        ///< ticks that a picture waits
-constexpr int kMaxDescribed = 12;  ///< wrong pictures that are printed
+constexpr int kMaxAge = 90;        ///< ticks that an undecided picture is kept
+constexpr int kMaxDescribed = 12;  ///< limit of wrong pictures that are printed
 
 std::string describe(const df::Canvas& seen, const df::Canvas& truth) {
   int told = 0;
@@ -62,7 +62,7 @@ void Judge::look(Bot& bot, const SnapshotHeader& header, const AckWindow& acks) 
   if (!settle(bot.player(), account, waiting)) account.waiting.push_back(std::move(waiting));
 }
 
-// False if it cannot be told yet.
+// Returns false if the picture cannot be judged yet.
 bool Judge::settle(std::uint32_t player, Account& account, const Waiting& waiting) {
   const Session* session = m_host.find(player);
   if (session == nullptr) return true;

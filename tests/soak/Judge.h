@@ -1,8 +1,8 @@
-// Holds what clients show against what the server drew.
+// Compares the pictures of clients with those of the server.
 //
-// A picture counts if everything has been sent to its client by then. The client alone cannot know: what a
-// lost snapshot said may still be on its way again. So the server is asked, as for the checksum of the
-// protocol, with exactly what has arrived; while it cannot tell yet, the picture waits.
+// A picture counts if its client has received everything that the server sent until then. The client cannot
+// know this, because content of a lost snapshot may still be on its way again. So the server is asked, like
+// for the protocol's checksum, with the exact snapshots received. While it cannot decide, the picture waits.
 #pragma once
 
 #include <array>
@@ -20,25 +20,25 @@ namespace naiad::soak {
 
 class Judge {
  public:
-  /// Looks at every `stride`-th tick of each player.
+  /// Compares every `stride`-th tick of each player.
   Judge(const df::World& world, const VirtualHost& host, Tally& tally, std::uint32_t stride)
       : m_world(world), m_host(host), m_tally(tally), m_stride(stride) {}
 
-  /// From now on look at every tick.
+  /// Compares every tick from now on.
   void lookAtAll() { m_stride = 1; }
-  /// Keep the truth about the world's present tick. Before its snapshots are sent.
+  /// Records the pictures of the world's present tick. Call before its snapshots are sent.
   void keepTruths();
-  /// A client has applied a snapshot.
+  /// Call after a client has applied a snapshot.
   void look(Bot& bot, const SnapshotHeader& header, const AckWindow& acks);
-  /// Ask about the pictures that wait. Once a tick.
+  /// Judges the waiting pictures. Call once a tick.
   void judge();
-  /// Pictures of this player that were found right, one after the other, up to now.
+  /// Returns how many of this player's latest pictures in a row were right.
   std::uint64_t rightInARow(std::uint32_t player) const;
-  /// What all this takes, so that it can be left out of the memory that is measured.
+  /// Returns the memory used here, which memory measurements must subtract.
   std::size_t bytesKept() const;
 
  private:
-  static constexpr std::uint32_t kTruths = 48;  ///< of each player
+  static constexpr std::uint32_t kTruths = 48;  ///< ticks recorded per player
 
   struct Truth {
     std::uint32_t tick = 0;
@@ -51,7 +51,7 @@ class Judge {
     int wrong = 0;
     int cells = 0;
     int age = 0;
-    std::string text;  ///< for people, if it is wrong
+    std::string text;  ///< describes a wrong picture for people
   };
   struct Account {
     std::array<Truth, kTruths> truths;

@@ -14,18 +14,18 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint64_t kTicksPerSecond = 30;
-constexpr int kParts = 4;  ///< of a tick: how often bots look at their deadlines
-/// Until streams have got over what happened, and 5 s more.
+constexpr int kParts = 4;  ///< parts of a tick, in each of which bots check timeouts
+/// Time for streams to recover from earlier events, and 5 s more.
 constexpr std::uint64_t kQuietSeconds = 20;
-/// Until every buffer has had its longest burst and every table its most entries, memory grows and means
-/// nothing: with 8 bots from 2 MB to 9 MB, where it stays.
+/// Warm-up time in which memory grows until buffers and tables have had their maxima: with 8 bots from 2 MB
+/// to 9 MB, where it stays.
 constexpr double kWarmUpMinutes = 10;
-/// In less time nothing can be said of its growth.
+/// Minimum run time for judging memory growth.
 constexpr double kJudgedMinutes = 30;
-/// Parts of the time after the warm-up that are compared: the first and the last, each averaged, for clients
-/// come and go.
+/// Fraction of the time after the warm-up at its start and at its end. Memory is averaged over each, because
+/// clients come and go, and compared.
 constexpr double kCompared = 0.2;
-/// Of each client, in the end, at least so many pictures in a row.
+/// Right pictures in a row that each client must have at the end.
 constexpr std::uint64_t kRightInTheEnd = 10;
 
 double mean(const std::vector<double>& values) {

@@ -19,8 +19,8 @@ struct SoakOptions {
   double minutes = 60;
   std::uint64_t seed = 1;
   int creatures = 200;
-  double haste = 1;          ///< how many times more often than usual things happen
-  std::uint32_t stride = 5;  ///< each player's picture is looked at in every so-manieth tick
+  double haste = 1;          ///< factor for the rate of events
+  std::uint32_t stride = 5;  ///< every `stride`-th tick of each player is compared
 };
 
 class Soak {
@@ -28,7 +28,7 @@ class Soak {
   explicit Soak(const SoakOptions& options);
   ~Soak();
 
-  /// Run it, print how it goes on stderr and the last line on stdout. True if nothing went wrong.
+  /// Runs the soak, prints progress on stderr and the last line on stdout. True if nothing went wrong.
   bool run();
 
  private:
@@ -38,7 +38,7 @@ class Soak {
   void finish();
   bool isQuiet(Bot& bot) const;
   void measureMemory(double minute);
-  /// In percent, after the warm-up; nothing if the run was too short for that.
+  /// Returns the growth in percent after the warm-up; nullopt if the run was too short.
   std::optional<double> memoryGrowth() const;
   bool conclude();
 
@@ -52,7 +52,7 @@ class Soak {
   Judge m_judge;
   std::vector<std::unique_ptr<Bot>> m_bots;
   std::uint64_t m_ticks = 0;
-  int m_unwell = 0;  ///< clients whose picture was not right, or whose datagrams did not pass, in the end
+  int m_unwell = 0;             ///< clients with a wrong picture, or without datagrams, at the end
   std::vector<double> m_early;  ///< bytes in use
   std::vector<double> m_late;
 };

@@ -36,12 +36,12 @@ df::Color someColor() {
   return static_cast<df::Color>(1 + WM.randomInt(df::kColorCount - 1));
 }
 
-/// Of a few: clients remember looks up to a limit, and are to reach it within minutes.
+/// Returns one of few letters, so that clients reach their limit of remembered looks within minutes.
 char someLetter(char first) {
   return static_cast<char>(first + WM.randomInt(4));
 }
 
-/// Frames of about so many characters each, of a few different ones.
+/// Returns frames of seven characters, from a few different sequences.
 Sequence someFrames(df::Color color) {
   std::vector<Appearance> frames(static_cast<std::size_t>(2 + WM.randomInt(6)));
   const int letter = WM.randomInt(4);
@@ -53,7 +53,7 @@ Sequence someFrames(df::Color color) {
   return Sequence(frames);
 }
 
-/// By a clock or an angle that goes on by itself.
+/// Returns a selector by a clock or by an angle that changes by itself.
 Selector somePace(df::World& world) {
   const auto tick = static_cast<std::uint32_t>(world.getStepCount());
   const int kind = WM.randomInt(4);
@@ -63,7 +63,7 @@ Selector somePace(df::World& world) {
                            (WM.randomInt(2001) - 1000) * 100'003);
 }
 
-/// One character, a word, a sprite whose frames take turns, or frames that change by themselves.
+/// One character, a word, an animated sprite, or frames that change by themselves.
 class Creature : public df::Object {
  public:
   Creature() {
@@ -98,8 +98,7 @@ class Creature : public df::Object {
   int draw() override {
     if (m_kind > 3) {
       df::Object::draw();
-      return m_kind == 4 || m_age % 64 > 8 ? 0
-                                           : DM.drawCh(getPosition(), '!', m_color);  // adds to it at times
+      return m_kind == 4 || m_age % 64 > 8 ? 0 : DM.drawCh(getPosition(), '!', m_color);  // at times
     }
     if (m_kind < 3) return DM.drawString(getPosition(), m_text, df::LEFT_JUSTIFIED, m_color);
     const char frame = "|/-\\"[m_age / 8 % 4];
@@ -186,7 +185,7 @@ class Ship : public df::Object {
   int m_keys = 0;
 };
 
-/// Gives every player a ship, takes it away, and hears all.
+/// Gives each player a ship, removes it when they leave, and reports all their events.
 class Harbour : public df::Object {
  public:
   explicit Harbour(OnHeard on_heard) : m_on_heard(std::move(on_heard)) {

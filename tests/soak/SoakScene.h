@@ -1,6 +1,6 @@
-// The game of the soak: everything that can be seen happens in it, and it hears every key.
+// The game of the soak test. It has every visible change and reports every input that it receives.
 //
-// Creatures of many looks fly, bounce, turn, are blocked, blink, die and are born on a map three screens
+// Creatures of many looks fly, bounce, turn, are blocked, blink, appear and vanish on a map three screens
 // wide. Every player has a ship that the view follows; every second one steers it by declared controls.
 #pragma once
 
@@ -12,16 +12,16 @@
 
 namespace naiad::soak {
 
-/// What the game was told a player did, in the order in which it was told.
+/// An event of a player that the game received, in order.
 struct Heard {
   std::uint32_t player = 0;
   bool is_mouse = false;
-  int what = 0;    ///< the key, or the mouse button
-  int action = 0;  ///< of the keyboard or the mouse
+  int what = 0;    ///< the key or mouse button
+  int action = 0;  ///< the keyboard or mouse action
 };
 using OnHeard = std::function<void(const Heard&)>;
 
-/// Fill the world, which must be the thread's current one.
+/// Fills the world, which must be the thread's current one.
 void populateSoak(df::World& world, int creatures, std::uint64_t seed, OnHeard on_heard);
 
 }  // namespace naiad::soak

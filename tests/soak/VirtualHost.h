@@ -1,4 +1,4 @@
-// What Host does for its sessions (greet, admit, resume, tick), in virtual time and without a listener.
+// Does for its sessions what Host does (greet, admit, resume, tick), in virtual time and without a listener.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@
 
 namespace naiad::soak {
 
-/// The time that sessions read.
+/// Converts virtual time to the time used by sessions.
 inline Session::Clock::time_point timeOf(const VirtualClock& clock) {
   return Session::Clock::time_point(std::chrono::hours(1)) + clock.now();
 }
@@ -28,19 +28,19 @@ class VirtualHost {
   VirtualHost(df::World& world, const VirtualClock& clock, VirtualNetwork& network, const Endpoint& address,
               std::uint64_t seed);
 
-  /// A client connected.
+  /// Accepts a client's connection.
   void accept(std::unique_ptr<ReliableChannel> channel);
-  /// One tick: inputs, world, snapshots. `on_ticked` is called between the last two.
+  /// Runs a tick: inputs, world, snapshots. Calls `on_ticked` between the last two.
   void tick(const std::function<void()>& on_ticked);
 
   const Counters& counters() const { return m_counters; }
   const Publisher& publisher() const { return m_publisher; }
-  /// The socket through which all datagrams of the server go.
+  /// Returns the socket that carries all datagrams of the server.
   const DatagramSocket& socket() const { return *m_p_socket; }
   const DatagramService& datagrams() const { return *m_datagrams; }
-  /// The session of a player; null if there is none (any more).
+  /// Returns the session of a player; null if it has ended.
   Session* find(std::uint32_t player) const;
-  /// Players, those in their grace time included.
+  /// Returns the number of players, including disconnected ones in their grace time.
   std::size_t playing() const;
 
  private:

@@ -4,7 +4,7 @@ namespace naiad::soak {
 
 namespace {
 
-// Seconds between two of a kind.
+// Mean seconds between two events of a kind.
 constexpr double kRedraw = 60;
 constexpr double kOutage = 300;
 constexpr double kBlockade = 240;

@@ -1,4 +1,4 @@
-// What the network does to one client: drawn at random, drawn again now and then.
+// Random network conditions of one client, drawn again from time to time.
 #pragma once
 
 #include <chrono>
@@ -10,11 +10,11 @@
 
 namespace naiad::soak {
 
-/// What happens to a client in one tick, besides what is in force anyway.
+/// Events of a client in one tick.
 struct Strokes {
-  bool changed = false;  ///< other conditions than before: apply them
-  bool healed = false;   ///< an outage or a blockade has ended, or something else begun
-  bool rebind = false;   ///< its address changes
+  bool changed = false;  ///< the conditions have changed and must be applied
+  bool healed = false;   ///< an outage or blockade has ended, or another one begun
+  bool rebind = false;   ///< the client's address changes
   bool break_stream = false;
   bool kill = false;
   bool leave = false;
@@ -24,18 +24,18 @@ class Weather {
  public:
   using Time = VirtualClock::Time;
 
-  /// `haste`: how many times more often than usual things happen.
+  /// `haste` is a factor for the rate of events.
   Weather(std::uint64_t seed, double haste);
 
   Strokes tick(Time now);
-  /// Fine from now on, for ever.
+  /// Makes the network perfect for the rest of the run.
   void heal();
 
-  /// Of datagrams, from and to the client.
+  /// Conditions of datagrams from and to the client.
   LinkConditions up() const { return of(m_up); }
   LinkConditions down() const { return of(m_down); }
-  /// Of streams: the model of a stream knows no fast retransmission, so that loss hits it far harder than a
-  /// real one; a tenth of it does what all of it does to TCP.
+  /// Conditions of streams, with a tenth of the loss: the model of a stream has no fast retransmission, so
+  /// this harms it as much as the full loss harms a real TCP connection.
   LinkConditions streamUp() const { return ofStream(m_up); }
   LinkConditions streamDown() const { return ofStream(m_down); }
   bool isOutage() const { return m_outage_until.has_value(); }
@@ -47,7 +47,7 @@ class Weather {
   std::uint64_t blockades() const { return m_blockades; }
 
  private:
-  /// About once in `seconds`.
+  /// True about once in `seconds`, if called once a tick.
   bool strikes(double seconds) { return m_random.unit() < m_haste / (30 * seconds); }
   Time between(int low_millis, int high_millis);
   LinkConditions draw();
@@ -61,7 +61,7 @@ class Weather {
   LinkConditions m_down;
   std::optional<Time> m_outage_until;
   std::optional<Time> m_block_until;
-  int m_block_kind = 0;  ///< 0: up, 1: down, 2: both ways
+  int m_block_kind = 0;  ///< blocked direction: 0 from the client, 1 to it, 2 both
   std::uint64_t m_outages = 0;
   std::uint64_t m_blockades = 0;
 };

@@ -1,7 +1,7 @@
-// naiad_soak: server and bots over bad links in virtual time; every client's screen against the server's
-// truth.
+// naiad_soak: a server and bots over bad links in virtual time. Compares every client's screen with the
+// server's.
 //
-// Exit codes: 0 all is well, 1 something is not (the last lines say what), 2 the command line is wrong.
+// Exit codes: 0 success, 1 a failure (the last lines describe it), 2 invalid command line.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

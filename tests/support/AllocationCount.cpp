@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#ifndef __has_feature  // Clang's way to say what GCC says with macros
+#ifndef __has_feature  // Clang has __has_feature() where GCC has macros
 #define __has_feature(feature) 0
 #endif
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !__has_feature(address_sanitizer) && \
@@ -11,15 +11,14 @@
 #endif
 
 namespace {
-// Set up by the loader, for malloc is called before constructors run.
+// Initialized by the loader because malloc() is called before constructors run.
 constinit thread_local std::uint64_t allocations = 0;
 }  // namespace
 
 #ifdef NAIAD_COUNT_ALLOCATIONS
 extern "C" {
-// The allocator of glibc under its other names; replacing malloc and realloc as a pair is allowed
-// ("Replacing malloc" in its manual), and free() can stay.
-// NOLINTBEGIN(bugprone-reserved-identifier)
+// Other names of glibc's allocator. glibc allows replacing malloc and realloc together ("Replacing malloc" in
+// its manual); free() need not be replaced.
 void* __libc_malloc(std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

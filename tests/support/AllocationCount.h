@@ -1,11 +1,11 @@
-// How often this thread has asked for memory, C libraries included.
+// Counts the memory allocations of this thread, including those by C libraries.
 #pragma once
 
 #include <cstdint>
 
 namespace naiad::test {
 
-/// False under sanitizers, which have an allocator of their own.
+/// False under sanitizers, which have their own allocator.
 bool canCountAllocations();
 std::uint64_t allocationsSoFar();
 

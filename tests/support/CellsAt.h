@@ -1,4 +1,4 @@
-// A place in the world, for tests.
+// Makes world positions for tests.
 #pragma once
 
 #include "shared/values/Fixed.h"
@@ -6,7 +6,7 @@
 
 namespace naiad::test {
 
-/// In cells; within range.
+/// Returns the position (x, y), in cells. Both must be within range.
 inline df::FixedVector cellsAt(double x, double y) {
   return *df::toFixed(df::Vector(x, y));
 }

@@ -1,4 +1,4 @@
-// A ReliableChannel that leads nowhere: the test plays the other end.
+// A ReliableChannel without a network: the test plays the other end.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@
 
 namespace naiad::test {
 
-/// What a FakeChannel was used for, and what it reports. Must outlive the channel.
+/// Shows what the code under test did with its FakeChannel. Must outlive the channel.
 struct FakeLine {
   ReliableChannel::Callbacks callbacks;
   std::string address = "fake:1";
   std::size_t receive_limit = 0;
-  std::size_t unsent = 0;  ///< what unsentBytes() returns
+  std::size_t unsent = 0;  ///< result of unsentBytes()
   bool closed = false;
   bool destroyed = false;
   std::function<void(std::string_view frame)> on_send;  ///< empty: frames are dropped
 
-  /// The other end sends this.
+  /// Delivers this message as if the other end had sent it.
   template <class Message>
   void receive(const Message& message) const {
     const auto on_frame = callbacks.on_frame;  // the callee may destroy the channel
@@ -31,7 +31,7 @@ struct FakeLine {
 
 class FakeChannel : public ReliableChannel {
  public:
-  /// A line may have several channels, one after the other.
+  /// Several channels may use one line, one after another.
   explicit FakeChannel(FakeLine& line) : m_line(line) { m_line.closed = false; }
   ~FakeChannel() override { m_line.destroyed = true; }
   void start(Callbacks callbacks) override { m_line.callbacks = std::move(callbacks); }

@@ -1,5 +1,5 @@
-// Texts that harm a terminal or its reader, one for each way in which they do: for tests of all that shows
-// strangers' words.
+// Texts that harm a terminal or mislead its reader, one for each kind of attack. For tests of everything that
+// displays text from other people.
 #pragma once
 
 #include <string>
@@ -102,7 +102,7 @@ inline const std::vector<HostileText>& hostileTexts() {
   return texts;
 }
 
-/// A few of them, one after another, or random bytes.
+/// Returns one to three pieces, each a hostile text or random bytes.
 inline std::string hostileText(SplitMix64& random) {
   std::string text;
   for (std::uint64_t pieces = 1 + random.below(3); pieces > 0; --pieces) {

@@ -1,4 +1,4 @@
-// The messages that went out on a FakeChannel.
+// Records the messages sent over a FakeChannel.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace naiad::test {
 
-/// Every frame that is sent has to be a Message.
+/// Every frame sent must be a Message.
 template <class Message>
 struct MessageLine : FakeLine {
   MessageLine() {
@@ -25,8 +25,8 @@ struct MessageLine : FakeLine {
   MessageLine(const MessageLine&) = delete;
   MessageLine& operator=(const MessageLine&) = delete;
 
-  std::vector<Message> sent;  ///< while the line was open
-  std::size_t sent_late = 0;  ///< after close(): a real channel drops such frames
+  std::vector<Message> sent;  ///< sent while the line was open
+  std::size_t sent_late = 0;  ///< sent after close(); a real channel drops such frames
 };
 
 }  // namespace naiad::test

@@ -1,4 +1,4 @@
-// What is not a finite number, for tests of what is refused.
+// Values that are not finite, for tests that such values are rejected.
 #pragma once
 
 #include <limits>

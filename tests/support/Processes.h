@@ -1,4 +1,4 @@
-// Which processes there are.
+// Looks up processes in /proc.
 #pragma once
 
 #include <sys/types.h>
@@ -16,11 +16,11 @@ namespace naiad::test {
 
 struct ProcessFacts {
   std::string name;
-  char state;  ///< as in /proc; 'Z': it has ended, and was not waited for
+  char state;  ///< like in /proc; 'Z': a zombie, ended but not yet waited for
   pid_t parent;
 };
 
-/// Nothing if there is none of this number.
+/// Returns nullopt if the process does not exist.
 inline std::optional<ProcessFacts> factsOf(pid_t process) {
   const std::string text = contentOf("/proc/" + std::to_string(process) + "/stat");
   const std::size_t begin = text.find('(');
@@ -30,13 +30,13 @@ inline std::optional<ProcessFacts> factsOf(pid_t process) {
                       std::atoi(text.c_str() + end + 4)};
 }
 
-/// 'X' if it is gone.
+/// Returns 'X' if the process does not exist.
 inline char stateOf(pid_t process) {
   const auto facts = factsOf(process);
   return facts ? facts->state : 'X';
 }
 
-/// Those that descend from this one and have this name, by their numbers; empty: any name.
+/// Returns the descendants of `top` with this name in ascending order. An empty name matches all.
 inline std::vector<pid_t> processesBelow(pid_t top, const std::string& name = "") {
   std::vector<pid_t> found;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {

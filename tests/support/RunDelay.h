@@ -1,4 +1,4 @@
-// How long a process has waited for a processor, so that limits on time hold on a busy machine, too.
+// Measures how long a process waited for a processor, so that time limits hold on a busy machine.
 #pragma once
 
 #include <chrono>
@@ -8,8 +8,8 @@
 
 namespace naiad::test {
 
-/// Returns how long this process's threads that still run have been ready to run and did not (the second
-/// number of /proc/PID/task/TID/schedstat), added up; zero if the kernel does not tell.
+/// Returns the total time that this process's current threads were ready to run but did not (the second
+/// number of /proc/PID/task/TID/schedstat); zero if the kernel does not report it.
 inline std::chrono::nanoseconds runDelay() {
   std::int64_t sum = 0;
   for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {

@@ -1,4 +1,4 @@
-// Programs that are run to their end.
+// Runs a program to its end.
 #pragma once
 
 #include <sys/wait.h>
@@ -10,7 +10,7 @@
 
 namespace naiad::test {
 
-/// Exit code and standard output of a shell's line.
+/// Runs a shell command. Returns its exit code and standard output.
 inline std::pair<int, std::string> runProgram(const std::string& line) {
   FILE* p_pipe = popen(line.c_str(), "r");
   if (p_pipe == nullptr) return {-1, ""};

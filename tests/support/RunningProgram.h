@@ -1,4 +1,4 @@
-// A program of the build, as a process of a test, and what it prints.
+// Runs a program of the build as a child process and collects its output.
 #pragma once
 
 #include <poll.h>
@@ -17,7 +17,7 @@ class RunningProgram {
  public:
   static constexpr std::chrono::seconds kPatience{60};
 
-  /// `words`: its name, or the whole path of another program, and its arguments.
+  /// `words` are the program's name (or the full path of a program outside the build) and its arguments.
   explicit RunningProgram(std::vector<std::string> words) {
     if (!words.front().starts_with('/')) words.front() = NAIAD_BINARY_DIR "/" + words.front();
     int ends[2];
@@ -44,7 +44,7 @@ class RunningProgram {
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
-  /// Read until this was printed: `times` times. False: at its end, or after a minute.
+  /// Reads until `text` was printed `times` times. False if the program ends first, or after a minute.
   bool prints(const std::string& text, int times = 1) {
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (count(text) < times) {
@@ -53,7 +53,7 @@ class RunningProgram {
     return true;
   }
   void signal(int number) const { ::kill(m_child, number); }
-  /// Read to the end; the exit code.
+  /// Reads to the end. Returns the exit code, or 128 + the signal that ended the program.
   int finish() {
     if (m_child <= 0) return m_code;
     while (read(-1)) {
@@ -72,7 +72,7 @@ class RunningProgram {
     for (std::size_t at = 0; (at = m_printed.find(text, at)) != std::string::npos; at += text.size()) ++found;
     return found;
   }
-  /// False: it has ended.
+  /// Returns false if the program closed its output.
   bool read(int patience_ms) {
     pollfd waited{m_output, POLLIN, 0};
     if (::poll(&waited, 1, patience_ms) == 0) return true;

@@ -1,20 +1,20 @@
-// What a test must know of the build that it is part of.
+// Allowances for tests in sanitizer builds.
 #pragma once
 
 namespace naiad::test {
 
-/// Built with a sanitizer that keeps books on memory: heap and time are not those of the product.
+/// True with a sanitizer that tracks memory: heap and time then differ from the product's.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
 #endif
 
-/// How many times as long something may take as in the release build, where time is what is tested. The
-/// protocol's own deadlines are the same in all builds.
+/// Factor for time limits of tests, 1 in the release build. The protocol's own timeouts are equal in all
+/// builds.
 inline constexpr int kSlowness = kSanitized ? 10 : 1;
 
-/// Of many random cases a sanitizer sees this part: each of them touches the same memory in the same ways.
+/// Divisor for the number of random cases; under a sanitizer fewer are enough.
 inline constexpr int kShare = kSanitized ? 4 : 1;
 
 }  // namespace naiad::test

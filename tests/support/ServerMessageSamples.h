@@ -1,4 +1,4 @@
-// What a server may say: one message of each kind, with every field set.
+// One sample of each kind of server message, with every field set.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace naiad::test {
 
-/// `texts` is how many lines of help there are, sounds and rooms: as many as are allowed, or fewer.
+/// `texts` limits the help lines, sounds and rooms. The default is as many as the protocol allows.
 inline std::vector<wire::ServerMessage> serverMessages(const std::string& text,
                                                        std::size_t texts = SIZE_MAX) {
   std::vector<wire::ServerMessage> all(10);

@@ -1,4 +1,4 @@
-// A folder for what a test writes.
+// A temporary folder for files that a test writes.
 #pragma once
 
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 
 namespace naiad::test {
 
-/// A new folder of this user alone. It goes with the object, and all that is in it.
+/// Creates a new folder that only this user can access. The destructor removes it with its contents.
 class TempFolder {
  public:
   TempFolder() {

@@ -1,4 +1,4 @@
-// What a test looks for in texts and files.
+// Searches texts and files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,20 +11,20 @@
 
 namespace naiad::test {
 
-/// Is this part in the text? Where a test expects the contrary, both are printed.
+/// True if `text` contains `part`. A failed EXPECT_TRUE or EXPECT_FALSE prints both.
 inline testing::AssertionResult has(std::string_view text, std::string_view part) {
   const bool found = text.find(part) != text.npos;
   return testing::AssertionResult(found) << '"' << part << (found ? "\" is in: " : "\" is not in: ") << text;
 }
 
-/// How often this part is in the text.
+/// Counts the occurrences of `part` in `text`.
 inline int countIn(std::string_view text, std::string_view part) {
   int count = 0;
   for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size()) ++count;
   return count;
 }
 
-/// All bytes of a file; empty if there is none.
+/// Returns all bytes of a file; empty if the file does not exist.
 inline std::string contentOf(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

@@ -1,4 +1,4 @@
-// Waiting for what other threads and processes do.
+// Waits for actions of other threads and processes.
 #pragma once
 
 #include <chrono>
@@ -6,13 +6,13 @@
 
 namespace naiad::test {
 
-/// Look again and again until it holds. False: it does not within a minute.
+/// Checks the condition repeatedly. False if it does not hold within a minute.
 template <class Condition>
 bool waitUntil(Condition holds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!holds()) {
     if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // before it is looked at again
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // pause between two checks
   }
   return true;
 }

@@ -1,4 +1,4 @@
-// Snapshots by hand: header and records into bytes.
+// Writes a snapshot from a header and records.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace naiad::test {
 
-/// Nothing gets a name. The origin is one that the reader knows under `slot`.
+/// Encodes the snapshot without naming anything. The reader must know `origin` under `slot`.
 inline std::string writeSnapshot(const SnapshotHeader& header, const Records& records, std::uint32_t slot = 0,
                                  const Origin& origin = {}) {
   SnapshotWriter out;
@@ -24,7 +24,7 @@ inline std::string writeSnapshot(const SnapshotHeader& header, const Records& re
   return out.finish();
 }
 
-/// What restores the numbers of a header.
+/// Returns the context from which a reader restores the numbers of `header`.
 inline SnapshotContext near(const SnapshotHeader& header) {
   return {header.number, header.tick, header.input};
 }

@@ -1,4 +1,4 @@
-// The colour behind a game, on the terminal of the real dfclient.
+// The background colour of a game on the terminal of the real dfclient.
 #include <gtest/gtest.h>
 
 #include "FakeServerFixture.h"

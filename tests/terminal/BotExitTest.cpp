@@ -1,4 +1,4 @@
-// The real dfbot: it says ok only if the server was there to the end, and if it has compared what it should.
+// The real dfbot reports ok only if the server stayed to the end and all pictures were compared.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -17,7 +17,7 @@ class BotExitTest : public HomeFixture {
   }
 
   std::string file(const char* name) const { return m_home / name; }
-  /// Start a bot, and wait until the server has it.
+  /// Starts a bot and waits until the server has accepted it.
   std::unique_ptr<PtyTerminal> join(const std::vector<std::string>& more) {
     std::string port;
     EXPECT_TRUE(m_server->waitUntil([&] { return static_cast<bool>(std::ifstream(file("port")) >> port); }));
@@ -26,7 +26,7 @@ class BotExitTest : public HomeFixture {
     EXPECT_TRUE(m_server->waitFor("\"bot\" joined")) << m_server->output();
     return bot;
   }
-  /// The server has sent the bot pictures.
+  /// Waits until the server has sent the bot pictures.
   void waitForPictures() {
     EXPECT_TRUE(m_server->waitUntil([&] {
       std::ifstream in(file("truth"));
@@ -56,7 +56,7 @@ TEST_F(BotExitTest, NothingComparedIsNotOk) {
 }
 
 TEST_F(BotExitTest, WrongCellsAreNotOk) {
-  // Blank pictures for player 1 at each of the first ticks.
+  // Blank pictures for player 1 in each of the first ticks.
   std::ofstream out(file("blank"));
   for (int tick = 1; tick < 2000; ++tick) {
     out << "tick " << tick << " player 1 80 24\n";

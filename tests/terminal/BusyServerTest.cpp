@@ -1,4 +1,4 @@
-// The real dfclient, and a server that has no time for it at first.
+// The real dfclient with a server that is busy at first.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 class BusyServerTest : public FakeServerFixture {
  protected:
-  /// Refuses so many hellos.
+  /// Refuses this many hellos.
   void refuse(int times, wire::Refused::Reason reason) {
     server.onWelcome([hellos = hellos, times, reason](wire::ServerMessage& message) {
       if (++*hellos > times) return;

@@ -1,5 +1,5 @@
-// The real dfclient with worlds in which a picture would take minutes: it goes on drawing, hears keys and
-// ends when it is asked to. A hostile server can send them, and so can a game that piles up its objects.
+// The real dfclient with worlds whose pictures would take minutes: it continues to draw, handles keys and
+// quits on request. Hostile servers can send such worlds, and so can games that pile up their objects.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -17,11 +17,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kTick = 100;  // that of FakeServer's snapshots
-/// From a key or signal to the end, on a machine that does much else: minutes without a limit of work.
+constexpr std::uint32_t kTick = 100;  // the tick of FakeServer's snapshots
+/// Time from a key or signal to the end, on a busy machine. Without the work limit it would take minutes.
 constexpr auto kSoon = 20s;
 
-/// Small, HARD, in one cell, and all of them moving.
+/// Returns small, HARD, moving objects in one cell.
 std::vector<ObjectState> pileOf(int count) {
   SplitMix64 rng(3);
   std::vector<ObjectState> pile;
@@ -41,14 +41,14 @@ std::vector<ObjectState> pileOf(int count) {
 
 class CrowdedWorldTest : public FakeServerFixture {
  protected:
-  /// The world is there, and the client still hears a key.
+  /// Sends the objects and checks that the client still handles a key.
   void show(PtyTerminal& terminal, const std::vector<ObjectState>& objects,
             const df::ControlTable* p_table = nullptr, const ControlRecord* p_control = nullptr) {
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
     ASSERT_TRUE(terminal.waitFor("\033[?u"));
     const std::uint32_t last = server.sendWorld(objects, p_table, p_control);
     ASSERT_TRUE(server.heardAcknowledged(last));
-    // Pictures run ahead of the snapshots by now: that is what takes the work.
+    // The client now predicts beyond the last snapshot, which is the costly part.
     ASSERT_TRUE(terminal.waitFor("No news from the server"));
     terminal.type("x");
     ASSERT_TRUE(server.heardKey(df::Keyboard::X, df::KEY_PRESSED));
@@ -65,7 +65,7 @@ TEST_F(CrowdedWorldTest, ControlCLeavesAPile) {
 }
 
 TEST_F(CrowdedWorldTest, ASignalEndsItWhileItPredictsAmongThousandsOfLargeLooks) {
-  // All of them in the way of the player's own object, and each draws what fills the view.
+  // All objects block the player's own object, and each has a look that fills the view.
   std::vector<ObjectState> objects = pileOf(20'000);
   Appearance look;
   for (int i = 0; i < 80 * 24; ++i) {

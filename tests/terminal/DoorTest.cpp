@@ -1,4 +1,4 @@
-// The ssh door, with a real sshd on loopback: deploy/door sets it up, ssh comes through it.
+// The ssh door with a real sshd on loopback: deploy/door sets it up, and ssh connects through it.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <signal.h>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One that was free just now.
+/// Returns a port that was free a moment ago.
 std::string freePort() {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
@@ -38,7 +38,7 @@ std::string firstLine(const std::string& command) {
   return text.substr(0, text.find('\n'));
 }
 
-/// Words that end with a zero each, as /proc has them.
+/// Splits a file at its zero bytes, like /proc/PID/cmdline.
 std::vector<std::string> zeroEnded(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::vector<std::string> words;
@@ -69,7 +69,7 @@ class DoorTest : public testing::Test {
     EXPECT_EQ(program->waitForExit(), 0) << program->output();
   }
 
-  /// A server with a visitors' socket, and an open door to it.
+  /// Starts a server with a visitors' socket, and a door to it.
   void open(const std::vector<std::string>& options = {}) {
     m_server = run({programPath("dfserver"), "--game", "hello", "--address", "127.0.0.1", "--port", "0",
                     "--identity", m_home / "identity", "--visitors", m_home / "hello.visitors"});
@@ -106,13 +106,13 @@ class DoorTest : public testing::Test {
     command.push_back(firstLine("id -un") + "@127.0.0.1");
     return command;
   }
-  /// A visitor in front of the question for their name. Skips where this sshd gives nobody a terminal.
+  /// Connects a visitor. Where this sshd can allocate terminals, it then asks for a name.
   PtyTerminal* visit(const std::string& key, const std::vector<std::string>& options = {},
                      const std::map<std::string, std::string>& environment = {}) {
     m_visitors.push_back(run(ssh(key, options), environment));
     return m_visitors.back().get();
   }
-  /// The same, in the game. Null: this machine's sshd gives no terminals.
+  /// Connects a visitor and joins the game. Null if this machine's sshd cannot allocate terminals.
   PtyTerminal* play(const std::string& key, const std::vector<std::string>& options = {},
                     const std::map<std::string, std::string>& environment = {}) {
     PtyTerminal* p_visitor = visit(key, options, environment);
@@ -132,7 +132,7 @@ class DoorTest : public testing::Test {
     EXPECT_TRUE(has(program.output(), sentence));
   }
   bool serverSays(const std::string& text) { return m_server->waitFor(text); }
-  /// The dfclient of this door that plays under this name; 0 if there is none.
+  /// Returns the process of this door's dfclient that plays under this name; 0 if not found.
   pid_t clientOf(const std::string& name) const {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       const std::vector<std::string> words = zeroEnded(entry.path() / "cmdline");
@@ -142,7 +142,7 @@ class DoorTest : public testing::Test {
     return 0;
   }
 
-  /// No visitor is in this door any more.
+  /// True if no visitor is left in this door.
   bool isEmpty() const {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       const std::vector<std::string> words = zeroEnded(entry.path() / "cmdline");
@@ -168,7 +168,7 @@ TEST_F(DoorTest, TwoVisitorsPlayOneGameFromWhereTheyAre) {
   NAIAD_SKIP_WITHOUT(ann);
   EXPECT_TRUE(serverSays("\"ann\" joined")) << m_server->output();
   EXPECT_TRUE(has(m_server->output(), "127.0.0.2:"));
-  // As the door prints it.
+  // The command that the door prints.
   PtyTerminal* bob = play("bob", {"-b", "127.0.0.3", "-o", "IgnoreUnknown=ObscureKeystrokeTiming", "-o",
                                   "ObscureKeystrokeTiming=no"});
   ASSERT_NE(bob, nullptr);
@@ -210,7 +210,7 @@ TEST_F(DoorTest, ALineThatBreaksCostsNothing) {
   EXPECT_FALSE(has(m_server->output(), "\"ann\" left"));
 }
 
-/// The old line is dead, but nobody has noticed it yet.
+/// The old connection is dead but not yet timed out.
 TEST_F(DoorTest, AVisitorGoesOnInAnotherTerminal) {
   open();
   PtyTerminal* ann = play("ann");
@@ -344,7 +344,7 @@ TEST_F(DoorTest, SilentConnectionsDoNotCloseIt) {
     address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(m_port)));
     ASSERT_EQ(::connect(sockets.back(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
   }
-  // From another address: each has a share of the silent ones.
+  // Uses another address, because silent connections are limited per address.
   PtyTerminal* bob = visit("bob", {"-b", "127.0.0.2"});
   const bool in = bob->waitFor("Your name?");
   for (const int socket : sockets) ::close(socket);
@@ -361,7 +361,7 @@ TEST_F(DoorTest, IsRemovedWithAllThatItMade) {
   EXPECT_FALSE(fs::exists(m_home / "door"));
 }
 
-/// Where root installs it, below a folder: sshd takes the configuration, and nothing stays.
+/// Installs below a folder instead of /: sshd accepts the configuration, and uninstalling leaves no file.
 TEST_F(DoorTest, AnInstalledOneIsSoundAndLeavesNothing) {
   const std::string place = m_home / "root";
   door({"install", "--root", place});

@@ -135,8 +135,8 @@ void FakeServer::send(const wire::ServerMessage& message) {
 
 std::uint32_t FakeServer::sendWorld(const std::vector<ObjectState>& objects, const df::ControlTable* p_table,
                                     const ControlRecord* p_control) {
-  constexpr std::size_t kAtOnce = 200;  // fit into a snapshot
-  // All have the look of the first, which goes out once.
+  constexpr std::size_t kAtOnce = 200;  // objects that fit into a snapshot
+  // All objects use the first one's look, which is sent once.
   constexpr std::uint32_t kName = 1;
   std::vector<std::string> frames;
   SnapshotHeader header;

@@ -1,5 +1,5 @@
-// A server of one picture, for tests of the client's terminal: says Welcome, sends one object and keeps
-// count of the messages it receives. Runs in its own thread.
+// A server with a fixed picture, for tests of the client's terminal: sends Welcome and one object, and
+// records the messages that it receives. Runs in its own thread.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -29,27 +29,27 @@ class FakeServer {
   std::uint16_t port() const { return m_port; }
   std::string address() const { return "127.0.0.1:" + std::to_string(m_port); }
 
-  /// Wait until the client sent a message for which `wanted` holds; false after 10 s.
+  /// Waits until the client has sent a message that satisfies the predicate; false after 10 s.
   bool hasReceived(const std::function<bool(const wire::ClientMessage&)>& wanted);
-  /// Wait until an input arrived for which `wanted` holds.
+  /// Waits until an input has arrived that satisfies the predicate.
   bool heardInput(const std::function<bool(const Input&)>& wanted);
-  /// Wait until a key action arrived.
+  /// Waits until this key action arrived.
   bool heardKey(int key, int action);
-  /// Change the welcome before it is sent, from the next client on.
+  /// Sets a function that changes each welcome before it is sent, from the next client on.
   void onWelcome(std::function<void(wire::ServerMessage&)> change);
-  /// Send the client a message.
+  /// Sends the client a message.
   void send(const wire::ServerMessage& message);
-  /// Send the client these objects, with ids from 100 on and all with the look of the first, and the records,
-  /// in as many snapshots as they take. The number of the last one.
+  /// Sends the client these objects, numbered from 100 and all with the look of the first, and the records,
+  /// in as many snapshots as needed. Returns the last snapshot's number.
   std::uint32_t sendWorld(const std::vector<ObjectState>& objects, const df::ControlTable* p_table = nullptr,
                           const ControlRecord* p_control = nullptr);
-  /// Wait until the client has acknowledged this snapshot.
+  /// Waits until the client has acknowledged this snapshot.
   bool heardAcknowledged(std::uint32_t number);
-  /// No picture after the welcome, from the next client on.
+  /// Sends no picture after the welcome, from the next client on.
   void withholdPictures() { m_withholds = true; }
-  /// How many have connected.
+  /// Returns how many clients have connected.
   int connections() const { return m_connections; }
-  /// Hang up without a goodbye.
+  /// Closes the connection without a goodbye.
   void drop();
 
  private:
@@ -64,7 +64,7 @@ class FakeServer {
   std::mutex m_mutex;
   std::condition_variable m_changed;
   std::vector<wire::ClientMessage> m_messages;
-  std::function<void(wire::ServerMessage&)> m_change;  ///< of the welcome
+  std::function<void(wire::ServerMessage&)> m_change;  ///< see onWelcome()
   std::atomic<bool> m_withholds = false;
   std::atomic<int> m_connections = 0;
   std::thread m_thread;

@@ -1,4 +1,4 @@
-// The real dfclient, for a terminal, and a server that sends it what the test wants.
+// Fixture with the real dfclient and a server that sends it what the test needs.
 #pragma once
 
 #include <gtest/gtest.h>

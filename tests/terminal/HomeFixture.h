@@ -1,4 +1,4 @@
-// Real programs whose files are in a folder of the test: a dfserver, and clients of it.
+// Fixture that keeps the files of the real programs in a temporary folder: a dfserver and its clients.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace naiad::test {
 
 class HomeFixture : public testing::Test {
  protected:
-  /// A program whose configuration, data and state are in the folder.
+  /// Returns options for a program whose configuration, data and state are in the folder.
   PtyTerminal::Options inHome(std::vector<std::string> command,
                               const std::vector<std::string>& more = {}) const {
     PtyTerminal::Options options;
@@ -26,7 +26,7 @@ class HomeFixture : public testing::Test {
     options.columns = 200;
     return options;
   }
-  /// Start a server for this machine alone; `m_link` is the one that it prints.
+  /// Starts a server for this machine only. Sets `m_link` to the link that it prints.
   void serve(const std::string& game, const std::vector<std::string>& more = {},
              const std::string& password = "") {
     PtyTerminal::Options options =

@@ -1,5 +1,4 @@
-// A server that says everything a terminal can be harmed with, wherever it may speak; and the bytes that the
-// real dfclient writes to its terminal.
+// The bytes that the real dfclient writes to its terminal when a server sends harmful texts wherever it can.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -13,15 +12,15 @@
 namespace naiad::test {
 namespace {
 
-/// Takes apart what a program writes, as a terminal would: what is printed, and what sequences there are.
+/// Parses a program's output like a terminal: printed characters and control sequences.
 class Terminal {
  public:
   explicit Terminal(const std::string& output) {
     const std::u32string characters = df::decodeUtf8(output);
     for (std::size_t i = 0; i < characters.size();) i = take(characters, i);
   }
-  /// Everything that was printed, and that is none of: a drawable character, a line's end, a sequence of
-  /// those that ncurses and the client need.
+  /// Returns all drawable characters. strange() lists the control characters and sequences that neither
+  /// ncurses nor the client needs.
   const std::u32string& printed() const { return m_printed; }
   const std::string& strange() const { return m_strange; }
 
@@ -31,14 +30,13 @@ class Terminal {
     if (ch == U'\033') return sequence(s, i + 1);
     if (df::isDrawable(ch)) {
       m_printed.push_back(ch);
-    } else if (ch != U'\r' && ch != U'\n' && ch != U'\b') {  // ncurses moves the cursor by these
+    } else if (ch != U'\r' && ch != U'\n' && ch != U'\b') {  // ncurses moves the cursor with these
       note("U+" + std::to_string(static_cast<unsigned>(ch)));
     }
     return i + 1;
   }
 
-  // CSI … with a final byte, or ESC with intermediates. Strings (OSC, DCS, APC, PM, SOS) are not
-  // looked at.
+  // Parses CSI … with a final byte, or ESC with intermediates. Skips strings (OSC, DCS, APC, PM, SOS).
   std::size_t sequence(const std::u32string& s, std::size_t i) {
     if (i >= s.size()) return i;
     std::string text(1, static_cast<char>(s[i]));
@@ -53,7 +51,7 @@ class Terminal {
     std::size_t k = i + 1;
     while (k < s.size() && s[k] >= 0x20 && s[k] < 0x40) text.push_back(static_cast<char>(s[k++]));
     const char final = k < s.size() ? static_cast<char>(s[k]) : 'm';
-    // Cursor, erasing, scrolling, colours, modes, keyboard protocol (u), window title stack (t).
+    // Allowed: cursor, erasing, scrolling, colours, modes, keyboard protocol (u), window title stack (t).
     if (std::string("ABCDGHJKLMPXabcdhlmrtuSTZ@").find(final) == std::string::npos)
       note("CSI " + text + final);
     return k + 1;
@@ -70,9 +68,9 @@ bool isUtf8(const std::string& bytes) {
   return wire::ClientMessage().ParseFromString(message.SerializeAsString());
 }
 
-/// Several of those that are UTF-8 in a row, since a program is started for each; and all the others.
+/// Joins several UTF-8 texts per row, because each row starts a client. All others are in the last row.
 std::vector<std::string> gathered() {
-  constexpr std::size_t kEnough = 60;  // bytes: what is cut to its length still holds it
+  constexpr std::size_t kEnough = 60;  // bytes; short enough to survive the limits of fields
   std::vector<std::string> rows(1);
   std::string others;
   for (const HostileText& hostile : hostileTexts()) {
@@ -89,7 +87,7 @@ std::vector<std::string> gathered() {
 
 class HostileTextTest : public FakeServerFixture {
  protected:
-  /// What the client may write by itself is what it writes with an honest server.
+  /// Checks that the client writes only control sequences that it would write for an honest server.
   static void expectHarmless(const PtyTerminal& terminal, const char* what) {
     const Terminal seen(terminal.output());
     EXPECT_EQ(seen.strange(), "") << what;
@@ -104,8 +102,8 @@ TEST_F(HostileTextTest, ChatAndNamesOfEveryClassReachTheTerminalHarmless) {
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
   int n = 0;
   for (const HostileText& hostile : hostileTexts()) {
-    if (!isUtf8(hostile.bytes)) continue;  // no message, which ends the session: see below
-    // Only cells that change are written, so no letter of it may be where one of the last mark was.
+    if (!isUtf8(hostile.bytes)) continue;  // ends the session: see below
+    // Only changed cells are written, so all letters of consecutive marks must differ.
     const std::string mark(4, static_cast<char>('A' + n++ % 26));
     terminal.forget();
     wire::ServerMessage players;
@@ -119,7 +117,7 @@ TEST_F(HostileTextTest, ChatAndNamesOfEveryClassReachTheTerminalHarmless) {
     server.send(chat);
     ASSERT_TRUE(terminal.waitFor(mark)) << hostile.what;
   }
-  terminal.type("\x1dp");  // the list of players
+  terminal.type("\x1dp");  // opens the list of players
   ASSERT_TRUE(terminal.waitFor("layers"));
   terminal.type("\x1dq");
   EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 0);

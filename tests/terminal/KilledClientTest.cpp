@@ -1,4 +1,4 @@
-// The real programs: a dfclient is killed in the middle of the game, and the next one goes on with its ship.
+// The real programs: a dfclient is killed in the middle of the game, and the next one resumes with its ship.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-// The real programs: dfclient without a server lists those of the network, here of loopback, and joins.
+// The real programs: without a server argument, dfclient lists the servers on loopback and joins one.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -41,8 +41,7 @@ class LanListTest : public HomeFixture {
     options.columns = 160;
     return std::make_unique<PtyTerminal>(options);
   }
-  /// Moves down the list until our server is the chosen one. It is drawn as a whole each time: else only what
-  /// differs is written.
+  /// Moves down the list until our server is selected. Each resize redraws the whole list, not only changes.
   bool choose(PtyTerminal& ann) {
     for (int i = 0; i < 300; ++i) {
       ann.forget();
@@ -53,7 +52,7 @@ class LanListTest : public HomeFixture {
     }
     return false;
   }
-  /// The server lets ann in, who plays and leaves.
+  /// Checks that ann joins, plays and leaves.
   void expectPlays(PtyTerminal& ann) {
     ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann.output();
     ASSERT_TRUE(ann.waitFor(" player")) << ann.output();
@@ -67,7 +66,7 @@ class LanListTest : public HomeFixture {
     EXPECT_EQ(program->waitForExit(), 0) << program->output();
     return program->output();
   }
-  /// What --list prints; asked again until our server is in it, for at most a minute: queries may be lost.
+  /// Runs --list until it shows our server, for at most a minute because queries may be lost.
   std::string listUntilFound(const std::vector<std::string>& more = {}) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     std::string text = listOnce(more);
@@ -77,7 +76,7 @@ class LanListTest : public HomeFixture {
   }
 
   LanLock m_lock;
-  /// "test-…": other tests may list their servers beside ours.
+  /// "test-…", because other tests may list their servers, too
   const std::string m_name = m_home.path().filename().string().substr(6);
 };
 
@@ -166,7 +165,7 @@ TEST_F(LanListTest, WhatDoesNotGoTogetherIsAUsageError) {
   expectEnd(*client({"--insecure"}), 2, "--insecure is for one server");
 }
 
-/// Answers queries on loopback as a server that is not there: with any bytes.
+/// Answers queries on loopback with arbitrary bytes, as if servers were there.
 class FakeLanServer {
  public:
   FakeLanServer() : m_socket(LanSocket::forServer(LanSocket::Family::kIPv4)) {
@@ -175,7 +174,7 @@ class FakeLanServer {
     }
     m_socket.joinGroup(m_network.interface);
   }
-  /// Answer what has come. True if there was a query.
+  /// Answers a waiting query. False if no query waits.
   template <class Answers>
   bool answer(Answers answers) {
     const auto packet = m_socket.receivePacket();
@@ -205,7 +204,7 @@ LanAnswer fakeAnswer(const LanNonce& nonce, unsigned number, const std::string& 
   return answer;
 }
 
-/// As somebody who is not bound to the rules writes it.
+/// Writes an answer whose name breaks the rules.
 std::string rawAnswer(const LanNonce& nonce, unsigned number, const std::string& name) {
   const std::string bytes = writeLanAnswer(fakeAnswer(nonce, number, ""));
   return bytes.substr(0, 48) + static_cast<char>(name.size()) + name + bytes.substr(49);

@@ -1,5 +1,5 @@
-// The real programs: the link that dfserver prints opens its game, and no other link says anything to
-// anybody.
+// The real programs: the link printed by dfserver opens its game, and with any other link the client sends
+// nothing to any server.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -20,7 +20,7 @@ class LinkTest : public HomeFixture {
     options.environment["NAIAD_PASSWORD"] = ambient;
     return std::make_unique<PtyTerminal>(options);
   }
-  /// The server lets ann in, who plays and leaves.
+  /// Checks that ann joins, plays and leaves.
   void expectPlays(PtyTerminal& ann) {
     ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann.output();
     ASSERT_TRUE(ann.waitFor(" player")) << ann.output();

@@ -1,4 +1,4 @@
-// The real dfclient and a server that lets it in and sends no picture.
+// The real dfclient with a server that accepts it and sends no picture.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -24,7 +24,7 @@ TEST_F(NoPicture, TheClientSaysWhatItWaitsForAndLeavesWhenAsked) {
 TEST_F(NoPicture, AServerThatIsGoneBeforeItIsSaid) {
   server.withholdPictures();
   server.onWelcome([](wire::ServerMessage& message) {
-    message.mutable_welcome()->set_resume_token("0123456789abcdef");  // so it could be gone on with
+    message.mutable_welcome()->set_resume_token("0123456789abcdef");  // so that it could be resumed
   });
   PtyTerminal terminal(options());
   ASSERT_TRUE(server.hasReceived([](const wire::ClientMessage& m) { return m.has_ping(); }));

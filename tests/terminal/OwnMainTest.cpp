@@ -1,5 +1,5 @@
-// A game with its own main(), written without a network (lone/game.cpp): what it is when it is started,
-// alone in a terminal, without one, headless, and loaded by dfserver. Real processes, terminals and sockets.
+// A game with its own main(), written without a network (lone/game.cpp): started in a terminal, without one,
+// headless, and loaded by dfserver. Real processes, terminals and sockets.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -18,15 +18,15 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr const char* kRight = "\033[C";
-// What is written on the screen is what changes there: the sign after WALKED-, which goes on to $ and %, and
-// of a line of chat the part that is not as in the line before.
+// Only changed cells are written to the screen: the character after WALKED-, which becomes $ and then %, and
+// of a chat line the part that differs from the previous line.
 constexpr const char* kCtrlC = "\x03";
 
 class OwnMain : public HomeFixture {
  protected:
   OwnMain() { configure(""); }
 
-  /// Lines of df-config.txt.
+  /// Adds these lines to df-config.txt.
   void configure(const std::string& lines) {
     std::ofstream(m_home / "df-config.txt")
         << "logfile:" << (m_home / "game.log").string() << ",\naddress:127.0.0.1,\n"
@@ -49,7 +49,7 @@ class OwnMain : public HomeFixture {
     for (auto& [name, value] : environment) options.environment[name] = value;
     return std::make_unique<PtyTerminal>(options);
   }
-  /// With its player in the game.
+  /// Starts the game and waits until its player is in the game.
   std::unique_ptr<PtyTerminal> startPlaying() const {
     auto game = start();
     EXPECT_TRUE(game->waitFor("WALKED-0")) << game->output();
@@ -61,7 +61,7 @@ class OwnMain : public HomeFixture {
     EXPECT_TRUE(server->waitFor("Compatible with")) << server->output();
     return server;
   }
-  /// Another terminal, with the line that the server gave.
+  /// Joins in another terminal with the command from the server's join file.
   std::unique_ptr<PtyTerminal> join(const std::string& name) const {
     std::vector<std::string> command{programPath("dfclient"), "--name", name};
     std::istringstream words(read("join"));
@@ -87,7 +87,7 @@ TEST_F(OwnMain, InATerminalItIsPlayedThere) {
   EXPECT_TRUE(has(game->output(), "Join from this machine with: dfclient naiad://127.0.0.1:"));
   game->forget();
   game->type(kRight);
-  // Cells that stay the same are not written again.
+  // Unchanged cells are not written again.
   ASSERT_TRUE(game->waitFor("$")) << game->output();
   game->type("q");
   expectOrderlyEnd(*game);
@@ -151,7 +151,7 @@ TEST_F(OwnMain, LeavesTheTerminalInOrderWhenItCrashes) {
   game->forget();
   game->type("c");
   EXPECT_TRUE(diesOf(*game, SIGABRT));
-  // The client ends after the game, by itself.
+  // The client exits by itself after the game.
   EXPECT_TRUE(game->waitForLater("\033[?1049l")) << game->output();
   EXPECT_TRUE(game->waitForOriginalModes());
 }
@@ -176,10 +176,10 @@ TEST_F(OwnMain, OneKeyDoesNotEndTheGameForAll) {
   bob->type("q");
   EXPECT_EQ(WEXITSTATUS(bob->waitForExit()), 4);
   EXPECT_TRUE(has(bob->output(), "For you, the game is over."));
-  ann->type("q");  // no player is at the server's own terminal, so it waits for the next one
+  ann->type("q");  // the server has no local player, so it waits for the next player
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
   auto carl = join("carl");
-  carl->type("x");  // this is the game itself
+  carl->type("x");  // this key ends the whole game
   EXPECT_EQ(WEXITSTATUS(carl->waitForExit()), 4);
   expectOrderlyEnd(*game);
 }
@@ -194,8 +194,8 @@ TEST_F(OwnMain, OneKeyEndsTheGameForAllIfTheHostWantsThat) {
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
 }
 
-/// Type to the right until the walker takes its first step, in a world that restarts meanwhile. Slowly:
-/// keys that come in haste are one that is held.
+/// Types to the right until the walker takes its first step after a restart of the world. Slowly, because
+/// keys in quick succession count as one held key.
 void walkAgain(PtyTerminal& player) {
   for (int i = 0; i < 20 && player.newOutput().find('$') == std::string::npos; ++i) {
     player.type(kRight);
@@ -216,7 +216,7 @@ TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
   ASSERT_TRUE(game->waitFor("after the game, walker 1")) << game->output();
   ASSERT_TRUE(game->waitFor("before the game")) << game->output();
   walkAgain(*ann);
-  const std::string log = read("game.log");  // of the server and of both rounds
+  const std::string log = read("game.log");  // has the lines of the server and of both rounds
   EXPECT_EQ(log.find("\"ann\" joined"), log.rfind("\"ann\" joined")) << log;
   EXPECT_TRUE(has(log, "the round is over"));
   EXPECT_FALSE(has(ann->newOutput(), "Server lost")) << ann->output();

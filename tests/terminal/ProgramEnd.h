@@ -1,4 +1,4 @@
-// How a program on a scripted terminal ended, as assertions of tests.
+// Assertions on how a program on a scripted terminal ended.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,14 +8,14 @@
 
 namespace naiad::test {
 
-/// The program ends by itself with this code within a minute.
+/// True if the program exits with this code within a minute.
 inline testing::AssertionResult exits(PtyTerminal& program, int code) {
   const int status = program.waitForExit();
   if (WIFEXITED(status) && WEXITSTATUS(status) == code) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "wait status " << status << ": " << program.output();
 }
 
-/// This signal ends the program within a minute.
+/// True if this signal ends the program within a minute.
 inline testing::AssertionResult diesOf(PtyTerminal& program, int signal) {
   const int status = program.waitForExit();
   if (WIFSIGNALED(status) && WTERMSIG(status) == signal) return testing::AssertionSuccess();

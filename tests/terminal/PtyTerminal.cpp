@@ -19,7 +19,7 @@
 namespace naiad::test {
 namespace {
 
-/// Long enough for a loaded machine; a test that needs it has failed anyway.
+/// Timeout for a loaded machine. A test that reaches it has failed anyway.
 constexpr std::chrono::seconds kPatience{60};
 using Clock = std::chrono::steady_clock;
 
@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
   setenv("TERM", "xterm-256color", 1);
   setenv("LC_ALL", "C.UTF-8", 1);
   unsetenv("NO_COLOR");
-  setenv("NAIAD_JOURNAL", "off", 1);  // no server of a test writes into its user's state
+  setenv("NAIAD_JOURNAL", "off", 1);  // keeps test servers from writing into the user's state folder
   for (const auto& [name, value] : options.environment) {
     if (value.empty()) {
       unsetenv(name.c_str());
@@ -43,7 +43,7 @@ using Clock = std::chrono::steady_clock;
   _exit(127);
 }
 
-/// Gives `process` the terminal.
+/// Makes `process` the terminal's foreground process group.
 void bringToFront(pid_t process) {
   setpgid(process, process);
   std::signal(SIGTTOU, SIG_IGN);
@@ -51,9 +51,8 @@ void bringToFront(pid_t process) {
   std::signal(SIGTTOU, SIG_DFL);
 }
 
-/// As a shell does: runs the program in the foreground, and stays when it has ended. When the leader of a
-/// session ends, the kernel drops what has not been read from its terminal. Reports the program's process and
-/// then its status.
+/// Runs the program in the foreground, like a shell, and stays after its end, because the kernel discards a
+/// terminal's unread output when the session leader ends. Reports the program's process id, then its status.
 [[noreturn]] void leadSession(int slave, int report, const PtyTerminal::Options& options) {
   login_tty(slave);
   const pid_t program = options.leads ? 0 : fork();

@@ -1,6 +1,6 @@
 // A scripted terminal: runs a real program on a pseudo-terminal, types into it and reads what it draws.
 //
-// It can answer the kitty keyboard protocol's query, which the usual terminal multiplexers do not.
+// Can answer the query of the kitty keyboard protocol, which common terminal multiplexers do not.
 #pragma once
 
 #include <sys/types.h>
@@ -20,10 +20,10 @@ class PtyTerminal {
  public:
   struct Options {
     std::vector<std::string> command;                ///< program and arguments
-    std::map<std::string, std::string> environment;  ///< set over the test's own; an empty value unsets
+    std::map<std::string, std::string> environment;  ///< added to the test's own; an empty value unsets one
     int columns = 100;
     int rows = 30;
-    bool answer_kitty = false;  ///< speak the kitty keyboard protocol
+    bool answer_kitty = false;  ///< answers the query of the kitty keyboard protocol
     bool leads = false;         ///< the program is the session leader, like a login shell
   };
 
@@ -34,35 +34,35 @@ class PtyTerminal {
   PtyTerminal(const PtyTerminal&) = delete;
   PtyTerminal& operator=(const PtyTerminal&) = delete;
 
-  /// Bytes as if typed.
+  /// Types these bytes.
   void type(const std::string& bytes);
   void resize(int columns, int rows);
-  /// Send the program a signal.
+  /// Sends the program a signal.
   void signal(int number);
 
-  /// Read until everything read so far contains `text`; false after a minute or when the program is gone.
+  /// Reads until the output contains `text`; false after a minute or when the program has ended.
   bool waitFor(const std::string& text);
-  /// The same, but goes on when the program is gone: another one that it started writes the text.
+  /// Like waitFor(), but continues after the program has ended, for text of another program that it started.
   bool waitForLater(const std::string& text);
-  /// Read until the modes are those before the program began; false after a minute.
+  /// Reads until the terminal modes are those before the program's start; false after a minute.
   bool waitForOriginalModes();
-  /// Read until `done`; false after a minute.
+  /// Reads until `done` returns true; false after a minute.
   bool waitUntil(const std::function<bool()>& done);
-  /// From now on waitFor() and waitForLater() look at later output only.
+  /// Makes waitFor() and waitForLater() look only at output after this call.
   void forget() { m_mark = m_output.size(); }
-  /// Read for a while, whatever comes.
+  /// Reads for this time, whatever comes.
   void read(std::chrono::milliseconds time);
-  /// Read until the program has ended; its wait status. -1 if it has not within a minute.
+  /// Reads until the program has ended. Returns its wait status; -1 after a minute.
   int waitForExit();
 
-  /// Everything the program wrote since the start, and since the last forget().
+  /// Returns the output since the start, and since the last forget().
   const std::string& output() const { return m_output; }
   std::string newOutput() const { return m_output.substr(m_mark); }
-  /// The terminal's modes before the program began and now.
+  /// Return the terminal's modes before the program's start, and now.
   const termios& originalModes() const { return m_original; }
   termios currentModes() const;
   pid_t pid() const { return m_pid; }
-  /// Returns true once the program has ended.
+  /// True once the program has ended.
   bool hasExited();
 
  private:
@@ -70,26 +70,26 @@ class PtyTerminal {
   bool readOnce(std::chrono::milliseconds timeout);
 
   int m_master = -1;
-  int m_slave = -1;     ///< kept open, so that modes and late output survive the program
-  pid_t m_leader = -1;  ///< of the program's session
+  int m_slave = -1;     ///< kept open so that modes and late output survive the program
+  pid_t m_leader = -1;  ///< session leader of the program
   pid_t m_pid = -1;
-  int m_report = -1;  ///< of the leader: the program's wait status
+  int m_report = -1;  ///< the leader reports the program's id and status here
   bool m_answer_kitty;
   bool m_exited = false;
   int m_status = 0;
   termios m_original{};
   std::string m_output;
   std::size_t m_mark = 0;
-  std::size_t m_answered = 0;  ///< output searched for queries
+  std::size_t m_answered = 0;  ///< output already searched for queries
 };
 
-/// Do two sets of modes make a terminal behave alike?
+/// True if both sets of modes make a terminal behave alike.
 bool sameModes(const termios& a, const termios& b);
 
-/// The link for this machine in what a dfserver prints.
+/// Returns the link for this machine that a dfserver printed.
 std::string linkIn(const std::string& output);
 
-/// Path of a built program: the environment variable named like the program in upper case, else the build.
+/// Returns the path of a built program, or the value of the environment variable with its upper-case name.
 std::string programPath(const std::string& name);
 
 }  // namespace naiad::test

@@ -1,4 +1,4 @@
-// What the real dfclient does on a terminal when the game sounds.
+// The bytes that the real dfclient writes to its terminal when the game plays sounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class TerminalSoundTest : public FakeServerFixture {
     if (!mode.empty()) options.command.insert(options.command.end(), {"--sound", mode});
     return options;
   }
-  /// Many of them; and then a line of chat, before which they came.
+  /// Plays many sounds, then waits for a chat line that was sent after them.
   void play(PtyTerminal& terminal) {
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
     terminal.forget();

@@ -1,4 +1,4 @@
-// The real dfclient on a scripted terminal: what it does to the terminal, and that it undoes it.
+// The real dfclient on a scripted terminal sets terminal modes and restores them.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -11,7 +11,7 @@ namespace {
 
 class TerminalRestoreTest : public FakeServerFixture {
  protected:
-  /// Join, and wait until the picture is on the screen and the modes are set.
+  /// Joins, and waits until the picture is on the screen and the modes are set.
   static void join(PtyTerminal& terminal) {
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
     ASSERT_TRUE(terminal.waitFor("\033[?u")) << terminal.output();
@@ -63,7 +63,7 @@ TEST_F(TerminalRestoreTest, AfterACrash) {
   for (const int number : {SIGSEGV, SIGABRT, SIGBUS}) {
     PtyTerminal::Options with = options();
     with.answer_kitty = true;
-    // A sanitizer's own handler would come first.
+    // Otherwise the sanitizer's own handler would run first.
     with.environment["ASAN_OPTIONS"] = "handle_segv=0:handle_abort=0:handle_sigbus=0";
     PtyTerminal terminal(with);
     join(terminal);
@@ -115,7 +115,7 @@ TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
   EXPECT_TRUE(exits(terminal, 0));
 }
 
-// Keys as Windows Terminal reports them: text and its own sequences, too.
+// Windows Terminal reports keys as text and in sequences of its own.
 TEST_F(TerminalRestoreTest, KeyRecordsHaveRealReleases) {
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("\033[?9001h"));

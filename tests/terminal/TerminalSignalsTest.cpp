@@ -1,5 +1,4 @@
-// The real dfclient, ended by signals that come close together: whenever they come, it undoes what it did to
-// the terminal.
+// The real dfclient restores the terminal when signals in quick succession end it at any moment.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -21,7 +20,7 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// What the client has switched on and not off again, as escape sequences; empty: nothing.
+/// Returns the modes that the client has switched on and not off again; empty if none.
 std::string modesLeftOn(const std::string& output) {
   std::string left;
   for (const std::string mode : {"?1049", "?1003", "?1006", "?2004", "?9001"}) {
@@ -36,7 +35,7 @@ std::string modesLeftOn(const std::string& output) {
   return left;
 }
 
-/// Signals that end a program, at random, until it has ended. Its wait status.
+/// Sends terminating signals at random intervals. Returns the wait status of the program.
 int endBySignals(PtyTerminal& terminal, std::mt19937& random) {
   constexpr std::array kSignals{SIGTERM, SIGHUP, SIGINT};
   std::uniform_int_distribution<int> gap(0, 80);
@@ -61,7 +60,7 @@ class TerminalSignalsTest : public FakeServerFixture {
     shell.environment["PS1"] = "ready$ ";
     return shell;
   }
-  /// Run the client in the shell, and press Ctrl-Z, as the keyboard protocol says it.
+  /// Runs the client in the shell and presses Ctrl-Z, encoded as in the keyboard protocol.
   void playAndSuspend(PtyTerminal& terminal, const std::string& wrapper = "") const {
     ASSERT_TRUE(terminal.waitFor("ready$ "));
     terminal.type("echo before-$(stty -g); ");
@@ -101,12 +100,12 @@ TEST_F(TerminalSignalsTest, InTheGame) {
   }
 }
 
-// From the moment that it is told to leave: restore() runs meanwhile.
+// Signals arrive while restore() runs.
 TEST_F(TerminalSignalsTest, WhileItLeaves) {
   for (int i = 0; i < tries() && !HasFailure(); ++i) {
     PtyTerminal terminal(options());
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
-    // Not by Ctrl-C: where the modes are restored before the kernel looks at it, it drops what was written.
+    // Not Ctrl-C: if the modes are restored before the kernel handles it, the kernel discards the output.
     terminal.type("\x1dq");
     terminal.read(std::chrono::milliseconds(i % 3));
     EXPECT_NE(endBySignals(terminal, random), -1);
@@ -129,19 +128,19 @@ TEST_F(TerminalSignalsTest, InTheServerChooser) {
   for (int i = 0; i < tries() && !HasFailure(); ++i) {
     PtyTerminal terminal(chooser);
     ASSERT_TRUE(terminal.waitFor("\033[?u")) << terminal.output();
-    if (i % 2 == 0) terminal.type("q");  // the chooser's terminal is restored meanwhile
+    if (i % 2 == 0) terminal.type("q");  // restores the chooser's terminal while the signals arrive
     EXPECT_NE(endBySignals(terminal, random), -1);
     expectRestored(terminal, i);
   }
 }
 
-// What players do most: Ctrl-Z, then kill. The shell's terminal stays the shell's, and the client ends.
+// A common case: Ctrl-Z, then kill. The client ends and the shell keeps its terminal modes.
 TEST_F(TerminalSignalsTest, AfterControlZ) {
   for (const std::string kill : {"kill %1", "kill -HUP %1; kill %1; kill -INT %1",
                                  "bg >/dev/null; kill %1; kill %1", "bg >/dev/null; sleep .3; kill %1"}) {
     PtyTerminal terminal(shell());
     ASSERT_NO_FATAL_FAILURE(playAndSuspend(terminal));
-    // `wait` does not wait for a job that is stopped.
+    // `wait` does not wait for a stopped job.
     terminal.type(kill + R"sh(; while [ -n "$(jobs -p)" ]; do sleep .02; jobs; done; echo jobs-$((0)))sh"
                          "\n");
     ASSERT_TRUE(terminal.waitFor("jobs-0")) << kill << terminal.output();
@@ -173,7 +172,7 @@ TEST_F(TerminalSignalsTest, ContinuedInTheBackgroundItComesBackWithTheForeground
   EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
 }
 
-/// True if there is a dfclient in this session that is not a zombie.
+/// True if this session has a dfclient that is not a zombie.
 bool clientRuns(pid_t session) {
   for (const auto& process : std::filesystem::directory_iterator("/proc")) {
     std::ifstream file(process.path() / "stat");
@@ -190,7 +189,7 @@ bool clientRuns(pid_t session) {
   return false;
 }
 
-/// How the client is started.
+/// A way to start the client.
 struct Launch {
   bool shell_leads;     ///< the shell is the session leader, so the session loses its terminal with it
   std::string wrapper;  ///< command that the shell runs to start the client; empty: none

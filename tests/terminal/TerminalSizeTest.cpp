@@ -1,4 +1,4 @@
-// The real dfclient on terminals of every size that a visitor can ask for.
+// The real dfclient on terminals of every size that a visitor can request.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace naiad::test {
 namespace {
 
-/// Resident memory, in MB.
+/// Returns the resident memory, in MB.
 int residentMegabytes(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(file, line);)
@@ -34,7 +34,7 @@ class TerminalSizeTest : public FakeServerFixture {
   }
 };
 
-constexpr int kMegabytes = 40;  ///< resident, of a client on any terminal
+constexpr int kMegabytes = 40;  ///< limit of a client's resident memory, whatever the terminal size
 constexpr std::pair<int, int> kLarge[] = {{65535, 65535}, {3000, 250}, {65535, 1}, {1, 65535}};
 
 TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
@@ -53,7 +53,7 @@ TEST_F(TerminalSizeTest, AWindowThatGrowsDuringTheGameTakesBoundedMemory) {
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
   for (const auto& [columns, rows] : kLarge) {
     terminal.resize(columns, rows);
-    // It tells the server once it has the memory.
+    // The client reports the new size after it has allocated the memory.
     const auto is_resize = [columns = columns, rows = rows](const wire::ClientMessage& m) {
       return m.has_resize() && static_cast<int>(m.resize().columns()) == std::min(columns, 640) &&
              static_cast<int>(m.resize().rows()) == std::min(rows, 256);
@@ -64,12 +64,12 @@ TEST_F(TerminalSizeTest, AWindowThatGrowsDuringTheGameTakesBoundedMemory) {
   leave(terminal);
 }
 
-// Not every description of a terminal has a size.
+// Some terminal descriptions have no size.
 TEST_F(TerminalSizeTest, IsTheTerminalsOwnWhateverItsType) {
   for (const char* type : {"linux", "vt100", "xterm-256color", "tmux-256color"}) {
     PtyTerminal::Options typed = sized(100, 30);
     typed.environment["TERM"] = type;
-    typed.environment["COLUMNS"] = "40";  // of another terminal, which somebody has exported
+    typed.environment["COLUMNS"] = "40";  // exported by the user from another terminal
     typed.environment["LINES"] = "10";
     PtyTerminal terminal(typed);
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << type << terminal.output();
@@ -80,7 +80,7 @@ TEST_F(TerminalSizeTest, IsTheTerminalsOwnWhateverItsType) {
   }
 }
 
-// Where the terminal itself has no size.
+// Here the terminal itself has no size.
 TEST_F(TerminalSizeTest, ColumnsAndLinesAreBoundedLikewise) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
   for (const char* number : {"30000", "99999999999999999999", "-5", "x"}) {

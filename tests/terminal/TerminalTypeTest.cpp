@@ -1,4 +1,4 @@
-// The real dfclient and what TERM says: looked at before a server hears anything of this client.
+// The real dfclient checks TERM before it connects to a server.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 

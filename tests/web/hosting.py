@@ -9,7 +9,7 @@ import time
 
 
 class Hosting:
-    """`page`: the folder that dfweb serves. Further arguments are dfserver's, `gateway` dfweb's. Use as a context."""
+    """Runs both programs. `page` is the folder that dfweb serves, `gateway` its further arguments. Use as a context."""
 
     def __init__(self, build, page, *arguments, gateway=()):
         self.folder = tempfile.mkdtemp(prefix="naiad-web-")
@@ -43,7 +43,7 @@ class Hosting:
         return program
 
     def break_lines(self):
-        """All connections with browsers break off without a word; there is a gateway again at the same address."""
+        """Kills the gateway, which cuts all connections with browsers, and starts another one at that address."""
         self.gateway.kill()
         self.gateway.wait()
         self.programs.remove(self.gateway)
@@ -51,7 +51,7 @@ class Hosting:
         self._start_gateway(self.port)
 
     def players_of(self, room):
-        """As dfctl counts them."""
+        """Returns the number of players in a room, by dfctl."""
         answer = subprocess.run([self.ctl, "--control", self.control, "rooms", "--json"], capture_output=True, text=True, check=True)
         return next(row["players"] for row in json.loads(answer.stdout) if row["room"] == room)
 

@@ -33,7 +33,7 @@ def page():
 
 
 def rows(browser):
-    """The picture as it is drawn, a text for each row."""
+    """Returns the rows of the picture as drawn."""
     return browser.run(SHOWN)
 
 
@@ -59,7 +59,7 @@ class PageTest(unittest.TestCase):
         cls.browser.close()
 
     def setUp(self):
-        # Each test has a tab of its own, with nothing of the one before.
+        # Each test has its own tab without state of earlier tests.
         window = self.browser.call("POST", "/window/new", {"type": "tab"})["handle"]
         for other in self.browser.windows():
             if other != window:
@@ -72,7 +72,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.browser.complaints(), [])
 
     def begin(self):
-        """Past the title of saucershoot."""
+        """Leaves the title screen of saucershoot."""
         self.browser.keys(("down", " "), ("wait", 100), ("up", " "))
         wait_for(self.browser, "=##=>")
 
@@ -87,7 +87,7 @@ class PageTest(unittest.TestCase):
             self.no_complaints()
 
     def ship_below(self, row):
-        """Wait until the ship, which blinks at first, is below that row: where it is."""
+        """Waits until the ship, which blinks at first, is below that row. Returns its row."""
         return self.browser.wait(f"const at = (() => {{{SHOWN}}})().findIndex((row) => row.includes('=##=>')); return at > {row} && at;")
 
     def test_a_reloaded_page_plays_on_and_a_duplicated_tab_is_another_player(self):
@@ -160,7 +160,7 @@ class PageTest(unittest.TestCase):
             self.begin()
             hosting.wait_for_line("server.log", "Ada")
             self.assertEqual(hosting.players_of("arcade"), 1)
-            # Loaded again it is the same player, in the room where they were.
+            # After a reload it is still player Ada, in her room.
             self.browser.call("POST", "/refresh", {})
             wait_for(self.browser, "You are back")
             self.assertEqual(hosting.players_of("arcade"), 1)
@@ -230,7 +230,7 @@ class PageTest(unittest.TestCase):
             self.assertLess(total, 600_000)
 
     def test_what_is_seen_is_what_the_server_shows(self):
-        """1,000 ticks of a busy world, each cell against the server's own picture."""
+        """Compares each cell of 1,000 ticks of a busy world with the server's own picture."""
         folder = os.path.join(BUILD, "recording_page")
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(page(), folder)
@@ -298,7 +298,7 @@ RECORDED = """
 
 
 def compare(seen, path):
-    """What was seen, by tick, with a truth file (shared/replica/TruthFile.h): ticks and cells compared, wrong cells."""
+    """Compares pictures by tick with a truth file (shared/replica/TruthFile.h). Returns ticks and cells compared, and wrong cells."""
     compared = cells = wrong = 0
     with open(path, encoding="utf-8") as file:
         while head := file.readline().split():
@@ -309,7 +309,7 @@ def compare(seen, path):
                 continue
             text, colors = "".join(lines[:height]), "".join(lines[height:2 * height])
             if len(text) != width * height or len(colors) != width * height:
-                break  # the end of a file that was still being written
+                break  # the file ends early because it was still being written
             compared += 1
             cells += width * height
             for ch, color, seen_ch, seen_color in zip(text, colors, *seen[tick]):

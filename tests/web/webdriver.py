@@ -11,7 +11,7 @@ import urllib.error
 import urllib.request
 
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
-# A closed network, and perhaps root: nothing of the browser's own may go out, and it has no sandbox to make.
+# Options for a closed network, possibly as root: the browser must not contact its vendor, and cannot make its own sandbox.
 ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
              "--disable-component-update", "--disable-sync", "--disable-extensions", "--mute-audio", "--hide-scrollbars",
              "--autoplay-policy=no-user-gesture-required", "--disable-dev-shm-usage"]
@@ -62,11 +62,11 @@ class Browser:
         self.call("POST", "/url", {"url": address})
 
     def run(self, script, *arguments):
-        """The value of JavaScript: the body of a function."""
+        """Runs the body of a JavaScript function. Returns its result."""
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
     def wait(self, script, *arguments):
-        """Until the body of a function returns something true: that."""
+        """Runs the body of a JavaScript function until its result is true. Returns that."""
         end = time.monotonic() + self.patience
         while time.monotonic() < end:
             value = self.run(script, *arguments)
@@ -85,7 +85,7 @@ class Browser:
         self.call("POST", f"/element/{self.find(selector)}/click", {})
 
     def keys(self, *actions):
-        """Of the keyboard: ("down", KEY), ("up", KEY), ("wait", MILLISECONDS). Keys beyond characters: WebDriver's code points."""
+        """Presses keys: ("down", KEY), ("up", KEY), ("wait", MILLISECONDS). Keys without a character have WebDriver's code points."""
         steps = [{"type": "pause", "duration": value} if kind == "wait" else {"type": "key" + kind.capitalize(), "value": value}
                  for kind, value in actions]
         self.call("POST", "/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": steps}]})
@@ -104,11 +104,11 @@ class Browser:
         self.call("POST", "/window", {"handle": window})
 
     def devtools(self, command, **parameters):
-        """A command of the Chrome DevTools Protocol."""
+        """Runs a command of the Chrome DevTools Protocol."""
         return self.call("POST", "/goog/cdp/execute", {"cmd": command, "params": parameters})
 
     def complaints(self):
-        """What the browser wrote on its console as warning or error since the last call."""
+        """Returns the warnings and errors on the browser's console since the last call."""
         return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"}) if entry["level"] in ("WARNING", "SEVERE")]
 
     def close(self):

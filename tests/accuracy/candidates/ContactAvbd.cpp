@@ -1,6 +1,6 @@
-// Augmented vertex block descent: body by body, the energy of inertia and of stiff springs with multipliers
-// goes down (Giles, Diaz, Yuksel 2025, with the numbers of the authors' plane demonstration; ten iterations a
-// step). A sub-step is a step of the method, with contacts found again.
+// Augmented vertex block descent: minimizes, body by body, the energy of inertia and of stiff springs with
+// multipliers (Giles, Diaz, Yuksel 2025, with the parameters of the authors' plane demonstration; ten
+// iterations per step). A sub-step is a step of the method, with contacts found again.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,16 +12,16 @@ namespace lab {
 namespace {
 
 constexpr int kIterations = 10;
-constexpr double kRamp = 1e5;    // β: how penalties grow with what they miss
-constexpr double kKept = 0.99;   // α: of an error at the start, not undone in this step
-constexpr double kDecay = 0.99;  // γ: of multipliers and penalties from step to step
+constexpr double kRamp = 1e5;    // β: growth of penalties with the remaining error
+constexpr double kKept = 0.99;   // α: part of an initial error that is not corrected in this step
+constexpr double kDecay = 0.99;  // γ: decay of multipliers and penalties from step to step
 constexpr double kMinPenalty = 1e3;
 constexpr double kMaxPenalty = 1e9;
-constexpr double kMargin = 5e-4;    // m of overlap in which contacts live
+constexpr double kMargin = 5e-4;    // overlap in metres at which contacts rest
 constexpr double kSticking = 0.01;  // m
 
 using naiad::physics::at;
-using Row = std::array<double, 3>;  // by x, y, angle
+using Row = std::array<double, 3>;  // components x, y, angle
 
 double along(const Row& row, const Row& way) {
   return row[0] * way[0] + row[1] * way[1] + row[2] * way[2];
@@ -30,7 +30,7 @@ double along(const Row& row, const Row& way) {
 // One direction of a contact point.
 struct Constraint {
   Row by_a, by_b;
-  double start = 0;  // its value at the start of the step
+  double start = 0;  // value at the start of the step
   double penalty = 0, force = 0;
   double value = 0;
 };
@@ -44,7 +44,7 @@ struct Contact {
 
 struct Moving {
   std::vector<int> contacts;
-  Vec2 start, aim;  // where it is, where it would go
+  Vec2 start, aim;  // position at the start, and without contacts
   double start_angle = 0, aim_angle = 0;
   Vec2 last_velocity;
 };
@@ -99,7 +99,7 @@ class Avbd : public ContactSolver {
         contact.b = pair.b;
         contact.friction = pair.friction;
         contact.p_point = &point;
-        // What sticks may have slid along the normal's direction, too; the gap is what was found.
+        // A sticking contact may also have slid along the normal, but its gap is the one found.
         contact.normal = {rowOf(-pair.normal, arms.a),
                           rowOf(pair.normal, arms.b),
                           point.gap + kMargin,
@@ -121,7 +121,7 @@ class Avbd : public ContactSolver {
 
   static Row rowOf(Vec2 direction, Vec2 arm) { return {direction.x, direction.y, cross(arm, direction)}; }
 
-  // From where the last step's acceleration would lead, as far as it is gravity's.
+  // Starts from where the last step's acceleration would lead, limited to gravity's part.
   void begin(ContactScene& scene, double h) {
     for (std::size_t i = 0; i < m_bodies.size(); ++i) {
       ContactBody& body = scene.bodies[i];
@@ -154,7 +154,7 @@ class Avbd : public ContactSolver {
     }
   }
 
-  // A push is negative, for it lowers the energy by opening the gap.
+  // A push is negative, because opening the gap lowers the energy.
   static double pushOf(const Contact& contact) {
     return std::min(contact.normal.penalty * contact.normal.value + contact.normal.force, 0.0);
   }
@@ -195,7 +195,7 @@ class Avbd : public ContactSolver {
     }
   }
 
-  // Symmetric and positive definite.
+  // Solves a symmetric, positive definite system.
   static Row solve(const double (&m)[3][3], const double (&b)[3]) {
     const double d0 = m[0][0], l10 = m[1][0] / d0, l20 = m[2][0] / d0;
     const double d1 = m[1][1] - l10 * m[1][0], l21 = (m[2][1] - l20 * m[1][0]) / d1;

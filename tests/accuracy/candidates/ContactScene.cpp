@@ -30,8 +30,8 @@ bool isSound(const Body& body) {
   return body.mass > 1e-9 && !body.shapes.empty();
 }
 
-// Returns the moment of inertia per mass; that of a compound is that of its last shape, for no compound here
-// is pushed.
+// Returns the moment of inertia per mass. For a compound it is that of the last shape, because no compound
+// here can be pushed.
 double addShapes(const Body& body, ContactBody& made) {
   double inertia = 0;
   for (const Shape& shape : body.shapes) {
@@ -113,7 +113,7 @@ void ContactScene::drift(double h) {
   }
 }
 
-// Sorted along x, which hardly changes from step to step.
+// Sorts along x. The order hardly changes from step to step.
 void ContactScene::find(double h, double reach) {
   for (ContactBody& body : bodies) {
     body.lower = {1e300, 1e300};
@@ -189,7 +189,7 @@ void ContactScene::findPair(int a, int b, double reach) {
           if (same != p_before->used().end()) point = *same;
         }
         point.gap = found.separation;
-        // Who sticks keeps the places that stick.
+        // A sticking point keeps its anchors.
         if (!point.sticks) {
           point.anchor_a = physics::inverse(first.rotation) * found.anchor_a;
           point.anchor_b = physics::inverse(second.rotation) * found.anchor_b;

@@ -1,6 +1,5 @@
-// What the candidates for contacts share, so that they differ in how they solve and in nothing else: bodies,
-// which of them touch where, and what is remembered of a contact from step to step. Metres, seconds,
-// kilograms.
+// The common part of the contact candidates, so that they differ only in their solvers: bodies, their
+// contacts, and the data kept of a contact from step to step. Metres, seconds, kilograms.
 #pragma once
 
 #include <array>
@@ -23,15 +22,15 @@ struct ContactBody {
   Rotation rotation;
   double angle = 0;
   double spin = 0;
-  double inverse_mass = 0;  ///< both 0 for what nothing pushes
+  double inverse_mass = 0;  ///< both 0 for bodies that nothing can push
   double inverse_inertia = 0;
   Vec2 gravity;
   double drag = 0;  ///< 1/s
   double friction = 0;
   std::vector<naiad::physics::ConvexShape> shapes;
   std::vector<naiad::physics::TurnedShape> turned;
-  Vec2 lower, upper;  ///< bounds, with room for the step
-  double room = 0;    ///< how far it may get in the step
+  Vec2 lower, upper;  ///< bounds, enlarged for the step
+  double room = 0;    ///< largest distance it may move in the step
 
   bool isPushed() const { return inverse_mass > 0; }
   void turnBy(double by) {
@@ -41,15 +40,15 @@ struct ContactBody {
 };
 
 struct ContactArms {
-  Vec2 a, b;  ///< from the bodies' centres, in the axes of the world
+  Vec2 a, b;  ///< relative to the bodies' centres, in world axes
 };
 
 struct ContactPoint {
-  Vec2 anchor_a, anchor_b;  ///< in the bodies' own axes; the same place when it was found
-  ContactArms found;        ///< the same then, in the axes of the world
-  double gap = 0;           ///< then
+  Vec2 anchor_a, anchor_b;  ///< anchors in the bodies' own axes; equal places when found
+  ContactArms found;        ///< the anchors when found, in world axes
+  double gap = 0;           ///< gap when found
   double normal_mass = 0, tangent_mass = 0;
-  double normal_impulse = 0, tangent_impulse = 0;  ///< or force: as the solver likes
+  double normal_impulse = 0, tangent_impulse = 0;  ///< impulse or force, depending on the solver
   double normal_penalty = 0, tangent_penalty = 0;
   bool sticks = false;
   std::uint32_t id = 0;
@@ -57,10 +56,10 @@ struct ContactPoint {
 
 struct ContactPair {
   int a = 0, b = 0, shape_a = 0, shape_b = 0;
-  Vec2 normal;  ///< from a to b
+  Vec2 normal;  ///< points from a to b
   double friction = 0;
   int count = 0;
-  std::array<ContactPoint, 2> points;  ///< the first `count`
+  std::array<ContactPoint, 2> points;  ///< only the first `count` are valid
   naiad::physics::ReferenceFace reference;
 
   std::span<ContactPoint> used() { return {points.data(), static_cast<std::size_t>(count)}; }
@@ -70,11 +69,11 @@ struct ContactPair {
 struct ContactScene {
   explicit ContactScene(const Scene& scene);
 
-  /// Has it nothing but sound bodies with shapes, and no bounces? Impacts are another question than contacts
-  /// that last.
+  /// True if the scene has only valid bodies with shapes, and no bounces, because impacts are a different
+  /// problem from lasting contacts.
   static bool canExpress(const Scene& scene);
 
-  /// Finds who touches whom, or may do so within `h`, with gaps up to `reach`. Points that were there before
+  /// Finds pairs that touch, or may do so within `h`, with gaps up to `reach`. Points that existed before
   /// keep their impulses.
   void find(double h, double reach);
 
@@ -84,28 +83,28 @@ struct ContactScene {
   void drift(double h);
 
   std::vector<ContactBody> bodies;
-  std::vector<ContactPair> pairs;  ///< by ids
-  double gravity = 0;              ///< its amount
+  std::vector<ContactPair> pairs;  ///< sorted by ids
+  double gravity = 0;              ///< magnitude
 
  private:
   void findPair(int a, int b, double reach);
   std::vector<ContactPair> m_before;
-  std::vector<int> m_order;  // by lower x
+  std::vector<int> m_order;  // indices sorted by lower x
 };
 
-/// At this moment.
+/// Return the arms and the gap at this moment.
 ContactArms armsOf(const ContactScene& scene, const ContactPair& pair, const ContactPoint& point);
 double gapOf(const ContactScene& scene, const ContactPair& pair, const ContactPoint& point,
              const ContactArms& arms);
-/// Of b's against a's there.
+/// Returns the relative velocity of b against a at the contact.
 Vec2 speedOf(const ContactScene& scene, const ContactPair& pair, const ContactArms& arms);
-/// What 1 / (what an impulse along `direction` changes of that) is.
+/// Returns the effective mass: the impulse along `direction` per change of that velocity.
 double massOf(const ContactScene& scene, const ContactPair& pair, const ContactArms& arms, Vec2 direction);
-/// On velocities, and on places.
+/// Apply an impulse to the velocities, or to the positions.
 void push(ContactScene& scene, const ContactPair& pair, const ContactArms& arms, Vec2 impulse);
 void shift(ContactScene& scene, const ContactPair& pair, const ContactArms& arms, Vec2 impulse);
 
-/// The one interface of the candidates.
+/// Common interface of the candidates.
 class ContactSolver {
  public:
   virtual ~ContactSolver() = default;
@@ -114,7 +113,7 @@ class ContactSolver {
 
 SimulationPtr runContacts(const Scene& scene, std::unique_ptr<ContactSolver> solver);
 
-/// For RegisteredMethod.
+/// Creates a simulation for RegisteredMethod; null if the scene cannot be expressed.
 template <class Solver>
 SimulationPtr makeContacts(const Scene& scene) {
   return ContactScene::canExpress(scene) ? runContacts(scene, std::make_unique<Solver>()) : nullptr;

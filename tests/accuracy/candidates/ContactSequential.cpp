@@ -1,7 +1,7 @@
-// Sequential impulses in small sub-steps, one sweep each, from the last sub-step's impulses; contacts are
-// found once a tick. What differs is how overlap is undone: by moving the bodies out (nonlinear Gauss and
-// Seidel), or by a damped spring in the velocities that is taken out again by a second sweep. After Catto,
-// Solver2D (2024), there TGS-NGS and Soft Step; the numbers are those of Solver2D and Box2D 3.
+// Sequential impulses in small sub-steps, one sweep each, starting from the last sub-step's impulses.
+// Contacts are found once a tick. The variants remove overlap by moving the bodies apart (nonlinear
+// Gauss-Seidel), or by a damped spring in the velocities, whose effect a second sweep removes. From Catto,
+// Solver2D (2024): TGS-NGS and Soft Step, with the parameters of Solver2D and Box2D 3.
 #include <algorithm>
 #include <numbers>
 
@@ -10,10 +10,10 @@
 namespace lab {
 namespace {
 
-constexpr double kReach = 0.02;  // m: gaps that are looked at
-constexpr double kSlop = 0.005;  // m: overlap that is left
+constexpr double kReach = 0.02;  // largest gap considered, in metres
+constexpr double kSlop = 0.005;  // overlap that is allowed to remain, in metres
 
-// A spring of this part of the rate of sub-steps, as three coefficients.
+// A soft constraint as three coefficients. Its frequency is a fraction of the sub-step rate.
 struct Softness {
   double bias = 0, mass = 1, impulse = 0;
 };
@@ -42,7 +42,7 @@ class Sequential : public ContactSolver {
  protected:
   virtual void substep(ContactScene& scene, double h) = 0;
 
-  // `p_soft`: two of them, for what meets something that nothing pushes and for the others; null: rigid.
+  // `p_soft` points to two values: for contacts with unpushable bodies, and for others. Null: rigid.
   void sweep(ContactScene& scene, double h, const Softness* p_soft) const {
     constexpr double kFastestPush = 3;  // m/s
     for (ContactPair& pair : scene.pairs) {
@@ -104,7 +104,7 @@ class Projecting : public Sequential {
   void substep(ContactScene& scene, double h) override {
     sweep(scene, h, nullptr);
     scene.drift(h);
-    constexpr double kPart = 0.2;      // of the overlap that a sub-step undoes
+    constexpr double kPart = 0.2;      // part of the overlap that a sub-step removes
     constexpr double kFarthest = 0.2;  // m
     for (const ContactPair& pair : scene.pairs) {
       for (const ContactPoint& point : pair.used()) {

@@ -8,7 +8,7 @@
 namespace lab {
 namespace {
 
-constexpr double kReach = 0.02;  // m: gaps that are looked at
+constexpr double kReach = 0.02;  // largest gap considered, in metres
 
 class ContactXpbd : public ContactSolver {
  public:
@@ -49,7 +49,7 @@ class ContactXpbd : public ContactSolver {
     }
   }
 
-  // Out of one another.
+  // Moves overlapping bodies apart.
   static void part(ContactScene& scene, const ContactPair& pair, ContactPoint& point) {
     const ContactArms arms = armsOf(scene, pair, point);
     point.normal_impulse = 0;
@@ -59,7 +59,7 @@ class ContactXpbd : public ContactSolver {
     shift(scene, pair, arms, point.normal_impulse * pair.normal);
   }
 
-  // Back to where it was at the start of the sub-step, if friction holds that.
+  // Moves the contact point back to its place at the start of the sub-step, if friction can hold it there.
   void stick(ContactScene& scene, const ContactPair& pair, const ContactPoint& point) const {
     if (point.normal_impulse == 0) return;
     const ContactArms arms = armsOf(scene, pair, point);
@@ -75,7 +75,7 @@ class ContactXpbd : public ContactSolver {
     shift(scene, pair, arms, slip * tangent);
   }
 
-  // No speed from having been moved out.
+  // Removes the velocity caused by moving the bodies apart.
   static void calm(ContactScene& scene, const ContactPair& pair, const ContactPoint& point) {
     if (point.normal_impulse == 0) return;
     const ContactArms arms = armsOf(scene, pair, point);
@@ -83,7 +83,7 @@ class ContactXpbd : public ContactSolver {
     push(scene, pair, arms, -speed * massOf(scene, pair, arms, pair.normal) * pair.normal);
   }
 
-  // Friction of what slides.
+  // Applies sliding friction.
   static void rub(ContactScene& scene, const ContactPair& pair, const ContactPoint& point, double h) {
     if (point.normal_impulse == 0) return;
     const ContactArms arms = armsOf(scene, pair, point);

@@ -1,4 +1,4 @@
-// Naiad's rigid bodies, as the laboratory's scenes tell them. Lengths in metres, time in ticks of 1/30 s.
+// Naiad's rigid bodies in the laboratory's scenes. Lengths in metres, time in ticks of 1/30 s.
 #include <cmath>
 #include <vector>
 
@@ -56,7 +56,7 @@ class Rigid : public Simulation {
   long failures() const override { return static_cast<long>(m_world.counters().direct_failures); }
 
  private:
-  // The number of sub-steps is known only now.
+  // Creates the world late, because the number of sub-steps is known only at the first step.
   void make(int substeps) {
     m_is_made = true;
     m_world = physics::RigidWorld(optionsFor(m_scene, substeps));

@@ -1,6 +1,6 @@
-// Soft bodies, three ways: the product's step (BDF2, a direct solution), the same with backward Euler, and
-// extended position-based dynamics with one iteration (Macklin et al. 2019). All three have the same nodes
-// and springs, so what differs is the method.
+// Soft bodies with three methods: the product's step (BDF2, a direct solution), that step with backward
+// Euler, and extended position-based dynamics with one iteration (Macklin et al. 2019). All three have equal
+// nodes and springs, so only the method differs.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -20,7 +20,7 @@ using physics::at;
 
 constexpr double kPerSecond = 30;  // ticks
 constexpr double kPerSecondSquared = kPerSecond * kPerSecond;
-/// A rod's, in N/m: what hangs here stretches it by less than 1e-6.
+/// Stiffness of a rod in N/m. The loads here stretch it by less than 1e-6.
 constexpr double kRod = 1e9;
 
 physics::Vec2 toTicks(Vec v, double scale) {
@@ -40,7 +40,7 @@ physics::SoftBody beamOf(const Beam& beam) {
   return body;
 }
 
-// Points on rods; the ground's anchors become pinned nodes.
+// Makes points on rods. The ground's anchors become pinned nodes.
 physics::SoftBody netOf(const Scene& scene) {
   physics::SoftBody body;
   for (const Body& point : scene.bodies) {
@@ -84,7 +84,7 @@ physics::SoftBody bodyOf(const Scene& scene) {
   return scene.beams.empty() ? netOf(scene) : beamOf(scene.beams[0]);
 }
 
-// The scene's body 0 is a beam's free end.
+// Returns the state of the scene's body. Body 0 is a beam's free end.
 BodyState stateOf(const physics::SoftBody& body, bool is_beam, int index) {
   const physics::SoftNode& node = is_beam ? body.nodes.back() : body.nodes[at(index)];
   const physics::Vec2 place = (body.place - physics::Place{}) + node.offset;

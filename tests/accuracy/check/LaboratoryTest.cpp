@@ -1,4 +1,4 @@
-// The laboratory sees what it is there to see: orders, errors, crashes, and misses.
+// Tests that the laboratory detects what it should: orders, errors, crashes, and missed targets.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -38,7 +38,7 @@ double errorOf(const Case& its_case, const Method& method, int substeps) {
   return measure(its_case, method, substeps, 1).errors[0];
 }
 
-// The slope between 8 and 16 sub-steps on an undamped spring of 1 Hz, from the phase.
+// Returns the order from the phase error at 8 and 16 sub-steps, on an undamped spring of 1 Hz.
 double orderOf(const std::string& method) {
   const Problem problem = problemOf("3");
   const Case& spring = problem.cases[0];
@@ -48,7 +48,7 @@ double orderOf(const std::string& method) {
 }
 
 TEST(Laboratory, MethodsHaveTheirOrders) {
-  // That of semi_implicit is its phase's; its positions are of order 1.
+  // The order of semi_implicit is that of its phase; its positions have order 1.
   for (const char* method : {"semi_implicit", "verlet", "tr_bdf2"})
     EXPECT_NEAR(orderOf(method), 2, 0.1) << method;
   for (const char* method : {"rk4", "yoshida4"}) EXPECT_NEAR(orderOf(method), 4, 0.1) << method;
@@ -67,7 +67,7 @@ TEST(Laboratory, VerletKeepsItsOrderWithDrag) {
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
 }
 
-// The same program, with and without the error, as the product: lines, CSV and exit code tell them apart.
+// Runs an integrator as the product, with and without an error, which lines, CSV and exit code must show.
 TEST(Laboratory, APlantedErrorMissesItsTarget) {
   const Problem problem = problemOf("1");
   const Case& flight = problem.cases[0];
@@ -124,7 +124,7 @@ TEST(Laboratory, EachLevelIsJudgedByItsOwnTargetAtItsOwnSubsteps) {
   }
 }
 
-// Takes 3 ms of CPU time in its third tick.
+// Uses 3 ms of CPU time in its third tick.
 class Stumbling : public Simulation {
  public:
   explicit Stumbling(double impacts) : m_impacts(impacts) {}
@@ -162,7 +162,7 @@ TEST(Laboratory, WhatATickMayCostGrowsWithWhatIsInIt) {
   const TickBound bound;
   EXPECT_EQ(bound.allowedUs(0, 0, 0, 0), 1000);
   EXPECT_EQ(bound.allowedUs(100, 200, 50, 300), 1000 + 5 * 350 + 300);
-  EXPECT_EQ(bound.allowedUs(2, 0, 0, 1e9), 1000 + 10 + 20'000);  // the reserve
+  EXPECT_EQ(bound.allowedUs(2, 0, 0, 1e9), 1000 + 10 + 20'000);  // limited by the reserve
 }
 
 TEST(Laboratory, OnlyTheProductIsJudged) {
@@ -254,7 +254,7 @@ TEST(Laboratory, PeersStartWhereTheSceneSays) {
   }
 }
 
-// So do the equations of the textbooks' methods.
+// The equations of the textbooks' methods start from it, too.
 TEST(Laboratory, EquationsStartWhereTheSceneSays) {
   for (const char* id : {"1", "2", "3", "4", "5", "6"}) {
     for (const Case& its_case : problemOf(id).cases)

@@ -1,4 +1,4 @@
-// References agree with each other, and with what others have published.
+// The references agree with each other and with published results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAgree = 1e-9;
 
-// The largest difference over the run, relative to the largest value of each coordinate.
+// Returns the largest difference over the run, relative to the largest value of each coordinate.
 double difference(const Trajectory& a, const Trajectory& b) {
   EXPECT_EQ(a.size(), b.size());
   double worst = 0;
@@ -28,7 +28,7 @@ double difference(const Trajectory& a, const Trajectory& b) {
   return worst;
 }
 
-// CVODE controls the error of a step at the tolerance, not that of the run: sharper where errors grow.
+// CVODE controls the error of each step, not of the whole run, so growing errors need a smaller tolerance.
 CvodeOptions sharp(bool stiff) {
   CvodeOptions options;
   options.stiff = stiff;
@@ -59,7 +59,7 @@ TEST(Reference, SolversAgreeOnRobertson) {
   expectSolversAgree(Robertson(), 1, 40, Stiffness::STIFF);
 }
 
-// Its coordinate is compared; its speed jumps by 1e6 within 1e-6 s, where any shift in time is a difference.
+// Compares the coordinate only, because the speed jumps by 1e6 within 1e-6 s.
 TEST(Reference, SolversAgreeOnVanDerPolAndWithThePublishedEnd) {
   const auto equations = equationsOf(VanDerPol());
   const Trajectory exact = equations->byExtrapolation(kTick, 60, Stiffness::STIFF);
@@ -130,7 +130,7 @@ TEST(Reference, KeplerReturnsToItsStart) {
   EXPECT_NEAR(path.back()[1], path.front()[1], 1e-12);
 }
 
-// CVODE's solution of a scene's equations as a method: what judges it is every problem's own reference.
+// CVODE's solution of a scene's equations as a method, judged by each problem's own reference.
 class Replay : public Simulation {
  public:
   Replay(const Scene& scene, bool stiff)
@@ -151,15 +151,15 @@ TEST(Reference, CvodeMeetsTheReferenceOfEveryProblemWithEquations) {
     if (entry.id.size() > 2) continue;  // maps repeat problem 4
     for (const Case& its_case : entry.make().cases) {
       if (its_case.scene.equations == nullptr) continue;
-      // A million radians, or a layer that jumps: each has its own test, or is the same formula as its
-      // neighbours'.
+      // A million radians, or a jumping layer: these have their own tests, or use a neighbouring case's
+      // formula.
       if (its_case.name.starts_with("k1e10") || its_case.name == "van_der_pol") continue;
       const bool stiff = entry.id == "4" || entry.id == "4b";
       const Method method{"cvode", "CVODE", "6", Method::Kind::CANDIDATE,
                           [stiff](const Scene& scene) { return std::make_unique<Replay>(scene, stiff); }};
       const std::vector<double> errors = its_case.judge(Trial(method, 1));
-      // 10,000 radians and 20 close passes of the sun add up CVODE's errors; over shorter times, tests above
-      // and below hold both to 1e-9.
+      // CVODE's errors add up over 10,000 radians or 20 close passes of the sun. Other tests hold both to
+      // 1e-9 over shorter times.
       const bool long_phase = its_case.name == "k1e6_zeta0" || its_case.name == "kepler";
       EXPECT_LT(errors[0], long_phase ? 1e-6 : kAgree) << entry.id << ' ' << its_case.name;
       ++judged;
@@ -168,7 +168,7 @@ TEST(Reference, CvodeMeetsTheReferenceOfEveryProblemWithEquations) {
   EXPECT_EQ(judged, 1 + 2 + 3 + 8 + 4 + 1 + 2);
 }
 
-// Dual numbers against differences, on the equations with the most kinds of operations.
+// Compares dual numbers with differences, for the equations with most kinds of operations.
 TEST(Reference, DerivativesAreThoseOfTheEquations) {
   DoublePendulum system;
   const double y[] = {0.3, -1.1, 2.0, 0.7};

@@ -1,5 +1,4 @@
-// What the product must reach, as far as no clock is needed to see it: the targets of the problems are the
-// bounds.
+// The product's targets that can be checked without a clock. The limits are the targets of the problems.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +19,7 @@ std::vector<std::string> problemIds() {
 
 class Verdicts : public testing::TestWithParam<std::string> {};
 
-// Thousands of bodies for long.
+// True for long runs of thousands of bodies, which need NAIAD_LONG_TESTS.
 bool takesLong(const Case& its_case) {
   return its_case.is_crowd && its_case.long_run && std::getenv("NAIAD_LONG_TESTS") == nullptr;
 }

@@ -19,12 +19,12 @@
 namespace lab {
 namespace {
 
-// A run that takes less is repeated on fresh copies of the scene until it does not: the clock's own reading
-// takes a quarter of a microsecond.
+// A shorter run is repeated on fresh copies of the scene up to this time, because reading the clock takes a
+// quarter of a microsecond.
 constexpr double kShortestRunNs = 400000;
 constexpr int kMaxCopies = 256;
 
-// A run as long as this is timed tick by tick and no other way: reading the clock is nothing beside it.
+// A longer run is only timed tick by tick, because reading the clock is then negligible.
 constexpr double kLongRunNs = 1e8;
 
 double runNs(const Case& its_case, const Method& method, int substeps, int copies) {
@@ -39,8 +39,8 @@ double runNs(const Case& its_case, const Method& method, int substeps, int copie
 }
 
 struct TickTimes {
-  std::vector<double> us;       // of each tick
-  std::vector<double> allowed;  // what it may cost; empty: not counted
+  std::vector<double> us;       // per tick
+  std::vector<double> allowed;  // limit per tick; empty: not available
 
   double total() const { return std::accumulate(us.begin(), us.end(), 0.0); }
 };
@@ -70,7 +70,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// A busy machine can only make a tick dearer, and its work is the same in every run: the cheapest counts.
+// Takes each tick's minimum over all runs: their work is equal, and a busy machine only adds time.
 void judgeTicks(const std::vector<TickTimes>& runs, CpuTime& cpu) {
   const std::vector<double>& allowed = runs[0].allowed;
   std::vector<double> us = runs[0].us;
@@ -90,7 +90,7 @@ CpuTime timeRuns(const Case& its_case, const Method& method, int substeps, int r
   std::vector<double> totals;
   if (by_tick[0].total() * 1e3 >= kLongRunNs) {
     for (const TickTimes& run : by_tick) totals.push_back(run.total());
-  } else {  // they have warmed up
+  } else {  // the timed ticks were the warm-up
     const double first = runNs(its_case, method, substeps, 1);
     const int copies = std::clamp(static_cast<int>(kShortestRunNs / std::max(first, 1.0)), 1, kMaxCopies);
     for (int i = 0; i < runs; ++i) totals.push_back(runNs(its_case, method, substeps, copies) * 1e-3);
@@ -107,7 +107,7 @@ constexpr CpuTime unknownTime() {
   return {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
 }
 
-// What a child writes: its judgement as soon as it is known, then the times.
+// Carries a child's results: its errors as soon as they are known, then the times.
 class Pipe {
  public:
   Pipe() {
@@ -127,7 +127,7 @@ class Pipe {
   void put(const void* data, std::size_t size) const {
     if (write(m_ends[1], data, size) != static_cast<ssize_t>(size)) _exit(1);
   }
-  /// False if the child is gone before it has written that much.
+  /// False if the child has ended before writing that much.
   bool get(void* data, std::size_t size) const {
     char* to = static_cast<char*>(data);
     while (size > 0) {
@@ -167,7 +167,7 @@ bool getJudgement(const Pipe& pipe, Measurement& measurement) {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CPU, &limit);
   setrlimit(RLIMIT_CORE, &no_core);
-  if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(1);  // a library's last words
+  if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(1);  // hides a library's messages on a crash
   const Measurement measurement = judge(its_case, method, substeps);
   putJudgement(pipe, measurement);
   if (measurement.expressed) {

@@ -1,4 +1,4 @@
-// One method in one case at one number of sub-steps: how far off, and how long it took.
+// Measures one method in one case at one number of sub-steps: its errors and its run time.
 #pragma once
 
 #include <limits>
@@ -15,26 +15,26 @@ struct CpuTime {
   double median = 0;
   double least = 0;
   double most = 0;
-  double worst = 0;  ///< the dearest tick, the first one too: of all runs of each tick the cheapest
-  double worst_part = std::numeric_limits<double>::quiet_NaN();  ///< the largest part of what a tick may cost
-  double first_part = std::numeric_limits<double>::quiet_NaN();  ///< the first tick, in median ticks
+  double worst = 0;  ///< the slowest tick, including the first, by the minimum over all runs
+  double worst_part = std::numeric_limits<double>::quiet_NaN();  ///< largest tick time relative to its limit
+  double first_part = std::numeric_limits<double>::quiet_NaN();  ///< first tick relative to the median
 };
 
 struct Measurement {
-  bool expressed = true;       ///< false: the method has no way to say this, and there is nothing else here
+  bool expressed = true;       ///< false: the method cannot express the scene, and the rest is unset
   std::vector<double> errors;  ///< one per metric; infinite where the run failed
   CpuTime cpu;                 ///< NaN if it crashed
-  std::string reason;          ///< why it failed; empty if it did not
+  std::string reason;          ///< reason of a failure, or empty
 };
 
-/// Errors alone, without a clock.
+/// Computes only errors, without timing.
 Measurement judge(const Case& its_case, const Method& method, int substeps);
 
-/// Judges once, then times `runs` runs of the case's scene, which nobody watches.
+/// Judges once, then times `runs` runs of the case's scene without judging.
 Measurement measure(const Case& its_case, const Method& method, int substeps, int runs);
 
-/// The same in a process of its own, so that a method that crashes or takes longer than `most_seconds` of CPU
-/// time is a failed measurement and no more.
+/// Like measure(), in its own process, so that a crash or more than `most_seconds` of CPU time is only a
+/// failed measurement.
 Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs,
                          int most_seconds);
 

@@ -8,7 +8,7 @@
 namespace lab {
 namespace {
 
-// Made by the first that registers, whichever that is; a deque, for others keep pointers into it.
+// Created by whichever method registers first. A deque, because others keep pointers into it.
 std::deque<Method>& registry() {
   static std::deque<Method> s_methods;
   return s_methods;

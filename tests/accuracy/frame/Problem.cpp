@@ -13,7 +13,7 @@ std::vector<ProblemEntry>& registry() {
   return s_problems;
 }
 
-// Numbers first, by value, then what follows them; words last.
+// Sorts ids with numbers first, by value and then by their suffix, and words last.
 std::tuple<bool, long, std::string> order(const std::string& id) {
   char* rest = nullptr;
   const long number = std::strtol(id.c_str(), &rest, 10);

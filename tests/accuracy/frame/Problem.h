@@ -1,5 +1,5 @@
-// A problem of the laboratory: scenes, what is right in them, and how far off a method is. A problem is a
-// source file that registers itself; it is made only when it is asked for, since its references take time.
+// A problem of the laboratory: scenes, their correct results, and how a method's error is computed. A problem
+// is a source file that registers itself. It is made only on demand, because its references take time.
 //
 //     const RegisteredProblem problem("5", "pendulum", [] { Problem p; …; return p; });
 #pragma once
@@ -15,37 +15,37 @@
 namespace lab {
 
 struct Metric {
-  std::string name;         ///< as in `metric=…`: lower case, the unit last unless it is a ratio
-  std::string label;        ///< for an axis
-  double target = -1;       ///< what the product must reach; negative: nothing is asked
-  double floor = 0;         ///< below it lies what rounding or the reference leaves uncertain; 0: none
-  std::string peers;        ///< what peers are known to reach, in words
-  double fast_target = -1;  ///< what the product's fast level must reach; negative: nothing is asked
+  std::string name;         ///< value of `metric=…`: lower case, with the unit last unless it is a ratio
+  std::string label;        ///< label of an axis
+  double target = -1;       ///< limit for the product; negative: none
+  double floor = 0;         ///< uncertainty by rounding or the reference; 0: none
+  std::string peers;        ///< known results of peers, in words
+  double fast_target = -1;  ///< limit for the product's fast level; negative: none
 
   double targetOf(const Method& method) const {
     return method.kind == Method::Kind::FAST ? fast_target : target;
   }
 };
 
-/// A bound on time that is asked for in terms of another time of the same run.
+/// A limit on time, relative to another time of this run.
 struct CpuBound {
-  std::string name;         ///< as in `metric=…`
-  std::string method;       ///< whose time is 1 …
-  int substeps = 1;         ///< … at this many sub-steps
-  double target = -1;       ///< how many of them the product may take; negative: nothing is asked
-  double fast_target = -1;  ///< the same for its fast level
-  std::string peers = {};   ///< what peers are known to reach, in words
-  // Without a method 1 is one of these:
+  std::string name;         ///< value of `metric=…`
+  std::string method;       ///< method whose time is the unit
+  int substeps = 1;         ///< sub-steps of that method
+  double target = -1;       ///< limit for the product, in units; negative: none
+  double fast_target = -1;  ///< limit for its fast level
+  std::string peers = {};   ///< known results of peers, in words
+  // Without a method, the unit is one of these:
   std::string of_case = {};     ///< the method's own time in the problem's case of this name
-  double unit_us = 0;           ///< so many microseconds
-  bool is_of_later = false;     ///< of the first tick: the method's median tick
-  std::string unit_label = {};  ///< what 1 is, in words
+  double unit_us = 0;           ///< this many microseconds
+  bool is_of_later = false;     ///< the method's median tick, as a unit for the first tick
+  std::string unit_label = {};  ///< description of the unit
 
   Metric metric() const;
 };
 
-/// What a tick may cost at most: 1 ms, 5 µs for each body, contact and joint, and 1 µs for each impact of the
-/// reserve.
+/// Time limit of a tick: 1 ms, 5 µs for each body, contact and joint, and 1 µs for each impact up to a
+/// maximum.
 struct TickBound {
   double base_us = 1000;
   double each_us = 5;
@@ -55,45 +55,45 @@ struct TickBound {
   double allowedUs(double bodies, double contacts, double joints, double impacts) const;
 };
 
-/// One scene and what is measured in it.
+/// A scene and its metrics.
 struct Case {
-  std::string name;   ///< empty if a problem has one case only; a suffix of its metrics
-  std::string label;  ///< the same in words; empty: its name
-  Scene scene;        ///< what is timed; a judge may run others
+  std::string name;   ///< suffix of its metrics; empty if the problem has only one case
+  std::string label;  ///< name for readers; empty: `name`
+  Scene scene;        ///< the timed scene; a judge may run others
   std::vector<Metric> metrics;
-  /// The error for each metric, in that order; what is not a number, or infinite, is drawn as a failure.
+  /// Returns the error of each metric, in their order. NaN or infinity is drawn as a failure.
   std::function<std::vector<double>(const Trial&)> judge;
   std::vector<CpuBound> cpu_bounds;
-  bool long_run = false;   ///< left out by --quick
-  int most_substeps = 64;  ///< where more would take minutes and tell nothing
-  double x = 0;            ///< its place in a map: stiffness, mass ratio
-  /// The product is drawn as a curve: also with more, shorter ticks, of which nothing is asked.
+  bool long_run = false;   ///< skipped by --quick
+  int most_substeps = 64;  ///< limit where more would take minutes without new insight
+  double x = 0;            ///< its position in a map: stiffness, mass ratio
+  /// Also draws the product with more, shorter ticks, without targets, so that it is a curve.
   bool draws_levels = false;
-  bool is_crowd = false;  ///< too many bodies for candidates and textbooks
+  bool is_crowd = false;  ///< too many bodies for candidates and textbook methods
   TickBound tick_bound;
 
-  /// The product's dearest tick in parts of what it may cost: a metric of every case.
+  /// Returns the metric of every case: the product's slowest tick relative to its limit.
   static Metric worstTick();
 };
 
 struct Problem {
   enum class Kind {
     DIAGRAM,  ///< error against run time
-    MAP,      ///< what stays bounded: cases × step
+    MAP,      ///< stability: cases × step
     COST,     ///< nanoseconds per body
   };
-  std::string id;    ///< as in `problem=…`
-  std::string name;  ///< the same, as a word
+  std::string id;    ///< value of `problem=…`
+  std::string name;  ///< the id as a word
   std::string title;
-  std::string text;       ///< what happens in it
-  std::string reference;  ///< what is right, and how it is known
-  std::string why;        ///< why it is asked: a sentence
-  std::string quoted;     ///< figures that were measured elsewhere, and where: Markdown
+  std::string text;       ///< events of the problem
+  std::string reference;  ///< the correct result and its source
+  std::string why;        ///< purpose, as a sentence
+  std::string quoted;     ///< figures measured elsewhere, with their source, in Markdown
   Kind kind = Kind::DIAGRAM;
   std::vector<Case> cases;
 };
 
-/// The registered problems' ids and names, in reading order: 1, 2, 3, 4, 4b, …
+/// A registered problem. allProblems() returns them in reading order: 1, 2, 3, 4, 4b and so on.
 struct ProblemEntry {
   std::string id;
   std::string name;

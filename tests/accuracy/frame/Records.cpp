@@ -31,7 +31,7 @@ std::string quoted(const std::string& text) {
   return json + '"';
 }
 
-// In the order of the enumerations.
+// Names in the order of the enumerations.
 const char* nameOf(Problem::Kind kind) {
   constexpr const char* kNames[] = {"diagram", "map", "cost"};
   return kNames[static_cast<int>(kind)];
@@ -42,7 +42,7 @@ const char* nameOf(Method::Kind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-// All that a case is measured by.
+// Returns all metrics of a case.
 std::vector<Metric> metricsOf(const Problem& problem, const Case& its_case) {
   std::vector<Metric> metrics = its_case.metrics;
   for (const CpuBound& bound : its_case.cpu_bounds) metrics.push_back(bound.metric());
@@ -134,7 +134,7 @@ void Records::add(const Problem& problem, const Case& its_case, const Method& me
     add(problem, its_case, its_case.metrics[i], method, substeps, measurement.errors[i], measurement);
   const bool counts_ticks = problem.kind == Problem::Kind::DIAGRAM && method.isJudgedAt(substeps);
   if (counts_ticks && !std::isnan(measurement.cpu.worst_part)) {
-    Measurement timed;  // without the reason of an error
+    Measurement timed;  // without the reason of a failure
     timed.cpu = measurement.cpu;
     add(problem, its_case, Case::worstTick(), method, substeps, timed.cpu.worst_part, timed);
   }

@@ -1,4 +1,4 @@
-// Where measurements go: a line each on stdout, and the files from which the report is drawn.
+// Writes measurements: a line each on stdout, and the files from which the report is made.
 #pragma once
 
 #include <cstdio>
@@ -8,29 +8,29 @@
 
 namespace lab {
 
-/// The metric's name with its case: `amplitude_5hz`.
+/// Returns the metric's name with its case, for example `amplitude_5hz`.
 std::string metricName(const Case& its_case, const Metric& metric);
 
 class Records {
  public:
-  /// Writes `points.csv` and `problems.json` in `directory`, which is made. Throws std::runtime_error if it
-  /// cannot. Empty: lines only. `runs`: how often each point is timed, if it is not as usual.
+  /// Writes `points.csv` and `problems.json` into `directory`, which is created; only lines if it is empty.
+  /// Throws std::runtime_error on failure. `runs` is how often each point is timed, if not the default.
   explicit Records(const std::string& directory, int runs = 0);
   ~Records();
   Records(const Records&) = delete;
   Records& operator=(const Records&) = delete;
 
-  /// What the report says about the problem and its cases.
+  /// Writes the report's text about the problem and its cases.
   void describe(const Problem& problem);
-  /// All metrics of one measurement.
+  /// Adds all metrics of one measurement.
   void add(const Problem& problem, const Case& its_case, const Method& method, int substeps,
            const Measurement& measurement);
 
-  /// How many times as long as the bound's 1 it took: lines for the product and its candidates.
+  /// Adds a time relative to the unit of the bound. Prints lines for the product and its candidates.
   void add(const Problem& problem, const Case& its_case, const CpuBound& bound, const Method& method,
            int substeps, const Measurement& measurement, double part);
 
-  /// Has the product met every target that it was judged by?
+  /// True if the product has met all targets by which it was judged.
   bool allMet() const { return m_all_met; }
 
  private:

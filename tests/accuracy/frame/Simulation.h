@@ -1,4 +1,4 @@
-// A scene as some method runs it.
+// A scene as run by a method.
 #pragma once
 
 #include <memory>
@@ -9,30 +9,30 @@
 
 namespace lab {
 
-/// What the cost of a tick is held against.
+/// Amount of work in a tick, from which its time limit is computed.
 struct Work {
-  double contacts = 0;  ///< that were solved for, once per tick each
-  double impacts = 0;   ///< that were handled at their moment
+  double contacts = 0;  ///< contacts that were solved, once per tick each
+  double impacts = 0;   ///< impacts that were handled at their exact time
 };
 
 class Simulation {
  public:
   virtual ~Simulation() = default;
 
-  /// Advances by `tick` seconds, in `substeps` equal parts. What is timed is this call and nothing else.
+  /// Advances by `tick` seconds in `substeps` equal parts. Only this call is timed.
   virtual void step(double tick, int substeps) = 0;
 
-  /// Where the body with this index of the scene is now.
+  /// Returns the state of the body with this index in the scene.
   virtual BodyState body(int index) const = 0;
-  /// The generalised coordinates, where the method solves the scene's equations; otherwise empty.
+  /// Returns the generalised coordinates if the method solves the scene's equations; otherwise empty.
   virtual std::span<const double> coordinates() const { return {}; }
-  /// How many contacts have begun so far; −1: not counted.
+  /// Returns how many contacts have begun so far; −1 if not counted.
   virtual long contacts() const { return -1; }
-  /// How many bodies it has given up moving.
+  /// Returns how many bodies the method no longer moves.
   virtual long frozen() const { return 0; }
-  /// What all ticks so far had to do; empty: not counted.
+  /// Returns the work of all ticks so far; nullopt if not counted.
   virtual std::optional<Work> work() const { return {}; }
-  /// How often an iteration inside the method did not converge.
+  /// Returns how often an iteration in the method did not converge.
   virtual long failures() const { return 0; }
 };
 

@@ -1,4 +1,4 @@
-// One method at one number of sub-steps, as a problem's judge uses it.
+// One method at one number of sub-steps, for use by a problem's judge.
 #pragma once
 
 #include <stdexcept>
@@ -8,18 +8,18 @@
 
 namespace lab {
 
-/// The run cannot be used: it blew up, collapsed or crashed. It is a result, and is drawn as one.
+/// The run is unusable: it blew up, collapsed or crashed. This is a result and is drawn as one.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The method has no way to express the scene: there is no result.
+/// The method cannot express the scene, so there is no result.
 struct Inexpressible : std::runtime_error {
   Inexpressible() : std::runtime_error("the method cannot express the scene") {}
 };
 
-/// A scene as a method runs it. A method that chooses its sub-steps itself is asked for more by shorter
-/// ticks, as a world that runs faster has them: `each` of them are one of the scene's.
+/// A scene at a method's pace. A method that chooses its sub-steps itself gets more of them by shorter ticks,
+/// like a faster world: `each` of these make one tick of the original scene.
 struct ScenePace {
   Scene scene;
   int each = 1;
@@ -30,15 +30,15 @@ class Trial {
  public:
   Trial(const Method& method, int substeps) : m_method(method), m_substeps(substeps) {}
 
-  /// Throws Inexpressible.
+  /// Builds the scene. Throws Inexpressible.
   SimulationPtr build(const Scene& scene) const;
 
-  /// Advances by one tick. Throws Failure if a body is then at no place that is a number below 1e12 m (or
-  /// coordinates below 1e30).
+  /// Advances by one tick. Throws Failure unless all positions are then below 1e12 m (and coordinates below
+  /// 1e30).
   void step(Simulation& simulation, const Scene& scene) const;
 
-  /// Runs the whole scene and calls `after(tick, simulation)` with tick = 1, 2, … after each. Returns the
-  /// simulation as it ends.
+  /// Runs the whole scene and calls `after(tick, simulation)` after each tick, with tick = 1, 2, … Returns
+  /// the final simulation.
   template <class After>
   SimulationPtr run(const Scene& scene, After after) const {
     const ScenePace pace = paceOf(m_method, scene, m_substeps);

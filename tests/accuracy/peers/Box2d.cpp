@@ -1,7 +1,7 @@
-// Box2D 2.4.1 as Debian builds it. `substeps` are whole steps of tick / substeps, with the velocity and
-// position iterations that its manual recommends. Its defaults stay, but nothing sleeps unless the scene says
-// so; boxes are made smaller by the skin that it puts around polygons, so that they touch where the scene
-// says, unless it asks for full sides.
+// Box2D 2.4.1 as built by Debian. `substeps` are whole steps of tick / substeps, with the velocity and
+// position iterations that its manual recommends. It uses Box2D's defaults, except that nothing sleeps unless
+// the scene allows it, and boxes are reduced by Box2D's polygon skin, so that they touch where the scene
+// says, unless it requests full sides.
 #include <box2d/box2d.h>
 
 #include <algorithm>
@@ -148,7 +148,7 @@ class Box2d : public Simulation {
   float m_skin;
   double m_time = 0;
   b2Body* m_ground = nullptr;
-  std::vector<b2Body*> m_bodies;  // the world's, by index
+  std::vector<b2Body*> m_bodies;  // owned by the world, by index
 };
 
 const RegisteredMethod method({"box2d", "Box2D 2.4", "2.4.1", Method::Kind::PEER,

@@ -1,6 +1,6 @@
-// Chipmunk 7.0.3 as Debian builds it. `substeps` are whole steps of tick / substeps with its 10 iterations.
-// Its collision slop is set to Box2D's, for its own is a tenth of a body of these scenes; other defaults
-// stay: by these nothing sleeps.
+// Chipmunk 7.0.3 as built by Debian. `substeps` are whole steps of tick / substeps with its 10 iterations.
+// Its collision slop is set to Box2D's, because its default is a tenth of a body in these scenes. Other
+// defaults are unchanged; with these nothing sleeps.
 #include <chipmunk/chipmunk.h>
 
 #include <cmath>
@@ -88,13 +88,13 @@ class Chipmunk : public Simulation {
       cpBodySetVelocity(made, vect(body.velocity));
       cpBodySetAngularVelocity(made, body.spin);
     }
-    // Its drag belongs to the space, and is what is left of a velocity after a second.
+    // Drag is a property of the space: the part of a velocity that is left after a second.
     if (body.linear_drag > 0) cpSpaceSetDamping(m_space, std::exp(-body.linear_drag / body.mass));
     for (const Shape& shape : body.shapes) addShape(made, body, shape);
     m_bodies.push_back(made);
   }
 
-  // A pair has the product of the two coefficients.
+  // Chipmunk uses the product of a pair's two coefficients.
   void addShape(cpBody* made, const Body& body, const Shape& shape) {
     cpShape* its_shape =
         shape.kind == Shape::Kind::CIRCLE

@@ -1,4 +1,4 @@
-// 21: bars that turn, shot at long walls.
+// 21: rotating bars, shot at long walls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,14 +9,14 @@
 namespace lab {
 namespace {
 
-constexpr Vec kBar{0.3, 0.05};  // half
+constexpr Vec kBar{0.3, 0.05};  // half width and half height
 constexpr double kWallAt = 50;  // m
 constexpr double kHalfWall = 0.5;
-constexpr double kHeavy = 100;         // of a bar's mass
-constexpr double kFastest = 6;         // a power of ten, of cells a tick
-constexpr double kTicksAfter = 2;      // in which it must have met the wall
-constexpr double kMaxTicksToWall = 3;  // in which it arrives there
-constexpr double kTurned = 0.5;        // rad, likewise a tick: the bar may have passed the wall's end
+constexpr double kHeavy = 100;         // the wall's mass relative to a bar's
+constexpr double kFastest = 6;         // exponent of 10, in cells per tick
+constexpr double kTicksAfter = 2;      // ticks in which it must have met the wall
+constexpr double kMaxTicksToWall = 3;  // ticks in which it arrives there
+constexpr double kTurned = 0.5;        // rad per tick, above which the bar may have passed the wall's end
 constexpr int kShots = 1000;
 constexpr int kProductShots = 10000;
 
@@ -56,7 +56,7 @@ Scene shot(Motion motion, int number, naiad::SplitMix64& random) {
   return scene;
 }
 
-// Beyond the wall, and level with it? A wall that turns shows its other side.
+// True if the bar is beyond the wall and level with it. Uses the wall's axes, because it may turn.
 bool isThrough(const Scene& scene, const BodyState& bar, const BodyState& target) {
   const Vec d = bar.position - target.position;
   const double c = std::cos(target.angle), s = std::sin(target.angle);

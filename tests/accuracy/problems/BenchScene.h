@@ -1,5 +1,5 @@
-// The scenes of the bench `physics` as the laboratory's own, so that both speak of the same bodies. Their y
-// points down, and gravity with it.
+// Converts scenes of the bench suite `physics` to the laboratory's, so that both use equal bodies. In the
+// bench's scenes y and gravity point down.
 #pragma once
 
 #include <vector>
@@ -13,10 +13,10 @@ namespace lab {
 Scene sceneOf(const bench::physics::Scene& scene);
 
 bench::physics::Pose poseOf(const BodyState& state);
-/// Where the bodies of the scene are.
+/// Returns the poses of all bodies of the scene.
 std::vector<bench::physics::Pose> posesOf(const bench::physics::Scene& scene, const Simulation& simulation);
 
-/// Dynamic bodies that are outside the scene's room, and those that the method has given up.
+/// Counts dynamic bodies outside the scene's room, and those that the method no longer moves.
 long countLost(const bench::physics::Scene& scene, const Simulation& simulation);
 
 }  // namespace lab

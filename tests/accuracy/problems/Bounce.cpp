@@ -7,7 +7,7 @@ namespace {
 constexpr double kGravity = 10;
 constexpr double kRadius = 0.5;
 
-// A ball above ground at 0; heights are those of its lowest point.
+// Makes a ball above ground at 0. Heights are those of its lowest point.
 Scene ballOverGround(double height, double restitution, int ticks) {
   Scene scene;
   Body bouncing = ball({0, height + kRadius}, {0, 0}, kRadius);
@@ -18,7 +18,7 @@ Scene ballOverGround(double height, double restitution, int ticks) {
   return scene;
 }
 
-// The height at which the ball would turn, if nothing were in its way.
+// Returns the height to which the ball would rise without obstacles.
 double apexOf(const BodyState& state) {
   return state.position.y - kRadius + state.velocity.y * state.velocity.y / (2 * kGravity);
 }
@@ -92,7 +92,7 @@ Problem makeBouncing() {
   return problem;
 }
 
-// The wall is 2.3 ticks away, so there is a rest of a tick to use.
+// The wall is 2.3 ticks away, so the impact is within a tick.
 Problem makeFast() {
   constexpr double kSpeed = 200;
   constexpr int kTicks = 4;

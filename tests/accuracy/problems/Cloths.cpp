@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMesh = 1;  // m
 
-// Of threads, over their length at rest.
+// Returns the largest stretch of a thread relative to its rest length.
 double stretchOf(const Scene& scene, const Simulation& simulation) {
   double most = 0;
   for (const Joint& joint : scene.joints) {

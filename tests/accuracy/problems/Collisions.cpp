@@ -40,8 +40,8 @@ Case freeCradle() {
   return cradle;
 }
 
-// Hung on rods of 5 m; the first is let go at 30°. After the impact every ball's speed, counted from its
-// energy, must be 0 or the first one's.
+// A cradle on rods of 5 m, whose first ball is released at 30°. After the impact each ball's speed, computed
+// from its energy, must be 0 or the first one's.
 Case hungCradle() {
   constexpr double kRod = 5;
   constexpr double kGravity = 10;
@@ -88,7 +88,7 @@ Problem makeCradle() {
   return problem;
 }
 
-// Pairs at different offsets, so far apart that they are alone.
+// Pairs with different offsets, too far apart to affect each other.
 Case billiard(double speed, const std::string& peers) {
   constexpr int kPairs = 24;
   constexpr double kApart = 32;
@@ -104,7 +104,7 @@ Case billiard(double speed, const std::string& peers) {
     shot.fast = true;
     shots.scene.bodies.push_back(shot);
     shots.scene.bodies.push_back(elasticBall({kWay + 2 * kRadius, y}, {0, 0}));
-    // Frictionless and equal: the struck ball takes the part of the velocity along the line of centres.
+    // The struck ball gets the velocity along the line of centres: no friction, and equal masses.
     const Vec normal{std::sqrt(4 * kRadius * kRadius - offset * offset), -offset};
     right.push_back(dot(normal, {speed, 0}) / dot(normal, normal) * normal);
   }
@@ -139,7 +139,7 @@ Problem makeBilliard() {
   return problem;
 }
 
-// Two boxes between which and a wall the light one goes back and forth.
+// Two boxes and a wall; the light box moves back and forth between the heavy one and the wall.
 Problem makeGalperin() {
   constexpr int kTicks = 300;
   constexpr double kHalf = 0.1;
@@ -171,7 +171,7 @@ Problem makeGalperin() {
         {"count", "error of the number of collisions, of " + std::to_string(right), 0, 0, "none can"},
         {"speed", "error of the heavy one's speed at the end", -1, 1e-15, ""}};
     const double theta = std::atan(std::sqrt(1 / mass));
-    // Reflections in a wedge turn the velocity by twice its angle, forwards and backwards.
+    // Two reflections in a wedge turn the velocity by twice its angle.
     const double turned = std::cos(2 * theta * ((right + 1) / 2));
     const double final_speed = -turned;
     shove.judge = [scene = shove.scene, right, final_speed](const Trial& trial) {

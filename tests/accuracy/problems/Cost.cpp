@@ -1,4 +1,4 @@
-// What a body costs by what it uses: the columns of the cost page.
+// The cost of a body by the features that it uses: the columns of the cost page.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -14,11 +14,11 @@ namespace {
 constexpr int kBodies = 1000;
 constexpr int kRow = 32;
 constexpr double kApart = 3;
-constexpr int kSettled = 30;  // ticks, after which what rests is asleep
-constexpr int kTicks = 20;    // that are measured
+constexpr int kSettled = 30;  // ticks after which resting bodies are asleep
+constexpr int kTicks = 20;    // measured ticks
 constexpr int kWindows = 5;
 
-// What valgrind counts; it does the same in every run, however busy the machine is.
+// Returns valgrind's count of instructions, which is equal in every run, however busy the machine is.
 double instructionsOf(const std::string& name, const std::string& method, int ticks) {
   const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null '" +
                               std::filesystem::read_symlink("/proc/self/exe").string() + "' --work cost " +
@@ -61,7 +61,7 @@ void addShapes(Scene& scene) {
   for (Body& body : scene.bodies) body.shapes = {{Shape::Kind::CIRCLE, 0.5, {}}};
 }
 
-// Boxes on shelves.
+// Puts boxes on shelves.
 void lay(Scene& scene, bool rotates) {
   constexpr double kHalf = 0.5;
   for (Body& body : scene.bodies) {

@@ -1,4 +1,4 @@
-// 24: bodies that hear each other and push nothing.
+// 24: bodies that receive collision events but push nothing.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace {
 constexpr double kRadius = 0.5;
 constexpr int kTicks = 60;
 
-// Part of the pairs that overlap and are not heard of, or are heard of and do not overlap.
+// Measures the share of wrong pairs: those that overlap without an event, or have an event without overlap.
 Case hearing(const std::string& name, Scene scene, long pairs) {
   Case heard;
   heard.name = name;
@@ -38,7 +38,7 @@ Scene grid(int side) {
   return scene;
 }
 
-// The same bodies, HARD: what the time of the others is compared with.
+// The bodies of the other case, but HARD, as a reference for the time.
 Case hardApart(int side) {
   Case hard = hearing("hard" + std::to_string(side * side), grid(side), 0);
   hard.label = std::to_string(side * side) + " apart, HARD";
@@ -60,7 +60,7 @@ Case apart(int side) {
   return soft;
 }
 
-// Each overlaps every other one.
+// All bodies overlap each other.
 Case together(int count) {
   naiad::SplitMix64 random(24);
   Scene scene;

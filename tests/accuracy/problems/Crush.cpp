@@ -1,4 +1,4 @@
-// 29: thousands in one cell.
+// 29: thousands of bodies in one cell.
 #include <cmath>
 #include <string>
 
@@ -38,7 +38,7 @@ Case circles(int count) {
   return crush("circles" + std::to_string(count), std::to_string(count) + " circles", std::move(scene));
 }
 
-// The small ones lie within the large ones.
+// Small circles inside large ones.
 Case sizes(int count) {
   naiad::SplitMix64 random(32);
   Scene scene;
@@ -60,7 +60,7 @@ Case boxes(int count) {
   return crush("boxes" + std::to_string(count), std::to_string(count) + " boxes that turn", std::move(scene));
 }
 
-// The book's Objects, each of which moves a little.
+// Plain Objects of the book, each moving a little.
 Case objects(int count, bool is_hard) {
   constexpr double kEach = 2;  // µs
   naiad::SplitMix64 random(31);
@@ -75,7 +75,7 @@ Case objects(int count, bool is_hard) {
   const std::string kind = is_hard ? "HARD" : "SOFT";
   Case crowd = crush("objects" + std::to_string(count) + (is_hard ? "_hard" : "_soft"),
                      std::to_string(count) + " plain Objects, " + kind, std::move(scene));
-  crowd.metrics[0].fast_target = -1;  // no bodies, so no levels
+  crowd.metrics[0].fast_target = -1;  // only bodies have a fast level
   if (count == 10'000) {
     crowd.cpu_bounds = {{.name = "time_of_each",
                          .method = "",

@@ -48,7 +48,7 @@ Case quadratic() {
   system.quadratic = kQuadratic;
   falling.scene.equations = equationsOf(system);
   falling.metrics = pathMetrics(1e-8, 1e-16);
-  // Both where it is and how fast, each in its own scale.
+  // Compares position and speed, each in its own scale.
   const Path path = pathOf(kTicks, [](Quad t) {
     const Quad s = Quad(kGravity) * t / kTerminal;
     const Quad log_cosh = s + log((1 + exp(-2 * s)) / 2);

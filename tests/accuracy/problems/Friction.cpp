@@ -1,4 +1,4 @@
-// 12: friction on a slope and on a floor. 13: a disc that rolls down.
+// 12: friction on a slope and on a floor. 13: a disc rolling down.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 constexpr double kFriction = 0.5;
 constexpr double kGravity = 10;
 
-// A slope that falls to the right by `angle` through the origin, with `body` on it at the origin.
+// Makes a slope through the origin that descends to the right by `angle`, with `body` on it at the origin.
 Scene onSlope(double angle, Body body, double lift, int ticks) {
   Scene scene;
   const Vec up{std::sin(angle), std::cos(angle)};
@@ -34,7 +34,7 @@ Scene crateOnSlope(double angle, int ticks) {
 
 Case threshold() {
   constexpr int kTicks = 120;
-  constexpr double kStill = 1e-3;  // m/s: beyond the threshold by 0.0013° it would be faster after 4 s
+  constexpr double kStill = 1e-3;  // m/s; 0.0013° beyond the threshold it would be faster after 4 s
   constexpr double kDegree = M_PI / 180;
   Case slope;
   slope.name = "";

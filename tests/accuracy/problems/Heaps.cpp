@@ -1,4 +1,4 @@
-// 25: heaps that fall, turn and are smashed, beside Box2D. 26: heaps that stand.
+// 25: heaps that fall, turn and are smashed, compared with Box2D. 26: heaps that stand.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,15 +17,15 @@ namespace {
 namespace heaps = bench::physics;
 
 constexpr int kTicksPerLook = 10;
-constexpr int kPeerSteps = 4;  // of Box2D: 1/120 s each
+constexpr int kPeerSteps = 4;  // steps of Box2D per tick: 1/120 s each
 
 double meanOf(const std::vector<double>& values) {
   return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / std::ssize(values);
 }
 
 struct Seen {
-  double overlap = 0;  ///< mean of the deepest ones of all looks, m
-  double lost = 0;     ///< most bodies at a look or the end
+  double overlap = 0;  ///< mean of the deepest overlap over all checks, m
+  double lost = 0;     ///< maximum of lost bodies over all checks and the end
 };
 
 Seen watch(const Trial& trial, const heaps::Scene& scene, const Scene& own) {
@@ -42,9 +42,9 @@ Seen watch(const Trial& trial, const heaps::Scene& scene, const Scene& own) {
 }
 
 struct Asked {
-  double least_ratio = 1;  ///< Box2D's time over that of the fast level
+  double least_ratio = 1;  ///< Box2D's time relative to the fast level's
   double most_overlap = 0;
-  std::string peers;  ///< overlap
+  std::string peers;  ///< overlap of peers
   std::string peers_time;
 };
 
@@ -129,7 +129,7 @@ Problem makeHeaps() {
   return problem;
 }
 
-// A pyramid of so many rows, which touch.
+// Makes a pyramid with this many rows that touch.
 heaps::Scene pyramidOf(int rows) {
   heaps::Scene scene = heaps::makePyramid60();
   const heaps::Body box = scene.bodies[1];

@@ -1,4 +1,4 @@
-// 27: what hangs on hinges: a chain with a heavy end, and a net.
+// 27: bodies on hinges: a chain with a heavy end, and a net.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ namespace {
 namespace heaps = bench::physics;
 
 constexpr int kTicksPerLook = 10;
-constexpr int kPeerSteps = 4;  // of Box2D: 1/120 s each
+constexpr int kPeerSteps = 4;  // steps of Box2D per tick: 1/120 s each
 
 Case hanging(const std::string& name, const std::string& label, const heaps::Scene& scene) {
   Case its_case;
@@ -57,10 +57,10 @@ Case net() {
   return falling;
 }
 
-// Long enough for the net to fall all its way.
+// Long enough for the net to fall to the end.
 Case longNet() {
   constexpr int kTicks = 300;
-  constexpr double kBounded = 10;  // m: a tenth of its side; it hangs together
+  constexpr double kBounded = 10;  // m: a tenth of its side, so it has not come apart
   heaps::Scene scene = heaps::makeGrid100();
   scene.ticks = kTicks;
   Case falling = hanging("grid100_long", "the net for 10 s", scene);

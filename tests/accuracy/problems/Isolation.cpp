@@ -1,4 +1,4 @@
-// 23: a group alone, and beside another one.
+// 23: a group alone, and with another one far away.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ constexpr Vec kHalf{0.5, 0.25};
 
 enum class Held { ROD, SPRING, NOTHING };
 
-// Two boxes that fall onto a floor, one of them turning.
+// Adds two boxes that fall onto a floor. One of them rotates.
 void addPair(Scene& scene, Held held, Vec at, Vec velocity) {
   const int first = static_cast<int>(scene.bodies.size());
   for (int i = 0; i < 2; ++i) {
@@ -38,13 +38,13 @@ Scene alone(Held held) {
   Scene scene;
   scene.gravity = {0, -10};
   scene.ticks = kTicks;
-  scene.may_sleep = true;  // one group may, while the other goes on
+  scene.may_sleep = true;  // one group may sleep while the other moves
   addPair(scene, held, {0, 3}, {1, 0});
   addFloor(scene, 0);
   return scene;
 }
 
-// Another group far away, which rests, flies, or lies on a floor of its own.
+// Adds another group far away, which rests, flies, or lies on its own floor.
 Scene accompanied(Held held, double speed, bool has_floor) {
   Scene scene = alone(held);
   addPair(scene, held, {kFar, has_floor ? 0.25 : 3.0}, {0, speed});

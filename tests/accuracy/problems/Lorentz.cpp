@@ -1,4 +1,4 @@
-// 22: what a magnet turns, free and held.
+// 22: bodies in a magnetic field, free and constrained.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,11 +9,11 @@ namespace lab {
 namespace {
 
 constexpr double kSpeed = 3;   // m/s: a tenth of a cell a tick
-constexpr double kLength = 5;  // of the rod
+constexpr double kLength = 5;  // length of the rod
 constexpr double kRadius = 0.25;
 constexpr int kTicks = 100;
 
-// Turns a velocity by `rate` rad a tick, clockwise where y points up.
+// Turns a velocity by `rate` rad per tick, clockwise if y points up.
 Field magnet(double rate) {
   return [rate](double /*t*/, const BodyState& state) {
     const double omega = rate / kTick;
@@ -21,7 +21,7 @@ Field magnet(double rate) {
   };
 }
 
-// How far it is off a path by formula, and how much its speed changes.
+// Measures the distance from a path given by a formula, and the change of the speed.
 using Formula = Vec (*)(double t, double omega);
 
 Case along(const std::string& name, Scene scene, double rate, Formula path, double far, double drift) {
@@ -62,7 +62,7 @@ Case freely(double rate, const std::string& name) {
   return along(name, scene, rate, onCircle, 1e-6, 1e-6);
 }
 
-// Pressed onto it.
+// The field presses the ball onto the floor.
 Case overFloor(double rate, const std::string& name) {
   Scene scene;
   scene.bodies = {ball({0, kRadius}, {kSpeed, 0}, kRadius), wall({0, -0.5}, {100, 0.5})};

@@ -10,14 +10,14 @@
 namespace lab {
 namespace {
 
-constexpr double kHalf = 0.5;    // of a box's sides
+constexpr double kHalf = 0.5;    // half a box's side
 constexpr double kApproach = 3;  // m/s: a tenth of a cell a tick
 
-// Of all bodies at once.
+// Sums over all bodies.
 struct Whole {
   Vec momentum;
   double energy = 0;
-  double sum = 0;  // of momenta's sizes: what rounding is relative to
+  double sum = 0;  // sum of the momenta's magnitudes, relative to which rounding is measured
 };
 
 Whole motionOf(const Scene& scene, const Simulation& simulation) {
@@ -32,7 +32,7 @@ Whole motionOf(const Scene& scene, const Simulation& simulation) {
   return all;
 }
 
-// What impacts may not change, and what they may not give.
+// Impacts must not change the momentum or add energy.
 Case meeting(const std::string& name, Scene scene) {
   Case met;
   met.name = name;
@@ -54,7 +54,7 @@ Case meeting(const std::string& name, Scene scene) {
   return met;
 }
 
-// Evenly on a circle, towards its middle.
+// Boxes placed evenly on a circle, moving towards its centre.
 Scene inwards(int count, double radius, double first_angle) {
   Scene scene;
   scene.ticks = 60;
@@ -67,10 +67,10 @@ Scene inwards(int count, double radius, double first_angle) {
   return scene;
 }
 
-// Circles that touch, in a row, each heavier than the one before.
+// Touching circles in a row, each heavier than the one before.
 Scene heavierAndHeavier() {
   constexpr int kCount = 100;
-  constexpr double kHeaviest = 4;  // a power of ten
+  constexpr double kHeaviest = 4;  // exponent of 10
   Scene scene;
   scene.ticks = 120;
   for (int i = 0; i < kCount; ++i) {
@@ -82,7 +82,7 @@ Scene heavierAndHeavier() {
   return scene;
 }
 
-// Boxes side by side and on each other, each with a velocity of its own.
+// Boxes next to and on top of each other, each with its own velocity.
 Scene block(int side, std::uint64_t seed) {
   constexpr double kFastest = 0.6;  // m/s
   naiad::SplitMix64 random(seed);

@@ -8,7 +8,7 @@ namespace lab {
 namespace {
 
 constexpr int kOrbits = 20;
-constexpr int kTicksPerOrbit = 500;  // 8 sub-steps of a method with 4 evaluations: 16,000 of them
+constexpr int kTicksPerOrbit = 500;  // 16,000 evaluations with 8 sub-steps of a method that needs 4 each
 constexpr double kEccentricity = 0.6;
 constexpr double kGravity = 10;
 constexpr int kPendulumTicks = 150;
@@ -18,7 +18,7 @@ double keplerMu() {
   return rate * rate;
 }
 
-// Where the planet is after part of an orbit, by Kepler's equation.
+// Returns the planet's position after this many orbits, by Kepler's equation.
 std::vector<double> keplerPlace(Quad orbits) {
   const Quad mean = 2 * kQuadPi * (orbits - floorq(orbits));
   Quad anomaly = mean;
@@ -46,7 +46,7 @@ Case kepler() {
     const double distance = length(state.position);
     return -mu / (distance * distance * distance) * state.position;
   };
-  // Steps of equal length in time; what is unavoidable is the rounding of 10,000 of them.
+  // Steps have equal lengths in time. The rounding of 10,000 steps is unavoidable.
   orbit.metrics = {{"end_error", "distance from the start after 20 orbits, of the semi-major axis", 1e-5,
                     1e-12, "semi-implicit Euler .11, Verlet .047, RK4 1.8e-6"},
                    {"sup_error", "largest distance from the true place", -1, 1e-12, ""},

@@ -1,4 +1,4 @@
-// How far a run strays from a known path.
+// Measures how far a run deviates from a known path.
 #pragma once
 
 #include <functional>
@@ -9,37 +9,37 @@
 
 namespace lab {
 
-/// What is compared, at the end of ticks 0, 1, 2, …
+/// Reference values at the end of each tick, from tick 0 on.
 using Path = std::vector<std::vector<double>>;
 
-/// By a closed form of time, rounded to double.
+/// Computes the path by a closed form of time, rounded to double.
 Path pathOf(int ticks, const std::function<std::vector<Quad>(Quad t)>& place);
 
 using Read = std::function<std::vector<double>(const Simulation&)>;
 
 struct PathErrors {
   double end = 0;
-  double sup = 0;  ///< the largest over the run
+  double sup = 0;  ///< maximum over the run
   double l2 = 0;   ///< root mean square over the run
 };
 
-/// Differences in the Euclidean norm, divided by `scale`.
+/// Compares the values in the Euclidean norm, divided by `scale`.
 PathErrors compare(const Trial& trial, const Scene& scene, const Path& reference, double scale,
                    const Read& read);
 
-/// x and y of a body.
+/// Returns x and y of a body.
 std::vector<double> positionOf(const Simulation& simulation, int index = 0);
-/// The coordinates of the scene's equations. Throws Inexpressible if the method has none.
+/// Returns the coordinates of the scene's equations. Throws Inexpressible if the method has none.
 std::vector<double> coordinatesOf(const Simulation& simulation);
 
-/// end_error, sup_error and l2_error; the target belongs to the first two.
+/// Returns end_error, sup_error and l2_error. The target applies to the first two.
 std::vector<Metric> pathMetrics(double target, double floor, const std::string& peers = "");
 std::vector<double> inOrder(const PathErrors& errors);
-/// A judge for these metrics.
+/// Returns a judge for these metrics.
 std::function<std::vector<double>(const Trial&)> alongPath(const Scene& scene, const Path& path, double scale,
                                                            const Read& read);
 
-/// 1e2 → "1e2": for names of cases.
+/// Returns "1e2" for 1e2, for names of cases.
 std::string power(double value);
 
 }  // namespace lab

@@ -11,7 +11,7 @@ constexpr int kTicks = 1800;
 constexpr double kGravity = 10;
 constexpr double kStart = M_PI / 2;
 
-// The complete elliptic integral of the first kind, by the arithmetic-geometric mean.
+// Returns the complete elliptic integral of the first kind by the arithmetic-geometric mean.
 Quad ellipticK(Quad k) {
   Quad a = 1;
   Quad b = sqrt(1 - k * k);
@@ -37,8 +37,8 @@ Swing swingOf(const BodyState& state) {
   return {std::atan2(state.position.x, -state.position.y), cross(state.position, state.velocity) / square};
 }
 
-// When, in units of a tick, the angle passes 0 between two ticks, by the quintic through angle, rate and the
-// acceleration that belongs to the angle.
+// Returns when the angle passes 0 between two ticks, in ticks, by the quintic through angle, rate and the
+// acceleration that follows from the angle.
 double crossing(const Swing& a, const Swing& b, double h) {
   const double da = a.rate * h;
   const double db = b.rate * h;
@@ -60,7 +60,7 @@ double crossing(const Swing& a, const Swing& b, double h) {
   return (low + high) / 2;
 }
 
-// Period, energy and length of one run.
+// Returns the errors of period, energy and length of a run.
 std::vector<double> judgePendulum(const Trial& trial, const Scene& scene) {
   double first = -1;
   double last = -1;
@@ -77,7 +77,7 @@ std::vector<double> judgePendulum(const Trial& trial, const Scene& scene) {
       ++crossings;
     }
     before = now;
-    // From the horizontal at rest the energy is 0; what it could become at most is g × length.
+    // The start is at rest and horizontal, so the energy is 0. Its possible range is g × length.
     const double energy = dot(state.velocity, state.velocity) / 2 + kGravity * state.position.y;
     worst_energy = std::max(worst_energy, std::abs(energy) / kGravity);
     worst_length = std::max(worst_length, std::abs(length(state.position) - 1));

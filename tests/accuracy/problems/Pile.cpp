@@ -1,4 +1,4 @@
-// 10b: general piles. A pyramid that stands, and a drum full of boxes that turns.
+// 10b: general piles. A pyramid that stands, and a rotating drum full of boxes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,14 +15,14 @@ namespace heaps = bench::physics;
 constexpr double kFriction = 0.5;
 constexpr int kTicks = 300;  // 10 s
 constexpr int kRows = 30;
-constexpr double kCrate = 0.5;  // half the width of a pyramid's crate
+constexpr double kCrate = 0.5;  // half the width of a crate in the pyramid
 constexpr int kBoxes = 500;
-constexpr double kBox = 0.125;  // … and of a box in the drum
+constexpr double kBox = 0.125;  // half the width of a box in the drum
 constexpr double kDrum = 10;    // from its centre to the middle of each wall
 constexpr int kFallen = 30;     // ticks until the boxes in the drum have met
-constexpr double kOut = 16;     // m from its centre: a box that got out
+constexpr double kOut = 16;     // distance from its centre, in metres, of a box that got out
 
-// How deep one square overlaps another at most, of all bodies but the first.
+// Returns the deepest overlap of two squares, among all bodies except the first.
 double deepest(const Simulation& simulation, int count, double half) {
   heaps::Body square;
   square.parts = {{.half_width = half, .half_height = half}};

@@ -1,4 +1,4 @@
-// 18: numbers that no world should be given.
+// 18: values that no world should be given.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -12,7 +12,7 @@ constexpr int kTicks = 60;
 constexpr int kPile = 5;
 constexpr double kGravity = 10;
 
-// A pile that minds its own business.
+// A pile that must not be affected.
 Scene pile() {
   Scene scene;
   for (int i = 0; i < kPile; ++i) scene.bodies.push_back(crate({0, 0.5 + i}, {0.5, 0.5}, 0.5));
@@ -26,7 +26,7 @@ bool same(const BodyState& a, const BodyState& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-// The pile's last state. Numbers that are none are what is asked for here, so nothing is checked on the way.
+// Returns the pile's final state. Nothing is checked during the run, because invalid numbers may occur.
 std::vector<BodyState> runPile(const Trial& trial, const Scene& scene) {
   const SimulationPtr simulation = trial.build(scene);
   for (int tick = 0; tick < scene.ticks; ++tick) simulation->step(scene.tick, trial.substeps());
@@ -67,7 +67,7 @@ Case spike() {
     for (int i = 0; i < kPile; ++i) {
       const double distance =
           length(simulation->body(i).position - scene.bodies[static_cast<std::size_t>(i)].position);
-      displaced += distance <= 1 ? 0 : 1;  // NaN counts
+      displaced += distance <= 1 ? 0 : 1;  // counts NaN, too
     }
     return std::vector<double>{static_cast<double>(displaced)};
   };

@@ -22,7 +22,7 @@ Case rope(double ratio) {
   }
   scene.gravity = {0, -kGravity};
   scene.ticks = 300;
-  double scale = 0;  // what the energy could change by, if all hung straight down
+  double scale = 0;  // change of the energy if everything hung straight down
   for (const Body& body : scene.bodies) scale += body.mass * kGravity * body.position.x;
   swinging.judge = [scene, scale](const Trial& trial) {
     double stretch = 0;
@@ -41,7 +41,7 @@ Case rope(double ratio) {
     });
     return std::vector<double>{stretch, drift};
   };
-  // 20 sub-steps of a tick of 1/60 s are 40 of this one; the next lower count is measured.
+  // 20 sub-steps of a tick of 1/60 s equal 40 of this one; the next lower measured number is used.
   if (ratio <= 1e3) swinging.cpu_bounds = {{"cpu_ratio", "xpbd", 32, 1.5}};
   const std::string peers = ratio == 1     ? "Box2D .097, XPBD 20×1 .0039, direct solve 4e-13"
                             : ratio == 100 ? "Box2D .14, XPBD 20×1 .018, direct solve 4e-13"

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kGravity = 10;
 
-// The a of y = a cosh(x/a) for a rope of this length between two points at one height, by Newton.
+// Returns a of y = a cosh(x/a) for a rope of this length between points at equal heights, by Newton.
 double catenaryOf(double span, double its_length) {
   Quad a = span / 2;
   for (int i = 0; i < 200; ++i) {
@@ -30,7 +30,7 @@ Case catenary(int links) {
   hanging.name = "catenary" + std::to_string(links);
   hanging.label = "catenary of " + std::to_string(links) + " links";
   Scene& scene = hanging.scene;
-  // From a V, whose arms are straight.
+  // Starts as a V with straight arms.
   const double depth = std::sqrt(kLength * kLength - kSpan * kSpan) / 2;
   const auto place = [&](int i) {
     const double part = 2.0 * i / links;  // 0 … 2
@@ -54,7 +54,7 @@ Case catenary(int links) {
   return hanging;
 }
 
-// Slender, and loaded so that it bends by a hundredth of its length: there the linear theory holds to 1e-4.
+// A slender beam that bends by a hundredth of its length, for which the linear theory holds to 1e-4.
 Beam slender(int elements) {
   Beam beam;
   beam.length = 10;
@@ -87,7 +87,7 @@ Case bending(int elements) {
   return bent;
 }
 
-// The first root of cos β cosh β = −1, by Newton.
+// Returns the first root of cos β cosh β = −1, by Newton's method.
 Quad firstRoot() {
   Quad beta = 1.875;
   for (int i = 0; i < 20; ++i) {
@@ -98,8 +98,8 @@ Quad firstRoot() {
   return beta;
 }
 
-// How strongly a motion, seen at the ends of ticks through a window that fades in and out, contains a
-// frequency.
+// Returns the amplitude of a frequency in a motion sampled at the ends of ticks, with a window that fades in
+// and out.
 double presence(const std::vector<double>& motion, double tick, double frequency) {
   constexpr double kTurn = 2 * 3.14159265358979323846;
   std::complex<double> sum;
@@ -111,7 +111,7 @@ double presence(const std::vector<double>& motion, double tick, double frequency
   return std::abs(sum);
 }
 
-// Where it is strongest, within a tenth of a first guess.
+// Returns the strongest frequency within a tenth of a first guess.
 double strongest(const std::vector<double>& motion, double tick, double guess) {
   double low = 0.9 * guess;
   double high = 1.1 * guess;

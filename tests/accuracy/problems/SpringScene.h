@@ -5,10 +5,10 @@
 
 namespace lab {
 
-/// The anchor is at 0; the mass starts `system.offset` beyond the rest length.
+/// Makes a scene with the anchor at 0. The mass starts `system.offset` beyond the rest length.
 Scene springScene(const SpringLine& system, int ticks);
 
-/// Where the mass is at time t, from the rest length on, by the closed form of the damped oscillator.
+/// Returns the offset of the mass from the rest length at time t, by the closed form.
 Quad springOffset(const SpringLine& system, Quad t);
 
 }  // namespace lab

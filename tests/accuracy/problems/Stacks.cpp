@@ -1,4 +1,4 @@
-// 9: a stack. 10: heavy on light; and the map of what stays bounded. 20: crates that stand a little to the
+// 9: a stack. 10: a heavy body on a light one, and a stability map. 20: crates that stand a little to the
 // side.
 #include <algorithm>
 
@@ -11,7 +11,7 @@ constexpr double kHalf = 0.5;
 constexpr double kFriction = 0.5;
 constexpr double kGravity = 10;
 constexpr int kTicks = 300;  // 10 s
-constexpr double kGone = 2;  // m: that far aside a crate is no longer on another
+constexpr double kGone = 2;  // sideways distance in metres at which a crate is no longer on another
 
 Scene stackOf(const std::vector<double>& masses, bool rotates) {
   Scene scene;
@@ -36,9 +36,9 @@ double sagOf(const Scene& scene, const Simulation& simulation) {
 }
 
 struct Heap {
-  double sag = 0;    ///< the largest distance from the right height over the run
-  double drift = 0;  ///< the largest distance from the axis at the end
-  double top = 0;    ///< height of the uppermost crate at the end, of the right one
+  double sag = 0;    ///< largest distance from the correct height over the run
+  double drift = 0;  ///< largest distance from the axis at the end
+  double top = 0;    ///< final height of the uppermost crate, relative to the correct one
 };
 
 Heap settle(const Trial& trial, const Scene& scene) {
@@ -88,7 +88,7 @@ Problem makeStack() {
   return problem;
 }
 
-// How deep the two contacts overlap at worst in the last second, and an overlap deeper than a crate is none.
+// Measures the deepest overlap of the two contacts in the last second. A crate that fell off is a failure.
 Case press(double ratio) {
   Case pressed;
   pressed.name = "ratio" + power(ratio);
@@ -123,7 +123,7 @@ Problem makePress() {
   int i = 0;
   for (const double ratio : {10.0, 100.0, 1e3, 1e4}) {
     Case pressed = press(ratio);
-    const double bound = ratio > 1e3 ? 0.5 : 0.01;  // "bounded": half a crate
+    const double bound = ratio > 1e3 ? 0.5 : 0.01;  // "bounded" means half a crate
     pressed.metrics = {{"penetration_m", "deepest overlap in the last second, m", bound, 1e-15, peers[i++]}};
     problem.cases.push_back(pressed);
   }

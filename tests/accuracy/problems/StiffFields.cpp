@@ -1,4 +1,4 @@
-// 4b: stiff force fields, and two stiff systems from chemistry and biology through the same integrators.
+// 4b: stiff force fields, and two stiff systems from chemistry and biology with their integrators.
 #include <algorithm>
 
 #include "Path.h"
@@ -7,7 +7,7 @@
 namespace lab {
 namespace {
 
-// The whole path relative to the largest value of each coordinate, and iterations that did not converge.
+// Compares the whole path, scaled by each coordinate's maximum, and counts iterations without convergence.
 template <class System>
 Case caseOf(const std::string& name, const System& system, const Scene& scene, int ticks, double tick,
             const Path& path) {
@@ -46,7 +46,7 @@ Case caseOf(const std::string& name, const System& system, const Scene& scene, i
   return field;
 }
 
-// A body in a field, which peers can have too.
+// Adds a body in a field, which peers can express, too.
 template <class System>
 Scene fieldScene(const System& system, Field acceleration) {
   Scene scene;
@@ -79,7 +79,7 @@ Case stiffPendulum() {
   return caseOf("stiff_pendulum", system, scene, kTicks, kTick, path);
 }
 
-// Drift across the fields, and a gyration far faster than the tick.
+// The path of a drift across the fields with a gyration far faster than the tick.
 Path chargePath(const Charge& charge, int ticks) {
   const Quad omega = charge.frequency;
   const Quad drift = -Quad(charge.push) / omega;  // along y

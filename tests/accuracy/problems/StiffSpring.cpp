@@ -1,4 +1,4 @@
-// 4: a stiff damped spring with gravity; and the map of what stays bounded.
+// 4: a stiff damped spring with gravity, and a stability map.
 #include <limits>
 
 #include "Path.h"
@@ -22,7 +22,7 @@ SpringLine springOf(double stiffness, double zeta) {
   return system;
 }
 
-// How far the mass is from the rest length, read where it is most exact.
+// Returns the distance of the mass from the rest length, from the most exact source.
 std::vector<double> offsetOf(const Simulation& simulation) {
   const auto coordinates = simulation.coordinates();
   return {coordinates.empty() ? -simulation.body(0).position.y - kRest : coordinates[0]};

@@ -1,4 +1,4 @@
-// The equations of motion of the problems (see Equations.h for what a System is).
+// The equations of motion of the problems (Equations.h defines a System).
 #pragma once
 
 #include <vector>
@@ -32,15 +32,15 @@ struct Flight {
   BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
-/// A mass of 1 kg on a spring that hangs down, or lies, along a line: y[0] is how far it is from `rest`,
-/// which is `direction` × rest length from the anchor at 0.
+/// A mass of 1 kg on a spring that hangs down, or lies, along a line. y[0] is its distance from `rest`, which
+/// is `direction` × rest length from the anchor at 0.
 struct SpringLine {
   static constexpr int kDimension = 2;
   static constexpr bool kSecondOrder = true;
   double stiffness = 1;
   double damping = 0;
   double gravity = 0;  ///< along the line, away from the anchor
-  double offset = 1;   ///< at the start
+  double offset = 1;   ///< initial value
   Vec direction{1, 0};
   double rest_length = 0;
 
@@ -61,7 +61,7 @@ struct Pendulum {
   static constexpr bool kSecondOrder = true;
   double gravity = 10;
   double length = 1;
-  double angle = 0;  ///< at the start
+  double angle = 0;  ///< initial value
 
   std::vector<double> start() const { return {angle, 0}; }
   template <class Real>
@@ -75,7 +75,7 @@ struct Pendulum {
   }
 };
 
-/// The same in Cartesian coordinates, the rod being a stiff spring.
+/// A pendulum in Cartesian coordinates, in which the rod is a stiff spring.
 struct StiffPendulum {
   static constexpr int kDimension = 4;
   static constexpr bool kSecondOrder = true;
@@ -95,7 +95,7 @@ struct StiffPendulum {
   BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
-/// A charge in a uniform magnetic field (its cyclotron frequency) and a uniform electric one along x.
+/// A charge in a uniform magnetic field (its cyclotron frequency) and a uniform electric field along x.
 struct Charge {
   static constexpr int kDimension = 4;
   static constexpr bool kSecondOrder = true;
@@ -129,7 +129,7 @@ struct VanDerPol {
   BodyState body(int, const double* y) const { return {{y[0], 0}, {y[1], 0}, 0, 0}; }
 };
 
-/// Three species, rates from 0.04 to 3e7.
+/// Three species with rates from 0.04 to 3e7.
 struct Robertson {
   static constexpr int kDimension = 3;
   static constexpr bool kSecondOrder = false;
@@ -195,7 +195,7 @@ struct DoublePendulum {
   static constexpr int kDimension = 4;
   static constexpr bool kSecondOrder = true;
   double gravity = 10;
-  double angle = 0;  ///< of both, at the start
+  double angle = 0;  ///< initial value of both
 
   std::vector<double> start() const { return {angle, angle, 0, 0}; }
   template <class Real>

@@ -1,4 +1,4 @@
-// 30: springs and fields that pull a body while it touches something.
+// 30: springs and fields that pull a body in contact with another.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,7 +15,7 @@ constexpr int kTicks = 300;
 
 enum class Pull { SPRING, FIELD };
 
-// Stiffness in kg per tick².
+// `per_tick` is the stiffness in kg per tick².
 Case pulled(Pull pull, double per_tick, const std::string& name) {
   const double stiffness = per_tick / (kTick * kTick);
   Case swinging;
@@ -57,7 +57,7 @@ Case pulled(Pull pull, double per_tick, const std::string& name) {
   return swinging;
 }
 
-// ω·h = 0.1: that is resolved, and stays.
+// ω·h = 0.1: the oscillation is resolved, and must not decay.
 Case resolved(Pull pull, const std::string& name) {
   constexpr double kSlow = 0.01;
   Case swinging = pulled(pull, kSlow, name);

@@ -1,4 +1,4 @@
-// The product as a game has it, by what a scene consists of. Each returns null for other scenes.
+// Builds scenes with the product like a game, a function per kind. Each returns null for other scenes.
 #pragma once
 
 #include "Scene.h"
@@ -7,15 +7,15 @@
 
 namespace lab {
 
-/// Bodies and joints: df::Body Objects in a World, and WM.update().
+/// Uses df::Body Objects in a World, and WM.update(), for bodies and joints.
 SimulationPtr bodiesAt(df::Accuracy accuracy, const Scene& scene);
-/// The book's Objects, in a World without a layer.
+/// Uses the book's Objects in a World without a layer.
 SimulationPtr objectsByDefault(const Scene& scene);
-/// A cloth: a df::Cloth in a World, and WM.update().
+/// Uses a df::Cloth in a World, and WM.update().
 SimulationPtr clothByDefault(const Scene& scene);
-/// An elastic beam: a df::Beam in a World, and WM.update().
+/// Uses a df::Beam in a World, and WM.update(), for an elastic beam.
 SimulationPtr beamByDefault(const Scene& scene);
-/// Equations of a dimension that no body has: the call that moves a body through a field.
+/// Uses the call that moves a body through a field, for equations of a dimension that bodies do not have.
 SimulationPtr equationsByDefault(const Scene& scene);
 
 }  // namespace lab

@@ -1,5 +1,5 @@
-// df::Body Objects. Mass is in kg; all else is as it comes. What never moves and lies along the axes is an
-// ordinary HARD Object where a body may touch it.
+// df::Body Objects with default settings; mass is in kg. A fixed, axis-parallel body is an ordinary HARD
+// Object if bodies may touch it.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -96,7 +96,7 @@ class DefaultBodies : public ProductWorld {
     return m_collides && isPlain(body) && body.friction == m_friction && body.restitution == m_restitution;
   }
 
-  // Objects without mass share one surface: that of the first.
+  // Massless Objects share one surface, the first one's.
   void chooseObstacles(const Scene& scene) {
     for (const Body& body : scene.bodies) {
       if (!isPlain(body)) continue;
@@ -122,7 +122,7 @@ class DefaultBodies : public ProductWorld {
     m_bodies.push_back(&made);
     if (body.shapes.empty() || !m_collides) made.setSolidness(df::SPECTRAL);
     if (m_is_hearing) made.setSolidness(df::SOFT);
-    // A game that is refused a place for a body has none to put it.
+    // Removes a body whose position is refused, because a game would have no other place for it.
     if (made.setPosition(cells(m_origin + body.position)) != 0) WM.removeObject(&made);
     addShapes(made, body.shapes);
     made.setAngle(body.angle);
@@ -140,7 +140,7 @@ class DefaultBodies : public ProductWorld {
     if (m_field) made.setField(m_field.get(), cells(m_origin));
   }
 
-  // A part's centre counts from the centre of mass of those before it; a scene's from that of the whole.
+  // Part centres are relative to the mass centre of the parts before; in a scene, to that of the whole body.
   static void addShapes(CountingBody& made, const std::vector<Shape>& shapes) {
     double area = 0;
     Vec middle;
@@ -183,8 +183,8 @@ class DefaultBodies : public ProductWorld {
   double m_restitution = -1;
   long m_contacts = 0;
   std::unique_ptr<SceneField> m_field;
-  std::vector<Vec> m_places;            // by index
-  std::vector<CountingBody*> m_bodies;  // by index; null: an Object
+  std::vector<Vec> m_places;            // indexed by scene body
+  std::vector<CountingBody*> m_bodies;  // indexed by scene body; null: an Object
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Systems that are no body's motion, by the call with which a body flies through a field (FlightField.cpp),
-// with the settings that a World has: tolerances, limits, and the choice between the explicit and the
-// implicit method. Like a df::Field it gives no Jacobian.
+// Systems that are not a body's motion, solved by the call that moves a body through a field
+// (FlightField.cpp), with a World's settings: tolerances, limits, and the choice between the explicit and the
+// implicit method. Like a df::Field, it has no Jacobian.
 #include <algorithm>
 
 #include "Default.h"

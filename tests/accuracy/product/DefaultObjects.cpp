@@ -1,4 +1,4 @@
-// The book's Objects, which move by their velocity: what a scene without physics consists of.
+// The book's Objects, which move by their velocities, for scenes without physics.
 #include "Default.h"
 #include "ProductWorld.h"
 
@@ -24,7 +24,7 @@ class DefaultObjects : public ProductWorld {
   }
 
  private:
-  std::vector<const df::Object*> m_made;  // by index
+  std::vector<const df::Object*> m_made;  // indexed by scene body
 };
 
 }  // namespace

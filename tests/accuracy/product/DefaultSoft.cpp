@@ -1,5 +1,5 @@
-// A df::Cloth that hangs by its upper corners, and a df::Beam that is clamped at its left end; what pulls at
-// the other is applied in each tick, as a game does. Mass is in kg.
+// A df::Cloth that hangs by its upper corners, and a df::Beam that is clamped at its left end. The force at
+// the other end is applied in each tick, like in a game. Mass is in kg.
 #include <cmath>
 
 #include "Default.h"
@@ -52,7 +52,7 @@ class DefaultBeam : public ProductWorld {
     const double stiffness = 8 * ei / (mass * beam.length * beam.length);  // m/s²
     m_p_beam = &make<df::Beam>(df::Vector(0, 0), df::Vector(beam.length, 0), mass,
                                m_tick * m_tick * stiffness, true, beam.elements);
-    constexpr double kFirstRoot = 1.8751040687119612;  // of cos β cosh β = −1
+    constexpr double kFirstRoot = 1.8751040687119612;  // root of cos β cosh β = −1
     const double first = kFirstRoot * kFirstRoot * std::sqrt(ei / (mass * std::pow(beam.length, 3)));
     m_p_beam->setDrag(2 * beam.damping * first * m_tick);
     m_force = {0, -m_tick * m_tick * beam.tip_force};

@@ -1,5 +1,5 @@
-// What all scenes in the product have in common: a World of their own, in which a metre is a cell and a tick
-// of the scene a tick.
+// Common part of all scenes in the product: a World of their own, in which a metre is a cell and a tick of
+// the scene is a tick.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class ProductWorld : public Simulation {
   std::optional<Work> work() const override { return Work{}; }
 
  protected:
-  /// Makes an Object of the world, which must be the current one. It lasts as long as this.
+  /// Makes an Object in the world, which must be the current one. It lives as long as this.
   template <class Made, class... Arguments>
   Made& make(Arguments&&... arguments) {
     auto made = std::make_unique<Made>(std::forward<Arguments>(arguments)...);
@@ -33,12 +33,12 @@ class ProductWorld : public Simulation {
     m_objects.push_back(std::move(made));
     return result;
   }
-  /// Deletes what make() has made. For destructors of classes whose members its Objects use.
+  /// Deletes the Objects from make(). For destructors of classes whose members these Objects use.
   void clear() {
     const df::World::Scope scope(m_world);
     m_objects.clear();
   }
-  /// From cells and cells a tick.
+  /// Converts from cells and cells per tick.
   BodyState stateOf(df::Vector position, df::Vector velocity) const {
     return {{position.x(), position.y()}, {velocity.x() / m_tick, velocity.y() / m_tick}, 0, 0};
   }

@@ -29,7 +29,7 @@ void demand(int status, const char* what) {
   if (status < 0) throw std::runtime_error(std::string("CVODE: ") + what + ": " + std::to_string(status));
 }
 
-// What the C interface hands out, in the order in which it must be given back.
+// Resources of the C interface, in the order in which they must be released.
 struct Session {
   Session() { demand(SUNContext_Create(nullptr, &context), "context"); }
   ~Session() {

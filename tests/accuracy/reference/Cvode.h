@@ -1,4 +1,4 @@
-// Reference solutions by CVODE of SUNDIALS.
+// Reference solutions by SUNDIALS' CVODE.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@ namespace lab {
 struct OdeFunctions {
   int dimension = 0;
   std::function<void(double t, const double* y, double* rates)> rate;
-  /// ∂f/∂y by columns.
+  /// ∂f/∂y in column order.
   std::function<void(double t, const double* y, double* columns)> jacobian;
 };
 
@@ -19,7 +19,7 @@ struct CvodeOptions {
   double absolute = 1e-14;  ///< tolerance, in each coordinate's unit
 };
 
-/// States at the ends of ticks 0 … `ticks`. Throws std::runtime_error if CVODE gives up.
+/// Returns the states at the ends of ticks 0 … `ticks`. Throws std::runtime_error if CVODE fails.
 std::vector<std::vector<double>> solveByCvode(const OdeFunctions& functions, const std::vector<double>& start,
                                               double tick, int ticks, const CvodeOptions& options);
 

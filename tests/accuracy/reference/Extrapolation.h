@@ -1,5 +1,5 @@
-// Reference solutions in quad precision by extrapolation: the same step is made with 1, 2, 3 … parts, and a
-// polynomial leads from there to infinitely many (Hairer & Wanner, Solving ODEs I, II.9, and II, IV.9).
+// Reference solutions in quad precision by extrapolation: a step is computed with 1, 2, 3 … parts, and a
+// polynomial extrapolates to infinitely many (Hairer & Wanner, Solving ODEs I, II.9, and II, IV.9).
 #pragma once
 
 #include <stdexcept>
@@ -25,7 +25,7 @@ class Extrapolation {
     for (std::size_t i = 0; i < kN; ++i) m_y[i] = start[i];
   }
 
-  /// Goes on to time `end`.
+  /// Advances to time `end`.
   void advance(Quad end) {
     while (m_t < end) {
       if (++m_steps > kMaxSteps) throw std::runtime_error("extrapolation takes too many steps");
@@ -33,14 +33,14 @@ class Extrapolation {
       const Quad h = last ? end - m_t : m_h;
       State next;
       const Quad error = attempt(h, next);
-      // A step's error goes with its length to this power.
+      // The error of a step is proportional to this power of its length.
       const double power = m_stiff ? kColumns : 2 * kColumns - 1;
       const Quad ratio = error > 0 ? powq(error / kTolerance, -1 / Quad(power)) : Quad(4);
       const Quad factor = ratio < 0.1 ? Quad(0.1) : ratio > 4 ? Quad(4) : ratio;
       if (error <= kTolerance) {
         m_y = next;
         m_t = last ? end : m_t + h;
-        // A step cut short by the end says little about the next one's length.
+        // A step shortened by the end says little about the next one's length.
         if (!last || factor < 1)
           m_h = h * factor * 0.9;
         else if (h * factor * 0.9 > m_h)
@@ -62,8 +62,8 @@ class Extrapolation {
 
   static Quad parts(int row, bool stiff) { return stiff ? row + 1 : 2 * (row + 1); }
 
-  // The error is relative to the largest value of each component so far; one that is still nearly 0 beside
-  // the others is only rounding.
+  // The error is relative to the largest value of each component so far. A component that is still nearly 0
+  // compared with the others is only rounding.
   Quad attempt(Quad h, State& next) {
     if (m_stiff) findJacobian();
     std::vector<State> column;  // the last row of the tableau
@@ -156,7 +156,7 @@ class Extrapolation {
   long m_steps = 0;
 };
 
-/// States at the ends of ticks 0 … `ticks`, rounded to double.
+/// Returns the states at the ends of ticks 0 … `ticks`, rounded to double.
 template <class System>
 std::vector<std::vector<double>> solveByExtrapolation(const System& system, double tick, int ticks,
                                                       Stiffness stiffness) {

@@ -1,5 +1,5 @@
-// Number types that equations of motion are written for once: double, quad precision (113 bits), and dual
-// numbers that carry derivatives along.
+// Number types for equations of motion that are written once: double, quad precision (113 bits), and dual
+// numbers that also compute derivatives.
 #pragma once
 
 #include <quadmath.h>
@@ -57,7 +57,7 @@ struct Dual {
     dual.slope[static_cast<std::size_t>(index)] = 1;
     return dual;
   }
-  /// f(*this) if f there is `its_value` and its derivative `its_slope`.
+  /// Returns f(*this), given the value `its_value` of f at that point and its derivative `its_slope`.
   Dual chain(double its_value, double its_slope) const {
     Dual result(its_value);
     for (std::size_t i = 0; i < slope.size(); ++i) result.slope[i] = its_slope * slope[i];

@@ -6,14 +6,14 @@ from svg import GRID, INK, MUTED, Axis, duration, line, number, page, polyline, 
 
 WIDTH, HEIGHT = 900, 520
 LEFT, RIGHT, TOP, BOTTOM = 92, 214, 84, 72
-STRIP = 26        # the edges: exactly 0 on the left, failures on the right
-LARGEST = 100.0   # an error from here on is drawn with the failures
-SMALLEST = 1e-17  # below that, as 0
+STRIP = 26        # width of the edges: exactly 0 on the left, failures on the right
+LARGEST = 100.0   # larger errors are drawn with the failures
+SMALLEST = 1e-17  # smaller errors are drawn as 0
 ORDERS = (1, 2, 4)
 MINOR = "#f1f3f5"  # lines between decades
-FEW = 2.5          # decades: on a shorter axis 2 and 5 have lines, too
+FEW = 2.5          # decades; a shorter axis also has lines at 2 and 5
 
-# Colours by Okabe and Ito and by Tol, which colour-blind people can tell apart; shapes besides, for print.
+# Colours by Okabe and Ito and by Tol, which colour-blind people can tell apart, and shapes for print.
 STYLES = {
     "default": ("#000000", "circle", 3.4),
     "fast": ("#b0209a", "diamond", 3.4),
@@ -41,12 +41,12 @@ SPARE = [("#44aa99", "square", 2.2), ("#aa4499", "triangle", 2.2), ("#999933", "
 
 
 def styles(methods):
-    """A style for each method, the same in every picture as long as the list of methods is."""
+    """Returns a style for each method. A method looks alike in all pictures made from one list of methods."""
     spare = iter(SPARE * 10)
     return {method: STYLES[method] if method in STYLES else next(spare) for method in methods}
 
 
-# Outlines from a point's place on, as a piece of a path.
+# Outlines as a part of a path, relative to a point's position.
 OUTLINES = {
     "circle": "m-3.9 0a3.9 3.9 0 1 1 0 .01z",
     "square": "m-3.9-3.9h7.8v7.8h-7.8z",
@@ -59,7 +59,7 @@ OUTLINES = {
 
 
 def markers(places, shape, colour, hollow=False):
-    """All markers of a curve in one path."""
+    """Returns all markers of a curve as one path."""
     if not places:
         return []
     fill, width = ("#ffffff" if hollow else colour, 1.6) if shape not in ("cross", "plus") else ("none", 2.2)
@@ -76,7 +76,7 @@ def failed(error):
 
 
 def targets(metric):
-    """What is asked of the product's levels, with the words for it."""
+    """Returns (value, words) for each target that the metric sets for the product's levels."""
     asked = [(metric["target"], "must reach"), (metric.get("fast_target", -1), "fast level must reach")]
     if asked[0][0] == asked[1][0]:
         asked = [(asked[0][0], "must reach")]
@@ -84,14 +84,14 @@ def targets(metric):
 
 
 def stretch(values, least):
-    """An axis that holds all values, with some room at both ends, and spans `least` decades at least."""
+    """Returns the limits of an axis that holds all values with a margin at both ends and spans at least `least` decades."""
     low, high = math.log10(min(values)), math.log10(max(values))
     room = max(0.06 * (high - low), (least - (high - low)) / 2, 0.05)
     return 10.0**(low - room), 10.0**(high + room)
 
 
 def ranges(points, metric):
-    """The axes: as long as what is drawn on them."""
+    """Returns the limits of both axes, which fit the points and targets drawn."""
     errors = [p["error"] for p in points if not failed(p["error"]) and p["error"] > SMALLEST]
     errors += [value for value, _ in targets(metric) if SMALLEST < value < LARGEST]
     times = [p[key] for p in points for key in ("cpu_us_min", "cpu_us_max") if p[key] > 0]
@@ -99,7 +99,7 @@ def ranges(points, metric):
 
 
 def ticks(axis):
-    """What has a line, and of these what has a number."""
+    """Returns the values between the decades that get a grid line, and the values that get a label."""
     decades = axis.decades()
     if axis.high - axis.low >= FEW:
         every = max(1, math.ceil(len(decades) / 9))
@@ -110,7 +110,7 @@ def ticks(axis):
 
 
 def plain(value):
-    """A number on an axis with numbers between its decades."""
+    """Formats the label of an axis that also has labels between its decades."""
     if 1e-4 <= value < 1e5:
         return f"{value:g}"
     exponent = math.floor(math.log10(value) + 1e-9)
@@ -119,12 +119,12 @@ def plain(value):
 
 
 def edge_left(points, metric):
-    """Is there a strip for 0?"""
+    """True if the picture needs a strip for errors of exactly 0."""
     return any(p["error"] <= SMALLEST for p in points) or any(value <= SMALLEST for value, _ in targets(metric))
 
 
 def edge_right(points):
-    """Is there a strip for failures?"""
+    """True if the picture needs a strip for failures."""
     return any(failed(p["error"]) for p in points)
 
 
@@ -152,7 +152,7 @@ def frame(x, y, metric, title, subtitle):
 
 
 def edges(x, metric, has_left, has_right):
-    """Where 0 and failures are drawn, and what rounding leaves."""
+    """Draws the strips for 0 and for failures, and the range of errors below rounding."""
     right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
     out = []
     if has_left:
@@ -171,7 +171,7 @@ def edges(x, metric, has_left, has_right):
 
 
 def goals(x, metric, has_left, has_right):
-    """What the product must reach: lines, named in the margin above; a row for each."""
+    """Draws each target as a line with its name in the margin above, one row of names per target."""
     right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
     out = []
     for row, (value, words) in enumerate(targets(metric)):
@@ -182,7 +182,7 @@ def goals(x, metric, has_left, has_right):
             out.append(line(at, TOP - 14 * row, at, bottom, INK, 1.3, "6 4"))
         else:
             at = LEFT + STRIP / 2
-        # Centred, but not over the names of the edges.
+        # Centred, without covering the names of the edges.
         least = LEFT + (STRIP + 4 if has_left and row == 0 else 0) + half
         most = right - (STRIP + 12 if has_right and row == 0 else 0) - half
         out.append(text(min(max(at, least), most), TOP - 6 - 14 * row, name, 12, INK, "middle"))
@@ -190,7 +190,7 @@ def goals(x, metric, has_left, has_right):
 
 
 def samples(points):
-    """Along the curves, in decades: what a fan of guides should keep away from."""
+    """Returns points along all curves, in decades. The fan of guides is placed away from them."""
     out = []
     for method in dict.fromkeys(p["method"] for p in points):
         run = [(math.log10(p["error"]), math.log10(p["cpu_us"])) for p in points
@@ -202,7 +202,7 @@ def samples(points):
 
 
 def guides(x, y, points):
-    """How steep a method of a given order is, where there are no curves."""
+    """Draws a fan of guides, which show the slope of a method of each order, where few curves are."""
     wide, high = x.high - x.low, y.high - y.low
     rise = min(0.7, 0.18 * high)
     drawn = [p["method"] for p in points if p["cpu_us"] > 0 and SMALLEST < p["error"] < LARGEST]
@@ -224,7 +224,7 @@ def guides(x, y, points):
     places = [place for place in places if place[0] - reach > x.low + 0.03 * wide]
     if not places:
         return []
-    foot_x, foot_y = min(places, key=crowded)  # the first of the emptiest
+    foot_x, foot_y = min(places, key=crowded)  # the first of the least crowded places
     x1, y1 = x(10**foot_x), y(10**foot_y)
     out = [text(x1, y1 + 15, "order", 11, MUTED, "middle")]
     for order in orders:
@@ -235,7 +235,7 @@ def guides(x, y, points):
 
 
 def place(point, x, y):
-    """Pixels, and whether the point lies at an edge."""
+    """Returns the pixel position of a point, and whether it lies in one of the strips."""
     time = point["cpu_us"] if point["cpu_us"] > 0 else 10**y.low
     if failed(point["error"]):
         return WIDTH - RIGHT - STRIP / 2, y(time), True
@@ -248,7 +248,7 @@ def curve(points, style, x, y):
     colour, shape, width = style
     places = [place(point, x, y) for point in points]
     out, run = [], []
-    for px, py, edge in places + [(0, 0, True)]:  # a curve goes where its errors are numbers on the axis
+    for px, py, edge in places + [(0, 0, True)]:  # a curve connects the points whose errors are numbers on the axis
         if not edge:
             run.append((px, py))
             continue
@@ -281,7 +281,7 @@ def legend(methods, labels, chosen):
 
 
 def draw(points, metric, labels, title, subtitle, chosen):
-    """`points`: dictionaries with method, substeps, error, cpu_us, cpu_us_min, cpu_us_max, in the order to draw."""
+    """Draws a diagram. `points` are dictionaries with method, substeps, error, cpu_us, cpu_us_min, cpu_us_max, in drawing order."""
     (x_low, x_high), (y_low, y_high) = ranges(points, metric)
     has_left, has_right = edge_left(points, metric), edge_right(points)
     x = Axis(x_low, x_high, LEFT + (STRIP if has_left else 0), WIDTH - RIGHT - (STRIP if has_right else 0))
@@ -289,6 +289,6 @@ def draw(points, metric, labels, title, subtitle, chosen):
     methods = list(dict.fromkeys(point["method"] for point in points))
     parts = edges(x, metric, has_left, has_right) + frame(x, y, metric, title, subtitle) + guides(x, y, points)
     parts += goals(x, metric, has_left, has_right)
-    for method in reversed(methods):  # the product on top
+    for method in reversed(methods):  # draws the product on top
         parts += curve([p for p in points if p["method"] == method], chosen[method], x, y)
     return page(WIDTH, HEIGHT, title, parts + legend(methods, labels, chosen))

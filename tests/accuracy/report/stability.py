@@ -1,4 +1,4 @@
-"""Maps of what stays bounded: one panel a method, a cell for each parameter and number of sub-steps."""
+"""Maps of stability: a panel per method, with a cell for each parameter and number of sub-steps."""
 
 import math
 from itertools import groupby
@@ -9,26 +9,26 @@ from svg import INK, MUTED, number, page, text
 CELL, GAP, PER_ROW = 24, 56, 3
 SIDE = CELL - 1.5
 LEFT, TOP, HEAD = 64, 112, 26
-# Largest error, colour (Okabe and Ito), a sign for print, its meaning
+# Largest error, colour (Okabe and Ito), character for print, meaning.
 BOUNDED = 1.0
 CLASSES = [(1e-2, "#0072b2", "", "error below 0.01"), (BOUNDED, "#9fd0ee", "", "bounded: below 1"),
            (100.0, "#f2c14e", "!", "wrong: 1 and more"), (math.inf, "#c44e00", "×", "failed, or 100 and more")]
 
 
 def kind(error):
-    """The number of its class."""
+    """Returns the index of the error's class in CLASSES."""
     return next((index for index, (largest, *_) in enumerate(CLASSES) if error < largest), len(CLASSES) - 1)
 
 
 def tile(name, colour, sign):
-    """The cells of a class: what is filled with `url(#c…)` is covered with them."""
+    """Returns the pattern of a class. An area filled with `url(#c…)` is tiled with its cells."""
     return (f'<pattern id="c{name}" width="{CELL}" height="{CELL}" patternUnits="userSpaceOnUse">'
             f'<rect width="{SIDE}" height="{SIDE}" fill="{colour}"/>'
             + (text(CELL / 2 - 0.7, CELL * 0.7, sign, 13, INK, "middle", "600") if sign else "") + "</pattern>")
 
 
 def panel(left, top, label, errors, values, counts):
-    """`errors`: by (value, count)."""
+    """Draws the panel of a method. `errors` maps (value, count) to an error."""
     out = [text(left, top - 10, label, 14, weight="600")]
     areas = {}
     for row, count in enumerate(reversed(counts)):
@@ -51,7 +51,7 @@ def panel(left, top, label, errors, values, counts):
 
 
 def draw(panels, values, counts, title, x_label):
-    """`panels`: a list of (label, errors)."""
+    """Draws a map. `panels` is a list of (label, errors)."""
     rows = math.ceil(len(panels) / PER_ROW)
     wide, high = len(values) * CELL + GAP, len(counts) * CELL + GAP + HEAD
     width, height = max(LEFT + PER_ROW * wide, 760), TOP + rows * high + 4

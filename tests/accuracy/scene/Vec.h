@@ -28,7 +28,7 @@ inline double cross(Vec a, Vec b) {
 inline double length(Vec a) {
   return std::sqrt(dot(a, a));
 }
-/// `a` turned by `angle` radians.
+/// Returns `a` turned by `angle` radians.
 inline Vec turned(Vec a, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);

@@ -1,12 +1,12 @@
-// A scene's motion as an ordinary differential equation y' = f(t, y), for the methods of the textbooks and
-// for the references.
+// A scene's motion as an ordinary differential equation y' = f(t, y), for the textbooks' methods and for the
+// references.
 //
 // A System is a struct with
-//   static constexpr int kDimension;       how many coordinates
-//   static constexpr bool kSecondOrder;    the first half are positions, the second half their rates, in this
-//   order template <class Real> void rate(const Real& t, const Real* y, Real* rates) const;   for double,
-//   Quad and Dual std::vector<double> start() const;     y at t = 0 BodyState body(int index, const double*
-//   y) const;    where the scene's body is
+//   static constexpr int kDimension;       number of coordinates
+//   static constexpr bool kSecondOrder;    true: first half positions, second half their rates, in that order
+//   template <class Real> void rate(const Real& t, const Real* y, Real* rates) const;   double, Quad, Dual
+//   std::vector<double> start() const;     y at t = 0
+//   BodyState body(int index, const double* y) const;    state of the scene's body
 #pragma once
 
 #include <memory>
@@ -20,24 +20,24 @@
 
 namespace lab {
 
-/// States at the ends of ticks 0, 1, 2, …
+/// States at the end of each tick, from tick 0 on.
 using Trajectory = std::vector<std::vector<double>>;
 
 class Equations {
  public:
   virtual ~Equations() = default;
-  /// Where the scene's body with this index is, in a state.
+  /// Returns the state of the scene's body with this index, given the coordinates.
   virtual BodyState body(int index, const double* y) const = 0;
-  /// The coordinates at t = 0.
+  /// Returns the coordinates at t = 0.
   virtual std::vector<double> start() const = 0;
-  /// Rates and Jacobian in double precision; good as long as this is.
+  /// Returns rates and Jacobian in double precision, valid as long as this object.
   virtual OdeFunctions functions() const = 0;
-  /// Null if the rule does not apply.
+  /// Integrates by this rule. Null if the rule does not apply.
   virtual SimulationPtr integrate(Rule rule) const = 0;
-  /// By CVODE, BDF or Adams, at a relative tolerance of 1e-12 or less. Throws std::runtime_error if it gives
-  /// up.
+  /// Solves by CVODE with BDF or Adams, with a relative tolerance of at most 1e-12. Throws std::runtime_error
+  /// on failure.
   virtual Trajectory byCvode(double tick, int ticks, const CvodeOptions& options) const = 0;
-  /// By extrapolation in quad precision, which shares nothing with CVODE but the equations.
+  /// Solves by extrapolation in quad precision, which shares only the equations with CVODE.
   virtual Trajectory byExtrapolation(double tick, int ticks, Stiffness stiffness) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The textbooks' fixed-step methods, as simple as they are printed, for any System (see Equations.h).
+// The textbooks' fixed-step methods, as simple as printed, for any System (Equations.h).
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace lab {
 enum class Rule {
   EULER,
   SEMI_IMPLICIT_EULER,
-  VERLET,     ///< with velocity, by half kicks
+  VERLET,     ///< velocity Verlet with half kicks
   YOSHIDA_4,  ///< three Verlet steps of unequal length, one of them backwards
   RUNGE_KUTTA_4,
   BACKWARD_EULER,
   TR_BDF2,        ///< trapezoidal rule, then a backward difference: order 2, L-stable
-  PLANTED_ERROR,  ///< RUNGE_KUTTA_4 with a weight of 1/5 where 1/6 belongs: it must be seen to be wrong
+  PLANTED_ERROR,  ///< RUNGE_KUTTA_4 with a weight of 1/5 instead of 1/6, which must be detected
 };
 
 template <class System>
@@ -93,8 +93,7 @@ class Integrator : public Simulation {
     kick(m_t, h);
     drift(h);
   }
-  // Forces that depend on velocities see the one that a whole kick would give: without it the order is 1 for
-  // them.
+  // Forces that depend on velocities use the velocity after a full kick; otherwise their order would be 1.
   void verlet(double t, double h) {
     State rates = rate(t, m_y);
     State predicted = m_y;
@@ -146,7 +145,7 @@ class Integrator : public Simulation {
     solve(m_t + h, diagonal, known, m_y);
   }
 
-  // Newton for y - d f(t, y) = known, from y on.
+  // Solves y - d f(t, y) = known by Newton's method, starting from y.
   void solve(double t, double d, const State known, State& y) {
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       const State rates = rate(t, y);

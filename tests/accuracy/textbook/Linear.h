@@ -15,7 +15,7 @@ using Matrix = std::array<std::array<Real, static_cast<std::size_t>(N)>, static_
 template <class Real, int N>
 using Column = std::array<Real, static_cast<std::size_t>(N)>;
 
-/// Gauss with partial pivoting. A singular matrix gives infinities, which the caller must notice.
+/// Gaussian elimination with partial pivoting. For a singular matrix, returns infinities.
 template <class Real, std::size_t N>
 void solveInPlace(std::array<std::array<Real, N>, N> matrix, std::array<Real, N>& column) {
   for (std::size_t k = 0; k < N; ++k) {
@@ -37,7 +37,7 @@ void solveInPlace(std::array<std::array<Real, N>, N> matrix, std::array<Real, N>
   }
 }
 
-/// ∂f/∂y of a System, to the last bits, by dual numbers: jacobian[row][column].
+/// Returns ∂f/∂y of a System, exact to rounding, by dual numbers: jacobian[row][column].
 template <class System>
 Matrix<double, System::kDimension> jacobianOf(const System& system, double t, const double* y) {
   constexpr int kN = System::kDimension;

@@ -1,4 +1,4 @@
-// chat_resume: one player resumes on another stream again and again, and says all it may on each.
+// chat_resume: a player resumes on another stream repeatedly and sends as much chat as allowed on each.
 #include <algorithm>
 #include <cstdint>
 #include <deque>
@@ -18,11 +18,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kReady = 8;  // streams ahead
+constexpr std::size_t kReady = 8;  // streams prepared ahead
 constexpr auto kStale = 3s;        // the server waits 5 s for a hello
-constexpr auto kBetween = 10ms;    // streams
+constexpr auto kBetween = 10ms;    // between two streams
 constexpr auto kAfterHangUp = 100ms;
-constexpr int kLines = 30;  // on each stream
+constexpr int kLines = 30;  // lines on each stream
 
 class ChatResume : public Attack {
  public:
@@ -35,7 +35,7 @@ class ChatResume : public Attack {
     while (!m_ready.empty() && (m_ready.front()->over || now - m_ready.front()->since > kStale))
       m_ready.pop_front();
     while (m_used.size() > 2) m_used.pop_front();
-    if (m_waiting && m_used.back()->over) m_waiting = false;  // hung up on instead of an answer
+    if (m_waiting && m_used.back()->over) m_waiting = false;  // disconnected without an answer
     if (m_ready.size() < kReady && now >= m_next_stream) prepare(now);
     greet();
   }
@@ -53,7 +53,7 @@ class ChatResume : public Attack {
   }
 
  private:
-  /// With its handshake done, so that a hello is all it takes.
+  /// A stream after its handshake, so that only a hello is missing.
   struct Stream {
     std::unique_ptr<naiad::TcpConnector> connector;
     std::unique_ptr<naiad::ReliableChannel> channel;  ///< null until it is connected
@@ -135,18 +135,18 @@ class ChatResume : public Attack {
 
   asio::io_context* m_p_context = nullptr;
   std::unique_ptr<Relay> m_relay;
-  std::deque<std::unique_ptr<Stream>> m_ready;  ///< or about to be
-  std::deque<std::unique_ptr<Stream>> m_used;   ///< the last one has the session, or asked for it
-  bool m_waiting = false;                       ///< for an answer to the last hello
+  std::deque<std::unique_ptr<Stream>> m_ready;  ///< ready or connecting
+  std::deque<std::unique_ptr<Stream>> m_used;   ///< the last one has the session, or has requested it
+  bool m_waiting = false;                       ///< an answer to the last hello is due
   Time m_next_stream{};
   std::string m_token;
   std::uint32_t m_received = 0;  ///< number of the newest reliable frame
-  std::uint32_t m_sent = 0;      ///< … of ours
+  std::uint32_t m_sent = 0;      ///< number of our newest reliable frame
   long long m_resumes = 0;
   long long m_refusals = 0;
   long long m_said = 0;
-  long long m_streams = 0;     ///< opened, or hung up on before that
-  long long m_handshakes = 0;  ///< of these, done
+  long long m_streams = 0;     ///< streams opened, or dropped before that
+  long long m_handshakes = 0;  ///< streams with a complete handshake
 };
 
 }  // namespace

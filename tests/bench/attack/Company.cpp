@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kJoinTime = 30s;
 constexpr auto kReturnTime = 10s;
-constexpr auto kServing = 20ms;    // of handlers in one turn
+constexpr auto kServing = 20ms;    // handler time per call of serve()
 constexpr auto kFarDelay = 100ms;  // each way
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Those who want to play while a server is attacked: three honest players and a newcomer each second.
+// Players during an attack: three honest ones and a newcomer each second.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -12,38 +12,38 @@
 
 namespace bench::attack {
 
-/// What became of them.
+/// Their results.
 struct Fate {
   std::uint64_t wrong_cells = 0;
   std::uint64_t compared_ticks = 0;
-  int thrown_out = 0;  ///< of the honest players
+  int thrown_out = 0;  ///< honest players that lost their sessions
   int newcomers = 0;
-  int newcomers_out = 0;   ///< of these, refused, hung up on, or out of patience
-  double newcomer_ms = 0;  ///< the slowest one's wait
-  double pause_ms = 0;     ///< the longest time that the world stood still for the player beside the server
-  std::size_t crowd = 0;   ///< the most players of the watched name that the list of players had
-  std::uint64_t chat = 0;  ///< lines of chat that the player beside the server read
+  int newcomers_out = 0;   ///< newcomers that were refused, disconnected, or gave up
+  double newcomer_ms = 0;  ///< longest wait of a newcomer
+  double pause_ms = 0;     ///< longest pause of the world for the player nearest to the server
+  std::size_t crowd = 0;   ///< maximum number of players with the watched name in the player list
+  std::uint64_t chat = 0;  ///< chat lines received by the player nearest to the server
 };
 
 class Company {
  public:
-  /// The player who is away loses its stream and datagrams `from` after the beginning, `until` then.
+  /// The player `away` loses its stream and datagrams from `from` to `until`, counted from the beginning.
   struct Absence {
     std::chrono::milliseconds from;
     std::chrono::milliseconds until;
   };
 
-  /// `watched`: of players whose names begin so, the number is noted.
+  /// Records the number of players whose names begin with `watched`.
   Company(Whereabouts server, std::string watched);
 
-  /// All honest players join. Throws std::runtime_error.
+  /// Joins all honest players. Throws std::runtime_error.
   void join();
-  /// Play for so long, and until all honest players have their streams and newcomers know their fate, if that
-  /// takes no more than ten seconds.
+  /// Plays for this time, and up to ten seconds longer until all honest players have their streams and all
+  /// newcomers have succeeded or failed.
   void play(std::chrono::milliseconds duration, Absence absence);
-  /// Leave. The fate, but for what compare() finds.
+  /// Leaves. Returns the results, except those of compare().
   Fate leave();
-  /// After the server has ended: the truth is whole.
+  /// Compares pictures after the server has ended and its truth file is complete.
   void compare(const std::string& truth_file, Fate& fate) const;
 
  private:

@@ -18,9 +18,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kChild = "attack-fork";  // as the game calls them
+constexpr const char* kChild = "attack-fork";  // name set by the game
 constexpr int kNetwork = 9;
-constexpr std::chrono::milliseconds kEndTime = 3s;  // for the children of a world that has ended
+constexpr std::chrono::milliseconds kEndTime = 3s;  // time for the children of an ended world to end
 
 struct Process {
   pid_t parent = 0;
@@ -28,7 +28,7 @@ struct Process {
   std::string name;
 };
 
-/// All that can be seen.
+/// Returns all visible processes.
 std::map<pid_t, Process> allProcesses() {
   std::map<pid_t, Process> all;
   std::error_code gone;
@@ -57,8 +57,7 @@ bool descends(const std::map<pid_t, Process>& all, pid_t process, pid_t from) {
   return false;
 }
 
-/// Those of this name (/proc/PID/comm) among the children of this process, their children, and so on, but for
-/// zombies.
+/// Returns the descendants of this process with this name (/proc/PID/comm), except zombies.
 std::vector<pid_t> descendantsNamed(const std::string& name) {
   const std::map<pid_t, Process> all = allProcesses();
   std::vector<pid_t> found;
@@ -76,7 +75,7 @@ class ForkingWorld : public Attack {
     const std::string game = std::string(NAIAD_BINARY_DIR) + "/../lib/naiad_attack_forker.so";
     return {.arguments = {"--game", game, "--players", "private"}, .password = {}};
   }
-  // The world ends in the middle, and what is left is counted when it has had time to go.
+  // The world ends in the middle of the attack. Children that are left after some time are counted.
   void begin(const Target& target) override {
     m_leave_at = std::chrono::steady_clock::now() + target.duration / 2;
     m_patience = std::min<std::chrono::milliseconds>(kEndTime, target.duration / 4);

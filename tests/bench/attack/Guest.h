@@ -1,4 +1,4 @@
-// A client that joins over TLS from an address of its own, without datagrams, and does as it is asked.
+// A client that joins over TLS from its own address, without datagrams, and follows the test's commands.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -21,19 +21,19 @@ class Guest {
     kPlaying,
     kRefusedForNow,
     kRefused,
-    kLost  ///< hung up on, no answer, ended
+    kLost  ///< disconnected, timed out or ended
   };
 
-  /// Begins to connect from the address `source`. Destroying it is as if its process was killed.
+  /// Begins to connect from the address `source`. Destroying it acts as if its process was killed.
   Guest(asio::io_context& context, std::uint16_t server_port, const std::string& source,
         const naiad::SessionOptions& options);
 
   void update(Time now);
   State state() const { return m_state; }
   bool isOver() const { return m_state != State::kJoining && m_state != State::kPlaying; }
-  /// There is a picture.
+  /// True if it has received a picture.
   bool hasPicture(Time now) const { return m_state == State::kPlaying && m_session->hasPicture(now); }
-  /// Null before there is a connection.
+  /// Returns the session; null before it is connected.
   naiad::ClientSession* session() { return m_session.get(); }
 
  private:
@@ -45,16 +45,16 @@ class Guest {
   std::unique_ptr<naiad::ClientSession> m_session;
 };
 
-/// Options of a guest of this name.
+/// Returns options for a guest of this name.
 naiad::SessionOptions guestOptions(const std::string& name, const std::string& password);
 
-/// A line of chat of the greatest length, in characters of three bytes.
+/// Returns a chat line of maximum length, in characters of three bytes.
 std::string longLine();
 
-/// What the trust of all guests is based on: made once, it reads the system's certificates.
+/// Returns the TLS context of all guests, made once because it reads the system's certificates.
 std::shared_ptr<const naiad::TlsContext> clientTls();
 
-/// The n-th address of a network: 127.`network`.x.y, from 127.`network`.0.1 on.
+/// Returns the n-th address of a network: 127.`network`.x.y, from 127.`network`.0.1 on.
 std::string addressIn(int network, int n);
 
 }  // namespace bench::attack

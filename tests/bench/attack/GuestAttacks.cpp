@@ -1,5 +1,5 @@
-// The attacks that consist of guests who do as clients may, but too often: chatters, held places, noise for
-// the log, and guesses at a password.
+// Attacks by guests that do what clients may do, but too often: chatters, held slots, noise for the log, and
+// password guesses.
 #include <vector>
 
 #include "Attack.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Its guests come from addresses of one network.
+/// An attack whose guests come from addresses of one network.
 class GuestAttack : public Attack {
  public:
   explicit GuestAttack(int network) : m_network(network) {}
@@ -21,7 +21,7 @@ class GuestAttack : public Attack {
   }
 
  protected:
-  /// A guest from the n-th address.
+  /// Creates a guest with the n-th address.
   std::unique_ptr<Guest> invite(int n, const std::string& name, const std::string& password = "") const {
     return std::make_unique<Guest>(*m_p_context, m_port, addressIn(m_network, n),
                                    guestOptions(name, password));
@@ -61,7 +61,7 @@ class Chatters : public GuestAttack {
   }
 
  private:
-  static constexpr auto kBetweenLines = 125ms;  // more than twice of what is allowed
+  static constexpr auto kBetweenLines = 125ms;  // more than twice the allowed rate
 
   std::vector<std::unique_ptr<Guest>> m_guests;
   Time m_next_line{};
@@ -108,7 +108,7 @@ class LogReader : public GuestAttack {
     GuestAttack::begin(target);
     m_fault == LogFault::kStalls ? target.server.stallLog() : target.server.closeLog();
   }
-  // Players who join and leave: a line each time.
+  // Players join and leave, which causes a line each time.
   void update(Time now) override {
     if (m_guest) {
       m_guest->update(now);

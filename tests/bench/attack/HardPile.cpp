@@ -38,11 +38,11 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t kFirstTick = 100;
 constexpr std::chrono::microseconds kTick{33'333};
-constexpr int kSnapshotsPerTick = 8;  // while objects are left to be sent
+constexpr int kSnapshotsPerTick = 8;  // until all objects are sent
 constexpr std::size_t kSendCap = std::size_t{16} << 20;
 
-// Small boxes on a narrow grid, all in step: none ever touches another, but the paths of any two cross, so
-// that a client that looks ahead has to compare each with each.
+// Small boxes on a fine grid with equal velocities: they never touch, but all paths cross, so a client that
+// predicts has to compare each with each.
 constexpr std::uint32_t kRow = 220;
 constexpr df::Fixed kSpacing = df::kFixedOne >> 11;
 constexpr df::Fixed kBox = df::kFixedOne >> 14;
@@ -60,12 +60,12 @@ ObjectState objectOf(std::uint32_t n, std::uint32_t tick) {
   return object;
 }
 
-/// A server that no game stands behind: it welcomes a client and sends it a pile of objects.
+/// A server without a game: welcomes a client and sends it a pile of objects.
 class PileServer {
  public:
   static constexpr std::uint32_t kObjects = 48'000;
 
-  /// With a key of its own in `folder`; runs in a thread of its own.
+  /// Creates a server with its own key in `folder` and its own thread.
   explicit PileServer(const std::string& folder) {
     const ServerIdentity identity = ServerIdentity::loadOrMake(folder, std::chrono::system_clock::now());
     m_fingerprint = identity.fingerprint().text();
@@ -94,7 +94,7 @@ class PileServer {
 
   std::uint16_t port() const { return m_listener->port(); }
   const std::string& fingerprint() const { return m_fingerprint; }
-  /// Objects sent to the present client.
+  /// Returns the number of objects sent to the present client.
   std::uint32_t sent() const { return m_sent; }
 
  private:
@@ -133,7 +133,7 @@ class PileServer {
       if (!stopped) tick();
     });
   }
-  // As many objects as fit, or none if all have been sent.
+  // Sends as many objects as fit, or none if all have been sent.
   void sendSnapshot() {
     SnapshotHeader header;
     header.number = ++m_number;
@@ -172,9 +172,9 @@ class PileServer {
   std::thread m_thread;
 };
 
-constexpr auto kSendTime = 60s;  // for the server to send everything
+constexpr auto kSendTime = 60s;  // timeout for sending everything
 
-/// Show the pile for a while, then `interrupt`: milliseconds until dfclient has ended.
+/// Shows the pile for this time, then calls `interrupt`. Returns the milliseconds until dfclient ends.
 double endAfter(const std::string& folder, std::chrono::milliseconds shown, PileResult& result,
                 const std::function<void(PtyTerminal&)>& interrupt) {
   PileServer server(folder + "/identity");

@@ -9,7 +9,7 @@
 namespace bench::attack {
 namespace {
 
-constexpr std::chrono::milliseconds kNoRush{250};  // keys after a pause are not made up for
+constexpr std::chrono::milliseconds kNoRush{250};  // keys missed in a longer pause are skipped
 
 double millisBetween(HonestPlayer::Time from, HonestPlayer::Time to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
@@ -36,7 +36,7 @@ HonestPlayer::HonestPlayer(asio::io_context& context, const Whereabouts& server,
   m_connection->start();
 }
 
-// Ticks of which no snapshot came are left out: where datagrams are lost, they are not known.
+// Skips ticks without a snapshot, because with lost datagrams their pictures are unknown.
 void HonestPlayer::observe(naiad::ClientSession& session) {
   m_observed = true;
   session.onBeforeSnapshot(
@@ -98,7 +98,7 @@ double HonestPlayer::pauseMillis(Time now) const {
 }
 
 void HonestPlayer::leave() {
-  // After another session has taken the place of the first, that one's replica is gone.
+  // After another session has replaced the first, the first one's replica is gone.
   if (!m_thrown_out && session() != nullptr) m_recorder.finish(session()->replica());
   m_connection->leave();
 }

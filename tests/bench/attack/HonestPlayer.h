@@ -1,4 +1,4 @@
-// A player who does no harm: plays at random, and compares what it sees with the truth.
+// A harmless player: plays at random and compares its pictures with the truth.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -15,7 +15,7 @@
 
 namespace bench::attack {
 
-/// A server, as players know it.
+/// A server's address and access data.
 struct Whereabouts {
   std::uint16_t port = 0;
   std::string fingerprint;
@@ -27,27 +27,27 @@ class HonestPlayer {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// With a relay it is in another place than this machine.
+  /// With a relay, it connects from another address.
   HonestPlayer(asio::io_context& context, const Whereabouts& server, const std::string& name,
                std::optional<Relay::Options> relay);
 
   void update(Time now);
-  /// Null without one.
+  /// Returns the relay; null without one.
   Relay* relay() { return m_relay.get(); }
   bool isJoined() const { return m_connection->state() == naiad::Connection::State::kJoined; }
-  /// It plays, and in the session that it began with.
+  /// True if it plays in its original session.
   bool isInItsSession();
-  /// The connection is over, or goes on as another player.
+  /// True if the connection is over, or continues as another player.
   bool isThrownOut();
-  /// Why, for people.
+  /// Returns the reason, for people.
   const std::string& sentence() const { return m_connection->sentence(); }
-  /// From here on pauses count.
+  /// Measures pauses from now on.
   void watchPauses(Time now);
-  /// The longest time without news of the world, in milliseconds, until now.
+  /// Returns the longest time without a new tick until now, in milliseconds.
   double pauseMillis(Time now) const;
   naiad::ClientSession* session() { return m_connection->session(); }
 
-  /// Send a goodbye. Run the event loop for a moment afterwards.
+  /// Sends a goodbye. Run the event loop for a moment afterwards.
   void leave();
   naiad::TruthRecorder::Comparison compare(const std::string& truth_file) const {
     return m_recorder.compare(truth_file, m_player);
@@ -66,7 +66,7 @@ class HonestPlayer {
   bool m_thrown_out = false;
   std::optional<naiad::RandomPlayer> m_fingers;
   Time m_next_tick{};
-  Time m_news{};  ///< when the newest tick came
+  Time m_news{};  ///< when the newest tick arrived
   std::uint32_t m_newest = 0;
   double m_pause_ms = 0;
 };

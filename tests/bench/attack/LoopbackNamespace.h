@@ -1,4 +1,4 @@
-// A network of this process's own: a loopback device with addresses that no other machine has.
+// A network of this process: a loopback device with additional addresses.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace bench::attack {
 
-/// Enter a new network namespace (and user namespace, so that no right is needed), with these IPv6 addresses
-/// on its loopback device. Before any thread is started. Why that is not possible here, without blanks;
-/// nothing if it is done.
+/// Enters a new network namespace (and user namespace, so that no privilege is needed), with these IPv6
+/// addresses on its loopback device. Call before starting threads. Returns nullopt on success, otherwise the
+/// reason without blanks.
 std::optional<std::string> enterLoopbackNamespace(const std::vector<std::string>& addresses);
 
 }  // namespace bench::attack

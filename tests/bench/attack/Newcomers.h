@@ -1,4 +1,4 @@
-// New players, one a second, each from an address of its own, who join and leave: how long do they wait?
+// A new player each second, from its own address, joins and leaves. Measures how long they wait.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,14 @@ class Newcomers {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// After so long one gives up.
+  /// Time after which a newcomer gives up.
   static constexpr std::chrono::milliseconds kPatience{5000};
 
   Newcomers(asio::io_context& context, const Whereabouts& server) : m_context(context), m_server(server) {}
 
-  /// Another one comes each second, from now on.
+  /// Starts a newcomer each second from now on.
   void begin(Time now) { m_next = now; }
-  /// No more come.
+  /// Starts no more newcomers.
   void end() { m_next = Time::max(); }
   void update(Time now) {
     if (now >= m_next) {
@@ -36,30 +36,30 @@ class Newcomers {
     }
     std::erase_if(m_guests, [&](Newcomer& newcomer) { return !serve(newcomer, now); });
   }
-  /// Some still try to join, or leave.
+  /// True while newcomers try to join or leave.
   bool isBusy() const { return !m_guests.empty(); }
 
   int count() const { return m_count; }
-  /// Those that were refused, hung up on, or gave up.
+  /// Returns the number that were refused, disconnected, or gave up.
   int failed() const { return m_failed; }
-  /// From the first byte to the picture; kPatience for those that failed.
+  /// Returns the longest time from the first byte to the picture; at least kPatience if any failed.
   double slowestMillis() const { return m_slowest_ms; }
 
  private:
   static constexpr int kNetwork = 90;
-  // Of one that the server asks to wait, as dfclient's.
+  // Delay of a newcomer that the server asks to wait, like dfclient's.
   static constexpr std::chrono::milliseconds kRetryDelay{250};
-  static constexpr std::chrono::milliseconds kLeaveTime{500};  // for the goodbye to get through
+  static constexpr std::chrono::milliseconds kLeaveTime{500};  // time for the goodbye to arrive
 
   struct Newcomer {
     std::string address;
     Time since;
-    Time next_attempt;  ///< if there is no guest
+    Time next_attempt;  ///< valid while there is no guest
     bool joined = false;
     Time joined_at{};
     std::unique_ptr<Guest> guest;
   };
-  // False if it is done with.
+  // Returns false when the newcomer is finished.
   bool serve(Newcomer& newcomer, Time now) {
     const double waited = std::chrono::duration<double, std::milli>(now - newcomer.since).count();
     if (!newcomer.guest) {

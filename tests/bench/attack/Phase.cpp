@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// The attack's thread.
+/// Runs the attack in its own thread.
 class Assault {
  public:
   Assault(Attack& attack, ServerProcess& server, std::chrono::seconds duration)
@@ -35,7 +35,7 @@ class Assault {
     if (m_thread.joinable()) m_thread.join();
   }
 
-  /// Throws what went wrong in it.
+  /// Rethrows an exception of the thread.
   void finish() {
     m_over = true;
     m_thread.join();
@@ -54,10 +54,10 @@ class Assault {
   asio::io_context m_context{1};
   std::atomic<bool> m_over{false};
   std::exception_ptr m_failure;
-  std::thread m_thread;  // last: it uses the others
+  std::thread m_thread;  // last, because it uses the others
 };
 
-/// What a server takes from half of this time on: by then an attack has used up what it may do at once.
+/// Measures the server's CPU time in the second half, when an attack has used up its initial burst.
 class CpuMeter {
  public:
   CpuMeter(const ServerProcess& server, std::chrono::milliseconds duration)
@@ -66,7 +66,7 @@ class CpuMeter {
           return Reading{Clock::now(), server.cpuSeconds()};
         })) {}
 
-  /// Until now; of one core.
+  /// Returns the share of one core until now, in percent.
   double percent() {
     const Reading half = m_half.get();
     const std::chrono::duration<double> elapsed = Clock::now() - half.time;
@@ -83,7 +83,7 @@ class CpuMeter {
   std::future<Reading> m_half;
 };
 
-/// All but ten seconds: 50 of 60.
+/// Returns the middle five sixths: 50 s of 60.
 Company::Absence absenceIn(std::chrono::milliseconds duration) {
   return {duration / 12, duration * 11 / 12};
 }

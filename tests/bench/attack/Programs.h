@@ -1,4 +1,4 @@
-// Which programs are attacked: those of this build, unless the environment names others.
+// The programs to attack: those of this build, unless the environment names others.
 #pragma once
 
 #include <cstdlib>
@@ -6,7 +6,7 @@
 
 namespace bench::attack {
 
-/// NAIAD_ATTACK_DFSERVER and NAIAD_ATTACK_DFCLIENT name other ones, those of an earlier version for example.
+/// Returns a program's path; NAIAD_ATTACK_DFSERVER and NAIAD_ATTACK_DFCLIENT select another version.
 inline std::string programAt(const char* variable, const char* name) {
   const char* other = std::getenv(variable);
   return other != nullptr ? other : std::string(NAIAD_BINARY_DIR) + "/" + name;

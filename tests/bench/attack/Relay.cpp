@@ -17,11 +17,11 @@ using asio::ip::tcp;
 using asio::ip::udp;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxQueued = std::size_t{4} << 20;  // bytes under way, before no more are read
+constexpr std::size_t kMaxQueued = std::size_t{4} << 20;  // bytes under way, above which reading stops
 constexpr std::size_t kMaxHoses = 64;
 constexpr int kPortAttempts = 50;
 
-/// A stream: the client's socket and the one to the server.
+/// A stream: the client's socket and the relay's socket to the server.
 class Line : public std::enable_shared_from_this<Line> {
  public:
   Line(asio::io_context& context, std::chrono::milliseconds delay)
@@ -46,7 +46,7 @@ class Line : public std::enable_shared_from_this<Line> {
   }
 
  private:
-  /// Bytes that came from here; none: the end.
+  /// Bytes received from this socket; empty: the end.
   struct Chunk {
     Clock::time_point due;
     std::string bytes;
@@ -111,7 +111,7 @@ class Line : public std::enable_shared_from_this<Line> {
   std::array<Half, 2> m_halves;
 };
 
-/// Datagrams of one port of the client's.
+/// Datagrams from one port of the client.
 struct Hose {
   Hose(asio::io_context& context, udp::endpoint whose) : client(std::move(whose)), to_server(context) {}
   udp::endpoint client;
@@ -154,7 +154,7 @@ struct Relay::State : std::enable_shared_from_this<State> {
   std::array<char, 2048> packet{};
 };
 
-// Streams and datagrams need the same number of a port.
+// Streams and datagrams need equal port numbers.
 void Relay::State::open() {
   const auto loopback = asio::ip::address_v4::loopback();
   for (int attempt = 1;; ++attempt) {

@@ -1,7 +1,7 @@
-// Stands between one client and the server: gives it an address of its own, a longer way, or none.
+// A relay between one client and the server: changes the client's address, delays or breaks its connection.
 //
-// Bytes of the stream are passed on as they are, so TLS runs from end to end. Datagrams go through the same
-// port number, as the protocol wants it.
+// Bytes of the stream are passed on unchanged, so TLS runs from end to end. Datagrams use an equal port
+// number, as the protocol requires.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -16,22 +16,22 @@ class Relay {
  public:
   struct Options {
     std::string source = "127.0.0.1";    ///< the client's address as the server sees it
-    std::chrono::milliseconds delay{0};  ///< in each direction
-    bool datagrams = false;              ///< pass them, too
+    std::chrono::milliseconds delay{0};  ///< added in each direction
+    bool datagrams = false;              ///< relay datagrams, too
   };
 
   /// Runs in `context`, which must outlive it. Throws std::system_error.
   Relay(asio::io_context& context, std::uint16_t server_port, const Options& options);
-  /// As cut().
+  /// Calls cut().
   ~Relay();
   Relay(const Relay&) = delete;
   Relay& operator=(const Relay&) = delete;
 
-  /// Clients connect here, on 127.0.0.1.
+  /// Returns the port on 127.0.0.1 to which the client connects.
   std::uint16_t port() const;
-  /// Both ends of all present connections lose them.
+  /// Closes both ends of all present connections.
   void cut();
-  /// While closed, later connections end at once and datagrams are lost.
+  /// If closed, later connections end at once and datagrams are lost.
   void setOpen(bool open);
 
  private:

@@ -28,7 +28,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kMaxLog = std::size_t{1} << 20;  // bytes kept
 
-/// Ours, without settings that would be the server's.
+/// Returns our environment without server settings, with this password.
 std::vector<std::string> environmentWith(const std::string& password) {
   std::vector<std::string> entries;
   for (char** p = environ; *p != nullptr; ++p) {
@@ -142,7 +142,7 @@ void ServerProcess::setMode(LogMode mode) {
 
 void ServerProcess::stallLog() {
   setMode(LogMode::kStalled);
-  // Opened a second time: whether a write waits is a property of what was opened, and the server's must wait.
+  // Opened again, because O_NONBLOCK belongs to an open file, and the server's must block.
   const std::string name = "/proc/self/fd/" + std::to_string(m_log_out);
   const int filler = open(name.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
   if (filler < 0) throw std::runtime_error("the pipe of the log cannot be filled");
@@ -158,7 +158,7 @@ void ServerProcess::closeLog() {
   setMode(LogMode::kClosed);
 }
 
-// ---- the end ----------------------------------------------------------------------------------------------
+// ---- shutdown ---------------------------------------------------------------------------------------------
 
 ServerProcess::Counters ServerProcess::stop() {
   if (m_mode == LogMode::kStalled) setMode(LogMode::kRead);

@@ -1,4 +1,4 @@
-// dfserver as people start it: a process with shipped settings, TLS, and its log in a pipe.
+// dfserver as a process with default settings, TLS, and its log in a pipe.
 #pragma once
 
 #include <sys/types.h>
@@ -12,7 +12,7 @@
 
 namespace bench::attack {
 
-/// What differs from a server without options.
+/// Settings that differ from a server without options.
 struct ServerSetup {
   std::vector<std::string> arguments;
   std::string password;  ///< empty: none
@@ -22,10 +22,10 @@ class ServerProcess {
  public:
   using Counters = std::map<std::string, double>;
 
-  /// Starts it, with an identity and a truth file in `folder`, and waits until it listens. Throws
+  /// Starts the server with an identity and a truth file in `folder`, and waits until it listens. Throws
   /// std::runtime_error.
   ServerProcess(const ServerSetup& setup, const std::string& folder);
-  /// Kills it if it still runs.
+  /// Kills the server if it still runs.
   ~ServerProcess();
 
   std::uint16_t port() const { return m_port; }
@@ -33,20 +33,20 @@ class ServerProcess {
   const std::string& password() const { return m_password; }
   const std::string& truthFile() const { return m_truth_file; }
   bool isRunning();
-  /// Of all its threads, since it began; 0 if it is not there.
+  /// Returns the CPU time of all its threads since its start; 0 if it does not run.
   double cpuSeconds() const;
 
-  /// From now on the log is not read, and its pipe is full.
+  /// Stops reading the log and fills its pipe.
   void stallLog();
-  /// The reader of the log ends.
+  /// Ends the reader of the log.
   void closeLog();
 
-  /// Ask it to end (the log is read again), and kill it after ten seconds. The counters of its last line;
-  /// none if there was no such line.
+  /// Asks the server to stop (its log is read again), and kills it after ten seconds. Returns the counters of
+  /// its last line; empty if that line is missing.
   Counters stop();
-  /// Did it end before it was asked to?
+  /// True if it ended before it was asked to.
   bool hasDied() const { return m_died; }
-  /// The end of its log.
+  /// Returns the end of its log.
   const std::string& log() const { return m_log; }
 
  private:
@@ -61,11 +61,11 @@ class ServerProcess {
   std::uint16_t m_port = 0;
   pid_t m_pid = -1;
   bool m_died = false;
-  int m_log_in = -1;   ///< the pipe's end that is read
+  int m_log_in = -1;   ///< read end of the pipe
   int m_log_out = -1;  ///< the server's end, kept to fill the pipe
   std::atomic<LogMode> m_mode{LogMode::kRead};
-  std::atomic<LogMode> m_mode_seen{LogMode::kRead};  ///< by the thread
-  std::string m_log;                                 ///< the thread's until it has finished
+  std::atomic<LogMode> m_mode_seen{LogMode::kRead};  ///< mode that the thread has seen
+  std::string m_log;                                 ///< owned by the thread until it has finished
   std::thread m_reader;
 };
 

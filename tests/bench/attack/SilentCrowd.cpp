@@ -1,4 +1,4 @@
-// silent4, silent6: connections on which nothing is ever sent.
+// silent4, silent6: connections that never send anything.
 #include <array>
 #include <asio/ip/tcp.hpp>
 #include <asio/steady_timer.hpp>
@@ -14,7 +14,7 @@ using asio::ip::tcp;
 constexpr int kPerSource = 64;
 constexpr std::chrono::milliseconds kAgain{500};
 
-/// One connection, again and again.
+/// A connection that is made again whenever it ends.
 class Mute : public std::enable_shared_from_this<Mute> {
  public:
   Mute(asio::io_context& context, asio::ip::address source, tcp::endpoint server, long long& connects)

@@ -1,5 +1,5 @@
-// naiad_attack: attacks the real programs with shipped settings while honest players play, and says on one
-// line what became of them. docs/bench.md explains the keys.
+// naiad_attack: attacks the real programs with default settings while honest players play, and prints the
+// results on one line. docs/bench.md explains the keys.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -23,21 +23,20 @@ namespace {
 using namespace bench::attack;
 using namespace std::chrono_literals;
 
-/// A newcomer should have joined by then, and the world not have stood still for longer.
+/// Limit of a newcomer's wait and of a pause of the world.
 constexpr double kMaxWaitMillis = 1000;
-/// A machine that is slow without an attack may be this many times slower with it: the worst of four times as
-/// many.
+/// Allowed factor between the worst times with and without an attack on a slow machine, because an attack
+/// lasts four times as long.
 constexpr double kBusyFactor = 4;
-/// Of some 90 ticks that the three honest players see.
+/// Minimum for the three honest players together, which see about 90 ticks per second.
 constexpr double kMinComparedPerSecond = 5;
-/// Of all ticks, more than without the attack. On a machine that makes more of them late without one, late
-/// ticks say nothing.
+/// Allowed increase of the late ticks' share. Not checked if many ticks are late without the attack.
 constexpr double kMaxLateShare = 0.1;
 constexpr double kMaxCalmLateShare = 0.05;
 
-/// Of one core, that one player costs: over that without the attack, on a quiet machine.
+/// Percent of one core that the attacking player may add to the server's load, on a quiet machine.
 constexpr double kMaxCpuPercent = 2;
-/// A shorter attack is one that has not used up what it may do at once.
+/// Minimum length of an attack for the CPU limit. A shorter one has not used up its initial burst.
 constexpr double kMinCpuSeconds = 30;
 
 struct Effort {
@@ -50,7 +49,7 @@ const std::vector<std::string> kNetworks6 = {"2001:db8:7:1::1", "2001:db8:7:2::1
 
 using Make = std::function<AttackPtr()>;
 
-/// All but hard_pile, which is an attack on a client. chat_detached comes twice.
+/// All attacks except hard_pile, which attacks a client. chat_detached runs twice.
 const std::map<std::string, std::vector<Make>>& attacks() {
   static const std::vector<std::string> s_networks4 = {addressIn(3, 0), addressIn(3, 1), addressIn(3, 2),
                                                        addressIn(3, 3)};
@@ -80,7 +79,7 @@ bool isDear(const PhaseResult& calm, const PhaseResult& hot) {
   return hot.cpu_percent - calm.cpu_percent > limit;
 }
 
-/// What an attack should not be able to do.
+/// Returns the keys of results that an attack must not cause.
 std::vector<std::string> faultsOf(const PhaseResult& calm, const PhaseResult& hot) {
   std::vector<std::string> faults;
   if (hot.fate.wrong_cells > 0) faults.emplace_back("wrong_cells");

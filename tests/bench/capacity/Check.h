@@ -1,4 +1,4 @@
-// Which pictures both ends of the suite `capacity` look at, and how they tell whether they are the same.
+// The pictures that both ends of the suite `capacity` compare, and their checksums.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,15 @@
 
 namespace bench::capacity {
 
-/// A player's screen is compared in one of so many ticks: to draw it costs the server what it is measured by.
+/// A player's screen is compared in one of this many ticks, because drawing it costs server time.
 inline constexpr std::uint32_t kCheckEvery = 32;
 inline bool isChecked(std::uint32_t player, std::uint32_t tick) {
   return (player + tick) % kCheckEvery == 0;
 }
-/// Players with this in front of their names are checked.
+/// Beginning of the names of players that are checked.
 inline constexpr const char* kCheckedName = "check";
 
-/// A sum over all cells, characters and colours (FNV-1a).
+/// Returns a checksum over all cells, characters and colours (FNV-1a).
 inline std::uint64_t pictureSum(const df::Canvas& canvas) {
   std::uint64_t sum = 0xcbf29ce484222325;
   const auto mix = [&sum](std::uint64_t value) { sum = (sum ^ value) * 0x100000001b3; };

@@ -8,7 +8,7 @@
 
 namespace bench::capacity {
 
-/// This process and the threads it will make run on one core only. False if there is no such core for us.
+/// Restricts this process and its later threads to one core. False if this core is not available.
 inline bool pinTo(int core) {
   cpu_set_t set;
   CPU_ZERO(&set);
@@ -16,7 +16,7 @@ inline bool pinTo(int core) {
   return sched_setaffinity(0, sizeof set, &set) == 0;
 }
 
-/// Microseconds of processor time that a clock has counted.
+/// Returns the microseconds of processor time counted by a clock.
 inline double cpuMicros(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
   timespec time{};
   clock_gettime(clock, &time);

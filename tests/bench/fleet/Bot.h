@@ -53,10 +53,10 @@ class Bot {
   std::uint32_t player() { return m_connection.session()->welcome().player; }
   void leave() { m_connection.leave(); }
 
-  /// From the moment that it was first sent on to its first picture; nothing: it was not.
+  /// Returns the time from the first redirect to the first picture; nullopt without a redirect.
   std::optional<std::chrono::milliseconds> redirectTime() const { return m_redirect; }
 
-  /// Its server has been killed: it is back once it has lost it and plays again.
+  /// Records that its server was killed. isBack() is true once the bot has lost the server and plays again.
   void noteKill(Time now) {
     m_killed_at = now;
     m_back_at = {};
@@ -69,7 +69,7 @@ class Bot {
   std::chrono::milliseconds backTime() const {
     return std::chrono::duration_cast<std::chrono::milliseconds>(m_back_at - m_killed_at);
   }
-  /// How often it has lost its server.
+  /// Returns how often it has lost its server.
   int losses() const { return m_losses; }
 
  private:

@@ -10,7 +10,7 @@ namespace bench {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenLooks{20};
-constexpr std::chrono::seconds kPatience{60};  // for an answer
+constexpr std::chrono::seconds kPatience{60};  // timeout for an answer
 
 bool waitFor(const std::function<bool()>& holds, std::chrono::milliseconds most) {
   const auto end = std::chrono::steady_clock::now() + most;

@@ -1,15 +1,15 @@
-// The players of a fleet, in several processes, as one: one thread cannot serve a thousand of them as a
-// player's own machine would.
+// The players of a fleet. They run in several processes, because one thread cannot serve a thousand of them
+// as fast as each player's own machine would.
 //
 // A process reads commands, a line each, and answers each with a line of numbers:
 //
-//   join AT_ONCE   they come, so many at a time         0
+//   join AT_ONCE   players join, this many at a time    0
 //   state                                               PLAYING LOSSES; "problem SENTENCE": one cannot join
-//   kill PORT      that server is about to be killed    players who are there
-//   waiting                                             of them, those who are not back yet
-//   result                                              RETURNED DISTURBED MS... of those who are back
-//   redirects                                           MS... of those who were sent on
-//   leave          and it ends                          0
+//   kill PORT      that server is about to be killed    number of players on it
+//   waiting                                             number of these that are not back yet
+//   result                                              RETURNED DISTURBED MS... of those that are back
+//   redirects                                           MS... of redirected players
+//   leave          the process ends                     0
 #pragma once
 
 #include <chrono>
@@ -23,36 +23,36 @@
 
 namespace bench {
 
-/// All of it throws std::runtime_error if one of the processes has ended, or a player cannot join.
+/// All functions throw std::runtime_error if one of the processes has ended, or a player cannot join.
 class Crowd {
  public:
-  /// `folder`: for the keys that they pin, each process in a file of its own.
+  /// `folder` is for the keys that the players pin, in a file for each process.
   Crowd(const std::string& link, const std::filesystem::path& folder, int players, int processes);
 
-  /// Have all come, some at a time. False: they do not in that time.
+  /// Lets the players join, at most `at_once` at a time. False if they have not all joined in time.
   bool joinAll(int at_once, std::chrono::seconds most);
   struct State {
     int playing = 0;
-    int losses = 0;  ///< how often they have lost their servers
+    int losses = 0;  ///< how often players have lost their servers
   };
   State state();
-  /// From the directory's answer to the first picture, of each who was sent on, in milliseconds.
+  /// Returns each redirected player's time from the directory's answer to the first picture, in milliseconds.
   std::vector<long> redirects();
 
-  /// The server at this port is about to be killed. Return how many play there.
+  /// Call before the server at this port is killed. Returns how many players it has.
   int noteKill(std::uint16_t port);
-  /// Wait until all of them play again, or for so long.
+  /// Waits until all of them play again, or for this time.
   void waitUntilBack(std::chrono::milliseconds most);
   struct Return {
-    int returned = 0;        ///< as the same players
-    int disturbed = 0;       ///< players of other servers that lost them meanwhile
-    std::vector<long> back;  ///< milliseconds, of those who play again
+    int returned = 0;        ///< players that kept their identity
+    int disturbed = 0;       ///< times that players of other servers lost theirs
+    std::vector<long> back;  ///< milliseconds, for each that plays again
   };
   Return result();
   void leaveAll();
 
  private:
-  /// All processes' answers to a command.
+  /// Returns all processes' answers to a command.
   std::vector<std::vector<long>> ask(const std::string& command);
   long sumOf(const std::string& command);
 
@@ -60,8 +60,8 @@ class Crowd {
   int m_players;
 };
 
-/// One of these processes, until "leave", or its input ends. Throws std::runtime_error for a link that is
-/// none.
+/// Runs one of these processes until "leave" or the end of its input. Throws std::runtime_error for an
+/// invalid link.
 void serveCrowd(const std::string& link, const std::filesystem::path& known_servers, int first, int count);
 
 }  // namespace bench

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kTurn{5};
 
 class Players {
  public:
-  /// Numbered from `first` on.
+  /// The players' numbers start at `first`.
   Players(const std::string& link, const std::filesystem::path& known_servers, int first, int count)
       : m_first(first), m_count(static_cast<std::size_t>(count)) {
     const auto parsed = naiad::JoinLink::parse(link);
@@ -32,7 +32,7 @@ class Players {
     m_trust.known_servers = known_servers;
   }
 
-  /// One turn of some milliseconds.
+  /// Serves the players for some milliseconds.
   void serve() {
     const std::size_t waiting = m_bots.size() - playing();
     for (std::size_t i = waiting; i < m_at_once && m_bots.size() < m_count; ++i)
@@ -69,7 +69,7 @@ class Players {
   std::size_t playing() const {
     return static_cast<std::size_t>(std::ranges::count_if(m_bots, &Bot::isPlaying));
   }
-  /// One who ends later is one who does not come back.
+  /// A player that ends after all have joined counts as not returned, so it is not a problem here.
   std::string state() {
     m_have_come = m_have_come || playing() == m_count;
     const auto over = std::ranges::find_if(m_bots, &Bot::isOver);
@@ -83,7 +83,7 @@ class Players {
     for (const Bot* p_bot : m_others) losses += p_bot->losses();
     return losses;
   }
-  /// One may go to another server for good: it is still one of those who lost theirs.
+  /// A bot may move to another server for good. It still counts as one that lost its server.
   std::string noteKill(std::uint16_t port) {
     m_there.clear();
     m_others.clear();
@@ -120,13 +120,13 @@ class Players {
   std::size_t m_count;
   std::size_t m_at_once = 0;
   std::deque<Bot> m_bots;
-  bool m_have_come = false;   ///< all of them
-  std::vector<Bot*> m_there;  ///< on the server that was killed last
+  bool m_have_come = false;   ///< all have joined
+  std::vector<Bot*> m_there;  ///< players of the last killed server
   std::vector<Bot*> m_others;
-  int m_before = 0;  ///< losses of the others then
+  int m_before = 0;  ///< losses of the others when it was killed
 };
 
-/// Appends what has come of the input, if anything; false: it has ended.
+/// Appends the available input. False at its end.
 bool readInput(std::string& text) {
   pollfd ready{STDIN_FILENO, POLLIN, 0};
   if (::poll(&ready, 1, 0) != 1) return true;

@@ -42,7 +42,7 @@ std::uint16_t portIn(const fs::path& path) {
   return static_cast<std::uint16_t>(std::atoi(textOf(path).c_str()));
 }
 
-/// Of the last line that has it; counters that are 0 are left out there.
+/// Returns the counter from the last line that has it. Lines omit counters that are 0.
 std::optional<std::uint64_t> counter(const std::string& log, const std::string& name) {
   const std::size_t at = log.rfind(" " + name + "=");
   if (at == std::string::npos) return std::nullopt;
@@ -153,7 +153,7 @@ void Fleet::startServer(std::size_t number) {
   server.process.emplace(words, server.folder / "log");
 }
 
-// What a process has counted is lost with it. One that hangs has none to tell: its players will say so.
+// Reads the counters first, because a killed process loses them. A hanging server has none.
 void Fleet::killServer(std::size_t number) {
   Server& server = m_servers.at(number);
   try {
@@ -167,7 +167,7 @@ void Fleet::killServer(std::size_t number) {
   server.process->kill();
 }
 
-// One signal each: a second one may end a server before its last line.
+// Sends only one signal each, because a second one may end a server before its last line.
 void Fleet::end() {
   for (Server& server : m_servers) server.process->signal(SIGTERM);
   for (Server& server : m_servers) {

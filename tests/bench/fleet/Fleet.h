@@ -1,4 +1,4 @@
-// A fleet on this machine: nats-server, dfdir and dfservers, each with a folder of its own.
+// A fleet on this machine: nats-server, dfdir and dfservers, each in its own folder.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace bench {
 
 struct FleetSetup {
   int servers = 10;
-  int max_players = 128;  ///< of each
+  int max_players = 128;  ///< per server
   int bots = 1000;
   int hz = 30;
   std::string game = "hello";
@@ -27,24 +27,24 @@ class Fleet {
   ~Fleet();
 
   std::uint16_t directoryPort() const { return m_directory_port; }
-  /// The link to the directory.
+  /// Returns the link to the directory.
   std::string link() const;
   std::size_t size() const { return m_servers.size(); }
   std::uint16_t port(std::size_t server) const { return m_servers.at(server).port; }
-  /// SIGKILL; startServer() later. Its ticks so far are asked for before.
+  /// Kills a server with SIGKILL after reading its tick counters. startServer() may start it again.
   void killServer(std::size_t server);
   void startServer(std::size_t server);
   void killBus() { m_bus->kill(); }
   void startBus();
-  /// End all. Throws std::runtime_error if one does not end in order.
+  /// Ends all programs. Throws std::runtime_error if one does not end properly.
   void end();
   struct Ticks {
     std::uint64_t all = 0;
     std::uint64_t late = 0;
   };
-  /// Of all servers, of those that were killed as well: call after end().
+  /// Returns the ticks of all servers, including killed ones. Call after end().
   const Ticks& ticks() const { return m_ticks; }
-  /// What the directory and the servers logged, for who looks for a mistake.
+  /// Returns the folder with the logs, for finding errors.
   std::filesystem::path folder() const { return m_folder; }
 
  private:
@@ -52,7 +52,7 @@ class Fleet {
     std::filesystem::path folder;
     std::uint16_t port = 0;
     std::optional<Process> process;
-    std::size_t log_begin = 0;  ///< of this process, in its log
+    std::size_t log_begin = 0;  ///< start of this process's part of the log
   };
   std::string busUrl() const { return "nats://127.0.0.1:" + std::to_string(m_bus_port); }
   void startDirectory();
@@ -64,7 +64,7 @@ class Fleet {
   std::optional<Process> m_bus;
   std::optional<Process> m_directory;
   std::vector<Server> m_servers;
-  Ticks m_ticks;  ///< of servers that have ended
+  Ticks m_ticks;  ///< ticks of servers that have ended
 };
 
 }  // namespace bench

@@ -1,4 +1,4 @@
-// A program of the build, as a process that is killed and started again.
+// A program of the build as a process that is killed and restarted.
 #pragma once
 
 #include <fcntl.h>
@@ -19,7 +19,7 @@ namespace bench {
 
 class Process {
  public:
-  /// `words`: the program's name in the build's folder, and its arguments. Its output goes to a file.
+  /// `words` are the program's name in the build's folder and its arguments. `output` is a file.
   Process(std::vector<std::string> words, std::filesystem::path output) {
     if (words.front().find('/') == std::string::npos) words.front() = NAIAD_BINARY_DIR "/" + words.front();
     std::vector<char*> pointers;
@@ -45,12 +45,12 @@ class Process {
   void signal(int number) const {
     if (m_child > 0) ::kill(m_child, number);
   }
-  /// SIGKILL, and its end.
+  /// Sends SIGKILL and waits for the end.
   void kill() {
     signal(SIGKILL);
     wait();
   }
-  /// Wait for its end, after a signal. False: it does not within that time, and is killed.
+  /// Waits for the end after a signal. If it does not end in this time, kills it and returns false.
   bool waitForEnd(std::chrono::milliseconds most) {
     const auto end = std::chrono::steady_clock::now() + most;
     while (isRunning()) {

@@ -1,7 +1,7 @@
-// A fleet on this machine, whose servers and bus are killed while players play. deploy/bench fleet runs it.
+// A fleet on this machine, whose servers and bus are killed while players play. Run by deploy/bench fleet.
 //
 //   naiad_fleet BOTS KILLS BUS_SECONDS HZ [SERVERS]   one line
-//   naiad_fleet --players LINK FILE FIRST COUNT       of these players (Crowd.h)
+//   naiad_fleet --players LINK FILE FIRST COUNT       a process of players (Crowd.h)
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -22,28 +22,28 @@ namespace {
 using namespace std::chrono_literals;
 using bench::percentile;
 
-/// After which a service manager starts a server again.
+/// Time after which a service manager restarts a server.
 constexpr std::chrono::milliseconds kRestart{300};
-constexpr std::chrono::milliseconds kPlay{2'000};  ///< between two kills
+constexpr std::chrono::milliseconds kPlay{2'000};  ///< time between two kills
 constexpr std::chrono::milliseconds kReturnTimeout{60'000};
 constexpr int kJoiningAtOnce = 25;
 
-// What a run has to reach, if its machine keeps up with the ticks.
+// Requirements for a run on a machine that keeps up with the ticks.
 
-constexpr double kMaxLatePercent = 5;  ///< with more the run says nothing
+constexpr double kMaxLatePercent = 5;  ///< above this the run is invalid
 constexpr long kMaxBackMillis = 3'000;
 constexpr long kMaxRedirectMillis = 2'000;  ///< p99
 
-/// Of players: more than 250 keep one thread from serving them in time.
+/// Returns the number of processes for these players, because a thread can serve at most 250 in time.
 int processesFor(int players) {
   return std::min(players, std::max(4, (players + 249) / 250));
 }
 
 struct Result {
   int kills = 0;
-  int players = 0;    ///< of servers that were killed
-  int returned = 0;   ///< of them, as the same player
-  int disturbed = 0;  ///< players of other servers that lost them meanwhile
+  int players = 0;    ///< players of killed servers
+  int returned = 0;   ///< those of them that kept their identity
+  int disturbed = 0;  ///< times that players of other servers lost theirs
   std::vector<long> back;
   std::vector<long> redirects;
   int lost_without_bus = 0;
@@ -72,7 +72,7 @@ void loseBus(bench::Fleet& fleet, bench::Crowd& crowd, std::chrono::seconds time
   result.lost_without_bus = crowd.state().losses - before;
 }
 
-/// All players came by the directory, and all who lost their server play again.
+/// True if the directory redirected all players, and all that lost their server play again.
 bool isComplete(const bench::FleetSetup& setup, const Result& result) {
   return static_cast<int>(result.back.size()) == result.players &&
          static_cast<int>(result.redirects.size()) == setup.bots;
@@ -84,7 +84,7 @@ bool isGood(const Result& result) {
          result.lost_without_bus == 0;
 }
 
-/// False: it failed.
+/// Prints the result. False if the run failed.
 bool print(const bench::FleetSetup& setup, const Result& result, std::chrono::seconds bus_time,
            const bench::Fleet::Ticks& ticks) {
   const double late =
@@ -130,7 +130,7 @@ int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time
   return print(setup, result, bus_time, fleet.ticks()) ? 0 : 1;
 }
 
-/// A process of players, which the other one has started.
+/// Runs a process of players, started by the main process.
 int serve(const std::vector<std::string>& words) {
   const int count = std::atoi(words[4].c_str());
   naiad::surviveBrokenPipes();
@@ -157,7 +157,7 @@ int main(int argc, char** argv) {
   setup.bots = std::atoi(words[0].c_str());
   setup.hz = std::atoi(words[3].c_str());
   if (words.size() == 5) setup.servers = std::atoi(words[4].c_str());
-  // A quarter of the places is left, so that players fit wherever servers are killed.
+  // A quarter of the slots stays free, so that players fit when servers are killed.
   setup.max_players = setup.bots / setup.servers * 4 / 3 + 4;
   naiad::surviveBrokenPipes();
   naiad::allowOpenFiles(static_cast<std::size_t>(4 * setup.bots + 256));

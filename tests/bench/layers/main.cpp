@@ -1,10 +1,10 @@
-// naiad_layers: runs a scene whose Objects use a layer of the engine, or do not; the suite `layers` runs it,
+// naiad_layers: runs a scene whose Objects use a layer of the engine, or not. The suite `layers` runs it
 // alone and in valgrind, and counts.
 //
 //     naiad_layers SCENE LAYER one|sixteen|all TICKS
 //
-// In a scene there is one Object more, far from all others, under way, or sixteen more that stand scattered
-// among them. These alone use the layer, or all do. None comes to a border. Prints `allocations_per_tick=…
+// The scene has an additional moving Object far from all others, or sixteen that stand scattered among them.
+// Only these use the layer, or all do. None reaches a border. Prints `allocations_per_tick=…
 // bytes_per_object=…`.
 #include <malloc.h>
 
@@ -20,11 +20,11 @@
 #include "engine/world/World.h"
 #include "tests/bench/Scene.h"
 
-// What this program takes from the heap with operator new, the engine's library included.
+// Counters of the memory that this process, including the engine's library, gets by operator new.
 namespace {
 
 long s_allocations = 0;
-long s_bytes = 0;  // taken now, as the allocator rounds them
+long s_bytes = 0;  // presently allocated, as rounded by the allocator
 
 void* take(std::size_t size) {
   void* p = std::malloc(size > 0 ? size : 1);
@@ -41,7 +41,7 @@ void give(void* p) {
 
 }  // namespace
 
-// The only way to see every allocation in the process: replace the operators.
+// Only replaced operators see every allocation in the process.
 void* operator new(std::size_t size) {
   return take(size);
 }
@@ -69,7 +69,7 @@ constexpr int kWarmUpTicks = 8;
 
 using Use = void (*)(df::Object&);
 
-// They turn around when they are blocked.
+// A body that turns around when it is blocked.
 class Walker : public df::Object {
  public:
   explicit Walker(const Body& body) {
@@ -110,7 +110,7 @@ const std::map<std::string, Scene (*)()> kScenes = {
     {"hard_4000", [] { return Scene(Mix::HARD_ONLY, 4'000, 0.1); }},
 };
 
-// Sixteen that stand, one in the middle of each sixteenth of the scene.
+// Adds sixteen standing bodies, one in the middle of each sixteenth of the scene.
 void scatter(const Scene& scene, Use use) {
   Body body = scene.bodies.front();
   body.vx = body.vy = 0;

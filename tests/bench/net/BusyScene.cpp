@@ -19,7 +19,7 @@ namespace {
 constexpr int kFine = 1'000'000;
 constexpr int kTwoMinutes = 120 * 30;  // ticks
 
-/// Uniform in -most … most.
+/// Returns a uniform number in -most … most.
 double within(double most) {
   return most * (2.0 * WM.randomInt(kFine) / kFine - 1.0);
 }
@@ -64,7 +64,7 @@ class Walker : public df::Object {
     }
     if (m_kind == BusyScene::Kind::kStraight) stayForTwoMinutes();
   }
-  // To the farther side, and not as fast as to reach it: whoever left the map would be news.
+  // Walks to the farther side without reaching it, because leaving the map would be a change.
   void stayForTwoMinutes() {
     const df::Vector p = getPosition();
     const df::Vector v = getVelocity();
@@ -88,7 +88,7 @@ class Walker : public df::Object {
   df::Color m_color = df::WHITE;
 };
 
-/// What a player's view looks at.
+/// The centre of a player's view.
 class Eye : public df::Object {
  public:
   Eye(int x, int y) {
@@ -99,7 +99,7 @@ class Eye : public df::Object {
   }
 };
 
-/// Gives each player a part of the world to look at.
+/// Gives each player an Eye at a part of the world.
 class Usher : public df::Object {
  public:
   Usher() {

@@ -1,6 +1,5 @@
-// One client of a published world: its sender on the server, a bad line in virtual time, its replica at the
-// other end. Counts what goes over the line as it would be there: IPv4 and UDP headers, the datagram's, its
-// seal.
+// One client of a published world: its sender on the server, a bad line in virtual time, and its replica.
+// Counts bytes as on a real line: with IPv4 and UDP headers, the datagram's header, and its seal.
 #pragma once
 
 #include <chrono>
@@ -20,7 +19,7 @@ namespace bench {
 
 class LinkedClient {
  public:
-  /// Around a snapshot: IPv4 and UDP headers, those of the datagram, its seal, its field of flags.
+  /// Bytes around a snapshot: IPv4 and UDP headers, the datagram's header, its seal, its flags.
   static constexpr std::size_t kDownOverhead = 28 + 3 + 16 + 1;
   static constexpr std::size_t kUpOverhead = 28 + 11 + 16 + 1;
   using Time = naiad::DisplayClock::Time;
@@ -28,17 +27,17 @@ class LinkedClient {
   LinkedClient(naiad::VirtualClock& clock, const naiad::LinkConditions& conditions, std::uint64_t seed,
                naiad::Resend resend);
 
-  /// A tick of the server.
+  /// Runs a tick of the server.
   void tick(const naiad::Publisher& publisher, const df::PlayerFacts& player);
   /// Called for each snapshot that arrives, before it is applied.
   std::function<void(const naiad::Snapshot&)> on_snapshot;
 
   const naiad::Replica& replica() const { return m_replica; }
   naiad::DisplayClock& displayClock() { return m_display; }
-  /// The virtual time as the display clock has it.
+  /// Returns the virtual time as a time of the display clock.
   Time now() const { return Time{} + m_clock.now(); }
 
-  /// Since the last resetFigures().
+  /// Figures since the last resetFigures().
   std::size_t bytes_down = 0;
   std::size_t bytes_up = 0;
   std::size_t packets_down = 0;
@@ -60,7 +59,7 @@ class LinkedClient {
   std::unique_ptr<naiad::DatagramChannel> m_client;
 };
 
-/// Length of a tick in all of them.
+/// Length of a tick in these measurements.
 inline constexpr std::chrono::microseconds kTickLength{33'333};
 
 }  // namespace bench

@@ -1,4 +1,4 @@
-// A command as exec() wants it.
+// A command in the form that exec() needs.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace bench::path {
 
-/// Points into `command`, with a null at the end.
+/// Returns pointers into `command`, followed by a null.
 inline std::vector<char*> argvOf(const std::vector<std::string>& command) {
   std::vector<char*> argv;
   argv.reserve(command.size() + 1);

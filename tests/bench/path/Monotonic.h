@@ -1,4 +1,4 @@
-// The clock that all processes of a measurement share.
+// The common clock of all processes of a measurement.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ constexpr Nanoseconds fromMilliseconds(double value) {
   return Nanoseconds(static_cast<std::int64_t>(value * 1e6));
 }
 
-/// CLOCK_MONOTONIC, the same in all namespaces.
+/// Returns CLOCK_MONOTONIC, which is equal in all namespaces.
 inline Nanoseconds monotonicNow() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

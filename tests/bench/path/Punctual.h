@@ -1,4 +1,4 @@
-// For processes that other processes are measured by.
+// Scheduling for processes that measure others.
 #pragma once
 
 #include <sched.h>
@@ -6,8 +6,8 @@
 
 namespace bench::path {
 
-/// Let this process, but none of its children to come, be woken exactly when it wants, and before others. A
-/// wish: not everybody may have a priority.
+/// Requests that this process, but not its later children, is woken exactly on time and before others. Has no
+/// effect without the permission to set a priority.
 inline void becomePunctual() {
   prctl(PR_SET_TIMERSLACK, 1UL);
   sched_param priority{};

@@ -1,4 +1,4 @@
-// A file of one T that several processes map: how the programs of this folder look at each other.
+// A file with a T that several processes map. The programs of this folder use it to observe each other.
 #pragma once
 
 #include <fcntl.h>
@@ -13,17 +13,17 @@
 
 namespace bench::path {
 
-/// T consists of plain data and lock-free atomics. Throws std::runtime_error.
+/// T must consist of plain data and lock-free atomics. Throws std::runtime_error.
 template <class T>
 class SharedFile {
  public:
-  /// Makes the file, with a new T in it.
+  /// Creates the file with a new T in it.
   static SharedFile create(const std::string& name) {
     SharedFile file(name, O_RDWR | O_CREAT | O_TRUNC);
     new (file.m_p_value) T;
     return file;
   }
-  /// Opens one that somebody else made.
+  /// Opens an existing file.
   static SharedFile open(const std::string& name) { return SharedFile(name, O_RDWR); }
 
   SharedFile(SharedFile&& other) noexcept : m_p_value(std::exchange(other.m_p_value, nullptr)) {}

@@ -17,13 +17,13 @@ struct Obstacle {
   std::uint32_t number;
 };
 
-// Of an obstacle and the mover together.
+// Sum of the half sizes of an obstacle and the mover.
 constexpr float kReach = 1;
 
-// Told of obstacles that the ray may hit, nearer and nearer ones.
+// Receives obstacles that the ray may hit, each nearer than the last hit.
 struct Ray {
   const b2DynamicTree& tree;
-  b2Vec2 inverse;  // of the way
+  b2Vec2 inverse;  // reciprocal of the way's components
   Answer answer;
 
   float RayCastCallback(const b2RayCastInput& input, std::int32_t handle) {
@@ -35,14 +35,14 @@ struct Ray {
     const float y2 = (apart.y + kReach) * inverse.y;
     const float enter = std::max(std::min(x1, x2), std::min(y1, y2));
     const float leave = std::min(std::max(x1, x2), std::max(y1, y2));
-    if (enter > leave || leave < 0 || enter > input.maxFraction) return -1;  // go on as before
+    if (enter > leave || leave < 0 || enter > input.maxFraction) return -1;  // continue as before
     answer.who = p_obstacle->number;
     answer.time = std::max(enter, 0.0F);
     return std::max(enter, 0.0F);
   }
 };
 
-// The place of a cell on Morton's curve: its coordinates' bits by turns.
+// Returns the position of a cell on Morton's curve, with the bits of its coordinates alternating.
 std::uint64_t alongCurve(b2Vec2 middle) {
   std::uint64_t place = 0;
   const auto x = static_cast<std::uint32_t>(std::max(middle.x, 0.0F));
@@ -61,8 +61,8 @@ struct Box2dCasts::Tree {
   std::vector<Obstacle> obstacles;
 };
 
-// The tree adds a margin to each box, for things that move; what does not move can do without. Obstacles go
-// in along a curve, neighbours after neighbours: the tree is two to four times faster then than in random
+// The tree adds a margin to each box for moving objects, which fixed ones do not need. Obstacles are added
+// along a curve, neighbour after neighbour, which makes the tree two to four times faster than a random
 // order.
 Box2dCasts::Box2dCasts(const Field& field) : m_p_tree(std::make_unique<Tree>()) {
   const b2Vec2 reach(kReach - b2_aabbExtension, kReach - b2_aabbExtension);

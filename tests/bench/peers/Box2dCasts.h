@@ -1,6 +1,5 @@
-// Sweeps with Box2D 2.4.1. It has no box cast, but a ray cast through its tree, which is the same if the
-// obstacles are larger by the mover's half size (their Minkowski sum) and the tree's callback tests the
-// slabs.
+// Sweeps with Box2D 2.4.1. It has no box cast, but its tree's ray cast is equivalent if the obstacles are
+// enlarged by the mover's half size (their Minkowski sum) and the tree's callback tests the slabs.
 #pragma once
 
 #include <memory>
@@ -15,7 +14,7 @@ class Box2dCasts {
   explicit Box2dCasts(const Field& field);
   ~Box2dCasts();
 
-  /// Whom it meets first, and when; without a position.
+  /// Returns the first obstacle and the time of contact, without a position.
   Answer cast(const Cast& cast) const;
 
  private:

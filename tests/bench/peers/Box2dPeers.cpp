@@ -1,4 +1,4 @@
-// Box2D's tree by itself, its world as an index, and its world's Step().
+// Box2D's tree alone, its world as an index, and its world's Step().
 #include <box2d/b2_dynamic_tree.h>
 #include <box2d/box2d.h>
 
@@ -20,9 +20,9 @@ b2AABB boxAt(const Object& object, float x, float y) {
   return box;
 }
 
-// Boxes get the room that the tree gives by itself, a tenth of a cell. Telling MoveProxy where they are
-// heading would save some reinsertions, but makes the queries slower: tried with 1/4, 1/2 and the whole of
-// the velocity, it was never clearly faster, and twice as slow at worst.
+// Boxes have the tree's default margin of a tenth of a cell. Passing a predicted displacement to MoveProxy
+// would save some reinsertions, but makes the queries slower: with 1/4, 1/2 and the whole velocity it was
+// never clearly faster, and twice as slow at worst.
 class Box2dTree {
  public:
   using Real = float;
@@ -58,7 +58,7 @@ class Box2dTree {
   b2DynamicTree m_tree;
 };
 
-// Static bodies with a box each. Step() is never called, so no contacts are ever looked for.
+// Static bodies with a box each. Step() is never called, so Box2D never searches for contacts.
 class Box2dWorld {
  public:
   using Real = float;
@@ -86,7 +86,7 @@ class Box2dWorld {
   void moved(Object& object) { static_cast<b2Body*>(object.shape)->SetTransform({object.x, object.y}, 0); }
 
  private:
-  // The world compares boxes that are a little too large; this compares the boxes themselves.
+  // The world compares slightly enlarged boxes, so this compares the exact ones.
   class Query final : public b2QueryCallback {
    public:
     Query(const Object& mover, Real x, Real y, std::vector<Object*>& out)
@@ -111,7 +111,7 @@ constexpr float kTickLength = 1;  // velocities are per tick
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
-// Kinematic bodies: they move by their velocity and nothing pushes them, as here.
+// Kinematic bodies: they move by their velocities and nothing pushes them, like here.
 class Box2dMotion : public Engine {
  public:
   explicit Box2dMotion(const Scene& scene) : m_world(b2Vec2_zero), m_side(static_cast<float>(scene.side)) {
@@ -160,7 +160,7 @@ class Box2dMotion : public Engine {
 
   b2World m_world;
   Tally m_tally;
-  std::vector<b2Body*> m_bodies;  // the world's, by id
+  std::vector<b2Body*> m_bodies;  // owned by the world, by id
   float m_side;
 };
 

@@ -1,4 +1,4 @@
-// Chipmunk's spatial hash by itself, and its space as an index.
+// Chipmunk's spatial hash alone, and its space as an index.
 #include <chipmunk/chipmunk.h>
 
 #include "PeerWorld.h"
@@ -42,7 +42,7 @@ class ChipmunkHash {
     return cpBBNewForExtents(cpv(object->x, object->y), object->half_width, object->half_height);
   }
 
-  // The hash names everybody in the cells of the box, but not the mover itself.
+  // The hash reports all objects in the cells of the box, except the mover itself.
   static cpCollisionID found(void* /*p_mover*/, void* p_other, cpCollisionID id, void* p_query) {
     auto* query = static_cast<Query*>(p_query);
     auto* other = static_cast<Object*>(p_other);
@@ -53,14 +53,13 @@ class ChipmunkHash {
   cpSpatialIndex* m_index;
 };
 
-// Static bodies: they have positions and boxes, and the space never moves or pairs them by itself, which is
-// the least work for it. (With kinematic ones the tree takes 1.3 times as long, because it keeps their pairs
-// up to date.)
+// Static bodies have positions and boxes, but the space never moves or pairs them, which is the least work
+// for it. (With kinematic ones the tree takes 1.3 times as long, because it maintains their pairs.)
 class ChipmunkSpace {
  public:
   using Real = cpFloat;
 
-  /// A table of length 0 means the trees.
+  /// A table of length 0 selects the trees.
   ChipmunkSpace(const Scene& /*scene*/, double cell, int table) : m_space(cpSpaceNew()) {
     if (table > 0) cpSpaceUseSpatialHash(m_space, cell, table);
   }
@@ -100,7 +99,7 @@ class ChipmunkSpace {
   }
 
  private:
-  // The space has compared the boxes, edges included, and these doubles are exact.
+  // The space has compared the boxes, including edges, and these doubles are exact.
   static void found(cpShape* shape, void* p_query) {
     auto* query = static_cast<Query*>(p_query);
     auto* other = static_cast<Object*>(cpShapeGetUserData(shape));

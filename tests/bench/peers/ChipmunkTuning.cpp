@@ -1,4 +1,4 @@
-// Finds the best size of cells and table by trial, for each kind of scene.
+// Finds the best cell and table sizes for each kind of scene by trial.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -27,7 +27,7 @@ double timeOf(const Scene& scene, double cell, int table_per_object) {
   return cpuNanoseconds() - begin;
 }
 
-// First the cell size, with the table length that the manual recommends, then the table length.
+// Tries cell sizes with the table length that the manual recommends, then table lengths.
 ChipmunkTuning tryAll(const Scene& scene) {
   std::vector<double> cells = {1, 1.5, 2, 3, 4, 6};
   if (scene.mix == Mix::SPRITES) cells = {2, 3, 4, 6, 8, 12, 16};

@@ -1,5 +1,5 @@
-// What a game on top of a peer's library keeps per object: its own position and velocity in the library's
-// number type, and a virtual handler that is told of collisions as an Object's eventHandler is.
+// State per object of a game that uses a peer's library: its own position and velocity in the library's
+// number type, and a virtual handler that receives collisions like an Object's eventHandler.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct PeerBody {
   struct Collision {
     PeerBody* mover;
     PeerBody* other;
-    Real x;  ///< where the mover wanted to go
+    Real x;  ///< target of the mover
     Real y;
   };
 
@@ -43,7 +43,7 @@ struct PeerBody {
 
   bool isSolid() const { return solidness != df::SPECTRAL; }
   bool blocks(const PeerBody& other) const { return solidness == df::HARD && other.solidness == df::HARD; }
-  /// Would the two boxes touch if this one were at (at_x, at_y)?
+  /// True if the two boxes would touch with this one at (at_x, at_y).
   bool touches(const PeerBody& other, Real at_x, Real at_y) const {
     return std::abs(other.x - at_x) <= half_width + other.half_width &&
            std::abs(other.y - at_y) <= half_height + other.half_height;
@@ -56,10 +56,10 @@ struct PeerBody {
   Real half_width;
   Real half_height;
   std::uint32_t id;
-  std::int32_t handle = 0;  ///< the library's, where it has numbers
-  void* shape = nullptr;    ///< the library's, where it has pointers
+  std::int32_t handle = 0;  ///< used by libraries with numeric handles
+  void* shape = nullptr;    ///< used by libraries with pointers
   df::Solidness solidness;
-  std::uint64_t turned = 0;  ///< the tick in which it was blocked last
+  std::uint64_t turned = 0;  ///< last tick in which it was blocked
   Tally& tally;
 };
 

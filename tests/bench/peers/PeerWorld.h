@@ -1,6 +1,6 @@
-// The tick of the workload over a peer's spatial index: the same turns in the same order as in WM.update(),
-// with what a careful programmer would leave out left out (objects at rest are not looked at, the list of
-// hits is reused, and who would leave the world is not moved out and back).
+// The workload's tick on a peer's spatial index: turns in the order of WM.update(), without the work that a
+// careful programmer would avoid (objects at rest are skipped, the list of hits is reused, and objects that
+// would leave the world are not moved out and back).
 //
 // An Index has a number type `Real`, a constructor from Scene&, and
 //   void add(PeerBody<Real>&)            a solid body enters;
@@ -26,7 +26,7 @@ class PeerWorld : public Engine {
   using Real = typename Index::Real;
   using Object = PeerBody<Real>;
 
-  /// `turns`: how many objects, at equal distances, take a turn per tick(), if that is less than all.
+  /// `turns` is the number of objects, evenly spaced, that take a turn per tick(), if less than all.
   template <class... Arguments>
   explicit PeerWorld(const Scene& scene, int turns, Arguments... arguments)
       : m_index(scene, arguments...),
@@ -87,7 +87,7 @@ class PeerWorld : public Engine {
     if (mover.isSolid()) m_index.moved(mover);
   }
 
-  // Return whether the mover may move.
+  // Returns true if the mover may move.
   bool collide(Object& mover, Real x, Real y) {
     if (m_hits.size() > 1) {
       std::sort(m_hits.begin(), m_hits.end(), [](const Object* a, const Object* b) { return a->id < b->id; });
@@ -103,7 +103,7 @@ class PeerWorld : public Engine {
   }
 
   Tally m_tally;
-  std::vector<std::unique_ptr<Object>> m_objects;  // by id; the index, which knows them, goes first
+  std::vector<std::unique_ptr<Object>> m_objects;  // by id; outlives the index, which points to them
   std::vector<Object*> m_movers;
   std::vector<Object*> m_hits;
   Index m_index;

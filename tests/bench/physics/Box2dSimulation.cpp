@@ -54,7 +54,7 @@ class Box2dSimulation : public Simulation {
     for (const Part& part : body.parts) add(part, body.density, collide);
   }
 
-  // To the newest body.
+  // Adds a part to the newest body.
   void add(const Part& part, double density, bool collide) {
     b2FixtureDef fixture;
     b2CircleShape circle;
@@ -85,7 +85,7 @@ class Box2dSimulation : public Simulation {
 
   b2World m_world;
   b2Body* m_p_ground = nullptr;
-  std::vector<b2Body*> m_bodies;  // the world's, by index in the scene
+  std::vector<b2Body*> m_bodies;  // owned by the world, by index in the scene
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace bench::physics {
 namespace {
 
 constexpr double kTicks = Scene::kTicksPerSecond;
-constexpr double kWorldSide = 1e6;  // cells: nothing leaves it
+constexpr double kWorldSide = 1e6;  // cells, so large that nothing leaves it
 
 void demand(bool holds, const char* what) {
   if (!holds) throw std::runtime_error(std::string("a scene of bodies: ") + what);
@@ -58,14 +58,14 @@ class NaiadSimulation : public Simulation {
   }
 
  private:
-  // One of the two; the world's.
+  // One of the two pointers is set. The world owns the object.
   struct Thing {
     df::Body* p_body = nullptr;
     df::Object* p_wall = nullptr;
   };
 
   void add(const Body& body, bool collide) {
-    // Hinges hold only bodies.
+    // Only bodies can have hinges.
     if (body.motion == Motion::STATIC && collide) {
       addWall(body);
     } else {
@@ -100,7 +100,7 @@ class NaiadSimulation : public Simulation {
     m_things.push_back({.p_body = p_body});
   }
 
-  // A part's centre counts from the centre of mass of those before it; a scene's from that of the whole.
+  // Part centres are relative to the mass centre of the parts before; in a scene, to that of the whole body.
   static void addShapes(df::Body& made, const std::vector<Part>& parts) {
     double area = 0;
     double x = 0;

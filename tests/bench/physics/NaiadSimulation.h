@@ -1,5 +1,5 @@
-// df::Body Objects in a World of their own; a metre is a cell both ways. What never moves is an ordinary HARD
-// Object.
+// df::Body Objects in their own World; a metre is a cell in both directions. Static bodies are ordinary HARD
+// Objects.
 #pragma once
 
 #include "Simulation.h"
@@ -7,7 +7,7 @@
 
 namespace bench::physics {
 
-/// Throws std::runtime_error if the world would be another than the scene says.
+/// Throws std::runtime_error if the world would differ from the scene.
 SimulationPtr makeNaiad(const Scene& scene, df::Accuracy accuracy);
 
 }  // namespace bench::physics

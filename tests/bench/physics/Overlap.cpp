@@ -9,13 +9,13 @@
 namespace bench::physics {
 namespace {
 
-// A part where its body lies.
+// A part at its body's pose.
 struct Placed {
-  Pose pose;  // of its centre
+  Pose pose;  // pose of its centre
   double half_width = 0;
   double half_height = 0;
   double radius = 0;
-  double reach_x = 0;  // half of the upright box around it
+  double reach_x = 0;  // half the width of its upright bounding box
   double reach_y = 0;
   std::size_t body = 0;
   bool dynamic = false;
@@ -38,13 +38,13 @@ Placed place(const Part& part, const Pose& pose) {
   return placed;
 }
 
-// How far a box reaches from its centre along a unit vector.
+// Returns the extent of a box from its centre along a unit vector.
 double reachAlong(const Placed& box, double x, double y) {
   return box.half_width * std::abs(box.pose.cosine * x + box.pose.sine * y) +
          box.half_height * std::abs(box.pose.cosine * y - box.pose.sine * x);
 }
 
-// The least shift that parts two boxes is along a side of one of them.
+// The least shift that separates two boxes is along a side of one of them.
 double depthOfBoxes(const Placed& a, const Placed& b) {
   const double dx = b.pose.x - a.pose.x;
   const double dy = b.pose.y - a.pose.y;
@@ -62,7 +62,7 @@ double depthOfBoxes(const Placed& a, const Placed& b) {
 double depthInBox(const Placed& box, const Placed& circle) {
   const double dx = circle.pose.x - box.pose.x;
   const double dy = circle.pose.y - box.pose.y;
-  // Beyond the sides; below 0: inside.
+  // Distance beyond the sides; negative if inside.
   const double out_x = std::abs(box.pose.cosine * dx + box.pose.sine * dy) - box.half_width;
   const double out_y = std::abs(box.pose.cosine * dy - box.pose.sine * dx) - box.half_height;
   if (out_x <= 0 && out_y <= 0) return circle.radius - std::max(out_x, out_y);

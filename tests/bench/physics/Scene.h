@@ -13,7 +13,7 @@ struct Part {
   double half_width = 0;
   double half_height = 0;
   double radius = 0;  ///< > 0: a circle
-  double x = 0;       ///< its centre, from the body's centre of mass
+  double x = 0;       ///< its centre relative to the body's centre of mass
   double y = 0;
 
   bool isCircle() const { return radius > 0; }
@@ -35,39 +35,39 @@ struct Body {
   double mass() const;
 };
 
-/// Two bodies turn about a point that they share.
+/// Two bodies that turn about a common point.
 struct Hinge {
   int a = kWorld;
   int b = 0;
-  double x = 0;  ///< where it is at the start, in the world
+  double x = 0;  ///< position at the start, in the world
   double y = 0;
 
   static constexpr int kWorld = -1;
 };
 
-/// Where a body is, and the cosine and sine of its angle.
+/// Position of a body, and cosine and sine of its angle.
 struct Pose {
   double x = 0;
   double y = 0;
   double cosine = 1;
   double sine = 0;
 
-  /// A point given in the body's axes, in the world.
+  /// Converts a point from the body's axes to the world's.
   Pose at(double local_x, double local_y) const {
     return {x + cosine * local_x - sine * local_y, y + sine * local_x + cosine * local_y, cosine, sine};
   }
 };
 
-/// Where the centres of dynamic bodies belong: those elsewhere went through a wall, or are more than half
+/// Region of the centres of dynamic bodies. A body outside has passed through a wall, or is more than half
 /// inside it.
 struct Room {
   double left = -std::numeric_limits<double>::infinity();
   double right = std::numeric_limits<double>::infinity();
   double top = -std::numeric_limits<double>::infinity();
   double bottom = std::numeric_limits<double>::infinity();
-  int frame = Hinge::kWorld;  ///< the body in whose axes these are, which turns; else the world's
+  int frame = Hinge::kWorld;  ///< the rotating body in whose axes the region is given; otherwise the world
 
-  /// `poses`: of all bodies.
+  /// True if the pose is inside. `poses` are those of all bodies.
   bool holds(const std::vector<Pose>& poses, const Pose& pose) const;
 };
 
@@ -76,12 +76,12 @@ struct Scene {
   std::vector<Hinge> hinges;
   Room room;
   double gravity = 10;  ///< metres per second²
-  int ticks = 0;        ///< that are measured, of kTick each
-  bool sleep = true;    ///< may bodies at rest sleep?
-  bool collide = true;  ///< or does nothing touch anything?
+  int ticks = 0;        ///< number of measured ticks, each of kTick
+  bool sleep = true;    ///< bodies at rest may sleep
+  bool collide = true;  ///< false: nothing collides
 
   static constexpr double kTicksPerSecond = 30;
-  static constexpr double kFriction = 0.6;  ///< of everything; restitution is 0
+  static constexpr double kFriction = 0.6;  ///< for all bodies; restitution is 0
 
   int countDynamic() const;
 };

@@ -7,7 +7,7 @@
 namespace bench::physics {
 namespace {
 
-// By full sides, as scenes are described.
+// Makes a box from its full sides, as in descriptions of scenes.
 Body box(double x, double y, double width, double height, Motion motion = Motion::DYNAMIC) {
   Body body;
   body.parts.push_back({.half_width = width / 2, .half_height = height / 2});
@@ -25,7 +25,7 @@ Body circle(double x, double y, double radius) {
   return body;
 }
 
-// A floor whose top is at y = 0.
+// Adds a floor with its top at y = 0.
 void addFloor(Scene& scene, double centre, double width) {
   scene.bodies.push_back(box(centre, 0.5, width, 1, Motion::STATIC));
   scene.room.bottom = 0;
@@ -39,7 +39,7 @@ void addPyramid(Scene& scene, double centre, int rows) {
   }
 }
 
-// std::mt19937's raw numbers, which are the same with every library; distributions are not.
+// Uses raw numbers of std::mt19937, which are equal in every library, unlike those of distributions.
 class Shift {
  public:
   double next() { return (static_cast<double>(m_random()) / kNumbers - 0.5) * 2 * kLargest; }
@@ -52,7 +52,7 @@ class Shift {
   std::mt19937 m_random{kSeed};
 };
 
-// An Object's place is kept in units of 2^-32, so that walls elsewhere would stand beside where they should.
+// Rounds a length so that Objects, whose positions have units of 2^-32, are exactly in place.
 double inWholeUnits(double length) {
   constexpr double kUnits = 65536;
   return std::round(length * kUnits) / kUnits;
@@ -159,7 +159,7 @@ Scene makeChain100() {
   scene.collide = false;
   for (int i = 0; i < kLinks; ++i) {
     scene.bodies.push_back(box(i + 0.5, 0, 1, 0.25));
-    scene.hinges.push_back({i - 1, i, static_cast<double>(i), 0});  // the first one: the world's
+    scene.hinges.push_back({i - 1, i, static_cast<double>(i), 0});  // the first hinge is at the world
   }
   Body load = box(kLinks + 0.5, 0, 1, 1);
   load.density = 100 * scene.bodies.front().mass();

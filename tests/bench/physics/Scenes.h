@@ -1,4 +1,4 @@
-// The scenes of the suite `physics`; docs/bench.md describes them.
+// The scenes of the suite `physics`. docs/bench.md describes them.
 #pragma once
 
 #include "Scene.h"

@@ -1,4 +1,4 @@
-// A world that runs a Scene: ours, or Box2D's.
+// A world that runs a Scene, in our engine or Box2D.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ class Simulation {
   virtual ~Simulation() = default;
 
   virtual void tick() = 0;
-  /// Of a body, by its index in the scene.
+  /// Returns the pose of the body with this index in the scene.
   virtual Pose pose(std::size_t body) const = 0;
-  /// Has the engine given up moving it?
+  /// True if the engine no longer moves this body.
   virtual bool isFrozen(std::size_t body) const = 0;
 };
 

@@ -21,7 +21,7 @@ using naiad::Round;
 
 constexpr int kTicks = 20'000;
 constexpr int kRuns = 5;
-constexpr std::size_t kAnswer = 400;  ///< bytes: of a busy scene's changes in one tick
+constexpr std::size_t kAnswer = 400;  ///< bytes of a busy scene's changes in one tick
 
 struct Nowhere : naiad::JournalSink {
   void write(std::string_view /*bytes*/) override {}
@@ -29,7 +29,7 @@ struct Nowhere : naiad::JournalSink {
   void setFlags(std::uint16_t /*flags*/) override {}
 };
 
-/// Answers at once; `hashes`: as a world does that is journaled.
+/// Answers at once. With `hashes`, like a journaled world.
 class StubWorld : public naiad::WorldPort {
  public:
   explicit StubWorld(bool hashes) : m_hashes(hashes) {}
@@ -82,7 +82,7 @@ double journaled(int players) {
 
 }  // namespace
 
-// The least of several: whatever else runs only adds.
+// Returns the minimum of several measurements, because other load only adds time.
 double journalNanos(int players) {
   double least = 1e12;
   double without = 1e12;

@@ -1,10 +1,10 @@
-// What a journal costs the thread that ticks.
+// The cost of a journal for the thread that ticks.
 #pragma once
 
 namespace bench {
 
-/// Nanoseconds of a tick that a journal adds to a Round, with so many players who press nine keys a second
-/// each: with hashing an answer of a usual size, without the world.
+/// Returns the nanoseconds per tick that a journal adds to a Round with this many players, each with nine
+/// keys a second. Includes hashing an answer of typical size, but not the world.
 double journalNanos(int players);
 
 }  // namespace bench

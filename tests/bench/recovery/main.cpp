@@ -1,11 +1,11 @@
-// Kills dfserver while clients play its game, and measures what a journal costs. deploy/bench recovery runs
-// it.
+// Kills dfserver while clients play its game, and measures the cost of a journal. Run by deploy/bench
+// recovery.
 //
-//   naiad_recovery kills GAME COUNT SEED   one line: what became of so many kills
-//   naiad_recovery long GAME COUNT SEED    the same, in a round of ten minutes
-//   naiad_recovery scores COUNT SEED       the same with a game that adds scores: its server keeps them
-//   naiad_recovery worlds GAME COUNT SEED  the same, of worlds under a server that lives
-//   naiad_recovery hangs COUNT SEED        the same, of worlds that hang, with the server's own --hang-time
+//   naiad_recovery kills GAME COUNT SEED   one line: the results of this many kills
+//   naiad_recovery long GAME COUNT SEED    kills in a round of ten minutes
+//   naiad_recovery scores COUNT SEED       kills in a game that adds scores, which the server must keep
+//   naiad_recovery worlds GAME COUNT SEED  kills of the world's process while the server lives
+//   naiad_recovery hangs COUNT SEED        hangs of worlds, with the server's own --hang-time
 //   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
 #include <algorithm>
 #include <chrono>
@@ -34,14 +34,14 @@ using std::chrono::milliseconds;
 
 constexpr int kPlayers = 4;
 constexpr const char* kHangingModule = NAIAD_BINARY_DIR "/../lib/hanging_module.so";
-/// Kills in one round: each of them compares pictures by executing the round from its beginning.
+/// Kills per round. Each kill compares pictures by replaying the round from its beginning.
 constexpr int kKillsInARound = 10;
 constexpr milliseconds kMaxPlay{1500};
-/// Ticks of ten minutes, which here take 2 ms each.
+/// The ticks of ten minutes, which take 2 ms each here.
 constexpr std::uint32_t kLongTurns = 18'000;
 constexpr std::chrono::microseconds kShortFrame{2'000};
 constexpr std::chrono::seconds kLongPatience{300};
-/// Two deaths of a world within a second are the same one, which ends the round.
+/// Two deaths of a world within a second would end the round.
 constexpr milliseconds kBetweenDeaths{1500};
 constexpr milliseconds kBetweenCopies{10'000};
 
@@ -86,20 +86,20 @@ void verify(RecoveryRun& run, const std::string& game, Total& total) {
   total.foreign += check.foreign;
 }
 
-/// The server, the server and the one after it, or the server with its world.
+/// Kills the server; or also its successor; or also its world.
 KillResult killSomehow(RecoveryRun& run, std::mt19937_64& random) {
   switch (random() % 4) {
     case 0:
       return run.killBoth();
     case 1:
-      // It has hardly begun, or clients are on their way back.
+      // While it is starting, or while clients return.
       return run.killTwice(milliseconds(random() % 700));
     default:
       return run.kill();
   }
 }
 
-/// Kills in one round, which is verified then.
+/// Runs a round with kills and verifies it at the end.
 void runRound(const std::string& game, int kills, std::mt19937_64& random, Total& total) {
   RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
   for (int i = 0; i < kills; ++i) {
@@ -111,7 +111,7 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
   verify(run, game, total);
 }
 
-/// All of it is executed again after each kill.
+/// Replays the whole round after each kill.
 Total runLongRound(const std::string& game, int kills, std::uint64_t seed) {
   Total total;
   RecoveryRun run(game, kPlayers, seed, kShortFrame);
@@ -155,7 +155,7 @@ int scores(int count, std::uint64_t seed) {
   return good ? 0 : 1;
 }
 
-/// Worlds of one round are killed at any time since their newest copy.
+/// Kills worlds of one round at any time since their newest copy.
 int worlds(const std::string& game, int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<long> took;
@@ -175,7 +175,7 @@ int worlds(const std::string& game, int count, std::uint64_t seed) {
   return went_on == count && verified ? 0 : 1;
 }
 
-/// The first hang of a round each time, some seconds after the newest copy.
+/// Tests the first hang of each round, some seconds after the newest copy.
 int hangs(int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<long> took;
@@ -212,7 +212,7 @@ int journal(const std::string& game, std::uint32_t ticks) {
   return same ? 0 : 1;
 }
 
-/// The exit code; 2: the words mean nothing.
+/// Returns the exit code; 2 for invalid arguments.
 int start(const std::vector<std::string>& words) {
   const auto count = [&](std::size_t word) { return std::atoi(words[word].c_str()); };
   const auto seed = [&](std::size_t word) { return std::strtoull(words[word].c_str(), nullptr, 10); };

@@ -1,6 +1,6 @@
-// Plays in sixteen rooms of four games while one of them burns a core, one crashes and one hangs, again and
-// again, and measures what the players of the others notice; and how long it takes to go from room to room.
-// deploy/bench rooms runs it.
+// Plays in sixteen rooms of four games while one of them burns a core, one crashes and one hangs repeatedly.
+// Measures the effect on players of the other rooms, and the time of a move between rooms. Run by
+// deploy/bench rooms.
 //
 //   naiad_rooms SECONDS   one line
 #include <algorithm>
@@ -27,7 +27,7 @@ using Millis = std::chrono::duration<double, std::milli>;
 
 constexpr int kRooms = 16;
 constexpr const char* kGames[] = {NAIAD_BINARY_DIR "/../lib/room_module.so", "hello", "chase", "tron"};
-constexpr int kBurns = 0, kCrashes = 4, kHangs = 8;  ///< of the first game
+constexpr int kBurns = 0, kCrashes = 4, kHangs = 8;  ///< rooms of the first game
 constexpr std::chrono::microseconds kTick{33'333};
 constexpr std::chrono::seconds kWarmUp{3};
 constexpr std::chrono::milliseconds kBetweenMoves{700};
@@ -41,7 +41,7 @@ bool isBad(int number) {
   return number == kBurns || number == kCrashes || number == kHangs;
 }
 
-/// A player, and when the ticks of their world come.
+/// A player. Records the arrival times of its world's ticks.
 class Player {
  public:
   Player(asio::io_context& context, std::uint16_t port, naiad::test::ClientSetup setup,
@@ -65,17 +65,16 @@ class Player {
     session().sendKey(key, df::KEY_PRESSED, Clock::now());
     session().sendKey(key, df::KEY_RELEASED, Clock::now());
   }
-  /// From now on.
+  /// Starts a measurement.
   void measure() {
     m_measures = true;
     gaps.clear();
   }
-  /// Has the world of the newest snapshot come whole?
+  /// True if the world of the newest snapshot is complete.
   bool isComplete() const { return m_complete; }
   std::uint8_t epoch() const { return m_epoch; }
 
-  /// Milliseconds from a tick's snapshot to that of the next tick, as far as the time for ticks between,
-  /// which changed nothing, is taken off.
+  /// Milliseconds between snapshots of consecutive ticks. The time of ticks without changes is subtracted.
   std::vector<double> gaps;
 
  private:
@@ -115,7 +114,7 @@ class Run {
     join("traveller", roomName(1));
   }
 
-  /// False: it could not be measured.
+  /// Runs the measurement. False if it was not possible.
   bool measure(std::chrono::seconds time) {
     if (!serveUntil(Clock::now() + kPatience, [&] {
           return std::all_of(m_players.begin(), m_players.end(),
@@ -188,7 +187,7 @@ class Run {
     }
     return true;
   }
-  /// Something moves in each room; what is to fail does, as soon as it has come back.
+  /// Moves something in each room, and makes the failing rooms fail again after they have returned.
   void playOn() {
     constexpr df::Keyboard::Key kKeys[] = {df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW,
                                            df::Keyboard::UPARROW, df::Keyboard::DOWNARROW};
@@ -217,9 +216,9 @@ class Run {
   naiad::test::Home m_home;
   asio::io_context m_context;
   std::unique_ptr<naiad::test::GameProgram> m_server;
-  std::vector<std::unique_ptr<Player>> m_players;  ///< by room; then the traveller
+  std::vector<std::unique_ptr<Player>> m_players;  ///< indexed by room; the traveller is last
   naiad::SplitMix64 m_random{7};
-  std::vector<double> m_moves;  ///< milliseconds
+  std::vector<double> m_moves;  ///< times in milliseconds
   bool m_moving = false;
   int m_target = 0;
   int m_turns = 0;

@@ -31,7 +31,7 @@ class Ball : public Object {
     m_tally.event(m_number);
     const bool is_mover = p_e->getObject1() == this;
     if (!is_mover || getSolidness() != HARD || p_e->getObject2()->getSolidness() != HARD) return 1;
-    if (m_turned == m_tally.tick) return 1;  // it met several
+    if (m_turned == m_tally.tick) return 1;  // it met several boxes in this tick
     m_turned = m_tally.tick;
     ++m_tally.blocked;
     const Vector v = getVelocity();
@@ -51,7 +51,7 @@ class Ball : public Object {
 
   bench::Tally& m_tally;
   std::uint64_t m_number;
-  std::uint64_t m_turned = 0;  // the tick in which it was blocked last
+  std::uint64_t m_turned = 0;  // last tick in which it was blocked
   float m_side;
 };
 
@@ -91,7 +91,7 @@ class TextbookEngine : public bench::Engine {
   }
 
  private:
-  // update(), for Objects at equal distances in the list.
+  // Like update(), for Objects evenly spaced in the list.
   void updateSome() {
     const int distance = WM.getCount() / m_turns;
     const int first = static_cast<int>(m_tally.tick) % distance;

@@ -1,4 +1,4 @@
-// All of the textbook engine as one translation unit, in a namespace of its own.
+// The whole textbook engine as one translation unit, in its own namespace.
 #define textbook textbook_inlined
 
 // clang-format off

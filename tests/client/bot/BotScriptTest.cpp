@@ -16,8 +16,8 @@ BotScript parse(const std::string& text) {
   return std::get<BotScript>(result);
 }
 
-/// One letter and key per action: "P0" pressed SPACE, D down, R released, C click, M move, T text; ticks
-/// are separated by blanks.
+/// Returns a letter and details per action: "P0" SPACE pressed, D down, R released, C click, M move, T text.
+/// Blanks separate ticks.
 std::string play(const std::string& text, int ticks) {
   ScriptPlayer player(parse(text));
   std::string out;
@@ -70,7 +70,7 @@ struct BadScript {
   const char* text;
   int line;
   int column;
-  const char* message;  ///< part of it
+  const char* message;  ///< part of the message
 };
 
 TEST(BotScript, ErrorsSayWhere) {

@@ -109,8 +109,8 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
     recorder.afterSnapshot(tick, true, false);
   };
   take(10, {});
-  take(10, {star(10, 5, 1)});   // a second part of tick 10
-  take(13, {star(13, 20, 0)});  // 11 and 12 had none: extrapolated
+  take(10, {star(10, 5, 1)});   // the second part of tick 10
+  take(13, {star(13, 20, 0)});  // ticks 11 and 12 have no snapshot and are extrapolated
   recorder.finish(replica);
   EXPECT_EQ(recorder.tickCount(), 4u);
   EXPECT_EQ(recorder.movingCount(), 1u);
@@ -118,7 +118,7 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
   TruthWriter writer(path);
   writer.write(9, 1, starAt(4));
   writer.write(10, 1, starAt(5));
-  writer.write(10, 2, starAt(50));  // another player's
+  writer.write(10, 2, starAt(50));  // of another player
   writer.write(11, 1, starAt(6));
   writer.write(12, 1, starAt(7));
   writer.write(13, 1, starAt(20));
@@ -148,15 +148,15 @@ TEST_F(TruthFileTest, RecorderLeavesOutIncompleteTicks) {
     const bool whole = tick == 3 || tick == 4 || tick == 7 || tick >= 10;
     writer.write(tick, 1, whole ? blank : starAt(1));
   }
-  take(1, false, false);  // a large world begins to come
+  take(1, false, false);  // the first parts of a large world
   take(2, false, false);
   take(2, false, false);
   take(3, false, false);
-  take(3, true, false);  // and is there
+  take(3, true, false);  // now complete
   take(5, false, false);
-  take(7, true, true);  // on the stream: 8 and 9 were skipped, perhaps
+  take(7, true, true);  // on the stream, so 8 and 9 may have been skipped
   take(10, true, false);
-  take(9, false, true);  // late: it says nothing of 10
+  take(9, false, true);  // late, so it tells nothing about 10
   take(12, true, false);
   recorder.finish(replica);
   const TruthRecorder::Comparison result = recorder.compare(path, 1);
@@ -169,7 +169,7 @@ TEST_F(TruthFileTest, RecorderStopsAtItsCap) {
   TruthRecorder recorder(80 * 24 * 10);
   recorder.beforeSnapshot(replica, 1);
   recorder.afterSnapshot(1, true, false);
-  recorder.beforeSnapshot(replica, 2000000000);  // a hostile jump
+  recorder.beforeSnapshot(replica, 2000000000);  // a jump sent by a hostile server
   EXPECT_EQ(recorder.tickCount(), 10u);
 }
 

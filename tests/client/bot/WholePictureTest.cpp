@@ -5,7 +5,7 @@
 namespace naiad {
 namespace {
 
-/// Applies snapshots of one tick each: the numbers, and which of them are complete.
+/// Applies snapshots, each of its own tick. Tests choose their numbers and whether they are complete.
 class WholePictureTest : public testing::Test {
  protected:
   bool addSnapshot(std::uint32_t number, bool complete) {

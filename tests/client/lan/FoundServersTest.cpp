@@ -94,7 +94,7 @@ TEST(FoundServers, TheyAreInOrderOfTheirNames) {
   EXPECT_EQ(names, "abc");
 }
 
-// ---- which packets are answers of the link ----------------------------------------------------------------
+// ---- packets that are accepted as answers from the link ---------------------------------------------------
 
 LanNetwork own(unsigned interface, const std::string& address, unsigned prefix) {
   const auto parsed = make_address(address);

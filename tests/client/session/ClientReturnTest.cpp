@@ -1,4 +1,4 @@
-// The client's part in a session that goes on: in another process, and in what is kept.
+// The client's part in resuming a session: in another process, and the data that it keeps for that.
 #include "ClientSessionFixture.h"
 
 namespace naiad::test {
@@ -8,13 +8,13 @@ using namespace std::chrono_literals;
 
 class ClientReturn : public ClientSessionFixture {
  protected:
-  /// Another process, with the token only.
+  /// Starts the session in a new process that has only the token.
   void beginFresh() {
     SessionOptions options = optionsWith("0123456789abcdef");
     options.fresh = true;
     session = std::make_unique<ClientSession>(std::make_unique<FakeChannel>(log), options, now);
   }
-  /// And it is welcome.
+  /// Starts a new process, and the server resumes the session.
   void restart(const std::optional<Continuation>& from) {
     beginFresh();
     wire::ServerMessage message = welcomeMessage();
@@ -35,20 +35,20 @@ class ClientReturn : public ClientSessionFixture {
     header.epoch = static_cast<std::uint8_t>(epoch);
     return bareSnapshot(header);
   }
-  /// As what resumes the session with this token, if any.
+  /// Returns options to resume the session with this token; empty: none.
   static SessionOptions optionsWith(const std::string& token) {
     SessionOptions options;
     options.name = "Ada";
     options.resume_token = token;
     return options;
   }
-  /// A session that goes on after its stream.
+  /// Joins a session that can be resumed on another stream.
   void joinResumable() {
     welcome.mutable_welcome()->set_resume_token("token");
     receive(welcome);
   }
-  /// Another stream for it, `next`, which the server welcomes with `welcome`. `next` must outlive the
-  /// session.
+  /// Resumes the session on another stream `next`, which must outlive the session. The server sends
+  /// `welcome`.
   void resumeOn(MessageLine<wire::ClientMessage>& next) {
     SessionOptions options = optionsWith("token");
     options.received = session->receivedFrames();
@@ -184,7 +184,7 @@ TEST_F(ClientReturn, AfterALongStandstillTicksCountFromTheWelcome) {
   snapshot(1, 100);
   session->closed(CloseReason::kError);
   MessageLine<wire::ClientMessage> next;
-  welcome.mutable_welcome()->set_tick(40'000);  // with a long grace time, 22 minutes at 30 Hz
+  welcome.mutable_welcome()->set_tick(40'000);  // after a long grace time: 22 minutes at 30 Hz
   resumeOn(next);
   snapshot(2, 40'001);
   EXPECT_EQ(session->replica().newest().tick, 40'001u);

@@ -1,4 +1,4 @@
-// A ClientSession on a fake channel, with hand-made messages of a server and a clock that stands still.
+// A ClientSession on a fake channel, with hand-made server messages and a clock that the test advances.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace naiad::test {
 
-/// A snapshot with no record but that of the first origin slot, if it is set.
+/// Returns a snapshot without records; with `sets_origin` it sets the first origin slot.
 inline wire::ServerMessage bareSnapshot(const SnapshotHeader& header, std::uint32_t slot = 0,
                                         bool sets_origin = false) {
   SnapshotWriter out;
@@ -57,7 +57,7 @@ class ClientSessionFixture : public testing::Test {
   }
   void join() { receive(welcomeMessage()); }
 
-  /// Object 5 at (10, 4), and the newest input that the game has had, if any.
+  /// Returns a snapshot with object 5 at (10, 4) and the id of the last applied input, if not 0.
   static wire::ServerMessage snapshotMessage(std::uint32_t number, std::uint32_t tick,
                                              std::uint32_t input = 0) {
     SnapshotHeader header;
@@ -79,7 +79,7 @@ class ClientSessionFixture : public testing::Test {
     return message;
   }
   void snapshot(std::uint32_t number, std::uint32_t tick) { receive(snapshotMessage(number, tick)); }
-  /// Nothing more comes: what came is acknowledged.
+  /// Lets time pass until received snapshots are acknowledged.
   void acknowledge() { session->update(now + UpdateTiming::kAckDelay); }
 
   void expectRejected() {
@@ -90,7 +90,7 @@ class ClientSessionFixture : public testing::Test {
   }
 
   const wire::ClientMessage& last() const { return log.sent.back(); }
-  /// The last message, which must be an update.
+  /// Returns the last message, which must be an update.
   ClientUpdate lastUpdate() const {
     EXPECT_EQ(last().what_case(), wire::ClientMessage::kUpdate);
     const SnapshotContext& newest = session->replica().newest();

@@ -10,7 +10,7 @@ using State = ClientSession::State;
 
 class ClientSessionTest : public test::ClientSessionFixture {
  protected:
-  /// As an owner does that runs all the time: update() ten times a second.
+  /// Calls update() ten times a second, like an owner that runs all the time.
   void listenUntil(ClientSession::Time end) {
     for (listened = std::max(listened, now); listened < end; listened += 100ms) session->update(listened);
     session->update(end);
@@ -51,7 +51,7 @@ TEST_F(ClientSessionTest, AWelcomeWithoutAPictureIsGivenUpInWords) {
   const auto welcomed = now;
   const auto end = now + ClientSession::kPictureTimeout;
   for (now += 100ms; now < end; now += 100ms) {
-    if ((end - now) % 1s == 0s) receive(pong);  // otherwise silent, the server is there
+    if ((end - now) % 1s == 0s) receive(pong);  // the server is alive but sends nothing else
     session->update(now);
     ASSERT_EQ(session->state(), State::kPlaying);
     EXPECT_EQ(session->pictureWait(now), now - welcomed);
@@ -183,7 +183,7 @@ TEST_F(ClientSessionTest, NumbersAreRestoredNearTheTickOfTheWelcome) {
   EXPECT_EQ(session->clock().newestTick(), 3'000'000'123u);
 }
 
-// It named what a newer one had replaced: as if it were lost.
+// The snapshot names a definition that a newer one has replaced, so it counts as lost.
 TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
   join();
   const auto bare = [](std::uint32_t number, std::uint32_t slot, bool sets) {
@@ -274,7 +274,7 @@ TEST_F(ClientSessionTest, GivesUpASilentServer) {
 
 TEST_F(ClientSessionTest, AServerThatAnsweredWhileThisProcessDidNotRunWasNotSilent) {
   session->update(now);
-  session->update(now += 20s);  // the answer has come meanwhile, and is read next
+  session->update(now += 20s);  // the answer has arrived and is read next
   EXPECT_EQ(session->state(), State::kGreeting) << session->sentence();
   receive(welcomeMessage());
   session->update(now += 60s);
@@ -390,7 +390,7 @@ TEST_F(ClientSessionTest, AHeldKeyIsNoFloodAfterTheServerStalled) {
   EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
   receive(snapshotMessage(2, 101, newest));
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
-  receive(snapshotMessage(3, 102, newest + 20));  // that one was never sent
+  receive(snapshotMessage(3, 102, newest + 20));  // this input was never sent
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
   EXPECT_EQ(lastInput().id, newest + 2);
 }
@@ -403,7 +403,7 @@ TEST_F(ClientSessionTest, SoundsAreHandedOnOnce) {
   sound.set_player(3);
   message.set_number(1);
   receive(message);
-  receive(message);  // it was kept, and sent again
+  receive(message);  // a retransmission
   const auto heard = session->takeSounds();
   ASSERT_EQ(heard.size(), 1u);
   EXPECT_EQ(heard[0], (SoundLine{"?[2Jfire", SoundLine::Action::kPlay, false, false, 3}));

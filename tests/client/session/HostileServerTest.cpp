@@ -1,4 +1,4 @@
-// What a server may send to harm a client, and what becomes of it.
+// Messages with which a server might harm a client, and their effects.
 #include <functional>
 #include <random>
 #include <string>
@@ -134,8 +134,7 @@ TEST_F(HostileServerTest, EndsOnAPlayerListOutOfRange) {
   expectRejected();
 }
 
-/// Whatever a message has become on its way: the session plays on in a legal state, or has ended with a
-/// reason.
+/// However a message is mutated, the session continues in a valid state or ends with a reason.
 TEST_F(HostileServerTest, SurvivesMutatedMessages) {
   std::mt19937 random(11);
   wire::ServerMessage players, chat, sounds, pong, refused, goodbye;

@@ -1,4 +1,4 @@
-// A second stream beside that of the session: when it is opened, what it may say, and what came twice.
+// The second stream of a session: when it opens, which messages it may carry, and how duplicates are dropped.
 #include <gtest/gtest.h>
 
 #include "ClientSessionFixture.h"

@@ -1,4 +1,4 @@
-// Whatever a server says, what the client takes in is in its ranges, and its texts are fit for a terminal.
+// Whatever a server sends, accepted values are in range, and accepted texts are safe for a terminal.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -152,8 +152,8 @@ TEST(ServerMessages, MutatedMessagesAreRefusedOrValid) {
   EXPECT_GT(taken, 1'000u) << "mutations that leave a message";
 }
 
-/// The first and the last number of each range are read as they are, those beside them are refused or, where
-/// a message says so, become something harmless.
+/// The first and last number of each range are read unchanged. Their outer neighbours are rejected or, for
+/// some fields, replaced by a harmless value.
 TEST(ServerMessages, EveryNumberHasItsRange) {
   constexpr std::uint32_t kLast = 0xFFFFFFFF;
   const auto width = static_cast<std::uint32_t>(kMaxViewWidth);
@@ -166,10 +166,10 @@ TEST(ServerMessages, EveryNumberHasItsRange) {
     std::function<std::uint32_t(const ServerMessageValue&)> get;
     Numbers good;
     Numbers bad;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> changed;  ///< from, to
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> changed;  ///< pairs of sent and read number
   };
   std::vector<Field> fields;
-  /// A field of the welcome; `more` may change its number to another one.
+  /// Adds a field of the welcome. `more` are pairs of sent and read number.
   const auto welcome = [&](const char* name, auto set, auto get, Numbers good, Numbers bad, auto... more) {
     fields.push_back(
         {name,
@@ -180,7 +180,7 @@ TEST(ServerMessages, EveryNumberHasItsRange) {
          std::move(bad),
          {more...}});
   };
-  /// A field of the fifth player of a list.
+  /// Adds a field of the fifth player in a list.
   const auto player = [&](const char* name, auto set, auto get, Numbers good, Numbers bad, auto... more) {
     fields.push_back({name,
                       2,
@@ -278,7 +278,7 @@ TEST(ServerMessages, TextsOfEveryHostileClassAreMadeHarmless) {
   for (const test::HostileText& hostile : test::hostileTexts()) {
     SCOPED_TRACE(hostile.what);
     for (const wire::ServerMessage& message : test::serverMessages("x" + hostile.bytes + "y")) {
-      // Bytes that are no UTF-8 are no message; everything else is shown with the bad ones replaced.
+      // Bytes that are not UTF-8 make the message invalid. In other texts, bad characters are replaced.
       if (const auto value = readServerMessage(message.SerializeAsString())) expectGood(*value);
     }
   }

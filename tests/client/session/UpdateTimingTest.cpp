@@ -8,7 +8,7 @@ namespace {
 using namespace std::chrono_literals;
 using Time = UpdateTiming::Time;
 
-/// How many probes go out from `from` to `to` while nothing comes.
+/// Counts the probes sent from `from` to `to` while nothing arrives.
 int probes(UpdateTiming& timing, Time from, Time to, bool only) {
   int count = 0;
   for (Time now = from; now < to; now += 10ms) {

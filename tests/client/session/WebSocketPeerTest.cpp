@@ -1,4 +1,4 @@
-// WebSockets of dfclient and dfbot at a server that is not ours: Debian's python3-websockets.
+// WebSockets of dfclient and dfbot with an independent server, Debian's python3-websockets.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -44,14 +44,14 @@ class WebSocketPeer : public testing::Test {
     ASSERT_TRUE(runUntil(context, [&] { return error.has_value(); }));
     if (channel) channel->start(recorder.callbacks());
   }
-  /// Sends this, and waits for the answer.
+  /// Sends a message and returns the answer.
   std::string ask(const std::string& message) {
     recorder.frames.clear();
     channel->send(message);
     EXPECT_TRUE(runUntil(context, [&] { return !recorder.frames.empty() || recorder.closed; }));
     return recorder.frames.empty() ? "nothing" : recorder.frames.front();
   }
-  /// Sends this, and waits for the end.
+  /// Sends a message and waits for the end.
   std::optional<CloseReason> endBy(const std::string& message) {
     channel->send(message);
     EXPECT_TRUE(runUntil(context, [&] { return recorder.closed.has_value(); }));

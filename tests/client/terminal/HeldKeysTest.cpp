@@ -33,7 +33,7 @@ TEST(HeldKeys, HeldKeyIsDownFromTheSecondRepeatOn) {
   HeldKeys keys;
   keys.takeKey(kLeft, kStart);
   keys.expire(kStart + 80ms);
-  // The keyboard's pause of half a second, then repeats every 33 ms.
+  // The keyboard's delay of half a second, then repeats every 33 ms.
   EXPECT_EQ(keys.takeKey(kLeft, kStart + 500ms), (Actions{{LEFTARROW, df::KEY_PRESSED}}));
   EXPECT_TRUE(keys.tick().empty());
   EXPECT_TRUE(keys.takeKey(kLeft, kStart + 533ms).empty());
@@ -66,8 +66,8 @@ TEST(HeldKeys, KeysAreIndependent) {
   EXPECT_EQ(keys.expire(kStart + 130ms), (Actions{{B, df::KEY_RELEASED}}));
 }
 
-/// Holds the key as a keyboard of 250 ms and 30 a second types it, from `from` on; returns the time of the
-/// last byte.
+/// Holds the key from `from` on, on a keyboard with a delay of 250 ms and 30 repeats a second. Returns the
+/// time of the last repeat.
 Time hold(HeldKeys& keys, Key key, Time from) {
   keys.takeKey({key}, from);
   for (Time now = from; now < from + 80ms; now += 10ms) keys.expire(now);
@@ -79,7 +79,7 @@ Time hold(HeldKeys& keys, Key key, Time from) {
 
 TEST(HeldKeys, AHeldKeyStaysDownWhileAnotherIsTapped) {
   HeldKeys keys;
-  // Keyboards repeat only the key pressed last: from here on the arrow is silent, up or not.
+  // Keyboards repeat only the key pressed last, so from here on the arrow is silent, held or not.
   const Time last = hold(keys, RIGHTARROW, kStart);
   EXPECT_EQ(keys.takeKey({SPACE}, last + 20ms), (Actions{{SPACE, df::KEY_PRESSED}}));
   EXPECT_EQ(keys.expire(last + 100ms), (Actions{{SPACE, df::KEY_RELEASED}}));
@@ -141,7 +141,7 @@ TEST(HeldKeys, LearnsThePauseOfTheKeyboard) {
   EXPECT_EQ(keys.pause(), HeldKeys::Duration{});
   hold(keys, RIGHTARROW, kStart);
   EXPECT_EQ(keys.pause(), 250ms);
-  // Quick taps are no pause.
+  // Quick taps do not count as the repeat delay.
   for (int i = 0; i < 5; ++i) keys.takeKey({LEFTARROW}, kStart + 2s + i * 120ms);
   EXPECT_EQ(keys.pause(), 250ms);
 }

@@ -29,7 +29,7 @@ void append(Events& all, const Events& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Decode `bytes`, arriving in two pieces, and let time pass.
+/// Decodes `bytes`, which arrive in two pieces, and lets time pass.
 Events decodeSplit(const std::string& bytes, std::size_t at) {
   InputDecoder decoder;
   Events events = decoder.feed(bytes.substr(0, at), kFed);
@@ -45,12 +45,12 @@ MouseEvent mouse(int x, int y, df::Mouse::Button button, MouseEvent::Action acti
   return {x, y, button, action};
 }
 
-/// A key record of Windows Terminal.
+/// Returns a key record of Windows Terminal.
 std::string record(int virtual_key, int unit, bool down = true, int held = 0) {
   return "\033[" + std::to_string(virtual_key) + ";0;" + std::to_string(unit) + (down ? ";1;" : ";0;") +
          std::to_string(held) + ";1_";
 }
-/// What the terminal itself types there: each byte a record without a key.
+/// Returns text that Windows Terminal itself types: for each byte a record without a key.
 std::string spelled(const std::string& bytes) {
   std::string records;
   for (const char byte : bytes) records += record(0, static_cast<unsigned char>(byte));
@@ -204,7 +204,7 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-// At the end as well: then they come in one piece.
+// Also at the end, that is, in one piece.
 TEST(InputDecoder, SequencesMayBeSplitAnywhere) {
   for (const Case& c : cases()) {
     for (std::size_t at = 0; at <= c.bytes.size(); ++at)
@@ -231,7 +231,7 @@ TEST(InputDecoder, EscapeIsAKeyOnlyAfter25Milliseconds) {
   EXPECT_TRUE(decoder.flush(kFed + 24ms).empty());
   EXPECT_EQ(decoder.flush(kFed + 25ms), Events{key(ESCAPE)});
   EXPECT_FALSE(decoder.deadline());
-  // What comes later is a separate key, not part of a sequence.
+  // A later byte is a separate key, not part of a sequence.
   EXPECT_EQ(decoder.feed("a", kFed + 26ms), Events{key(A, U'a')});
 }
 
@@ -288,7 +288,7 @@ TEST(InputDecoder, RandomBytesNeitherCrashNorGrow) {
   std::mt19937 random(7);
   InputDecoder decoder;
   Time now = kFed;
-  // Half of the bytes from those that begin and end sequences, so that deep states are reached.
+  // Half of the bytes begin or end sequences, so that deep states are reached.
   const std::string frequent = "\033\033\033[[[OM<?;:0123456789uAm~_P]\\\007$";
   for (int i = 0; i < 300000; ++i) {
     const auto raw = random();

@@ -94,7 +94,7 @@ TEST_F(KnownServersTest, AShortKeyOfALinkIsEnoughAndTheWholeKeyIsPinned) {
   EXPECT_EQ(content(), "game.test:9876 " + std::string(64, 'a') + "\n");
   EXPECT_EQ(admitBy(selfSigned('a'), 'a').trust, Trust::kPinned);
   EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
-  // The second half of the key is not in the link; the pin has it.
+  // The second half of the key is in the pin but not in the link.
   const PeerFacts twin{*Fingerprint::parse(std::string(32, 'a') + std::string(32, 'b')), false,
                        "self-signed"};
   EXPECT_EQ(admitBy(twin, 'a').trust, Trust::kChanged);

@@ -15,7 +15,7 @@ KeyEvent typed(Key key, char32_t ch) {
   return {key, ch};
 }
 
-/// The prefix, and this key.
+/// Types the prefix key and this key.
 Result command(ClientControls& controls, Key key, char32_t ch) {
   controls.takeKey(kPrefix);
   return controls.takeKey(typed(key, ch));
@@ -51,7 +51,7 @@ TEST(ClientControls, TheStatusKeyChangesWhatIsSeen) {
     return controls.status();
   };
   EXPECT_EQ(controls.status(), StatusMode::kAuto);
-  controls.noteShown({.status = false});  // there is no room, and the moment is over
+  controls.noteShown({.status = false});  // no space for it, and its time is over
   EXPECT_EQ(press(), StatusMode::kAlways);
   controls.noteShown({.status = true});
   EXPECT_EQ(press(), StatusMode::kNever);

@@ -30,13 +30,13 @@ TEST_F(EndSignalsTest, TheFirstOneIsReportedAndTheNextOneIsTheSystems) {
 }
 
 TEST_F(EndSignalsTest, OneWhoseReportIsQueuedWhenTheyAreGoneIsReported) {
-  asio::signal_set probe(context, SIGINT);  // the newest hears it first: then the other's report is queued
+  asio::signal_set probe(context, SIGINT);  // the newest set reports first; the other's report is then queued
   int next = 0;
   bool gone = false;
   probe.async_wait([&](const std::error_code&, int) {
     probe.clear();
     EXPECT_EQ(got, 0);
-    signals.emplace(context, [&next](int signal) { next = signal; });  // in the same place
+    signals.emplace(context, [&next](int signal) { next = signal; });  // in the storage of the old object
     gone = true;
   });
   raise(SIGINT);

@@ -30,7 +30,7 @@ ScreenModel modelWith(Panel panel) {
   return m;
 }
 
-/// The first row with this text; −1 if there is none.
+/// Returns the first row with this text; −1 if missing.
 int rowWith(const Picture& picture, const std::string& text) {
   for (int y = 0; y < picture.height(); ++y) {
     if (picture.rowText(y).find(text) != std::string::npos) return y;
@@ -242,7 +242,7 @@ TEST(ScreenLayout, HelpShowsTheGamesLinesTheClientsKeysAndWhetherReleasesAreRepo
 
 TEST(ScreenLayout, HelpIsWholeInANarrowTerminal) {
   ScreenModel m = modelWith(Panel::kHelp);
-  // 76 characters, the most that a server may send.
+  // 76 characters, the limit of a server's line.
   m.help = {"This line of the game is as long as any can be, and here is its very end: END",
             "arrows or WASD   move the paddle, which is yours alone, and hold it where you want"};
   for (const int columns : {80, 76, 60, 40}) {
@@ -277,7 +277,7 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   layout = layOut(m, 76, 24);
   EXPECT_FALSE(contains(layout.picture, "line 0."));
   EXPECT_TRUE(contains(layout.picture, "close the help"));
-  m.scroll = 1000;  // of a smaller terminal
+  m.scroll = 1000;  // from a smaller terminal
   EXPECT_TRUE(contains(layOut(m, 76, 24).picture, "close the help"));
   EXPECT_TRUE(contains(layOut(m, 20, 10).picture, "Down"));
 }
@@ -320,7 +320,7 @@ TEST(AsciiFallback, MapsACharacterToASimilarOne) {
   EXPECT_EQ(asciiFor(U'Ж'), '?');
 }
 
-/// Is the text there, in this colour?
+/// True if the text is there in this colour and style.
 bool containsIn(const Picture& picture, const std::string& text, df::Color color, Style style) {
   const int y = rowWith(picture, text);
   if (y < 0) return false;

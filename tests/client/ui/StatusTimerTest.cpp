@@ -26,7 +26,7 @@ TEST(StatusTimer, ShowsForAMomentWhenTheLineBecomesBad) {
   timer.update(3, 40ms, now);
   now += StatusTimer::kShown;
   int shown = 0;
-  // Bad all the time, and hardly better now and then.
+  // Bad all the time, with slight improvements in between.
   for (int i = 0; i < 600; ++i, now += 100ms) {
     timer.update(3, i % 2 == 0 ? StatusTimer::kBad : StatusTimer::kBad - 20ms, now);
     shown += timer.isShown(now) ? 1 : 0;

@@ -1,4 +1,4 @@
-// A page of a browser, and a server behind its gateway, played by the test.
+// A browser page and the server behind its gateway, played by the test.
 #pragma once
 
 #include <map>
@@ -36,7 +36,7 @@ class FakePage : public WebPort {
   void keepToken(std::string_view kept) override { token = kept; }
   void sound(const SoundLine& sound, bool own) override { sounds.push_back({sound, own}); }
 
-  /// What was sent on the newest stream.
+  /// Returns the messages sent over the newest stream.
   const std::vector<wire::ClientMessage>& sent() { return streams[newest].sent; }
 
   std::map<int, Stream> streams;

@@ -51,7 +51,7 @@ class WebClientTest : public testing::Test {
     welcome.set_second_stream(true);
     receive(message);
   }
-  /// A world without Objects: it is a picture, too.
+  /// Sends a world without Objects, which also counts as a picture.
   void snapshot(std::uint32_t number) {
     SnapshotHeader header;
     header.number = number;
@@ -72,7 +72,7 @@ class WebClientTest : public testing::Test {
     ASSERT_EQ(client->state(), WebClient::State::kPlaying);
     ASSERT_TRUE(client->compose(now));
   }
-  /// Inputs that the server was sent on the first stream, each once.
+  /// Returns the inputs sent over the first stream, each once.
   std::vector<Input> inputs() {
     std::vector<Input> all;
     for (const wire::ClientMessage& message : page.streams[first].sent) {

@@ -42,7 +42,7 @@ TEST(DisplayClock, NeverRunsBackwardsUnderJitter) {
 }
 
 TEST(DisplayClock, JitterDoesNotShakeThePicture) {
-  // Every other snapshot is 20 ms late; the estimate keeps to the punctual ones.
+  // Every other snapshot is 20 ms late. The estimate follows the punctual ones.
   DisplayClock clock(kTick);
   for (std::uint32_t tick = 0; tick < 100; ++tick) {
     const Time due = kStart + tick * kTick;
@@ -57,7 +57,7 @@ TEST(DisplayClock, JitterDoesNotShakeThePicture) {
 TEST(DisplayClock, FollowsAServerThatLostTime) {
   DisplayClock clock(kTick);
   clock.noteSnapshot(100, kStart);
-  // From now on everything stays 150 ms late.
+  // All later snapshots are 150 ms late.
   std::uint32_t tick = 101;
   Time now = kStart;
   for (int i = 0; i < 300; ++i, ++tick) {

@@ -48,7 +48,7 @@ TEST_F(ExtrapolationClampTest, AnObjectThatFliesIntoAWallIsDrawnBeforeIt) {
   add(cellsAt(14, 5));
   EXPECT_EQ(clamped(ball, 0), cellsAt(10, 5));
   EXPECT_EQ(clamped(ball, 2), cellsAt(12, 5));
-  EXPECT_EQ(clamped(ball, 3), cellsAt(12, 5));  // at 13 it would touch the wall
+  EXPECT_EQ(clamped(ball, 3), cellsAt(12, 5));  // it would touch the wall at 13
   EXPECT_EQ(clamped(ball, 8), cellsAt(12, 5));
 }
 
@@ -70,7 +70,7 @@ TEST_F(ExtrapolationClampTest, ObjectsThatTouchAlreadyDoNotBlock) {
 
 TEST_F(ExtrapolationClampTest, WallsThatMoveAreWhereTheyAreAtThatTick) {
   const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
-  add(cellsAt(14, 5), cellsAt(0, 2));  // out of the way in time
+  add(cellsAt(14, 5), cellsAt(0, 2));  // it moves out of the way in time
   EXPECT_EQ(clamped(ball, 6), cellsAt(16, 5));
 }
 
@@ -81,7 +81,7 @@ TEST_F(ExtrapolationClampTest, LongExtrapolationsAndThePastAreAsModelled) {
   EXPECT_EQ(clampedPosition(replica, replica.find(ball)->state, kKnown, kKnown - 2), cellsAt(8, 5));
 }
 
-/// The rule in its plainest form: all against all, tick by tick.
+/// Computes the rule in its simplest form: all pairs, tick by tick.
 FixedVector plainly(const Replica& replica, const ObjectState& mover, std::uint32_t drawn) {
   const auto touches = [&](const ObjectState& other, std::uint32_t tick) {
     const bool moved = tick == kKnown || other.order < mover.order;
@@ -128,7 +128,7 @@ TEST_F(ExtrapolationClampTest, EqualsThePlainRuleForRandomCrowds) {
   EXPECT_GT(held, 300);
 }
 
-/// `count` small objects that fly about in one spot.
+/// Many small objects that move in one spot.
 class CrowdedSpotTest : public ExtrapolationClampTest {
  protected:
   void fill(int count) {
@@ -139,7 +139,7 @@ class CrowdedSpotTest : public ExtrapolationClampTest {
     for (int i = 0; i < count; ++i) {
       ObjectRecord record{static_cast<std::uint32_t>(1000 + i), 1, kAllGroups, {}};
       record.state.order = record.id;
-      // In this order with every compiler.
+      // Separate statements, because compilers may order the calls in an expression differently.
       const double y = 12 + rng.unit(), x = 40 + rng.unit();
       const double down = rng.unit() * 0.2 - 0.1, right = rng.unit() * 0.4 - 0.2;
       record.state.motion = {kKnown, cellsAt(x, y), cellsAt(right, down), {}};
@@ -163,7 +163,7 @@ TEST_F(CrowdedSpotTest, OfTwoHundredIsAsThePlainRuleSays) {
   EXPECT_GT(held, 20);
 }
 
-// A unit of work is some ten nanoseconds, whatever the processor: the test counts and does not measure.
+// Counts units of work, about ten nanoseconds each, so the result does not depend on the processor.
 TEST_F(CrowdedSpotTest, TakesABoundedAmountOfWorkHoweverManyThereAre) {
   for (const int count : {1'000, 4'000, 48'000}) {
     replica = Replica();
@@ -172,7 +172,7 @@ TEST_F(CrowdedSpotTest, TakesABoundedAmountOfWorkHoweverManyThereAre) {
     EXPECT_TRUE(clamp.isExhausted()) << count;
     EXPECT_LE(clamp.work(), ExtrapolationClamp::kMaxWork + 1'000) << count;
     for (const auto& [slot, entry] : replica.entries()) {
-      // Wherever on its path: it is drawn.
+      // The object is drawn at some point of its path.
       const FixedVector drawn = clamp.positionOf(entry.state);
       const FixedVector from = positionAt(entry.state.motion, kKnown);
       EXPECT_LE(std::abs(drawn.x - from.x), fromCells(4)) << slot;

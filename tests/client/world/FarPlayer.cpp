@@ -38,7 +38,7 @@ void FarPlayer::stepUntilAllKnown() {
   for (std::uint32_t i = 0; i < m_delays.down + m_delays.up; ++i) step();
   for (int i = 0; i < 1000 && !knowsAll(); ++i) step();
   ASSERT_TRUE(knowsAll());
-  for (std::uint32_t i = 0; i <= lead(); ++i) step();  // what was shown before comes true, or not
+  for (std::uint32_t i = 0; i <= lead(); ++i) step();  // until all earlier frames can be checked
 }
 
 void FarPlayer::takeInputs() {

@@ -1,8 +1,8 @@
-// A real world with a player on a distant client that predicts: snapshots and inputs pass through plain
+// A real world with a player on a distant client that predicts. Snapshots and inputs pass through simple
 // queues with delay and loss, one step per tick.
 //
-// In step n the server makes tick n, then the client draws a frame: its own object as it will be at the end
-// of tick n + lead, the tick before the one in which the server applies what is pressed in this frame.
+// In step n the server makes tick n, then the client draws a frame with its own object as predicted for the
+// end of tick n + lead. The server applies keys pressed in this frame in the tick after that.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@
 
 namespace naiad::test {
 
-/// Delays in ticks and probability of loss, in each direction; how many repeats of an input may be lost
-/// before it comes too late.
+/// Delays in ticks and probability of loss, in each direction. `margin` is how many copies of an input in a
+/// row may be lost before it is late.
 struct LinkDelays {
   std::uint32_t down = 3;
   std::uint32_t up = 3;
@@ -37,11 +37,11 @@ class FarPlayer {
   ~FarPlayer() { world.shutDown(); }
 
   df::Player& player() { return *world.views().player(m_player); }
-  /// One tick and one frame.
+  /// Runs one tick and draws one frame.
   void step();
-  /// Step until the client knows every object of interest to it.
+  /// Steps until the client knows every object of interest to it.
   void stepUntilAllKnown();
-  /// In the frame that has just been drawn.
+  /// Presses a key in the frame just drawn.
   void press(df::Keyboard::Key key, df::EventKeyboardAction action = df::KEY_PRESSED);
 
   std::uint32_t tick() const { return static_cast<std::uint32_t>(world.getStepCount()); }
@@ -54,13 +54,13 @@ class FarPlayer {
   Replica replica;
   Prediction prediction;
 
-  // What came of it.
+  // Results.
   std::uint32_t compared_from = 0;  ///< frames before this step do not count
-  int compared = 0;                 ///< frames whose tick has come true
-  int wrong = 0;                    ///< of these, in how many the object was shown elsewhere than it then was
-  int wrong_views = 0;              ///< … or the view
+  int compared = 0;                 ///< frames whose tick has happened
+  int wrong = 0;                    ///< compared frames that showed the object in a wrong place
+  int wrong_views = 0;              ///< compared frames with a wrong view
   int inputs = 0;
-  int late_inputs = 0;  ///< applied after the tick they were meant for
+  int late_inputs = 0;  ///< applied after their tick
   int states = 0;       ///< states of the player that arrived
   int ticks = 0;
 
@@ -92,16 +92,16 @@ class FarPlayer {
   SnapshotSender m_sender{Resend::kAhead};
   std::deque<Down> m_down;
   std::deque<Up> m_up;
-  std::map<std::uint32_t, Input> m_waiting;  // on the server, by id
+  std::map<std::uint32_t, Input> m_waiting;  // inputs on the server by id
   std::uint32_t m_applied = 0;
 
-  std::uint32_t m_table_known = 0;  // as in ClientSession
+  std::uint32_t m_table_known = 0;  // like in ClientSession
   std::uint32_t m_control_known = 0;
   AckWindow m_acks;
   std::uint32_t m_next_id = 1;
   std::uint32_t m_acknowledged = 0;
   std::deque<Input> m_pending;
-  std::map<std::uint32_t, Frame> m_frames;  // shown, by tick
+  std::map<std::uint32_t, Frame> m_frames;  // shown frames by tick
 };
 
 }  // namespace naiad::test

@@ -16,7 +16,7 @@ class InputTickEstimatorTest : public testing::Test {
     for (std::uint32_t tick = 100; tick <= 200; ++tick, now += kTickTime) clock.noteSnapshot(tick, now);
     now -= kTickTime;
   }
-  /// How far ahead of the newest tick a key is asked for.
+  /// Returns how many ticks after the newest one a key is requested for.
   std::uint32_t ahead() const { return take_in.tickFor(clock, kTickTime, now) - clock.newestTick(); }
 
   DisplayClock::Time now{std::chrono::hours(1)};
@@ -29,7 +29,7 @@ TEST_F(InputTickEstimatorTest, WithoutDelayItIsTheNextTick) {
 }
 
 TEST_F(InputTickEstimatorTest, ARoundTripMakesItLater) {
-  take_in.noteRoundTrip(100ms);  // two and a half ticks, and the margin
+  take_in.noteRoundTrip(100ms);  // two and a half ticks, plus the margin
   EXPECT_EQ(ahead(), 3u);
   InputTickEstimator far;
   far.noteRoundTrip(400ms);
@@ -79,7 +79,7 @@ TEST_F(InputTickEstimatorTest, TicksMayWrapAround) {
   EXPECT_EQ(other.margin(), InputTickEstimator::kMinMargin);
 }
 
-// One in so many late: the margin neither grows nor shrinks.
+// The margin neither grows nor shrinks if this share of the inputs is late.
 TEST_F(InputTickEstimatorTest, OneInFortyMayBeLate) {
   const auto drift = [](int every) {
     InputTickEstimator other;

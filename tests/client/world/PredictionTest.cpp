@@ -45,7 +45,7 @@ void apply(Replica& replica, std::uint32_t number, Records records) {
   replica.apply(snapshot);
 }
 
-/// The own ship at (10,10), a step to the right for D, a step down for S.
+/// The player's own ship at (10,10). D steps to the right, S down.
 class PredictionTest : public testing::Test {
  protected:
   PredictionTest() {
@@ -72,7 +72,7 @@ class PredictionTest : public testing::Test {
                          .action = static_cast<std::uint8_t>(action),
                          .key = static_cast<std::uint8_t>(key)});
   }
-  /// Where D leads the own ship in the first tick, in a world of it and another object.
+  /// Returns where D moves the own ship in the first tick of a world with another object.
   FixedVector afterOneStep(const ObjectRecord& own, const ObjectRecord& other) {
     replica = Replica();
     prediction = Prediction();
@@ -141,7 +141,7 @@ TEST_F(PredictionTest, AControlStateRemovesTheInputsThatItCovers) {
 TEST_F(PredictionTest, AnInputThatIsLateIsExpectedWithTheNextTick) {
   press(1, D, KEY_PRESSED, kFirstTick + 2);
   EXPECT_EQ(at(kFirstTick + 6), cells(11, 10));
-  prediction.applyControl(state(kFirstTick + 4, 0, cells(10, 10)));  // it has not arrived
+  prediction.applyControl(state(kFirstTick + 4, 0, cells(10, 10)));  // the input has not arrived
   EXPECT_EQ(prediction.counters().mispredicted, 1u);
   EXPECT_EQ(at(kFirstTick + 4), cells(10, 10));
   EXPECT_EQ(at(kFirstTick + 5), cells(11, 10));
@@ -175,7 +175,7 @@ TEST_F(PredictionTest, TicksAndInputsMayWrapAround) {
 }
 
 TEST_F(PredictionTest, TheOrderOfCreationDecidesWhichObjectsHaveMoved) {
-  // Two blocks leave the cells on the right, one tick after the other key could use them.
+  // The block to the right moves away, in time for the ship only if it moves first.
   table.rows[0] = {D, KEY_PRESSED, df::ControlEffect::kVelocity, true, true, cells(1, 0)};
   prediction.setTable(table);
   for (const auto& [slot, wanted] : {std::pair{kOwnSlot - 1, 11}, {kOwnSlot + 1, 10}}) {
@@ -236,7 +236,7 @@ TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
   const DrawnPlacement placement(replica, prediction, clamp);
   EXPECT_EQ(replica.viewCorner(kFirstTick), (CellPosition{0, 4}));
   EXPECT_EQ(replica.viewCorner(kFirstTick, &placement),
-            (CellPosition{10, 4}));  // 30 is two thirds of the view
+            (CellPosition{10, 4}));  // 30 minus two thirds of the view
   EXPECT_EQ(replica.focus(kFirstTick, &placement), (CellPosition{20, 6}));
   const df::Canvas picture = replica.render(kFirstTick, &placement);
   EXPECT_EQ(picture.at(20, 6).ch, U'@');
@@ -244,7 +244,7 @@ TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
   EXPECT_EQ(replica.render(kFirstTick).at(10, 6).ch, U'@');
 }
 
-// Two thousand steps in each frame (64 keys of 32 rows), all of which a pile of objects may block.
+// Two thousand steps per frame (64 keys with 32 rows), all of them against a pile of objects.
 TEST_F(PredictionTest, WorkIsBoundedHoweverManyObjectsAreInTheWay) {
   std::vector<ObjectRecord> pile;
   for (std::uint32_t slot = 1000; slot < 49'000; ++slot) {

@@ -1,4 +1,4 @@
-// The client's prediction against a real world: what it shows is what then happens.
+// The client's prediction in a real world: the world then does what the client showed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ df::Solidness anySolidness(SplitMix64& rng) {
   return static_cast<df::Solidness>(rng.below(3));
 }
 
-/// Walls and fog that do not move, as whole and as odd boxes.
+/// Adds fixed walls and fog with whole and fractional boxes.
 void litter(SplitMix64& rng, int count) {
   for (int i = 0; i < count; ++i) {
     auto* p_o = new Object;
@@ -44,7 +44,7 @@ void litter(SplitMix64& rng, int count) {
 
 Controls anyControls(SplitMix64& rng) {
   Controls controls;
-  const int style = static_cast<int>(rng.below(4));  // steps, velocities, drives, all of them
+  const int style = static_cast<int>(rng.below(4));  // steps, velocities, drives, or all of them
   for (const Key key : kKeys) {
     const double dx = static_cast<double>(rng.below(9)) / 4 - 1;
     const double dy = static_cast<double>(rng.below(9)) / 4 - 1;
@@ -82,13 +82,13 @@ LinkDelays anyDelays(SplitMix64& rng) {
   return {ticks(), ticks(), 0, 1};
 }
 
-/// Everything stands still but the player.
+/// A world in which only the player moves.
 void playAmongWalls(FarPlayer& far, int steps) {
   WM.setBoundary(Box(Vector(), 200, 60));
-  far.world.views().setWindow(120, 54);  // what is out of view is not known
+  far.world.views().setWindow(120, 54);  // the client does not know objects outside the view
   litter(far.rng, 150);
   Object* p_ship = launch(far, anyControls(far.rng));
-  if (far.rng.below(3) == 0) litter(far.rng, 50);  // some come after the ship
+  if (far.rng.below(3) == 0) litter(far.rng, 50);  // created after the ship
   p_ship->setSolidness(anySolidness(far.rng));
   p_ship->setNoSoft(far.rng.below(4) == 0);
   if (far.rng.below(6) == 0) p_ship->setAcceleration(Vector(0, 0.01));
@@ -139,10 +139,10 @@ TEST(PredictionWorld, StatesThatTheClientPredictsAreNotSent) {
     states += far.states;
     ticks += far.ticks;
   }
-  EXPECT_LT(states, ticks * 3 / 4);  // a key every third tick, and walls
+  EXPECT_LT(states, ticks * 3 / 4);  // with a key every third tick, and walls
 }
 
-/// Flies to and fro, whole cells at a time, so that its model is never off by a part of a cell.
+/// Moves back and forth by whole cells, so that its model has no rounding errors.
 class Shuttle : public Object {
  public:
   Shuttle(Vector at, int direction) {
@@ -179,14 +179,14 @@ TEST(PredictionWorld, MovingObstaclesAreCorrectedWithinARoundTrip) {
     EXPECT_GT(far.compared, 150);
 
     for (Shuttle* p_shuttle : shuttles) p_shuttle->setVelocity(Vector());
-    for (std::uint32_t n = 0; n < 10; ++n) far.step();  // until the last surprise has come down
+    for (std::uint32_t n = 0; n < 10; ++n) far.step();  // until the last correction has arrived
     far.compared_from = far.tick() + 1;
-    for (std::uint32_t n = 0; n < far.lead() + 1; ++n) far.step();  // older frames come true
+    for (std::uint32_t n = 0; n < far.lead() + 1; ++n) far.step();  // until older frames have been compared
     far.wrong = 0;
     playAtRandom(far, 100);
     EXPECT_EQ(far.wrong, 0) << "seed " << seed;
   }
-  EXPECT_GT(wrong, 100);  // else there was nothing to correct
+  EXPECT_GT(wrong, 100);  // otherwise nothing was corrected
 }
 
 TEST(PredictionWorld, LateInputsAreCorrectedAndTheShipNeverDiverges) {
@@ -197,7 +197,7 @@ TEST(PredictionWorld, LateInputsAreCorrectedAndTheShipNeverDiverges) {
     playAmongWalls(far, 200);
     late += far.late_inputs;
     mispredicted += far.prediction.counters().mispredicted;
-    for (int n = 0; n < 80; ++n) far.step();  // no keys: all states arrive, and
+    for (int n = 0; n < 80; ++n) far.step();  // without keys, until all states have arrived
     const df::FixedVector at = far.prediction.position();
     far.prediction.run(far.replica, far.tick() + far.lead());
     EXPECT_EQ(far.prediction.pendingInputs(), 0u);

@@ -13,16 +13,16 @@ using namespace std::chrono_literals;
 
 class WorldFeedTest : public testing::Test {
  protected:
-  /// Snapshot `number`, in which the object of that id is born.
+  /// Feeds snapshot `number`, in which the object with that id is born.
   void birth(std::uint32_t number, bool complete, std::uint8_t epoch = 0) {
     take(number, complete, epoch, true);
   }
-  /// One without records, as the server sends it to find out whether datagrams pass.
+  /// Feeds a snapshot without records, which a server sends to find out whether datagrams pass.
   void probe(std::uint32_t number, bool complete) { take(number, complete, 0, false); }
   std::size_t shown() const { return feed.shown().aliveCount(); }
   bool hasPicture() const { return feed.hasPicture(now); }
 
-  /// One of another epoch, and what became of it.
+  /// Feeds a snapshot of another epoch and returns the result.
   WorldFeed::Result of(std::uint8_t epoch, std::uint32_t number, bool complete) {
     return taken(number, complete, epoch, true);
   }
@@ -54,7 +54,7 @@ class WorldFeedTest : public testing::Test {
   }
 };
 
-// Room for more than the 16 bits of a tick that a snapshot has.
+// Farther behind than the 16 bits of the tick in a snapshot can express.
 TEST_F(WorldFeedTest, AnExpectedWorldMayBeFarBehindThePresentOne) {
   tick = 500'000;
   feed.noteTick(tick);

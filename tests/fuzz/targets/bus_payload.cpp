@@ -1,8 +1,8 @@
-// What comes from the bus, and from a sidecar: read within its bounds, or refused; and written out again it
-// is the same.
+// Payloads from the bus and from a sidecar: each is read within its bounds or rejected, and a valid one
+// survives being written and read again.
 //
-//   input   0 a presence, 1 a result or players sent on, 2 the sidecar's answer, 3 a line of its watch,
-//           4 what a directory hears, a line "SUBJECT PAYLOAD" each (1) | the text
+//   input   0 a presence, 1 a result or redirected players, 2 the sidecar's answer, 3 a line of its watch,
+//           4 messages to a directory, each a line "SUBJECT PAYLOAD" (1) | the text
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -64,7 +64,7 @@ void requireFacts(const std::string& text, bool is_line) {
   }
 }
 
-/// A room is one that the server has said, with a free place.
+/// Requires that the room is one of the server's own, with a free place.
 void requirePlace(const FleetList::Place& place) {
   REQUIRE(place.room.empty() == place.p_server->rooms.empty());
   if (place.room.empty()) return;
@@ -74,8 +74,8 @@ void requirePlace(const FleetList::Place& place) {
   REQUIRE(isRoomName(place.room));
 }
 
-/// Whatever servers say: those that are there have said so themselves, and no player is sent where none can
-/// play.
+/// Requires, whatever servers claim, that all listed ones have sent a presence, and that players are sent
+/// only to servers where they can play.
 void requireList(FleetList& list) {
   for (const Presence& one : list.servers()) REQUIRE(Presence::parse(one.payload()) == one);
   const std::string text = serverListText(list.servers());

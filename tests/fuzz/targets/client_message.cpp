@@ -1,12 +1,11 @@
-// What a server makes of a client's frames: parse, check, dispatch, on a channel that leads nowhere. No frame
-// is answered before the hello but with a refusal, there is one hello, and what comes out of it is in its
-// ranges.
+// Server side of a client's frames: parsing, checks and dispatch, on a channel without a network. Before the
+// hello, a frame is only answered with a refusal; there is one hello, and its values are in range.
 //
-//   input   frames: length + 2^13·as a datagram + 2^14·tick before it + 2^15·behind a proper hello (2)
+//   input   frames: length + 2^13·as a datagram + 2^14·tick before it + 2^15·after a valid hello (2)
 //                   | the frame's payload
-//           length 0: what 1 of the channel or the host: 0 closed, 1 busy, 2 many times the last frame, 3
-//           goodbye, 252 a second stream comes, 253 the next frames come on the other stream, 254 the
-//           second closed, 255 it is busy, else so many half seconds pass
+//           length 0: an event of the channel or host (1): 0 closed, 1 busy, 2 the last frame 100 times,
+//           3 goodbye, 252 a second stream opens, 253 later frames come on the other stream, 254 the second
+//           closes, 255 it is busy, otherwise that many half seconds pass
 #include <memory>
 #include <utility>
 
@@ -44,7 +43,7 @@ class Play {
                        REQUIRE(room.size() <= kMaxClientFrame);
                        m_moves = true;
                      }});
-    // Keys of these wait for the tick that they ask for.
+    // Controls that make their keys wait for the tick that they name.
     auto controls = std::make_shared<df::ControlTable>();
     controls->rows.push_back(
         {kSteering, df::KEY_PRESSED, df::ControlEffect::kStep, true, false, {df::kFixedOne, 0}, 0, 0});
@@ -53,11 +52,11 @@ class Play {
 
   void hear(std::string_view frame) {
     if (m_on_second) return hearSecond(frame);
-    if (m_line.closed || frame.empty() || frame.size() > m_line.receive_limit) return;  // never gets here
+    if (m_line.closed || frame.empty() || frame.size() > m_line.receive_limit) return;  // cannot get here
     m_last = frame;
     const Exactly bytes(m_last);
     m_line.callbacks.on_frame(bytes.view());
-    // This host judges a hello at once, and nothing else is heard before it.
+    // This host answers a hello at once, before any other frame.
     REQUIRE(m_session.state() != Session::State::kGreeting);
     REQUIRE((m_session.state() == Session::State::kEnding) == m_line.closed);
     REQUIRE(m_gone == (m_line.closed ? 1 : 0));
@@ -122,7 +121,7 @@ class Play {
   }
 
  private:
-  // To the same world: it is sent again, in another epoch.
+  // Moves the player to a room whose world is equal but is sent again in another epoch.
   void move() {
     wire::Welcome welcome = m_session.welcomed();
     welcome.set_player(welcome.player() + 1);
@@ -131,7 +130,7 @@ class Play {
     m_session.enterRoom(welcome);
     REQUIRE(m_session.player() == welcome.player() && m_session.sender().epoch() != epoch);
   }
-  // Once: what the channel was given before is lost with it.
+  // Opens the second stream, only once, because its channel keeps its state.
   void openSecond() {
     if (m_session.state() != Session::State::kPlaying || m_second.callbacks.on_frame) return;
     Session other(std::make_unique<FakeChannel>(m_second), m_counters, m_now);
@@ -158,7 +157,7 @@ class Play {
   bool m_on_second = false;
   bool m_moves = false;
   FakeAir m_sealed;
-  std::string m_last;  ///< frame
+  std::string m_last;  ///< the last frame
   Counters m_counters;
   Session m_session;
   int m_hellos = 0;

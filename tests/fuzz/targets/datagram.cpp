@@ -1,8 +1,8 @@
-// Sealed datagrams of a session whose keys are known: the fuzzer writes headers and what is inside the seal,
-// and they are sealed rightly, or not at all. What is not sealed rightly never comes out; what is comes out
+// Sealed datagrams of a session with known keys: the fuzzer writes headers and contents, which are sealed
+// correctly or not at all. A packet with a wrong seal is never opened, and a packet with a right one at most
 // once.
 //
-//   input   flags 1: 1 ChaCha20, 2 keys that wear out early | steps: what 1 and its parameters
+//   input   flags 1: 1 ChaCha20, 2 short-lived keys | steps: action 1 and its parameters
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -109,7 +109,7 @@ class Play {
     if (good) m_sealers.clear();
   }
 
-  /// As the product does it.
+  /// Sends like the product does.
   void say(SealedLink& link, const Path& path) {
     const bool up = &link == &m_client;
     const std::string payload = m_script.bytes(m_script.byte() * std::size_t{5});
@@ -120,12 +120,12 @@ class Play {
     send(up, std::string(outgoing->packet), path);
   }
 
-  /// Any header, any text, sealed with the right key of the newest epoch.
+  /// Sends any header and text, sealed with the correct key of the newest epoch.
   void sealAnything(SealDirection direction, const Path& path) {
     const bool up = direction == SealDirection::kClientToServer;
     std::array<char, kMaxDatagram + 64> packet{};
     const std::size_t prefix = writeSealedPrefix(direction, m_epoch, kSession, packet.data());
-    const std::uint8_t where = m_script.byte();  // below 128: one byte of the header is another one
+    const std::uint8_t where = m_script.byte();  // below 128: replaces one byte of the header
     if (where < 128) packet[where % prefix] = static_cast<char>(m_script.byte());
     const std::string text = m_script.bytes(m_script.byte());
     std::copy(text.begin(), text.end(), packet.begin() + static_cast<std::ptrdiff_t>(prefix) + 2);
@@ -143,7 +143,7 @@ class Play {
     deliver(up, packet, path);
   }
 
-  /// A packet that was sent once and then changed is never taken.
+  /// Requires that a modified copy of a sent packet is rejected.
   void change() {
     if (m_sent.empty()) return;
     const Sent& sent = m_sent[m_script.below(m_sent.size())];
@@ -167,7 +167,7 @@ class Play {
     REQUIRE(!deliver(up, bytes, pathOf(9)));
   }
 
-  /// Did something come out? Nothing does twice.
+  /// Returns true if the packet was opened. Requires that no packet is opened twice.
   bool deliver(bool up, const std::string& packet, const Path& path) {
     const bool came = up ? toServer(packet, path) : toClient(packet, path);
     if (came) REQUIRE(m_opened.emplace(up, packet).second);
@@ -202,7 +202,7 @@ class Play {
   DatagramGate m_gate;
   SealedLink::Time m_now{1h};
   Epoch m_epoch = 0;
-  std::vector<Sealer> m_sealers;  ///< server to client, client to server
+  std::vector<Sealer> m_sealers;  ///< server to client, then client to server
   std::vector<Sent> m_sent;
   std::set<std::pair<bool, std::string>> m_opened;
   std::optional<std::string> m_heard;

@@ -1,7 +1,7 @@
-// The stream deframer: however a stream is cut into pieces, the same frames come out as of the whole, and
-// never more than one frame is kept.
+// The stream deframer: however a stream is split, its frames equal those of the whole stream, and never more
+// than one frame is buffered.
 //
-//   input   limit 2 | limit after the first frame 2 | how it is cut 1 | the stream
+//   input   limit 2 | limit after the first frame 2 | how it is split 1 | the stream
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -20,7 +20,7 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-/// What PROTOCOL.md says, on a stream that is all there.
+/// Returns the frames of a complete stream by the rules of PROTOCOL.md.
 Outcome expected(std::string_view stream, std::size_t limit, std::size_t later) {
   Outcome outcome;
   while (stream.size() >= kFrameHeaderSize) {

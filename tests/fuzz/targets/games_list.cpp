@@ -1,5 +1,5 @@
-// The list of games that an ssh door offers: each line that is not a comment is a game, or the list has none
-// at all; and written out again it is the same list.
+// The list of games of an ssh door: each line that is not a comment is a game, or else the whole list is
+// invalid. A valid list survives being written and read again.
 //
 //   input   the file
 #include <algorithm>

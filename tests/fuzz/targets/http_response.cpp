@@ -1,7 +1,7 @@
-// Answers of web servers: however the stream is cut into pieces, what comes out is what RFC 9112 says of the
-// whole, nothing ambiguous is read, and no more is kept than allowed.
+// Answers of web servers: however the stream is split, the result is that of RFC 9112 for the whole stream,
+// ambiguous answers are rejected, and no more is buffered than allowed.
 //
-//   input   limit of the head 2 | limit of the body 2 | how it is cut 1 | how the connection ends 1 | the
+//   input   limit of the head 2 | limit of the body 2 | how it is split 1 | how the connection ends 1 | the
 //   stream
 #include <algorithm>
 #include <optional>
@@ -23,10 +23,10 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-/// How the connection ends after the stream.
+/// The end of the connection after the stream.
 enum class Ending : std::uint8_t { kOpen, kInOrder, kBroken };
 
-/// The whole stream, read by searching in it.
+/// Reads the whole stream at once by simple searches.
 class Oracle {
  public:
   Oracle(const std::string& stream, const HttpLimits& limits, Ending ending)
@@ -48,7 +48,7 @@ class Oracle {
     return false;
   }
 
-  /// The next line, of those that may have `m_left` bytes; false: there is none.
+  /// Reads the next line, if `m_left` bytes allow it. False if none is complete or valid.
   bool line(std::string& into) {
     const std::size_t end = m_stream.find('\n', m_at);
     const std::size_t size = (end == std::string::npos ? m_stream.size() : end + 1) - m_at;
@@ -65,7 +65,7 @@ class Oracle {
     return true;
   }
 
-  /// The value if the line is the field; nullopt if it is another one.
+  /// Returns the value if the line is this field, otherwise nullopt.
   static std::optional<std::string> valueOf(const std::string& line, std::string_view name) {
     if (line.size() <= name.size() || line[name.size()] != ':') return std::nullopt;
     for (std::size_t i = 0; i < name.size(); ++i)
@@ -84,7 +84,7 @@ class Oracle {
            });
   }
 
-  /// Interim heads and the final one.
+  /// Reads interim heads and the final one.
   bool readHeads() {
     m_left = m_limits.head;
     do {

@@ -1,5 +1,5 @@
-// The terminal's bytes: however they are cut, the same events come out, all in their ranges; little is held
-// back, and after a pause the decoder is as new.
+// The terminal's bytes: however they are split, the events are equal and in range, little is buffered, and
+// after a pause the decoder is in its initial state.
 //
 //   input   pieces: length + 64·pause (1) | bytes;   pause: 0 none, 1 10 ms, 2 100 ms, 3 1 s
 #include <array>

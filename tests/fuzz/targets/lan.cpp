@@ -1,5 +1,5 @@
-// The messages of the local network: a packet is one of them or nothing, what it says is safe to draw, and an
-// answer is never longer than a query.
+// The messages of the local network: a packet is a valid message or is rejected, its texts are safe to draw,
+// and an answer is never longer than a query.
 //
 //   input   a packet
 #include "Target.h"

@@ -1,5 +1,5 @@
-// Addresses that strangers write: links to games, keys, and addresses of servers and pages. What is taken has
-// only the parts it may have, and its own text means the same.
+// Addresses written by strangers: links to games, keys, and addresses of servers and pages. An accepted one
+// has only allowed parts, and its own text has an equal meaning.
 //
 //   input   the text
 #include <algorithm>
@@ -16,7 +16,7 @@ bool isGraphicText(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return c > ' ' && c < 0x7f; });
 }
 
-/// Nothing in it ends a name, or begins an option.
+/// Requires a host without characters that end a name or begin an option.
 void requireHost(const std::string& host) {
   REQUIRE(!host.empty() && host.size() <= 254 && host.front() != '-');
   REQUIRE(isGraphicText(host));
@@ -39,7 +39,7 @@ void readLink(std::string_view text) {
   REQUIRE(std::holds_alternative<JoinLink>(again) && std::get<JoinLink>(again) == link);
 }
 
-/// One text for each key.
+/// Requires that each key has exactly one text, except for upper case.
 void readKey(std::string_view text) {
   const auto key = ShortKey::parse(text);
   if (!key) return;
@@ -48,7 +48,7 @@ void readKey(std::string_view text) {
   REQUIRE(key->text() == lower);
 }
 
-/// Behind the host there is nothing but what stays in the browser.
+/// Requires that only a fragment, which stays in the browser, follows the host.
 void readPage(const std::string& text) {
   const auto address = GatewayAddress::parse(text);
   if (!address) return;
@@ -63,7 +63,7 @@ void readPage(const std::string& text) {
           again->encrypted == address->encrypted);
 }
 
-/// text() and canonicalText() are read back as the same address.
+/// Requires that text() and canonicalText() parse to an equal address.
 void readServer(const std::string& text) {
   const auto address = ServerAddress::parse(text);
   if (!address) return;

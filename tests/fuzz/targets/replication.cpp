@@ -1,5 +1,5 @@
-// A world, its publisher, a sender, a bad link and a replica, by a script: whatever happened and whatever got
-// lost, doubled, reordered or damaged, once the link is well again the replica is the world.
+// A world, its publisher, a sender, a bad link and a replica, driven by a script. Whatever happens and
+// whatever is lost, duplicated, reordered or damaged, the replica equals the world once the link works again.
 //
 //   input   when to send again 1 | steps: see ScriptedLink::run() and ScriptedWorld::happen()
 #include "ScriptedLink.h"

@@ -3,7 +3,7 @@
 //   input   0 a file as it is; 1 chunks: each: type (1) | length (2) | payload | …; 2 records of a
 //           TURN chunk (1) | bytes
 //
-// In 1 and 2 the checksums are right, as in a file by somebody who can compute them.
+// In 1 and 2 the checksums are right, because a stranger can compute them, too.
 #include "Target.h"
 #include "host/journal/DfrReader.h"
 #include "host/journal/DfrWriter.h"
@@ -12,7 +12,7 @@
 namespace naiad::fuzz {
 namespace {
 
-/// What was read is spelled, and read again.
+/// Requires that the turn survives being written and read again.
 void tryAgain(const WorldTurn& turn) {
   std::string first;
   std::string second;
@@ -31,7 +31,7 @@ void tryFile(std::string_view bytes) {
   std::size_t records = 0;
   while (const auto record = reader.next()) {
     REQUIRE(reader.problem().empty());
-    // A record has two bytes at least, and no file unpacks to more than 64 times its size.
+    // A record has at least two bytes, and no file unpacks to more than 64 times its size.
     REQUIRE(++records <= (64 * bytes.size() + kMaxDfrPayload) / 2);
     if (const auto* p_turn = std::get_if<WorldTurn>(&*record)) tryAgain(*p_turn);
     if (const auto* p_picture = std::get_if<RecordedPicture>(&*record))

@@ -1,5 +1,5 @@
-// Text from the network made fit for a terminal: whatever goes in, what comes out is drawable, of the right
-// length, and stays as it is when cleaned again.
+// Network text cleaned for a terminal: for every input, the output is drawable, within the length limit, and
+// unchanged when cleaned again.
 //
 //   input   characters at most 1 | the text
 #include "Target.h"

@@ -1,5 +1,4 @@
-// What a server may say: whatever the bytes, the values that come out are in their ranges and fit for a
-// terminal.
+// Messages of a server: for all bytes, the accepted values are in range and safe for a terminal.
 //
 //   input   a frame's payload
 #include "Target.h"
@@ -63,7 +62,7 @@ void requireGood(const SoundsMessage& message) {
   }
 }
 template <class Other>
-void requireGood(const Other&) {}  // nothing in it can be wrong, or somebody else reads it
+void requireGood(const Other&) {}  // nothing in it can be wrong, or other code reads it
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// Messages of the wire by the codec without protobuf: whatever the bytes, it accepts what protobuf accepts,
-// and finds the same fields.
+// Wire messages in the codec without protobuf: for all bytes, it accepts what protobuf accepts and finds
+// equal fields.
 //
 //   input   which message (1) | its bytes
 #include <tuple>
@@ -20,7 +20,7 @@ void compare(std::string_view bytes) {
   const bool good = real.ParseFromArray(exactly.view().data(), size);
   REQUIRE(small.ParseFromArray(exactly.view().data(), size) == good);
   if (!good) return;
-  Twins::copy(real, known);  // without unknown fields
+  Twins::copy(real, known);  // a copy without unknown fields
   const std::string written = small.SerializeAsString();
   REQUIRE(written == known.SerializeAsString());
   REQUIRE(again.ParseFromString(written) && again.SerializeAsString() == written);

@@ -1,5 +1,5 @@
-// The snapshot decoder and the replica behind it, over a sequence of snapshots of any bytes: see
-// SnapshotChecks.h for what has to hold.
+// The snapshot decoder and the replica behind it, over a sequence of snapshots of any bytes. SnapshotChecks.h
+// lists the requirements.
 //
 //   input   flags 1: bit 0, begin with a world in which origins, names and objects are known (then epoch 0,
 //           tick 1000)

@@ -1,7 +1,7 @@
-// The same as the target `snapshot`, by snapshots in which one field is bad: whatever it says, either the
-// snapshot is refused, or what came out is in its ranges.
+// Like the target `snapshot`, with snapshots that have one bad field: the snapshot is rejected, or its values
+// are in range.
 //
-//   input   the numbers for HostileWriter, one snapshot after the other; for a client that knows the prelude
+//   input   numbers for HostileWriter, one snapshot after another, for a client that knows the prelude
 #include "HostileWriter.h"
 #include "Prelude.h"
 #include "SnapshotChecks.h"

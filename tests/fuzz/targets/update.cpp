@@ -1,4 +1,4 @@
-// What a client reports: every number that comes out is in its range, and writing it again gives the same.
+// Updates of a client: all numbers read are in range, and a valid update can be written and read again.
 //
 //   input   newest snapshot, tick and input known (4 each) | 0 raw, 1 numbers for HostileWriter (1) | the
 //   update

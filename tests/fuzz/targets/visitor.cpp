@@ -1,7 +1,7 @@
-// Whom a door speaks for: the header of a connection to the visitors' socket. What is taken names an address
-// that limits can count, and is read alike however it is written.
+// The header of a connection to the visitors' socket. An accepted one names an address that limits can count,
+// and all its spellings are read alike.
 //
-//   input   a header; and, as another door's program writes it, the same bytes as a text
+//   input   a header; also read as a text like "192.0.2.7:50312", which other doors pass on
 #include "Target.h"
 #include "shared/net/stream/VisitorHeader.h"
 
@@ -23,7 +23,7 @@ void readHeader(std::string_view bytes) {
   const auto rest = visitorHeaderRest(begin.view());
   if (rest) REQUIRE(*rest >= 12 && *rest <= kMaxVisitorHeaderRest);
   const auto visitor = readVisitorHeader(bytes);
-  // A listener reads so many bytes and no more.
+  // A listener reads exactly this many bytes.
   const Exactly whole(bytes.substr(0, kVisitorHeaderBegin + rest.value_or(0)));
   const auto cut = readVisitorHeader(whole.view());
   if (visitor) REQUIRE(rest && bytes.size() == kVisitorHeaderBegin + *rest && cut == visitor);

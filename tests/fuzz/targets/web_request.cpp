@@ -1,5 +1,5 @@
-// Requests to the gateway for browsers: every answer is one of its own, with the headers that guard the page,
-// and a WebSocket is opened for its own page alone.
+// Requests to the gateway for browsers: each answer is one of the gateway's own, with the headers that guard
+// the page, and only its own page can open a WebSocket.
 //
 //   input   0 | address of an origin        a program's own list of names
 //           1 | text                        as a string of JSON
@@ -59,7 +59,7 @@ std::string only(const WebRequest& request, http::field name) {
   return std::string(request[name]);
 }
 
-/// A head is lines of printable characters, none of them empty but the last.
+/// Requires a head of lines with printable characters, of which only the last is empty.
 void requireHead(const std::string& head) {
   REQUIRE(head.starts_with("HTTP/1.1 ") && head.ends_with("\r\n\r\n"));
   REQUIRE(head.find("\r\n\r\n") == head.size() - 4);
@@ -96,7 +96,7 @@ void requireOwnPage(const WebRequest& request) {
           std::string::npos);
 }
 
-/// As WebConnection does.
+/// Answers like WebConnection does.
 void serve(const std::string& bytes) {
   Parser parser;
   parser.header_limit(8 * 1024);

@@ -1,8 +1,7 @@
-// Frames of a WebSocket at a client's end: however the stream is cut into pieces, what comes out is what RFC
-// 6455 says of the whole, and no more than a message is kept. What is written is masked and has the shortest
-// form.
+// WebSocket frames read by a client: however the stream is split, the result is that of RFC 6455 for the
+// whole stream, and at most a message is buffered. Written frames are masked and have the shortest form.
 //
-//   input   limit 2 | how it is cut 1 | the stream
+//   input   limit 2 | how it is split 1 | the stream
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -26,13 +25,13 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-/// A frame at the front of the bytes, of either end.
+/// The frame at the front of the bytes, from either end.
 struct Frame {
   unsigned first = 0;
   bool is_masked = false;
   bool is_shortest = true;
   std::uint64_t length = 0;
-  std::size_t header = 0;  ///< 0: not all of the header is there
+  std::size_t header = 0;  ///< 0: the header is incomplete
 };
 
 Frame frameIn(std::string_view bytes) {
@@ -49,7 +48,7 @@ Frame frameIn(std::string_view bytes) {
   return frame;
 }
 
-/// Reads the whole stream as RFC 6455 says.
+/// Reads the whole stream by the rules of RFC 6455.
 Outcome expected(std::string_view stream, std::size_t limit) {
   Outcome outcome;
   std::optional<std::string> message;
@@ -94,7 +93,7 @@ Outcome expected(std::string_view stream, std::size_t limit) {
   return outcome;
 }
 
-/// The payload of the only frame in `bytes`, which a client wrote.
+/// Returns the payload of the only frame in `bytes`, written by a client.
 std::string writtenPayload(const std::string& bytes, unsigned first) {
   const Frame frame = frameIn(bytes);
   REQUIRE(frame.header > 0 && frame.first == first && frame.is_masked && frame.is_shortest);
@@ -157,7 +156,7 @@ void tryInput(Script script) {
     writer.append(written, message);
     REQUIRE(writtenPayload(written, 0x82) == message);
   }
-  if (limit % 64 == 0) {  // seldom, because it takes time
+  if (limit % 64 == 0) {  // rarely, because it takes time
     std::string written;
     const std::string longest(0x10000, stream.empty() ? 'x' : stream[0]);
     writer.append(written, longest);

@@ -1,9 +1,8 @@
-// What a world in a process of its own sends its host, and what it is sent: a stranger's game may be at the
-// other end.
+// Messages between a host and a world in its own process. A stranger's game may be at the other end.
 //
 //   input   0 turn, 1 answers (1) | turn: the fields of its message; answers: each length (2) | fields
 //
-// The fields of a turn are read as what a game has set up, too.
+// The fields of a turn are also read as the game's setup.
 #include "Target.h"
 #include "engine/world/WorldExtras.h"
 #include "host/snapshot/LookCapture.h"
@@ -37,7 +36,7 @@ void tryTurn(std::string_view bytes) {
   REQUIRE(again == record);
 }
 
-/// The id of this build, with which no input could begin by chance.
+/// Returns the fields' beginning with this build's id, which no input could have by chance.
 std::string ownBegin() {
   std::string frame;
   FieldWriter out(frame);
@@ -61,10 +60,10 @@ void tryReady(std::string_view bytes) {
   REQUIRE(again == frame);
 }
 
-/// One world's answers, one after the other.
+/// Reads the answers of one world in order.
 class Host {
  public:
-  /// False if it would end the world.
+  /// Returns false if the host would end the world.
   bool take(std::string_view bytes) {
     const auto answer = readAnswer(bytes, m_views, m_view);
     if (!answer) return false;

@@ -1,6 +1,6 @@
-// A game that attacks its server, before its main() begins. What it tries, and what became of it, it writes
-// into the file "report" of its working directory, which it may; HostileGameTest.cpp reads it there. Where
-// nothing holds it back it harms that server alone.
+// A game that attacks its server before its main() begins. It writes each attempt and its result into the
+// file "report" in its working directory, which is allowed; HostileGameTest.cpp reads it. Without a sandbox
+// it harms that server only.
 #include <fcntl.h>
 #include <linux/fs.h>
 #include <linux/fsverity.h>
@@ -40,7 +40,7 @@ void report(const std::string& line) {
   std::ofstream("report", std::ios::app) << getpid() << " " << line << std::endl;
 }
 
-/// `result`: as of a system call.
+/// `result` is that of a system call.
 void attempt(const std::string& name, long result) {
   const bool refused = result < 0 && (errno == EPERM || errno == EACCES || errno == ENOSYS || errno == EXDEV);
   report(name + (result >= 0 ? ": done" : refused ? ": refused" : ": error " + std::to_string(errno)));
@@ -107,7 +107,7 @@ void attackCalls(pid_t front) {
   attempt("a call of tomorrow", syscall(999));
 }
 
-/// What it may read it could change, but for its contents. Nothing is changed where nothing holds it back.
+/// Attacks the metadata of a file that it may open for reading. Without a sandbox these calls change nothing.
 void attackOpenFiles() {
   const int server = open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
   struct stat facts {};
@@ -124,7 +124,7 @@ void attackOpenFiles() {
   close(server);
 }
 
-/// The server's log is in its standard error, or in a file of its own.
+/// The server's log is in its standard error or in its own file.
 void attackLog() {
   attempt("write into the log", tryOpen("../log", O_WRONLY));
   attempt("write into the output", tryOpen("../output", O_WRONLY));
@@ -157,7 +157,7 @@ void useRuntime() {
   attempt("program", system("true") == 0 ? 0 : -1);
 }
 
-/// Two that stay: one in a session of its own, if it may, and the child of one that has ended.
+/// Leaves two children: one in its own session if allowed, and one whose parent has ended.
 void leaveChildren() {
   int ends[2];
   if (pipe(ends) != 0) return;
@@ -179,7 +179,7 @@ void leaveChildren() {
   close(ends[0]);
 }
 
-// The sanitizers keep books on every block, and the limit of memory is not in force with them.
+// Sanitizers record every block, and the memory limit does not apply with them.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::size_t kMaxBlocks = 64;
 #else
@@ -212,7 +212,7 @@ struct Attack {
     report("begun");
     pid_t front = 0;
     std::ifstream("front") >> front;
-    if (front <= 1) return;  // nobody has said yet
+    if (front <= 1) return;  // the test has not written the file yet
     attackFiles(std::to_string(front));
     attackCalls(front);
     attackOpenFiles();

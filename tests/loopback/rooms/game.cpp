@@ -1,5 +1,4 @@
-// A game for a room, which goes wrong in each way that must stay in its room. What it is good for is in
-// NamedRoomsTest.cpp.
+// A game for a room. It fails in each way that must not affect other rooms. NamedRoomsTest.cpp uses it.
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
@@ -18,7 +17,7 @@ namespace {
 
 volatile bool g_hangs = true;
 
-/// Which process draws it; where rounds are executed again, that is the same one.
+/// Returns the drawing process; a constant where rounds are replayed, because replays must be equal.
 int process() {
   return getenv("ROOM_REPEATS") != NULL ? 1 : getpid();
 }
@@ -70,7 +69,7 @@ class Teller : public Object {
   bool m_dozes = false;
 };
 
-// A game that begins with a file of this name ends at once, again and again.
+// Aborts in its first tick. Created if a file of this name exists, so that each new world fails at once.
 class Failing : public Object {
  public:
   Failing() { registerInterest(STEP_EVENT); }

@@ -1,5 +1,5 @@
-// A game that knows of no players and keeps what it knows in globals, as programs do that were written for
-// one player. What it is good for is in RoundsTest.cpp.
+// A game that knows nothing about players and keeps its state in globals, like programs for one player.
+// RoundsTest.cpp uses it.
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@
 
 using namespace df;
 
-int mains = 0;  // main() raises it: another value than 1 is a global that was there before
+int mains = 0;  // incremented by main(); a value other than 1 shows that a global outlived a round
 int steps = 0;
 bool over = false;
 
@@ -26,7 +26,7 @@ class Walker : public Object {
   Walker() {
     setType("Walker");
     setPosition(Vector(40, 12));
-    setAltitude(MAX_ALTITUDE);  // or a Drifter that passes would hide a part of the text
+    setAltitude(MAX_ALTITUDE);  // otherwise a passing Drifter would hide a part of the text
     registerInterest(KEYBOARD_EVENT);
     registerInterest(STEP_EVENT);
   }
@@ -62,7 +62,7 @@ class Walker : public Object {
   }
 };
 
-// Something to be seen moving.
+// A visibly moving object.
 class Drifter : public Object {
  public:
   explicit Drifter(int n) {

@@ -1,5 +1,4 @@
-// A game that adds a score for every key, whoever presses it. What it is good for is in
-// RecoveryTest.cpp.
+// A game that adds a score for each key of any player. RecoveryTest.cpp uses it.
 #include "DisplayManager.h"
 #include "EventKeyboard.h"
 #include "GameManager.h"

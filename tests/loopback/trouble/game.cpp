@@ -1,4 +1,4 @@
-// A game that goes wrong, one key for each way. What it is good for is in TroubleTest.cpp.
+// A game that fails in many ways, one key for each. TroubleTest.cpp uses it.
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,7 +76,7 @@ class Exits : public Object {
   int eventHandler(const Event*) { exit(0); }
 };
 
-/// A mistake that needs no player; 0 if the environment names none.
+/// Makes a mistake that needs no player, chosen by the environment. Returns 0 if none is chosen.
 int makeMistake() {
   const char* p_which = getenv("TROUBLE");
   if (p_which == NULL) return 0;

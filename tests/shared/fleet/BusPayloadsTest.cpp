@@ -1,4 +1,4 @@
-// What servers say of themselves on the bus: whole, and refused when no server writes it.
+// Payloads of servers on the bus: they survive a round trip, and payloads that no server writes are rejected.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -43,7 +43,7 @@ GameResult fullResult() {
   return result;
 }
 
-/// The payload with another value for a member.
+/// Returns the payload with another value for one member.
 std::string with(std::string payload, const std::string& name, const std::string& value) {
   const std::size_t begin = payload.find("\"" + name + "\":") + name.size() + 3;
   std::size_t end = begin;
@@ -134,7 +134,7 @@ TEST(BusPayloads, RoomsOfAnotherSpellingAreRefused) {
   EXPECT_FALSE(Presence::parse(with(good, "rooms", "\"" + longest + "\"")));
 }
 
-/// Values that a member may not have.
+/// Values that a member must not have.
 struct Refused {
   const char* name;
   std::vector<const char*> values;

@@ -15,7 +15,7 @@ using namespace std::string_literals;
 
 constexpr std::size_t kDepth = 8;
 
-/// The value as it is written again; "refused" if it is not parsed.
+/// Parses and writes the text; "refused" if parsing fails.
 std::string rewritten(std::string_view text, Json::Duplicates duplicates = Json::Duplicates::kRefuse) {
   const auto json = Json::parse(text, kDepth, duplicates);
   return json ? json->toString() : "refused";
@@ -189,7 +189,7 @@ TEST(Json, HasOneKind) {
   EXPECT_EQ((*json)["t"]["p"]["q"].integer(), std::nullopt);
 }
 
-// Quadratic time would exceed the time limit of a test.
+// Quadratic time would exceed the test's time limit.
 TEST(Json, ReadsLargeObjectsInLinearTime) {
   std::string text = "{";
   for (int i = 0; i < 300'000; ++i) text += "\"" + std::to_string(i) + "\":0,";

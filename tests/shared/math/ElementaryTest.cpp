@@ -22,9 +22,9 @@ using naiad::SplitMix64;
 constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 constexpr double kLargest = std::numeric_limits<double>::max();
 
-// |value − truth| in units in the last place of the truth.
+// Returns |value − truth| in units in the last place of the truth.
 double ulps(double value, Quad truth) {
-  if (!std::isfinite(value)) {  // what lies beyond half a unit above the largest number is infinite
+  if (!std::isfinite(value)) {  // truths beyond the largest number plus half a unit must give infinity
     const Quad limit = static_cast<Quad>(kLargest) + static_cast<Quad>(0x1p969);
     return std::isinf(value) && fabsq(truth) >= limit && (truth > 0) == (value > 0) ? 0 : kInfinity;
   }
@@ -34,7 +34,7 @@ double ulps(double value, Quad truth) {
   return static_cast<double>(fabsq(static_cast<Quad>(value) - truth) / static_cast<Quad>(unit));
 }
 
-// Finite doubles: any bit pattern.
+// Returns a finite double with a random bit pattern.
 double anyDouble(SplitMix64& random) {
   for (;;) {
     const double x = std::bit_cast<double>(random.next());
@@ -50,7 +50,7 @@ struct Function {
   const char* name;
   double (*own)(double);
   Quad (*reference)(Quad);
-  double low, high;  // the range of ordinary arguments
+  double low, high;  // range of ordinary arguments
 };
 
 const std::vector<Function> kFunctions = {
@@ -95,13 +95,13 @@ TEST_P(Elementary, IsWithinOneUnitInTheLastPlace) {
       case 2:
         check(uniform(random, -2, 2));
         break;
-      default: {  // all magnitudes that are neither huge nor negligible
+      default: {  // all magnitudes except huge and negligible ones
         const double size = std::ldexp(uniform(random, 1, 2), static_cast<int>(random.next() % 80) - 40);
         check(random.next() % 2 ? size : -size);
       }
     }
   }
-  // The neighbours of where methods and tables change, and of the ends of the range.
+  // Neighbours of the arguments where method or table changes, and of the ends of the range.
   for (double x : {0.4,
                    1.0,
                    2.0,
@@ -136,7 +136,7 @@ TEST_P(Elementary, IsWithinOneUnitInTheLastPlace) {
       }
     }
   }
-  for (int i = 1; i <= 4096; ++i) {  // the points half way between the tables' entries
+  for (int i = 1; i <= 4096; ++i) {  // midpoints between the entries of the tables
     check(i / 128.0);
     check(i * (math::kPi / 4));
     check(i * 0.010830424696249145 / 2);  // ln 2 / 64
@@ -146,7 +146,7 @@ TEST_P(Elementary, IsWithinOneUnitInTheLastPlace) {
 }
 
 TEST(ElementaryFunctions, SineAndCosineAreExactNextToTheirZeros) {
-  // The numbers nearest to multiples of π/2, among them the one that comes nearest of all doubles.
+  // The doubles nearest to multiples of π/2, among them the nearest of all.
   SplitMix64 random(2);
   double worst = 0;
   const auto check = [&](double x) {
@@ -164,7 +164,7 @@ TEST(ElementaryFunctions, SineAndCosineAreExactNextToTheirZeros) {
     const auto x = static_cast<double>(half_pi * static_cast<Quad>(n));
     for (const double y : {std::nextafter(x, 0), x, std::nextafter(x, kInfinity)}) check(i % 2 ? y : -y);
   }
-  // Numerators of the convergents of π/2's continued fraction come especially near.
+  // Numerators of the convergents of π/2's continued fraction are especially near.
   for (double x : {3.0,
                    11.0,
                    22.0,
@@ -277,12 +277,12 @@ TEST(ElementaryFunctions, DefineZerosInfinitiesAndNaN) {
   EXPECT_SAME(math::acos(-1), math::kPi);
   for (const double y : {0.0, -0.0, 1.0, -1.0, kInfinity, -kInfinity, kSmallest, -kLargest, kNaN}) {
     for (const double x : {0.0, -0.0, 1.0, -1.0, kInfinity, -kInfinity, -kSmallest, kLargest, kNaN}) {
-      EXPECT_SAME(math::atan2(y, x), std::atan2(y, x));  // which annex F defines to the bit, here
+      EXPECT_SAME(math::atan2(y, x), std::atan2(y, x));  // exact results here by annex F of the C standard
     }
   }
 }
 
-// One number for a million results. Whatever compiled this, at whatever level: the same.
+// A hash of a million results. It must not depend on compiler or optimization level.
 TEST(ElementaryFunctions, AreTheSameBitsEverywhere) {
   SplitMix64 random(4);
   std::uint64_t hash = 0xcbf29ce484222325;

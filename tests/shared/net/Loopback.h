@@ -21,7 +21,7 @@ namespace naiad::test {
 
 using asio::ip::tcp;
 
-/// Run the event loop until `condition` holds; false if it does not within a generous time.
+/// Runs the event loop until `condition` returns true; false after 30 s.
 template <class Condition>
 bool runUntil(asio::io_context& context, Condition condition) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -33,7 +33,7 @@ bool runUntil(asio::io_context& context, Condition condition) {
   return true;
 }
 
-/// Run everything that is ready now.
+/// Runs all handlers that are ready now.
 inline void runReady(asio::io_context& context) {
   context.restart();
   context.poll();
@@ -44,7 +44,7 @@ struct SocketPair {
   tcp::socket far;
 };
 
-/// Two connected sockets; throws std::system_error if the address does not exist here.
+/// Returns two connected sockets. Throws std::system_error if the address does not exist on this machine.
 inline SocketPair connectedSockets(asio::io_context& context, const std::string& address = "127.0.0.1") {
   tcp::acceptor acceptor(context, tcp::endpoint(asio::ip::make_address(address), 0));
   tcp::socket near(context);
@@ -52,14 +52,14 @@ inline SocketPair connectedSockets(asio::io_context& context, const std::string&
   return {std::move(near), acceptor.accept()};
 }
 
-/// What is under the frames.
+/// The streams that carry the frames.
 enum class Kind { kPlain, kTls };
 
 inline std::string nameOf(const testing::TestParamInfo<Kind>& info) {
   return info.param == Kind::kTls ? "Tls" : "Plain";
 }
 
-/// Two streams that are ready for bytes.
+/// Two connected streams that are ready for bytes.
 struct StreamPair {
   std::unique_ptr<ByteStream> near;
   std::unique_ptr<ByteStream> far;
@@ -87,7 +87,7 @@ inline StreamPair connectedStreams(asio::io_context& context, Kind kind,
   return {std::move(client), std::move(server)};
 }
 
-/// Two ends as client and server see them after login.
+/// Both ends of a channel after login.
 struct ChannelPair {
   explicit ChannelPair(asio::io_context& context, Kind kind, TcpOptions options = generous(),
                        const std::string& address = "127.0.0.1") {

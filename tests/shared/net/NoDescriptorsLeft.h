@@ -1,11 +1,11 @@
-// A process that has run out of descriptors.
+// A process without free descriptors.
 #pragma once
 
 #include <sys/resource.h>
 
 namespace naiad::test {
 
-/// While it lives, this process can open no more descriptors.
+/// Prevents this process from opening descriptors during its lifetime.
 class NoDescriptorsLeft {
  public:
   NoDescriptorsLeft() {

@@ -1,4 +1,4 @@
-// Records what a channel reported to its owner.
+// Records what a channel reports to its owner.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace naiad::test {
 
-/// Must outlive the channel it listens to.
+/// Must outlive the channel that it records.
 struct Recorder {
   std::vector<std::string> frames;
   std::optional<CloseReason> closed;

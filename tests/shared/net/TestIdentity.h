@@ -1,4 +1,4 @@
-// Keys, certificates and TLS contexts for tests. Made with OpenSSL directly, once per process.
+// Keys, certificates and TLS contexts for tests, made directly with OpenSSL, once per process.
 #pragma once
 
 #include <memory>
@@ -8,16 +8,16 @@
 
 namespace naiad::test {
 
-/// A certificate with its key, PEM.
+/// A certificate and its key in PEM.
 struct TestIdentity {
   std::string certificate;
   std::string key;
 
-  /// For `host` (a DNS name), signed by itself, or by `authority`.
+  /// Makes one for `host` (a DNS name), signed by `authority` or, if null, by itself.
   static TestIdentity make(const std::string& host, const TestIdentity* authority = nullptr);
 };
 
-/// One that tests share, for "naiad.test", signed by itself.
+/// Returns a self-signed one for "naiad.test" that the tests share.
 const TestIdentity& testIdentity();
 std::shared_ptr<const TlsContext> testServerContext();
 std::shared_ptr<const TlsContext> testClientContext();

@@ -1,5 +1,5 @@
-// Pages for man, completions and the example of a configuration are made from the table: nothing is left out
-// of them, and whatever stands in a help text cannot break them.
+// Man pages, completions and the example configuration are made from the table of options. They have all
+// options, and no help text can break their format.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -45,7 +45,7 @@ class OptionPagesTest : public testing::Test {
   std::string page(const std::string& kind) const {
     return optionPage(kind, program, options).value_or("none");
   }
-  /// Lines of the page that begin so.
+  /// Returns the lines that begin with `begin`.
   static std::vector<std::string> linesWith(const std::string& text, const std::string& begin) {
     std::vector<std::string> found;
     std::istringstream lines(text);
@@ -108,7 +108,7 @@ TEST_F(OptionPagesTest, CompletionsKnowWordsAndFiles) {
       << page("fish");
 }
 
-// Bash itself completes.
+// The real bash runs the completion.
 TEST_F(OptionPagesTest, BashCompletes) {
   const test::TempFolder base;
   std::ofstream(base / "completion") << page("bash");

@@ -1,4 +1,4 @@
-// What a program says to a command line, an environment or a file that it does not understand.
+// Messages about command lines, environments and files that a program does not understand.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ class OptionsTest : public testing::Test {
   OptionsTest() { unsetenv("OPTIONS_TEST_PORT"); }
   ~OptionsTest() override { unsetenv("OPTIONS_TEST_PORT"); }
 
-  /// What is on stderr.
+  /// Parses these words and returns the output on stderr.
   std::string parse(std::vector<std::string> words) {
     std::vector<const char*> argv{"dfthing"};
     for (const std::string& word : words) argv.push_back(word.c_str());
@@ -45,11 +45,11 @@ class OptionsTest : public testing::Test {
     words.insert(words.end(), {"--config", config.string()});
     return parse(words);
   }
-  /// What is said of a line of the file.
+  /// Returns the expected error about a line of the file.
   std::string ofLine(int number, const std::string& text) const {
     return said(config.string() + ":" + std::to_string(number) + ": " + text);
   }
-  /// An error of the program's, with where to find help.
+  /// Returns the expected error of the program, with the hint where to find help.
   static std::string said(const std::string& text) {
     return "dfthing: " + text + "\nRun dfthing --help for more information.\n";
   }

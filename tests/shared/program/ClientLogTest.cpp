@@ -1,4 +1,4 @@
-// What clients can write into the log: lines of their own, and few.
+// Clients can cause only log lines of their own kind, and only few.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// A log never holds up its caller, loses lines only when it must, and says so.
+// A log never blocks its caller, loses lines only if it must, and reports how many.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -45,7 +45,7 @@ class LineLogTest : public testing::Test {
   const fs::path path = base / "log";
 };
 
-/// The sum of what the log says of lost lines.
+/// Returns the sum of the lost lines that the log reports.
 long linesLost(const std::string& text) {
   constexpr std::string_view kSaid = " log line";
   long lost = 0;
@@ -54,8 +54,8 @@ long linesLost(const std::string& text) {
   return lost;
 }
 
-/// Has a thread tried, by 30 s from now, to make a file grow beyond RLIMIT_FSIZE? A log's writer blocks
-/// signals, so that the one it was sent for that waits for ever.
+/// True if, within 30 s, a thread tried to make a file exceed RLIMIT_FSIZE. The writer thread of a log blocks
+/// signals, so its SIGXFSZ then stays pending.
 bool hasFailedToWrite() {
   constexpr std::uint64_t kBit = std::uint64_t{1} << (SIGXFSZ - 1);
   for (const auto end = Clock::now() + 30s; Clock::now() < end; usleep(1000)) {
@@ -70,7 +70,7 @@ bool hasFailedToWrite() {
   return false;
 }
 
-/// Standard error is a pipe of one page meanwhile.
+/// Replaces standard error by a pipe of one page.
 class StderrPipe {
  public:
   StderrPipe() : m_before(dup(STDERR_FILENO)) {
@@ -88,7 +88,7 @@ class StderrPipe {
     if (m_ends[0] >= 0) close(m_ends[0]);
     m_ends[0] = -1;
   }
-  /// Read until `part` has come.
+  /// Reads until `part` has arrived.
   std::string readUntil(const std::string& part) {
     std::string all;
     const auto end = Clock::now() + 30s;
@@ -130,7 +130,7 @@ TEST_F(LineLogTest, AReaderThatStallsHoldsUpNobodyAndWhatIsLostIsSaid) {
   LineLog log("");
   const std::string line(1000, 'x');
   const int kLines = 3 * static_cast<int>(LineLog::kMaxWaiting / line.size());
-  for (int i = 0; i < kLines; ++i) log("line " + std::to_string(i) + ";" + line);  // nobody reads
+  for (int i = 0; i < kLines; ++i) log("line " + std::to_string(i) + ";" + line);  // no reader yet
   std::string said = pipe.readUntil(" log lines were lost: the log could not be written");
   EXPECT_NE(said.find("line 0;"), std::string::npos) << "what fits is kept";
   log("it goes on");
@@ -153,7 +153,7 @@ TEST_F(LineLogTest, AfterAFullDiskItGoesOnAndSaysWhatWasLost) {
   LineLog log(path);
   log("before");
   ASSERT_TRUE(comes("before\n"));
-  // Files may not grow: as a disk that is full.
+  // Files may not grow, as on a full disk.
   signal(SIGXFSZ, SIG_IGN);
   rlimit limit{};
   getrlimit(RLIMIT_FSIZE, &limit);
@@ -163,7 +163,7 @@ TEST_F(LineLogTest, AfterAFullDiskItGoesOnAndSaysWhatWasLost) {
   const std::string line(1000, 'x');
   const int kLines = 3 * static_cast<int>(LineLog::kMaxWaiting / line.size());
   for (int i = 0; i < kLines; ++i) log(line);
-  // The writer may not have had a turn yet: the disk stays full until it has tried.
+  // Keep the disk full until the writer has tried to write.
   EXPECT_TRUE(hasFailedToWrite());
   setrlimit(RLIMIT_FSIZE, &limit);
   EXPECT_TRUE(comes(" log lines were lost: the log could not be written (File too large)"));
@@ -196,13 +196,13 @@ TEST_F(LineLogTest, OpensItsFileAgainWhenAsked) {
 
 TEST_F(LineLogTest, RotationsLoseNoLine) {
   constexpr int kFiles = 20;
-  constexpr int kLines = 200;  // of each
+  constexpr int kLines = 200;  // per file
   std::string all;
   {
     LineLog log(path);
     for (int file = 0; file < kFiles; ++file) {
       for (int i = 0; i < kLines; ++i) log("line " + std::to_string(file * kLines + i) + ";");
-      ASSERT_TRUE(comes(";"));  // this file is open by now
+      ASSERT_TRUE(comes(";"));  // the file is open now
       fs::rename(path, base / ("log." + std::to_string(file)));
       LineLog::reopenAll();
     }

@@ -1,4 +1,4 @@
-// One event of the log as a sentence and as an object.
+// A log event as a sentence and as a JSON object.
 #include <gtest/gtest.h>
 
 #include <chrono>

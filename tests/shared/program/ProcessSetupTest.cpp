@@ -11,7 +11,7 @@
 namespace naiad {
 namespace {
 
-/// SIGPIPE as it was, whatever a test does.
+/// Restores the action of SIGPIPE after each test.
 class BrokenPipes : public testing::Test {
  protected:
   BrokenPipes() { sigaction(SIGPIPE, nullptr, &m_before); }

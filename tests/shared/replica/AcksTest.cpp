@@ -56,7 +56,7 @@ TEST(Acks, RememberAcrossTheWrap) {
   acks.newest = 0xFFFFFFFE;
   acks.mask = 1;
   acks.addReceived(0xFFFFFFFF);
-  acks.addReceived(2);  // 0 is never used
+  acks.addReceived(2);  // snapshot number 0 is never used
   EXPECT_EQ(acks.newest, 2u);
   EXPECT_TRUE(acks.has(0xFFFFFFFF));
   EXPECT_TRUE(acks.has(0xFFFFFFFE));

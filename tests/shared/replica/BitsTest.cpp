@@ -12,7 +12,7 @@ std::uint64_t lowBits(std::uint64_t value, int count) {
   return count == 64 ? value : value & ((std::uint64_t{1} << count) - 1);
 }
 
-/// Some number of exactly `width` bits.
+/// Returns a random number of exactly `width` bits.
 std::uint64_t ofWidth(SplitMix64& rng, int width) {
   return width == 0 ? 0 : lowBits(rng.next(), width - 1) | (std::uint64_t{1} << (width - 1));
 }

@@ -126,7 +126,7 @@ TEST(Checksum, IdsMatterInEveryGroup) {
   EXPECT_NE(bodySum(1, state.body), bodySum(2, state.body));
 }
 
-// Else two objects that exchanged a group would not be noticed.
+// Otherwise an exchange of groups between two objects would go unnoticed.
 TEST(Checksum, ObjectsThatExchangeAGroupChangeTheSum) {
   RandomRecords random(2);
   for (int i = 0; i < 500; ++i) {

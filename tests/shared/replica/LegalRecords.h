@@ -1,4 +1,4 @@
-// What a reader may let through: every number in its range.
+// Checks that all numbers of records are in range, as a reader must ensure.
 #pragma once
 
 #include <algorithm>

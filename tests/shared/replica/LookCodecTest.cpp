@@ -10,13 +10,13 @@ namespace {
 
 using test::RandomRecords;
 
-/// What a reader met.
+/// Values that a reader received.
 struct Met {
   Look look;
   std::optional<std::uint32_t> defined;
   std::optional<std::uint32_t> named;
   Sequence definition;
-  bool whole = false;  ///< nothing missing, nothing left
+  bool whole = false;  ///< the bytes end exactly after the look
 };
 
 Met read(std::string_view bytes, const Sequence* known = nullptr) {
@@ -42,7 +42,7 @@ std::string write(const Look& look, LookForm form = {}) {
   return out.bytes();
 }
 
-/// A look that is spelled out, up to the number of its glyphs, or of its frames.
+/// Begins a look without a name, up to the number of its glyphs or of its frames.
 BitWriter beginSpelled(bool has_one_frame) {
   BitWriter out;
   out.flag(true);
@@ -108,7 +108,7 @@ TEST(LookCodec, SingleCharactersAndNothingNeedNoName) {
 }
 
 TEST(LookCodec, WordsAreShort) {
-  // Behind the first one a letter is: plain, another one, narrow, 7 bits.
+  // Each letter after the first takes: plain, a different one, narrow, 7 bits.
   EXPECT_EQ(encodedBits(word("saucers").sequence) - encodedBits(word("saucer").sequence), 10u);
   EXPECT_EQ(encodedBits(word("xxxx").sequence) - encodedBits(word("xxx").sequence), 2u);
   BitWriter one;
@@ -142,7 +142,7 @@ TEST(LookCodec, EveryDrawableCharacterAndNoOtherIsRead) {
       ASSERT_TRUE(back == ch) << static_cast<std::uint32_t>(ch);
     }
   }
-  // Those that 14 bits cannot name.
+  // Characters that 14 bits cannot name.
   for (char32_t ch = 1u << 14; ch < 0x110000; ++ch) ASSERT_FALSE(df::isDrawable(ch));
 }
 
@@ -159,7 +159,7 @@ TEST(LookCodec, GlyphsFartherThanAllowedAreRefused) {
   EXPECT_FALSE(isRead(0, -most - 1));
 }
 
-// Each glyph is one step farther than the last without saying so.
+// Each glyph follows the last at the implied distance, so only the sum exceeds the limit.
 TEST(LookCodec, GlyphsThatWalkTooFarAreRefused) {
   const auto start = static_cast<std::int32_t>(kMaxGlyphOffset) - 256;
   Look look{{{{start, 0, U'a', df::RED}, {start + 256, 0, U'b', df::RED}}}, 2};
@@ -185,7 +185,7 @@ TEST(LookCodec, ACountThatIsOnlyClaimedCostsNothing) {
   EXPECT_LE(met.look.sequence[0].capacity(), 8u);
 }
 
-// Limits are of the sequence, not of each appearance.
+// The limits apply to the whole sequence, not to each appearance.
 TEST(LookCodec, FramesShareTheLimitOfGlyphs) {
   const Appearance half(kMaxGlyphs / 2, Glyph{0, 0, U'#', df::RED});
   const auto bytes = [](const Appearance& a, const Appearance& b) {
@@ -275,7 +275,7 @@ TEST(LookCodec, SelectorsBeyondTheirRangeAreRefused) {
   EXPECT_FALSE(spin(63));
 }
 
-// A clock has one age at a tick: another that shows the same would read as another look.
+// A clock has only one valid age per tick, because an equal picture with another age would be another look.
 TEST(LookCodec, ClocksOlderThanTheirRoundAreRefused) {
   const Appearance a{{256, 0, U'a', df::RED}};
   const Sequence three{a, {}, a};
@@ -300,7 +300,7 @@ TEST(LookCodec, ClocksOlderThanTheirRoundAreRefused) {
   }
 }
 
-// What has to be sent when a body's turning changes: a name, an angle to a frame's fraction, and the spin.
+// A change of a body's spin takes: the name, the angle to a fraction of a frame, and the spin.
 TEST(LookCodec, AnotherTurningOfANamedSequenceIsShort) {
   const Appearance a{{256, 0, U'a', df::RED}};
   BitWriter out;

@@ -6,9 +6,9 @@
 namespace naiad {
 namespace {
 
-// A clock as one would build it: count ticks, turn the page.
+// Compares with a simple clock that counts ticks and turns the page.
 TEST(LookSelector, AClockTurnsThePageEverySoManyTicks) {
-  for (const std::uint32_t begin : {0u, 1000u, 0xFFFFFFF0u}) {  // ticks may wrap
+  for (const std::uint32_t begin : {0u, 1000u, 0xFFFFFFF0u}) {  // tick numbers may wrap
     for (const bool loop : {true, false}) {
       for (const std::size_t frames : {2u, 3u, 256u}) {
         const Selector clock = Selector::clock(begin, 3, loop, 1);
@@ -31,23 +31,23 @@ TEST(LookSelector, BeforeItsStartAClockThatGoesRoundWentRoundAndAnotherShowsTheF
   EXPECT_EQ(Selector::clock(100, 2, false).at(7, 5), 0u);
 }
 
-// The frame whose middle is nearest, by exact arithmetic; a tie goes up.
+// Shows the frame whose middle is nearest, computed exactly; the higher one in a tie.
 TEST(LookSelector, AnAngleShowsTheNearestFrame) {
   test::RandomRecords random(1);
   for (int i = 0; i < 200'000; ++i) {
     const std::size_t frames = 2 + random.rng().below(kMaxFrames - 1);
     auto angle = static_cast<std::uint32_t>(random.rng().next());
-    if (i % 2 == 0) {  // close to where it turns
+    if (i % 2 == 0) {  // close to a change of frames
       const std::uint64_t edge = ((2 * random.rng().below(frames) + 1) << 31) / frames;
       angle = static_cast<std::uint32_t>(edge + random.rng().below(5) - 2);
     }
     const std::size_t shown = Selector::turning(0, angle, 0).at(0, frames);
     ASSERT_LT(shown, frames);
-    // In units of 1/frames of 2^-32 turn, half a frame is 2^31.
+    // The unit is 1/frames of 2^-32 turn, so half a frame is 2^31.
     const auto off = static_cast<std::int64_t>(std::uint64_t{angle} * frames - (std::uint64_t{shown} << 32));
     const auto whole = static_cast<std::int64_t>(frames) << 32;
     const std::int64_t around = off > whole / 2 ? off - whole : off;
-    // Half a frame is rounded down to a whole number once: by less than `frames` of these units.
+    // Rounding half a frame down to a whole number loses less than `frames` units.
     ASSERT_GE(around, -(std::int64_t{1} << 31)) << angle << " of " << frames;
     ASSERT_LT(around, (std::int64_t{1} << 31) + (whole >> 32)) << angle << " of " << frames;
   }

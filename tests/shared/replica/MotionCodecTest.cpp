@@ -32,7 +32,7 @@ void expectExact(const Motion& motion, const Origin& origin) {
   ASSERT_EQ(shared.bytes(), bytes);
 }
 
-/// Bits behind the point that are really there.
+/// Returns the number of fractional bits in use.
 int exactBits(df::FixedVector v) {
   const auto all = static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y);
   return std::max(0, df::kFixedBits - std::countr_zero(all));
@@ -99,7 +99,7 @@ TEST(MotionCodec, NumbersBeyondTheirRangeAreRefused) {
 }
 
 TEST(MotionCodec, ShortMotionsAreSharedByAllClients) {
-  EXPECT_EQ(shareMotion({1, cellsAt(3, 4), {}, {}}).count, 2 + 4);  // kind, and no fraction
+  EXPECT_EQ(shareMotion({1, cellsAt(3, 4), {}, {}}).count, 2 + 4);  // the kind, without a fraction
   EXPECT_GT(shareMotion({1, cellsAt(3.5, 4.25), cellsAt(0.25, 0), {}}).count, 0);
   EXPECT_EQ(shareMotion({1, cellsAt(1.0 / 3, 1.0 / 3), cellsAt(1.0 / 3, 0), {}}).count, 0) << "too long";
 }
@@ -113,7 +113,7 @@ TEST(MotionCodec, WholeCellsInTheWindowAreShort) {
   EXPECT_GT(bitsOf({0, cellsAt(118, 5), {}, {}}, window), 24u) << "the window ends";
   EXPECT_GT(bitsOf({0, cellsAt(0, 37), {}, {}}, window), 24u);
   EXPECT_GT(bitsOf({0, cellsAt(-11, 5), {}, {}}, window), 24u);
-  // A quarter of a cell a tick: 2 bits behind the point, and a sign.
+  // A quarter of a cell per tick: 2 fractional bits and a sign.
   EXPECT_LE(bitsOf({0, cellsAt(0, 5), cellsAt(-0.25, 0), {}}, window), 32u);
 }
 

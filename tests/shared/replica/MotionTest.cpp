@@ -14,7 +14,7 @@ Fixed wrapAdd(Fixed a, Fixed b) {
   return static_cast<Fixed>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
 
-/// One tick of the recurrence, as the world does it.
+/// Advances the motion by one tick, like the world does.
 Motion stepped(Motion m) {
   m.position = {wrapAdd(m.position.x, m.velocity.x), wrapAdd(m.position.y, m.velocity.y)};
   m.velocity = {wrapAdd(m.velocity.x, m.acceleration.x), wrapAdd(m.velocity.y, m.acceleration.y)};
@@ -33,7 +33,7 @@ Motion randomMotion(SplitMix64& rng, int bits) {
 TEST(Motion, ClosedFormEqualsSteppingBitForBit) {
   SplitMix64 rng(1);
   for (int i = 0; i < 300; ++i) {
-    const Motion start = randomMotion(rng, 20 + i % 45);  // the last ones overflow, and wrap
+    const Motion start = randomMotion(rng, 20 + i % 45);  // the last ones overflow and wrap
     Motion m = start;
     for (int n = 0; n < 200; ++n) {
       ASSERT_EQ(positionAt(start, m.tick), m.position) << "motion " << i << " after " << n << " ticks";
@@ -65,7 +65,7 @@ TEST(Motion, ExtremesWrapWithoutTrapping) {
   const Motion m{0, {most, least}, {most, least}, {least, most}};
   for (const std::uint32_t tick : {0u, 1u, 0x7FFFFFFFu, 0x80000001u, 0xFFFFFFFFu})
     EXPECT_EQ(positionAt(rebase(m, tick), 0), m.position) << tick;
-  EXPECT_EQ(positionAt(m, 0x80000000u), positionAt(m, 0x80000000u));  // half a turn away: any answer will do
+  EXPECT_EQ(positionAt(m, 0x80000000u), positionAt(m, 0x80000000u));  // any answer is allowed
 }
 
 TEST(Motion, IsMovingIfPositionWillEverChange) {

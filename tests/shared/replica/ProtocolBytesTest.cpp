@@ -1,4 +1,4 @@
-// PROTOCOL.md and the code say the same: its worked examples are made here, its table of limits is read.
+// PROTOCOL.md agrees with the code: the test makes its worked examples and reads its table of limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,7 +80,7 @@ ClientUpdate exampleUpdate() {
   return update;
 }
 
-/// A frame with the sounds that a client gets when a round begins.
+/// Returns a frame with the sounds that a client gets at the start of a round.
 std::string exampleSounds() {
   wire::ServerMessage message;
   wire::Sound& theme = *message.mutable_sounds()->add_sounds();
@@ -104,10 +104,10 @@ std::string document() {
   return text.str();
 }
 
-/// A block of the section "Worked examples".
+/// A block in the section "Worked examples".
 struct Example {
-  std::string bytes;  ///< in hex, without the comments
-  std::string bits;   ///< of the lines that begin with bits behind their `#`, in the order of writing
+  std::string bytes;  ///< hex digits without the comments
+  std::string bits;   ///< bits of the lines that have them behind `#`, in writing order
 };
 
 Example example(std::size_t nth) {
@@ -179,8 +179,7 @@ TEST(ProtocolBytes, SoundsAreAsTheDocumentSays) {
   EXPECT_EQ(hex(exampleSounds()), example(5).bytes);
 }
 
-// The same bytes once more, so that a change of document and code together is noticed as a change of
-// protocol.
+// A second copy of the bytes. It reveals a change of the protocol when page and code change together.
 TEST(ProtocolBytes, Version4StaysAsItIs) {
   EXPECT_EQ(kProtocolVersion, 4u);
   EXPECT_EQ(hex(exampleSnapshot()),
@@ -192,7 +191,7 @@ TEST(ProtocolBytes, Version4StaysAsItIs) {
             "07 00 0a 00 00 00 00 00 00 00 e0 01 80 32 80 00 48 44 62 50 00");
 }
 
-// What is frozen must also be read as what it was.
+// The frozen bytes must also decode to their original values.
 TEST(ProtocolBytes, TheExamplesAreReadAsTheyWereMeant) {
   SnapshotDictionary dictionary;
   dictionary.define(2, OriginRecord{1, kConfirmed});

@@ -1,4 +1,4 @@
-// Random tables and states of controls, all of them valid.
+// Random valid control tables and control states.
 #pragma once
 
 #include "shared/replica/ControlCodec.h"
@@ -6,7 +6,7 @@
 
 namespace naiad::test {
 
-/// Somewhere in ±most, small and whole numbers not seldom.
+/// Returns a number in ±most, often a small or whole one.
 inline df::Fixed randomFixed(SplitMix64& rng, df::Fixed most) {
   const df::Fixed far = rng.below(3) == 0 ? most : std::min(most, df::fromCells(3));
   const auto span = static_cast<std::uint64_t>(far);

@@ -1,4 +1,4 @@
-// Random records, all of them legal, with small and with extreme numbers.
+// Random valid records, with small and with extreme numbers.
 #pragma once
 
 #include <map>
@@ -16,12 +16,12 @@ class RandomRecords {
 
   SplitMix64& rng() { return m_rng; }
   bool chance(double p) { return m_rng.unit() < p; }
-  /// Uniform in -most … most.
+  /// Returns a uniform number in -most … most.
   std::int64_t within(std::int64_t most) {
     const auto span = static_cast<std::uint64_t>(most);
     return static_cast<std::int64_t>(m_rng.below(2 * span + 1) - span);
   }
-  /// With any number of bits behind the point.
+  /// Returns a number with any number of fractional bits.
   df::Fixed coordinate(std::int64_t most_cells) {
     if (chance(0.1)) return (chance(0.5) ? 1 : -1) * (most_cells << df::kFixedBits);
     const df::Fixed exact = within((chance(0.5) ? most_cells : 100) << df::kFixedBits);
@@ -65,7 +65,7 @@ class RandomRecords {
     look.selector = selector(look.sequence.size());
     return look;
   }
-  /// For so many frames, as it is sent in tick 0.
+  /// Returns a selector for this many frames, as sent in tick 0.
   Selector selector(std::size_t frames) {
     const std::size_t first = m_rng.below(frames);
     if (frames == 1 || chance(0.3)) return Selector::fixed(first);
@@ -105,7 +105,7 @@ class RandomRecords {
   ObjectState state(std::uint32_t tick) {
     return {chance(0.2) ? m_rng.next() >> 16 : m_rng.below(5000), motion(tick), rebase(look(), tick), body()};
   }
-  /// Only the groups that are named carry something.
+  /// Returns a record in which only the named groups have values.
   ObjectRecord object(std::uint32_t tick) {
     ObjectRecord record;
     record.id = static_cast<std::uint32_t>(m_rng.below(chance(0.2) ? kMaxSlots : 300));
@@ -162,7 +162,7 @@ class RandomRecords {
     header.input_tick = header.tick - static_cast<std::uint32_t>(m_rng.below(64));
     return header;
   }
-  /// All objects by ascending id; no appearance has a name.
+  /// Returns records with all objects in ascending order of ids, and no named appearances.
   Records records(std::uint32_t tick) {
     Records all;
     if (chance(0.3)) all.worlds.push_back(world());

@@ -142,7 +142,7 @@ TEST(Replica, KnowsTheNewestOfWhatItApplied) {
     replica.apply(snapshot);
   };
   input(5, 1002, 3);
-  input(4, 1001, 2);  // late
+  input(4, 1001, 2);  // arrives late
   EXPECT_EQ(replica.newest().number, 5u);
   EXPECT_EQ(replica.newest().tick, 1002u);
   EXPECT_EQ(replica.newest().input, 3u);
@@ -229,7 +229,7 @@ TEST(Replica, IsBoundedWhateverItIsSent) {
 }
 
 TEST(Replica, OnePictureHasABoundedNumberOfGlyphsThoseOnTop) {
-  // Shared by all: little memory, and much to draw.
+  // All objects share it, so it takes little memory but much drawing.
   const Sequence large{Appearance(8192, Glyph{0, 0, U'#', df::RED})};
   const std::uint32_t fits = kMaxDrawnGlyphs / 8192;
   Records records;
@@ -261,7 +261,7 @@ TEST(Replica, OnePictureHasABoundedNumberOfObjectsThoseOnTop) {
 }
 
 TEST(Replica, WhatReachesIntoTheViewIsDrawn) {
-  // One glyph at each end of a long look, and the object outside of the view on every side.
+  // A glyph at each end of a long look, with the object outside the view on every side.
   Replica replica;
   std::uint32_t id = 0;
   for (const auto& [x, y, dx, dy] : {std::array{-100, 3, 100, 0}, std::array{190, 4, -190, 0},
@@ -289,7 +289,7 @@ TEST(Replica, LooksAreBoundedInAll) {
   EXPECT_EQ(replica.overflowCount(), 10u);
   EXPECT_EQ(replica.find(fits - 1)->state.look, huge.look);
   EXPECT_TRUE(replica.find(fits)->state.look.sequence.empty());
-  // Deaths, other births under the same id and other looks give room back.
+  // Deaths, new births of an id and changed looks free space.
   apply(replica, ++number, 0, death(0));
   apply(replica, ++number, 0, birth(1, 2, character(1, 1, U'x')));
   Records look;
@@ -312,7 +312,7 @@ TEST(Replica, WhatManyLooksShareCountsOnce) {
   for (std::uint32_t id = 0; id < many; ++id) apply(replica, ++number, 0, birth(id, 1, huge));
   EXPECT_EQ(replica.overflowCount(), 0u);
   for (std::uint32_t id = 0; id < many; ++id) apply(replica, ++number, 0, death(id));
-  // All is given back, no more and no less.
+  // Exactly the used space is freed.
   const std::uint32_t fits = kMaxReplicaGlyphs / 8192;
   for (std::uint32_t id = 0; id < fits + 1; ++id) {
     huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})};
@@ -321,9 +321,9 @@ TEST(Replica, WhatManyLooksShareCountsOnce) {
   }
 }
 
-// A server's history as the rules allow it: births are complete, partial records name only objects whose
-// birth was acknowledged, an id is given to another object after its death was. `settled` says which
-// snapshots must have been applied before: those that were acknowledged when it was sent.
+// A server's history within the rules: births are complete; partial records name only objects whose birth was
+// acknowledged; an id is reused only after the death was acknowledged. Snapshots before index `settled` were
+// acknowledged when this one was sent, so they must be applied before it.
 struct Sent {
   Snapshot snapshot;
   std::size_t settled;
@@ -361,7 +361,7 @@ class History {
     std::uint8_t generation = 0;
     bool alive = false;
     std::size_t born = 0;  ///< index of the first snapshot with its birth
-    std::size_t died = 0;  ///< … and after the one with its death
+    std::size_t died = 0;  ///< index after the first snapshot with its death
     std::uint64_t order = 0;
   };
 
@@ -370,7 +370,7 @@ class History {
     ObjectRecord record;
     record.id = id;
     if (!life.alive) {
-      if (life.died > m_settled) return record;  // the death again
+      if (life.died > m_settled) return record;  // repeats the death
       life = {static_cast<std::uint8_t>((life.generation + 1) & 3), true, m_sent.size(), 0,
               m_random.rng().next() >> 16};
     } else if (m_random.chance(0.2)) {
@@ -394,14 +394,14 @@ class History {
   std::map<std::uint32_t, Life> m_lives;
 };
 
-// An order of arrival with duplicates that keeps what `settled` demands.
+// Returns a random order of arrival, with duplicates, that respects `settled`.
 std::vector<std::size_t> shuffled(const std::vector<Sent>& sent, SplitMix64& rng) {
   std::vector<std::size_t> order;
   std::vector<bool> arrived(sent.size(), false);
-  std::size_t whole = 0;  // all before this index arrived
+  std::size_t whole = 0;  // all before this index have arrived
   while (whole < sent.size()) {
     std::size_t pick = whole + rng.below(12);
-    if (rng.below(4) == 0 && whole > 0) pick = rng.below(whole);  // again
+    if (rng.below(4) == 0 && whole > 0) pick = rng.below(whole);  // a duplicate
     if (pick >= sent.size() || sent[pick].settled > whole) continue;
     arrived[pick] = true;
     order.push_back(pick);

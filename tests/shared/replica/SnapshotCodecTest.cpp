@@ -151,7 +151,7 @@ TEST(SnapshotCodec, EverySingleBitFlipIsRefusedOrLegal) {
   for (int i = 0; i < 60; ++i) {
     const SnapshotHeader head = random.header();
     std::string bytes = writeSnapshot(head, random.records(head.tick));
-    if (bytes.size() > 1200) continue;  // more than a datagram holds: dear, and nothing new
+    if (bytes.size() > 1200) continue;  // more than a datagram holds; slow, and tests nothing new
     for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
       bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
       Snapshot out;
@@ -300,13 +300,13 @@ TEST(SnapshotCodec, ARecordWithoutGroupsIsRefused) {
   none.bits(0, 3);
   Snapshot snapshot;
   EXPECT_EQ(read(none.bytes(), {}, snapshot), ReadResult::kMalformed);
-  out.bits(0b100, 3);  // a body
+  out.bits(0b100, 3);  // the groups: a body
   writeBody(out, {});
   EXPECT_EQ(read(out.bytes(), {}, snapshot), ReadResult::kOk);
   EXPECT_EQ(snapshot.records.objects.at(0).groups, kBody);
 }
 
-/// Up to `count` different ids, close together or far apart.
+/// Returns up to `count` different ids, close together or far apart.
 std::set<std::uint32_t> someIds(RandomRecords& random, std::size_t count) {
   std::set<std::uint32_t> ids;
   const std::uint64_t span = std::uint64_t{1} << random.rng().below(21);
@@ -355,8 +355,7 @@ TEST(SnapshotCodec, ARecordThatHasRoomFits) {
   EXPECT_GT(filled / full, 0.6) << "the estimate leaves too much unused";
 }
 
-// Gaps of three times the code's step, and none for almost a third, are what costs most for the ids there
-// are.
+// The most expensive ids: gaps of three times the code's step, with almost a third of the gaps empty.
 TEST(SnapshotCodec, EvenTheDearestIdsFitWhereThereIsRoom) {
   for (int order = 1; order <= 15; ++order) {
     for (const std::uint32_t count : {1u, 2u, 5u, 30u, 300u}) {

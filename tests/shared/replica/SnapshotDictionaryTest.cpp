@@ -41,7 +41,7 @@ TEST(SnapshotDictionary, TheNewestDefinitionHoldsWhateverTheOrder) {
   for (const bool in_order : {true, false}) {
     SnapshotDictionary dictionary;
     const std::uint32_t before = 0xFFFFFFFF;
-    const std::uint32_t after = 3;  // the numbers wrap in between
+    const std::uint32_t after = 3;  // the numbers wrap between the two
     for (const std::uint32_t number : {in_order ? before : after, in_order ? after : before}) {
       dictionary.define(number, OriginRecord{1, {{static_cast<std::int32_t>(number), 0}, 1, 1, 1}});
       EXPECT_TRUE(dictionary.define(number, SequenceRecord{5, word(number == after ? 2 : 9, U'x')}));

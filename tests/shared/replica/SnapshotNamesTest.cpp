@@ -1,4 +1,4 @@
-// Appearances and origins that snapshots name: known, defined in the same snapshot, replaced since, unknown.
+// Appearances and origins that snapshots name: known, defined in the snapshot, replaced, or unknown.
 #include <gtest/gtest.h>
 
 #include "RandomRecords.h"
@@ -77,7 +77,7 @@ TEST_F(SnapshotNames, TheDefinitionOfTheSnapshotItselfComesFirst) {
   look(3, "new", {kNamed, 7});
   ASSERT_EQ(read(), ReadResult::kOk);
   EXPECT_EQ(lookOf(0), drawnAs("new").look);
-  know(60, 7, "newer still");  // it came before
+  know(60, 7, "newer still");  // a definition of a newer snapshot that arrived earlier
   ASSERT_EQ(read(), ReadResult::kOk);
   EXPECT_EQ(lookOf(0), drawnAs("new").look);
 }
@@ -127,7 +127,7 @@ TEST_F(SnapshotNames, OriginsAreKnownStaleOrUnknown) {
   EXPECT_EQ(readAfter(0), ReadResult::kMalformed);
 }
 
-// Few bytes name much: it is not unfolded.
+// A few bytes can name large sequences, which must not be copied.
 TEST_F(SnapshotNames, LooksOfOneNameShareTheirSequence) {
   dictionary.define(49, SequenceRecord{7, {Appearance(kMaxGlyphs, Glyph{0, 0, U'#', df::RED})}});
   for (std::uint32_t id = 0; id < 1000; ++id) look(id, "saucer", {kNamed, 7});
@@ -189,7 +189,7 @@ TEST_F(SnapshotNames, RandomDefinitionsAndUsesUnfoldAsTheyWere) {
       writer.encode(bits, kLook, 0, states[which], {},
                     {defined[which] ? kNamed : kDefined, static_cast<std::uint32_t>(which)});
       defined[which] = true;
-      const std::uint32_t id = 100 - i;  // so that every definition comes behind its uses
+      const std::uint32_t id = 100 - i;  // descending, so that each definition follows its uses
       writer.object(id, std::move(bits));
       used.insert(used.begin(), which);
     }

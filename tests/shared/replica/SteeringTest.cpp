@@ -27,7 +27,7 @@ class Wall : public Barriers {
   bool block(FixedVector to, std::uint32_t, bool) const override { return to.x >= fromCells(14); }
 };
 
-/// A ship at (10,10) and its table.
+/// A ship at (10,10) and its control table.
 class Steering : public testing::Test {
  protected:
   void row(df::Keyboard::Key key, ControlEffect effect, FixedVector value, int wait = 0, int group = 0) {
@@ -79,7 +79,7 @@ TEST_F(Steering, RowsOfAGroupWaitForEachOtherAndOthersDoNot) {
   row(B, ControlEffect::kStep, cells(0, 1), 3, 1);
   row(C, ControlEffect::kStep, cells(0, 1), 3, 2);
   SteeredCopy copy = ship();
-  for (int tick = 0; tick < 7; ++tick) press(copy, A);  // acts in the first, fourth and seventh
+  for (int tick = 0; tick < 7; ++tick) press(copy, A);  // takes effect in the first, fourth and seventh tick
   EXPECT_EQ(copy.position(), cells(13, 10));
   press(copy, B);
   EXPECT_EQ(copy.position(), cells(13, 10));
@@ -167,7 +167,7 @@ TEST_F(Steering, AReleasedDriveGlidesToTheNextWholeCellAndNeverBeyond) {
 
 TEST_F(Steering, NoKeyLeadsOutOfTheBounds) {
   table.bounded = true;
-  table.bounds = {cells(8, 8), cells(4, 4)};  // 8 to 12
+  table.bounds = {cells(8, 8), cells(4, 4)};  // from 8 to 12
   drive(A, cells(1, 0));
   row(B, ControlEffect::kStep, cells(0, -1));
   row(C, ControlEffect::kVelocity, cells(-3, 1));
@@ -177,11 +177,11 @@ TEST_F(Steering, NoKeyLeadsOutOfTheBounds) {
   EXPECT_EQ(copy.position(), cells(12, 10));
   for (int i = 0; i < 5; ++i) press(copy, B);
   EXPECT_EQ(copy.position(), cells(12, 8));
-  table.rows.erase(table.rows.begin());  // without drives, velocities last
+  table.rows.erase(table.rows.begin());  // without drives, a velocity lasts
   SteeredCopy other = ship();
   press(other, C);
   pass(other, 5);
-  EXPECT_EQ(other.position(), cells(10, 12));  // each axis by itself: 3 to the left would have been outside
+  EXPECT_EQ(other.position(), cells(10, 12));  // axes are checked separately: 3 to the left would be outside
 }
 
 TEST_F(Steering, ASilentKeyboardReleasesItsDrives) {
@@ -190,10 +190,10 @@ TEST_F(Steering, ASilentKeyboardReleasesItsDrives) {
   SteeredCopy copy = ship();
   press(copy, A);
   pass(copy, 3);
-  press(copy, B, KEY_DOWN);  // any key is a sign of life, …
+  press(copy, B, KEY_DOWN);  // any key is a sign of life
   pass(copy, 3);
   EXPECT_EQ(copy.velocity(), cells(1, 0));
-  press(copy, B, KEY_RELEASED);  // … but not its end
+  press(copy, B, KEY_RELEASED);  // its release is not, and the drive ends one tick later
   EXPECT_EQ(copy.velocity(), cells(1, 0));
   pass(copy, 1);
   EXPECT_EQ(copy.velocity(), cells(0, 0));
@@ -218,7 +218,7 @@ TEST_F(Steering, KeysWithoutARowAreNotHandled) {
   drive(B, cells(1, 0));
   df::ControlState state;
   SteeredCopy copy = ship();
-  EXPECT_FALSE(applyControlKey(table, state, A, KEY_PRESSED, copy));  // nothing to steer
+  EXPECT_FALSE(applyControlKey(table, state, A, KEY_PRESSED, copy));  // steers no object
   state.steering = true;
   EXPECT_TRUE(applyControlKey(table, state, A, KEY_PRESSED, copy));
   EXPECT_FALSE(applyControlKey(table, state, A, KEY_RELEASED, copy));

@@ -88,7 +88,7 @@ TEST(UpdateCodec, AsManyInputsAsAllowedAlwaysFit) {
   input.snapshot = update.acks.newest - 32768;
   for (std::size_t i = 0; i < kMaxUpdateInputs; ++i, ++input.id) {
     update.inputs.push_back(input);
-    input.tick += 32768;  // the dearest there is
+    input.tick += 32768;  // the longest encoding
   }
   const std::string bytes = writeUpdate(update);
   EXPECT_LE(bytes.size(), kMaxUpdate);
@@ -176,7 +176,7 @@ TEST(UpdateCodec, NumbersOutOfRangeAreRefused) {
   EXPECT_FALSE(mouse([](Input& i) { i.y = kMaxViewHeight; }));
 }
 
-/// An update by hand, up to its inputs.
+/// Begins an update by hand, up to its inputs.
 BitWriter bareInputs(std::uint64_t count) {
   BitWriter out;
   out.bits(0, 3);  // no acknowledgement, checksum, reset

@@ -80,7 +80,7 @@ TEST(ViewFollow, ModelOfAStraightPathEqualsFollowingEachStep) {
 }
 
 TEST(ViewFollow, ModelBeginsAtTheBaseOfANewerMotion) {
-  // The object came from the left at tick 5; where it would have been before does not matter.
+  // The object came from the left at tick 5. Its earlier path does not matter.
   const Motion motion{5, cellsAt(100, 55), cellsAt(-10, 0), {}};
   EXPECT_EQ(viewCornerAt(frame(50, 40), 1, &motion, 5), cellsAt(60, 40));
   EXPECT_EQ(viewCornerAt(frame(50, 40), 1, &motion, 7), cellsAt(60, 40));

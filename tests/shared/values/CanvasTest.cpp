@@ -76,7 +76,7 @@ TEST(Utf8, MalformedBytesBecomeReplacementCharacters) {
   EXPECT_TRUE(all_bad("\xE0\x80\xAF"));      // overlong
   EXPECT_TRUE(all_bad("\xED\xA0\x80"));      // surrogate
   EXPECT_TRUE(all_bad("\xF4\x90\x80\x80"));  // above U+10FFFF
-  EXPECT_TRUE(all_bad("\xE2\x94"));          // cut short
+  EXPECT_TRUE(all_bad("\xE2\x94"));          // truncated
   EXPECT_TRUE(all_bad("\xFF"));
   EXPECT_EQ(decodeUtf8("a\xE2z"), (std::u32string{U'a', bad, U'z'}));
 }

@@ -1,5 +1,5 @@
-// A connection that sends whatever bytes a test wants to an HTTP server that closes after each answer.
-// Blocking, with deadlines; plain TCP on loopback.
+// A blocking HTTP client that can send arbitrary bytes, for servers on loopback that close after each answer.
+// Plain TCP, with timeouts.
 #pragma once
 
 #include <poll.h>
@@ -30,12 +30,12 @@ class HttpClient {
     m_socket.connect({asio::ip::address_v4::loopback(), port}, ignored);
   }
 
-  /// Errors (the other end hung up) are ignored.
+  /// Ignores errors, for example when the other end has closed the connection.
   void send(std::string_view bytes) {
     asio::error_code ignored;
     asio::write(m_socket, asio::buffer(bytes.data(), bytes.size()), ignored);
   }
-  /// All that comes until the other end hangs up; what came by then after 60 s.
+  /// Reads until the other end closes the connection or sends nothing for 60 s. Returns what was read.
   std::string readAll() {
     std::string all;
     std::array<char, 4096> piece;
@@ -47,9 +47,9 @@ class HttpClient {
     m_hung_up = error.value() != 0;
     return all;
   }
-  /// The other end has ended the connection, as readAll() found.
+  /// True if the last readAll() found that the other end closed the connection.
   bool isHungUp() const { return m_hung_up; }
-  /// Read the answer.
+  /// Reads and parses the answer.
   Reply reply() {
     const std::string all = readAll();
     const std::size_t end = all.find("\r\n\r\n");
@@ -57,7 +57,7 @@ class HttpClient {
     return {std::atoi(all.c_str() + 9), all.substr(0, end + 2), all.substr(end + 4)};
   }
 
-  /// One request, as a scraper sends it.
+  /// Sends one GET request like a metrics scraper does, and returns the answer.
   static Reply get(std::uint16_t port, const std::string& path) {
     HttpClient client(port);
     client.send("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n");
@@ -70,7 +70,7 @@ class HttpClient {
   bool m_hung_up = false;
 };
 
-/// The value of a sample on a page of metrics, by its name and labels as they stand there; -1: there is none.
+/// Returns the value of a sample, given by name and labels, on a metrics page; -1 if it is missing.
 inline double metricOf(const std::string& page, const std::string& sample) {
   const std::string line = "\n" + sample + " ";
   const std::size_t at = page.find(line);

@@ -1,5 +1,5 @@
-// One test at a time in the port of local networks: it is the same for all servers and clients of a machine,
-// so that one test's questions would use up what another one's server may answer.
+// Lets only one test at a time use the LAN discovery port. All servers and clients of a machine share it, so
+// one test's queries would use up the answers that another test's server may send.
 #pragma once
 
 #include <fcntl.h>
@@ -10,7 +10,7 @@
 
 namespace naiad::test {
 
-/// Held while it lives, against other processes and other such objects.
+/// Holds the lock for its lifetime, also against other processes.
 class LanLock {
  public:
   LanLock()

@@ -1,4 +1,4 @@
-// What a network in virtual time does to what is sent over it, and what it has done.
+// Conditions of a network in virtual time, and counters of its traffic.
 #pragma once
 
 #include <chrono>
@@ -11,24 +11,23 @@ namespace naiad {
 struct LinkConditions {
   std::chrono::microseconds delay{0};   ///< one way
   std::chrono::microseconds jitter{0};  ///< added to each packet's delay: uniform in 0 … jitter
-  bool reorder = true;                  ///< jitter may let packets overtake; false: they queue up behind
+  bool reorder = true;                  ///< jitter may let packets overtake; false: they stay in order
   double loss = 0;                      ///< probability, 0 … 1, that a packet vanishes
   double duplicate = 0;                 ///< probability, 0 … 1, that one arrives twice (datagrams only)
   std::uint64_t rate = 0;               ///< bytes of payload per second; 0 = unlimited
-  /// Datagrams, with a rate: bytes that may wait for the line; what does not fit is dropped (drop-tail).
+  /// Bytes of datagrams that may wait for the line if `rate` is set; packets that do not fit are dropped.
   std::size_t queue = 65'536;
-  /// Streams: bytes that may be under way unacknowledged; what exceeds it stays unsent with the sender.
+  /// Bytes of a stream that may be under way unacknowledged; further bytes stay unsent at the sender.
   std::size_t window = 65'536;
 };
 
-/// What happened in one direction so far. Datagrams: sent + duplicated = delivered + dropped + under way.
+/// Traffic in one direction so far. Datagrams: sent + duplicated = delivered + dropped + under way.
 struct LinkCounters {
-  std::uint64_t sent = 0;        ///< packets or frames given to send()
-  std::uint64_t delivered = 0;   ///< handed to the receiving end, second copies included
-  std::uint64_t dropped = 0;     ///< lost, no room in the queue, or no receiver. Streams: lost and sent again
+  std::uint64_t sent = 0;        ///< packets or frames passed to send()
+  std::uint64_t delivered = 0;   ///< passed to the receiver, second copies included
+  std::uint64_t dropped = 0;     ///< lost, queue full, or no receiver. Streams: lost and retransmitted
   std::uint64_t duplicated = 0;  ///< second copies made
-  std::uint64_t reordered =
-      0;  ///< delivered after one that was sent later. Streams: held back for an earlier one
+  std::uint64_t reordered = 0;   ///< delivered after one sent later. Streams: arrived before an earlier one
 };
 
 }  // namespace naiad

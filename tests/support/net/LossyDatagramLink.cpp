@@ -17,8 +17,8 @@ struct Direction {
   Direction(const LinkConditions& conditions, std::uint64_t seed) : line(conditions, seed) {}
 
   LossyLine line;
-  std::shared_ptr<Receiver> receiver;  // shared with the call that is running
-  bool taken = false;                  // the sending end
+  std::shared_ptr<Receiver> receiver;  // keeps it alive during a call
+  bool taken = false;                  // the sending end is taken
 };
 
 std::size_t indexOf(LinkEnd end) {
@@ -37,7 +37,7 @@ struct LossyDatagramLink::State : std::enable_shared_from_this<State> {
   Direction& to(LinkEnd end) { return directions[1 - indexOf(end)]; }
 
   VirtualClock& clock;
-  std::array<Direction, 2> directions;  // by sending end
+  std::array<Direction, 2> directions;  // indexed by sending end
 };
 
 void LossyDatagramLink::State::send(LinkEnd end, std::string_view packet) {

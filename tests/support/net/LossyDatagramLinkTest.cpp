@@ -20,7 +20,7 @@ struct LinkArrival {
   friend bool operator==(const LinkArrival&, const LinkArrival&) = default;
 };
 
-/// A link with both ends taken, and what arrived at the server's.
+/// A link with both ends taken. Records what arrives at the server.
 struct LinkBench {
   explicit LinkBench(const LinkConditions& conditions, std::uint64_t seed = 1)
       : link(clock, conditions, seed),
@@ -30,7 +30,7 @@ struct LinkBench {
       arrivals.push_back({clock.now(), std::string(packet)});
     });
   }
-  /// Packets "0", "1", …, one each `interval`, and then a minute for the last ones to arrive.
+  /// Sends packets "0", "1", …, one each `interval`, and then waits a minute for the last ones.
   void sendMany(int count, Time interval) {
     for (int i = 0; i < count; ++i) {
       client->send(std::to_string(i));
@@ -151,7 +151,7 @@ TEST(LossyDatagramLink, RateSpacesPacketsOut) {
 
 TEST(LossyDatagramLink, RateHoldsOverManySmallPackets) {
   LinkBench bench({.rate = 3'000'000, .queue = 1 << 30});
-  for (int i = 0; i < 30'000; ++i) bench.client->send("1234567");  // 2⅓ µs each
+  for (int i = 0; i < 30'000; ++i) bench.client->send("1234567");  // 2⅓ µs each on the line
   bench.clock.advanceBy(10s);
   EXPECT_NEAR(static_cast<double>(bench.arrivals.back().when.count()), 70'000, 20);
 }

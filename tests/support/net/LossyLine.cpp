@@ -8,7 +8,7 @@ using std::chrono::nanoseconds;
 
 LossyLine::Fate LossyLine::send(Time now, std::size_t size) {
   Fate fate{.number = ++counters_.sent};
-  // Always the same four draws, so that another loss rate leaves the other packets' fates alone.
+  // Always draw four times, so that a different loss rate does not change the fate of other packets.
   const bool lost = rng_.unit() < conditions_.loss;
   const bool twice = rng_.unit() < conditions_.duplicate;
   const Time first = conditions_.delay + jitter();
@@ -39,7 +39,7 @@ LossyLine::Time LossyLine::jitter() {
   return Time(static_cast<Time::rep>(rng_.below(static_cast<std::uint64_t>(range) + 1)));
 }
 
-/// When the last byte has left, or nothing if the queue in front of the line is full.
+/// Computes when the last byte leaves. False if the queue in front of the line is full.
 bool LossyLine::leave(Time now, std::size_t size, Time& departure) {
   departure = now;
   if (conditions_.rate == 0) return true;

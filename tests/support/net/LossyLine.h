@@ -1,4 +1,4 @@
-// One direction of a bad network: what becomes of each packet, and when it arrives.
+// One direction of a bad network: decides which packets arrive, and when.
 //
 // This is the model behind LossyDatagramLink and VirtualNetwork; it moves no bytes and schedules nothing.
 #pragma once
@@ -18,24 +18,23 @@ class LossyLine {
  public:
   using Time = VirtualClock::Time;
 
-  /// Lines with different seeds have nothing to do with each other: traffic on one changes nothing on the
-  /// other.
+  /// Lines with different seeds are independent: traffic on one does not affect the other.
   LossyLine(const LinkConditions& conditions, std::uint64_t seed) : conditions_(conditions), rng_(seed) {}
 
-  /// The fate of one packet: no, one or two arrivals.
+  /// The fate of one packet: zero, one or two arrivals.
   struct Fate {
-    std::uint64_t number = 0;  ///< of the packet, counted from 1
+    std::uint64_t number = 0;  ///< sequence number of the packet, from 1
     int copies = 0;
     std::array<Time, 2> arrivals{};
   };
-  /// A packet of `size` bytes is sent.
+  /// Sends a packet of `size` bytes.
   Fate send(Time now, std::size_t size);
 
-  /// A copy has reached a receiver, or there was none for it.
+  /// Counts a copy that reached a receiver; dropped() counts one for which there was none.
   void delivered(std::uint64_t number);
   void dropped() { ++counters_.dropped; }
 
-  /// From now on; packets under way are not affected.
+  /// Applies to packets sent from now on, not to those under way.
   void setConditions(const LinkConditions& conditions) { conditions_ = conditions; }
   const LinkCounters& counters() const { return counters_; }
 

@@ -1,11 +1,11 @@
-// Two ends and a bad network between them, within one process and in virtual time.
+// A bad network between two ends, within one process and in virtual time.
 //
-// LossyDatagramLink loses, doubles, delays and reorders packets; VirtualStreamLink delays frames the way a
-// TCP connection over such a network would. Both are deterministic: the same seed, conditions and calls give
-// the same deliveries at the same microseconds. Callbacks come only from VirtualClock::advanceTo().
+// LossyDatagramLink loses, duplicates, delays and reorders packets; VirtualStreamLink delays frames like a
+// TCP connection over such a network. Both are deterministic: equal seeds, conditions and calls give equal
+// deliveries at equal microseconds. Callbacks come only from VirtualClock::advanceTo().
 //
-// The two ends of a link are called client and server; the link treats them alike. Link and ends
-// may be destroyed in any order, in callbacks too; the clock must outlive them all.
+// The two ends of a link are called client and server but behave alike. Link and ends may be destroyed in any
+// order, in callbacks too; the clock must outlive them all.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,16 @@ enum class LinkEnd { kClient, kServer };
 /// A pair of DatagramChannels.
 class LossyDatagramLink {
  public:
-  /// The same conditions in both directions; setConditions() sets each.
+  /// Both directions start with `conditions`; setConditions() changes one.
   LossyDatagramLink(VirtualClock& clock, const LinkConditions& conditions, std::uint64_t seed);
   ~LossyDatagramLink();
 
-  /// One end, to own. Throws std::logic_error if it was taken already. An end that was not taken, not
-  /// started or is destroyed receives nothing: packets to it are counted as dropped when they arrive.
-  /// send() throws std::length_error above 1200 bytes.
+  /// Hands over one end. Throws std::logic_error if it was taken before. An end that is not taken, not
+  /// started or destroyed receives nothing: packets to it count as dropped when they arrive. send() throws
+  /// std::length_error above 1200 bytes.
   std::unique_ptr<DatagramChannel> takeEnd(LinkEnd end);
 
-  /// From now on; packets under way are not affected.
+  /// Applies to packets sent from now on, not to those under way.
   void setConditions(LinkEnd from, const LinkConditions& conditions);
   const LinkCounters& counters(LinkEnd from) const;
 
@@ -43,29 +43,29 @@ class LossyDatagramLink {
 
 /// A pair of ReliableChannels.
 ///
-/// The model: a frame leaves when line (rate) and window allow. Each transmission of it is lost with the
-/// probability of its segments (1448 bytes each) together; then it is sent again after
-/// max(200 ms, 2 × (delay there + delay back)), doubled for each loss in a row up to 10 s, and later frames
-/// wait for it at the receiver. Frames arrive whole and in order. An acknowledgement, never lost, frees the
-/// window after the delay back, once the receiver has been handed the frame. So `loss = 1` for a while is an
-/// outage that the stream survives. unsentBytes() counts frames that have not left: waiting for the window,
-/// or not wholly on the line.
+/// The model: a frame leaves when line (rate) and window allow. Each transmission is lost with the combined
+/// probability of its segments (1448 bytes each); then it is retransmitted after max(200 ms, 2 × (delay there
+/// + delay back)), doubled for each loss in a row up to 10 s, and later frames wait for it at the receiver.
+/// Frames arrive whole and in order. An acknowledgement is never lost. It frees the window after the delay
+/// back, once the receiver has been handed the frame. So `loss = 1` for a while is an outage that the stream
+/// survives. unsentBytes() counts frames that have not left: waiting for the window, or not wholly on the
+/// line.
 ///
 /// Ends behave as TcpChannel.h describes: limits, sending cap (1 MiB), close() and reasons. Frames that
-/// arrive before start() wait for it. exportSecret() gives both ends the same bytes, made from the seed.
+/// arrive before start() wait for it. exportSecret() gives both ends equal bytes, made from the seed.
 class VirtualStreamLink {
  public:
   VirtualStreamLink(VirtualClock& clock, const LinkConditions& conditions, std::uint64_t seed);
   ~VirtualStreamLink();
 
-  /// One end, to own. Throws std::logic_error if it was taken already.
+  /// Hands over one end. Throws std::logic_error if it was taken before.
   std::unique_ptr<ReliableChannel> takeEnd(LinkEnd end);
 
-  /// From now on, for frames that leave and for losses that are still to happen.
+  /// Applies to frames that leave, and losses that happen, from now on.
   void setConditions(LinkEnd from, const LinkConditions& conditions);
   const LinkCounters& counters(LinkEnd from) const;
 
-  /// The connection dies: both ends are closed with kError at the next advance.
+  /// Breaks the connection: both ends are closed with kError at the next advance.
   void breakConnection();
 
  private:

@@ -18,7 +18,7 @@ void VirtualClock::schedule(Time when, Action action) {
 void VirtualClock::advanceTo(Time time) {
   if (running_) throw std::logic_error("VirtualClock advanced from one of its actions");
   if (time < now_) throw std::logic_error("VirtualClock cannot go back");
-  struct Running {  // also when an action throws: a failing test must not fail twice
+  struct Running {  // restores the flag even if an action throws, so that a failing test does not fail twice
     bool& flag;
     ~Running() { flag = false; }
   } running{running_ = true};

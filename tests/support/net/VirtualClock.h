@@ -1,8 +1,8 @@
-// Time that a test advances.
+// A clock that a test advances.
 //
-// Everything that happens in virtual time is an action in one queue. Advancing the clock runs what became
-// due, in time order and, for equal times, in the order in which it was scheduled, so a run is the same
-// every time and takes no longer than its computation.
+// Everything that happens in virtual time is an action in one queue. Advancing the clock runs the due actions
+// by time, those of equal time in the order of their scheduling. So every run is equal and takes no longer
+// than its computation.
 #pragma once
 
 #include <chrono>
@@ -13,25 +13,25 @@
 
 namespace naiad {
 
-/// Not thread-safe. Must outlive the links and whatever else schedules on it.
+/// Not thread-safe. Must outlive the links and all else that schedules actions on it.
 class VirtualClock {
  public:
   using Time = std::chrono::microseconds;
   using Action = std::function<void()>;
 
-  /// Time since the clock was made.
+  /// Returns the time since the clock was made.
   Time now() const { return now_; }
 
-  /// Run `action` at `when`, or at the next advance if that is past. Never runs it from inside this call.
+  /// Schedules `action` for `when`, or for the next advance if that is past. Never runs it within this call.
   void schedule(Time when, Action action);
 
-  /// Move to `time` (not before now), running every action due up to and including it. During an action,
-  /// now() is the time the action was scheduled for; actions may schedule more, which run too if due.
-  /// Throws std::logic_error when called from an action or with a time that is past.
+  /// Advances to `time` (not before now) and runs every action due up to and including it. During an action,
+  /// now() is the time for which it was scheduled. Actions may schedule more, which also run if due. Throws
+  /// std::logic_error when called from an action or with a time that is past.
   void advanceTo(Time time);
   void advanceBy(Time duration) { advanceTo(now_ + duration); }
 
-  /// When the next action is due; nothing if none is scheduled.
+  /// Returns when the next action is due; nullopt if none is scheduled.
   std::optional<Time> nextDue() const;
 
  private:
@@ -45,7 +45,7 @@ class VirtualClock {
   Time now_{0};
   std::uint64_t scheduled_ = 0;
   bool running_ = false;
-  std::vector<Entry> queue_;  // a heap, the earliest first
+  std::vector<Entry> queue_;  // a heap, earliest first
 };
 
 }  // namespace naiad

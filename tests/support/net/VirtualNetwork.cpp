@@ -15,14 +15,14 @@ namespace naiad {
 namespace {
 
 using OnPacket = DatagramSocket::OnPacket;
-using Number = std::uint32_t;  // of a socket, in order of opening, never used again
+using Number = std::uint32_t;  // identifies a socket; in order of opening, never reused
 using Pair = std::pair<Number, Number>;
 
 struct Node {
   Endpoint address;
   bool blocked_out = false;
   bool blocked_in = false;
-  std::shared_ptr<OnPacket> receiver;  // shared with the call that is running
+  std::shared_ptr<OnPacket> receiver;  // keeps it alive during a call
 };
 
 }  // namespace
@@ -116,7 +116,7 @@ void VirtualNetwork::State::send(Number from, const Endpoint& to, std::string_vi
   }
 }
 
-/// `pair`: the line it came over; null if the sender is forged.
+/// `pair` is the line that carried the packet; null if the sender is forged.
 void VirtualNetwork::State::arrive(const Endpoint& from, const Endpoint& to, std::string_view packet,
                                    const Pair* pair, std::uint64_t index) {
   const Node* const node = at(to);

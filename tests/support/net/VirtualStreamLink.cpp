@@ -29,17 +29,17 @@ constexpr Time kMaxRetransmission = std::chrono::seconds(10);
 enum class Kind { kFrame, kEndOfStream, kReset };
 enum class Phase { kOpen, kClosing, kClosed };
 
-/// What travels: frames, and the two ways to end. Numbered, and taken in order at the other end.
+/// A transmitted unit: a frame, or one of two ways to end. The other end handles units in numerical order.
 struct Item {
   Kind kind = Kind::kFrame;
   std::uint64_t number = 0;
   std::string frame;
 
-  /// Bytes on the line; an end takes none.
+  /// Bytes on the line; zero for an end.
   std::size_t size() const { return kind == Kind::kFrame ? kFrameHeaderSize + frame.size() : 0; }
 };
 
-/// Blocks of SHA-256 over everything that must make a difference: as a TLS exporter behaves, but no secret.
+/// SHA-256 over all arguments, in blocks. Behaves like a TLS exporter, but is not secret.
 std::string secretFrom(std::uint64_t seed, std::string_view label, std::string_view context,
                        std::size_t bytes) {
   std::string secret;
@@ -57,11 +57,11 @@ std::string secretFrom(std::uint64_t seed, std::string_view label, std::string_v
 
 }  // namespace
 
-/// One end and the direction that starts at it.
+/// One end, and the direction from it to the other.
 struct VirtualStreamLink::Side {
   explicit Side(std::uint64_t seed) : rng(seed) {}
 
-  // Sending.
+  // State for sending.
   LinkConditions conditions;
   LinkCounters counters;
   SplitMix64 rng;
@@ -72,15 +72,15 @@ struct VirtualStreamLink::Side {
   std::size_t under_way = 0;  // bytes sent and not acknowledged
   std::uint64_t numbered = 0;
 
-  // Receiving.
+  // State for receiving.
   std::map<std::uint64_t, Item> arrived;  // not consumed yet
   std::uint64_t consumed = 0;
   std::size_t receive_limit = TcpOptions{}.receive_limit;
 
-  // The end.
+  // State for closing.
   Phase phase = Phase::kOpen;
   CloseReason reason = CloseReason::kLocal;
-  std::shared_ptr<Callbacks> callbacks;  // shared with the call that is running
+  std::shared_ptr<Callbacks> callbacks;  // keeps them alive during a call
   bool taken = false;
 };
 
@@ -114,7 +114,7 @@ struct VirtualStreamLink::State : std::enable_shared_from_this<State> {
   std::array<Side, 2> sides;
 };
 
-// Sending: queue → line → network.
+// Sending: queue, line, network.
 
 void VirtualStreamLink::State::send(Side& side, std::string_view frame) {
   if (frame.empty() || frame.size() > kMaxFramePayload) throw std::length_error("no size for a frame");
@@ -161,7 +161,7 @@ void VirtualStreamLink::State::depart(Side& side) {
 
 void VirtualStreamLink::State::transmit(Side& side, const Item& item, Time retry_after) {
   Side& receiver = opposite(side);
-  if (receiver.phase == Phase::kClosed) return;  // no acknowledgement, and no endless retries
+  if (receiver.phase == Phase::kClosed) return;  // no acknowledgement, so stop retransmitting
   bool lost = false;
   for (std::size_t sent = 0; sent == 0 || sent < item.size(); sent += kSegment) {
     if (side.rng.unit() < side.conditions.loss) lost = true;
@@ -192,7 +192,7 @@ void VirtualStreamLink::State::start(Side& side, Callbacks callbacks) {
   after(Time(0), [&side](State& state) { state.consume(side); });
 }
 
-/// Take what has come, in order, if someone wants it: the owner of a started channel, or close().
+/// Handles arrived items in order if the channel is started or closing.
 void VirtualStreamLink::State::consume(Side& side) {
   while (side.callbacks || side.phase == Phase::kClosing) {
     if (side.phase == Phase::kClosed) return;
@@ -224,7 +224,7 @@ void VirtualStreamLink::State::take(Side& side, const Item& item) {
   }
 }
 
-// The end.
+// Closing.
 
 void VirtualStreamLink::State::close(Side& side) {
   if (side.phase != Phase::kOpen) return;
@@ -238,19 +238,19 @@ void VirtualStreamLink::State::close(Side& side) {
 
 void VirtualStreamLink::State::abandon(Side& side) {
   side.callbacks.reset();
-  if (side.phase == Phase::kOpen) finish(side, CloseReason::kPeer);  // an end in order, not a reset
+  if (side.phase == Phase::kOpen) finish(side, CloseReason::kPeer);  // an orderly end, not a reset
 }
 
 void VirtualStreamLink::State::finish(Side& side, CloseReason reason) {
   if (side.phase == Phase::kClosed) return;
   side.phase = Phase::kClosed;
   side.reason = reason;
-  while (side.queue.size() > (side.on_line ? 1u : 0u)) {  // what has not left is dropped
+  while (side.queue.size() > (side.on_line ? 1u : 0u)) {  // drop what has not left
     side.queued -= side.queue.back().size();
     side.queue.pop_back();
     --side.numbered;
   }
-  // (Behind the end of the stream, if that has left already; the receiver then ignores this.)
+  // If the end of the stream has left already, this comes after it and the receiver ignores it.
   push(side, reason == CloseReason::kPeer ? Kind::kEndOfStream : Kind::kReset, {});
   side.arrived.clear();
   report(side);
@@ -258,7 +258,7 @@ void VirtualStreamLink::State::finish(Side& side, CloseReason reason) {
 
 void VirtualStreamLink::State::report(Side& side) {
   after(Time(0), [&side](State&) {
-    const auto callbacks = std::move(side.callbacks);  // none if the channel was destroyed meanwhile
+    const auto callbacks = std::move(side.callbacks);  // null if the channel was destroyed
     if (callbacks && callbacks->on_closed) callbacks->on_closed(side.reason);
   });
 }

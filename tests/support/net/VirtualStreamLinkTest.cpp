@@ -35,13 +35,13 @@ struct StreamBench {
   VirtualClock clock;
   Recorder at_client;
   Recorder at_server;
-  std::vector<Time> times;  // of the frames at the server
+  std::vector<Time> times;  // when the server received each frame
   VirtualStreamLink link;
   std::unique_ptr<ReliableChannel> client;
   std::unique_ptr<ReliableChannel> server;
 };
 
-/// So many bytes on the line.
+/// Returns a frame that takes this many bytes on the line.
 std::string frameOnLine(std::size_t bytes) {
   return std::string(bytes - kFrameHeaderSize, 'x');
 }

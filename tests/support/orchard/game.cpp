@@ -1,6 +1,6 @@
-// A game for two in the way of the published engine's network: two programs from one source. The server has
-// the world, a hand for each client and their points; a client connects, sends its mouse and keys, and draws
-// what the server synchronises. Two hands pick apples.
+// A game for two players that uses Dragonfly's published network classes: one source, two programs. The
+// server has the world, a hand for each client, and their points. A client connects, sends its mouse and
+// keys, and draws what the server synchronizes. The two hands pick apples.
 //
 //     orchard server
 //     orchard client HOST
@@ -71,7 +71,7 @@ class Hand : public df::Object {
     }
     return 0;
   }
-  // The server has no picture of its own.
+  // The server draws nothing.
   int draw() override {
     return NM.isServer() ? 0 : DM.drawCh(getPosition(), m_sock == 0 ? 'A' : 'B', df::CYAN);
   }

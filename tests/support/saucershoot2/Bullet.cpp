@@ -6,7 +6,7 @@
 Bullet::Bullet(df::Vector hero_pos) {
   setType("Bullet");
   setSprite("bullet");
-  setSolidness(df::SOFT);  // it begins close to the ship
+  setSolidness(df::SOFT);  // SOFT because it starts close to the ship
   setPosition(df::Vector(hero_pos.getX() + 5, hero_pos.getY()));
   setSpeed(1);
 }

@@ -1,4 +1,4 @@
-// A shot of the hero's.
+// A bullet fired by the hero.
 #pragma once
 
 #include "EventCollision.h"

@@ -1,4 +1,4 @@
-// A nuke goes off: every saucer hears of it.
+// Tells every saucer that a nuke went off.
 #pragma once
 
 #include "Event.h"

@@ -1,4 +1,4 @@
-// What is left of a saucer or a ship, for as long as its sprite takes.
+// The explosion of a saucer or ship. It lasts until its animation ends.
 #pragma once
 
 #include "Object.h"

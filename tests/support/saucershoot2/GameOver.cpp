@@ -13,7 +13,7 @@ GameOver::GameOver() {
   registerInterest(df::STEP_EVENT);
 }
 
-// What the round has left behind goes; the title comes back.
+// Removes the objects of the round and shows the title again.
 GameOver::~GameOver() {
   df::ObjectList object_list = WM.getAllObjects(true);
   df::ObjectListIterator i(&object_list);

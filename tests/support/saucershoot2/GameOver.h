@@ -1,4 +1,4 @@
-// The end, for as long as its sprite takes; then the title again.
+// The game-over message. It lasts until its animation ends; then the title is shown again.
 #pragma once
 
 #include "ViewObject.h"

@@ -52,7 +52,7 @@ void GameStart::start() {
   setActive(false);
 }
 
-// Not " text value ", but the sprite.
+// Draws the sprite, not a ViewObject's " text value ".
 int GameStart::draw() {
   return df::Object::draw();
 }

@@ -1,4 +1,4 @@
-// The title: P plays, Q leaves.
+// The title screen: P plays, Q quits.
 #pragma once
 
 #include "Music.h"

@@ -1,4 +1,4 @@
-// The score: a point each second, and what saucers are worth.
+// The score: one point each second, and ten for each saucer.
 #pragma once
 
 #include "ViewObject.h"

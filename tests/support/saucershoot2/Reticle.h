@@ -1,4 +1,4 @@
-// Where the mouse points.
+// A reticle at the position of the mouse.
 #pragma once
 
 #include "Object.h"

@@ -52,7 +52,7 @@ void Saucer::hit(const df::EventCollision* p_c) {
   df::Object* p_other = p_c->getObject1() == this ? p_c->getObject2() : p_c->getObject1();
   if (p_other->getType() == "Saucer") return;
   if (p_other->getType() == "Bullet" && !shot) {
-    shot = true;  // until the update is over, it may meet the bullet again
+    shot = true;  // it may collide with the bullet again in this update
     new Explosion(getPosition());
     df::Sound* p_sound = RM.getSound("explode");
     if (p_sound != NULL) p_sound->play();
@@ -68,7 +68,7 @@ void Saucer::moveToStart() {
   float world_horiz = WM.getBoundary().getHorizontal();
   float world_vert = WM.getBoundary().getVertical();
   df::Vector temp_pos(world_horiz + rand() % (int)world_horiz + 3.0f, rand() % (int)(world_vert - 5) + 4.0f);
-  // Not onto another one.
+  // Do not start on top of another object.
   df::ObjectList collision_list = WM.getCollisions(this, temp_pos);
   while (!collision_list.isEmpty()) {
     temp_pos.setX(temp_pos.getX() + 1);

@@ -1,4 +1,4 @@
-// It comes in from the right. For each that is shot another one comes; for each that gets through, one more.
+// A saucer that comes in from the right. Shot ones are replaced; each that gets through brings one more.
 #pragma once
 
 #include "EventCollision.h"

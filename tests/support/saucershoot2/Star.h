@@ -1,4 +1,4 @@
-// A star in the background; when it has passed by it is another one.
+// A star in the background. When it leaves the view, it starts again at the right with another speed.
 #pragma once
 
 #include "Object.h"

@@ -1,5 +1,5 @@
-// Saucer Shoot in full, as the book's tutorial describes it, written as one writes for the published engine:
-// one player, who is never mentioned, sprites from files, sounds, a title and an end.
+// The complete Saucer Shoot of the book's tutorial, written as for the published engine: a single implied
+// player, sprites from files, sounds, a title and an end.
 #include "GameManager.h"
 #include "GameStart.h"
 #include "LogManager.h"

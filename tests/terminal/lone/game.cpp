@@ -1,5 +1,5 @@
-// A game for one, as students write them: it has no network and no players, and keeps what it knows in
-// globals. What it is good for is in OwnMainTest.cpp.
+// A single-player game as students write them: without network and players, with its state in globals.
+// OwnMainTest.cpp uses it.
 #include <stdlib.h>
 
 #include "DisplayManager.h"
@@ -55,7 +55,7 @@ class Walker : public Object {
   int step = 0;
 };
 
-// Any key ends it, and with it the run that it has to itself.
+// Any key ends the title, and with it GM.run(), which main() calls for the title alone.
 class Title : public Object {
  public:
   Title() {

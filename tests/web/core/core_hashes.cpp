@@ -1,6 +1,6 @@
-// What the core that clients and servers share comes to, as one number for each part of it: a long run of
-// random worlds, inputs and arguments. Printed by the machine's own build and by the page's WebAssembly,
-// whose size_t has 32 bits; both have to say the same (tests/web/core/compare).
+// Prints a hash for each part of the core shared by clients and servers, over a long run of random worlds,
+// inputs and arguments. The native build and the page's WebAssembly build, whose size_t has 32 bits, must
+// print equal hashes (tests/web/core/compare).
 #include <bit>
 #include <cinttypes>
 #include <cmath>
@@ -63,7 +63,7 @@ class Hash {
   std::uint64_t m_value = 0xcbf29ce484222325;
 };
 
-/// A round trip that fails is no result that could be compared.
+/// Exits if a round trip fails, because there is no result to compare then.
 void require(bool is_so, const char* what) {
   if (is_so) return;
   std::printf("failed: %s\n", what);
@@ -112,7 +112,7 @@ Hash snapshots() {
     Snapshot read;
     require(readSnapshot(bytes, test::near(header), SnapshotDictionary(), read) == ReadResult::kOk,
             "a snapshot comes back");
-    // Bytes that no server sent are refused, or taken, alike.
+    // Damaged bytes must be accepted or rejected alike.
     std::string changed = bytes;
     changed[random.rng().below(changed.size())] ^= static_cast<char>(1 << random.rng().below(8));
     hash.add(static_cast<int>(readSnapshot(changed, test::near(header), SnapshotDictionary(), read)));
@@ -120,7 +120,7 @@ Hash snapshots() {
   return hash;
 }
 
-/// A world of the client's own: what it holds, and what it draws.
+/// A client's replica: its state and its picture.
 Hash replica() {
   test::RandomRecords random(21);
   WorldFeed feed({0, 1000, 0});
@@ -164,7 +164,7 @@ Hash updates() {
   return hash;
 }
 
-/// Tables and states of controls, and what keys do with them.
+/// Control tables and states, and the effect of keys on them.
 Hash controls() {
   SplitMix64 random(5);
   Hash hash;
@@ -188,7 +188,7 @@ Hash controls() {
   return hash;
 }
 
-/// The player's own object, ahead of snapshots and among others.
+/// The player's own object, predicted beyond the snapshots and among others.
 Hash prediction() {
   constexpr std::uint32_t kTick = 1000;
   constexpr std::uint32_t kOwn = 7;

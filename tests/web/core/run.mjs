@@ -3,7 +3,7 @@ import {readFile} from "node:fs/promises";
 import {WASI} from "node:wasi";
 
 const module = await WebAssembly.compile(await readFile(process.argv[2]));
-// Functions that are linked and must not be called, such as those that throw.
+// Stubs for functions that are linked but must not be called, such as those that throw.
 const env = {};
 for (const {module: from, name} of WebAssembly.Module.imports(module)) {
   if (from === "env") env[name] = () => { throw new Error(name + " was called"); };

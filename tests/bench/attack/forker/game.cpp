@@ -1,5 +1,5 @@
-// A game that forks 300 children when its player presses F. Every second one begins a session of its own,
-// where the signals for its parent's group do not reach it.
+// A game that forks 300 children when its player presses F. Every second one starts its own session, which
+// signals for its parent's group do not reach.
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ class Forker : public df::Object {
   int draw() override { return DM.drawCh(df::Vector(40, 12), 'F', df::YELLOW); }
 };
 
-// Something to be seen moving.
+// A visibly moving object.
 class Drifter : public df::Object {
  public:
   explicit Drifter(int n) {

@@ -1,9 +1,9 @@
-// naiad_capacity_bare: what the sockets alone cost. Sends datagrams of the same sizes to the same sockets, as
-// many in a call and as often as the server did, from buffers that were written before.
+// naiad_capacity_bare: the cost of the sockets alone. Sends datagrams of the server's sizes to the sockets of
+// its clients, with equal batches and frequency, from buffers prepared in advance.
 //
 //   naiad_capacity_bare CORE FOLDER PER-TICK TICKS
 //
-// FOLDER/sizes, FOLDER/endpoints: as naiad_capacity_bots writes them. PER-TICK: datagrams in a tick. Prints
+// FOLDER/sizes, FOLDER/endpoints: written by naiad_capacity_bots. PER-TICK: datagrams in a tick. Prints
 // `datagrams=… cpu_us=…`.
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -22,7 +22,7 @@
 
 namespace {
 
-constexpr std::size_t kBatch = 64;  // as naiad::kUdpBatch
+constexpr std::size_t kBatch = 64;  // like naiad::kUdpBatch
 constexpr std::size_t kMax = 1200;
 
 struct Packet {
@@ -32,7 +32,7 @@ struct Packet {
   char bytes[kMax];
 };
 
-/// From 127.0.0.1, as the server answers.
+/// Addresses a packet from 127.0.0.1, like the server's.
 void address(Packet& packet, msghdr& header, const std::string& host, std::uint16_t port) {
   packet.to.sin6_family = AF_INET6;
   packet.to.sin6_port = htons(port);

@@ -1,4 +1,4 @@
-// A player who sees everything: the session that dfclient has, whose screen is compared with the server's.
+// A player with a complete session like dfclient's, whose screen is compared with the server's.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class Checker {
     std::uint64_t sum;
   };
 
-  /// Joins. `address`: its own, numeric.
+  /// Joins. `address` is its own, numeric.
   Checker(asio::io_context& context, const naiad::ServerAddress& server,
           const naiad::Fingerprint& fingerprint, const std::string& address, int index,
           const std::string& known_servers)
@@ -54,7 +54,7 @@ class Checker {
   }
   bool isOver() const { return m_connection.isOver(); }
   std::uint32_t player() { return m_connection.session()->welcome().player; }
-  /// Of the ticks that are checked (Check.h), as they were when nothing could change them any more.
+  /// Returns the pictures of checked ticks (Check.h), recorded when they could no longer change.
   const std::vector<Picture>& pictures() const { return m_pictures; }
   void forget() { m_pictures.clear(); }
 
@@ -92,7 +92,7 @@ class Checker {
 
   naiad::Connection m_connection;
   std::vector<Picture> m_pictures;
-  std::uint32_t m_recorded = 0;  ///< the newest tick that was looked at
+  std::uint32_t m_recorded = 0;  ///< the newest tick considered
   Time m_next_key{};
   naiad::SplitMix64 m_random;
   bool m_left = false;

@@ -1,5 +1,5 @@
-// A player who sees nothing: logs in, acknowledges every snapshot, presses keys. As little work for the
-// machine as that can be, so that thousands fit on a core.
+// A player without a picture: logs in, acknowledges every snapshot and presses keys. So little work that
+// thousands of them fit on a core.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -19,7 +19,7 @@
 
 namespace bench::capacity {
 
-/// Where the server is, and what all bots share.
+/// Address of the server, and objects that all bots share.
 struct Harbour {
   asio::io_context& context;
   std::shared_ptr<const naiad::TlsContext> tls;
@@ -27,7 +27,7 @@ struct Harbour {
   std::uint16_t port = 0;
 };
 
-/// "127.x.y.z", another one for each bot.
+/// Returns "127.x.y.z", different for each bot.
 std::string addressOf(int index);
 
 /// Not thread-safe.
@@ -36,32 +36,32 @@ class LightBot {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::milliseconds kInputEvery{200};
-  static constexpr int kTurnsOneIn = 16;  ///< inputs: the others press the same key again
+  static constexpr int kTurnsOneIn = 16;  ///< share of inputs that change direction
 
   LightBot(const Harbour& harbour, int index);
   ~LightBot();
 
-  /// Begin to log in.
+  /// Begins to log in.
   void start();
-  /// Snapshots come as datagrams.
+  /// True if snapshots arrive as datagrams.
   bool isReady() const { return m_ready; }
-  /// It was refused or thrown out.
+  /// True if it was refused or disconnected.
   bool isOver() const { return m_over; }
-  /// Its socket; -1 before it has been let in.
+  /// Returns its socket; -1 before it has joined.
   int descriptor() const { return m_descriptor; }
-  /// "127.0.0.2:40000".
+  /// Returns its address and port, for example "127.0.0.2:40000".
   std::string endpoint() const;
-  /// Something may have come. Bytes of the datagram; 0: nothing.
+  /// Receives a datagram if one has arrived. Returns its size; 0 if none has.
   std::size_t receive(Time now);
-  /// Take what comes and answer nothing.
+  /// Receives datagrams from now on without answering.
   void sink() { m_sinking = true; }
-  /// Probe while no datagram has come. Now and then.
+  /// Sends a probe while no datagram has arrived. Call from time to time.
   void update(Time now);
 
-  /// Since resetFigures().
+  /// Figures since resetFigures().
   std::uint64_t received = 0;
   std::uint64_t bytes = 0;
-  /// Snapshots that were sent and never came.
+  /// Returns the number of snapshots that were sent but did not arrive.
   std::uint64_t missing() const;
   void resetFigures();
 
@@ -83,13 +83,13 @@ class LightBot {
   bool m_sinking = false;
   naiad::AckWindow m_acks;
   naiad::SnapshotContext m_context;
-  std::vector<naiad::Input> m_inputs;  ///< that the server has not taken in
+  std::vector<naiad::Input> m_inputs;  ///< inputs that the server has not confirmed
   std::uint32_t m_newest_input = 0;
   Time m_next_input{};
   Time m_probed{};
   naiad::SplitMix64 m_random;
   bool m_left = false;
-  std::uint32_t m_first = 0;  ///< snapshot since resetFigures()
+  std::uint32_t m_first = 0;  ///< first snapshot since resetFigures()
   std::uint64_t m_snapshots = 0;
 };
 

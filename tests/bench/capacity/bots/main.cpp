@@ -6,8 +6,8 @@
 //   go N      be N players, 1 % of them checked            ready N, or failed
 //   begin     a measurement starts                         begun
 //   end       it ends                                      figures …, a line for each picture, done
-//   sink      take datagrams and answer none; write what   sunk
-//             came to FOLDER/sizes and from whom it may come to FOLDER/endpoints
+//   sink      receive datagrams without answering; write   sunk
+//             their sizes to FOLDER/sizes and the bots' addresses to FOLDER/endpoints
 #include <fcntl.h>
 #include <sys/epoll.h>
 #include <sys/resource.h>
@@ -33,7 +33,7 @@ namespace {
 using namespace bench::capacity;
 using Clock = std::chrono::steady_clock;
 
-/// Handshakes at a time: those of one address that a server lets be under way are 64.
+/// Simultaneous handshakes. A server allows 64 per address.
 constexpr int kLoggingIn = 32;
 constexpr std::size_t kSizes = 8192;
 constexpr std::chrono::seconds kPatience{180};
@@ -125,8 +125,7 @@ class Crowd {
     m_joined = false;
     m_deadline = Clock::now() + kPatience;
     const std::size_t checked = (wanted + 99) / 100;
-    if (m_bots.size() > wanted - checked)
-      m_bots.resize(wanted - checked);  // their streams break: they are gone
+    if (m_bots.size() > wanted - checked) m_bots.resize(wanted - checked);  // disconnects the removed bots
     m_watched = std::min(m_watched, m_bots.size());
     if (m_checkers.size() > checked) m_checkers.resize(checked);
   }
@@ -214,7 +213,7 @@ class Crowd {
   std::array<epoll_event, 512> m_events{};
   std::vector<std::unique_ptr<LightBot>> m_bots;
   std::vector<std::unique_ptr<Checker>> m_checkers;
-  std::size_t m_watched = 0;  ///< the first so many bots are in m_epoll
+  std::size_t m_watched = 0;  ///< number of bots in m_epoll, from the first
   std::size_t m_wanted = 1;
   int m_next = 0;
   bool m_joined = true;
@@ -247,5 +246,5 @@ int main(int argc, char** argv) {
     std::cerr << "naiad_capacity_bots: " << error.what() << "\n";
     return 1;
   }
-  std::quick_exit(0);  // thousands of streams need not be closed one by one
+  std::quick_exit(0);  // faster than closing thousands of streams
 }

@@ -1,9 +1,9 @@
-// naiad_capacity_server: hosts busy1000 for as many as come, on one core, and says how that went.
+// naiad_capacity_server: hosts busy1000 for any number of players on one core, and reports its figures.
 //
 //   naiad_capacity_server CORE IDENTITY-DIRECTORY MAX-PLAYERS
 //
-// It prints `listening ADDRESS --fingerprint …`. On stdin: `begin` starts a measurement; `end` prints its
-// figures, a line for each picture of a checked player, and `done`; the end of the input ends it.
+// Prints `listening ADDRESS --fingerprint …`. On stdin: `begin` starts a measurement; `end` prints its
+// figures, a line for each picture of a checked player, and `done`; the end of the input stops it.
 #include <cstdio>
 #include <iostream>
 #include <string>
@@ -35,7 +35,7 @@ using namespace bench::capacity;
 
 constexpr double kSpeed = 0.3;
 
-/// What a player owns. It goes to and fro at 0.3 cells per tick.
+/// A player's object. Moves back and forth at 0.3 cells per tick.
 class Runner : public df::Object {
  public:
   Runner() {
@@ -55,8 +55,8 @@ class Runner : public df::Object {
   void head(int direction) { setVelocity(df::Vector(kSpeed * direction, 0)); }
 };
 
-/// Gives each player a Runner, and keys to the right one: an Object that hears all keys for all players,
-/// rather than thousands that each hear all.
+/// Gives each player a Runner, and passes on keys: one Object receives all keys, because thousands of Runners
+/// that each receive all would be slow.
 class Usher : public df::Object {
  public:
   Usher() {
@@ -94,14 +94,14 @@ class Usher : public df::Object {
   std::unordered_map<std::uint32_t, Runner*> m_runners;
 };
 
-/// A checked player's screen at a tick.
+/// Checksum of a checked player's screen at a tick.
 struct Picture {
   std::uint32_t tick;
   std::uint32_t player;
   std::uint64_t sum;
 };
 
-/// All on the host's thread.
+/// Used only on the host's thread.
 class Measurement {
  public:
   explicit Measurement(naiad::Host& host) : m_host(host) {}
@@ -151,7 +151,7 @@ int serve(const std::string& identity, int most) {
   options.port = 0;
   options.identity = identity;
   options.max_players = options.max_per_address = most;  // streams come from one address, datagrams from many
-  options.grace = 0;                                     // who goes is gone, when fewer are to be measured
+  options.grace = 0;                                     // frees slots before a trial with fewer players
   naiad::Host host(options, "capacity", [](const std::string& line) {
     const bool routine = line.ends_with(" left") || line.find(" joined with ") != std::string::npos ||
                          line.find(" lines on players were not logged") != std::string::npos;

@@ -1,4 +1,4 @@
-// A program that is told what to do line by line, and answers so.
+// A program that reads commands and writes answers line by line.
 #pragma once
 
 #include <sys/types.h>
@@ -12,20 +12,20 @@ namespace bench::capacity {
 
 class Worker {
  public:
-  /// Throws std::runtime_error if it cannot be started.
+  /// Starts the program. Throws std::runtime_error if that fails.
   explicit Worker(const std::vector<std::string>& command);
-  /// Closes its input, and ends it by force if that does not.
+  /// Closes its input, and kills it if it does not exit.
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
   void tell(const std::string& line);
-  /// The next line. Throws std::runtime_error at the end, or if it takes too long.
+  /// Returns the next line. Throws std::runtime_error at the end, or after `patience`.
   std::string hear(std::chrono::seconds patience = std::chrono::seconds(30));
-  /// Tell, and hear the line that begins with `word`.
+  /// Sends a line and returns the next line, which must begin with `word`.
   std::string ask(const std::string& line, const std::string& word,
                   std::chrono::seconds patience = std::chrono::seconds(30));
-  /// Microseconds of processor time it has used.
+  /// Returns the processor time that it has used, in microseconds.
   double cpu() const;
 
  private:

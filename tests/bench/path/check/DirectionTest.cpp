@@ -19,7 +19,7 @@ std::vector<std::uint8_t> packet(std::size_t size, std::uint8_t protocol = kTcp)
   return bytes;
 }
 
-/// When all that is under way comes out.
+/// Returns when the packets under way come out.
 std::vector<Nanoseconds> deliveries(Direction& direction) {
   std::vector<Nanoseconds> times;
   while (const auto due = direction.next()) {
@@ -52,7 +52,7 @@ TEST(Direction, RateSpacesPackets) {
   Direction direction({.delay = fromMilliseconds(10), .rate_bit_s = 512'000}, counters);
   for (int i = 0; i < 3; ++i) direction.take(packet(1280), fromMilliseconds(0));
   EXPECT_EQ(deliveries(direction), (std::vector{fromMilliseconds(30), fromMilliseconds(50),
-                                                fromMilliseconds(70)}));  // 20 ms each on the wire
+                                                fromMilliseconds(70)}));  // each takes 20 ms on the wire
 }
 
 TEST(Direction, FullQueueDropsTheTail) {
@@ -61,7 +61,7 @@ TEST(Direction, FullQueueDropsTheTail) {
   for (int i = 0; i < 100; ++i) direction.take(packet(1024), fromMilliseconds(0));
   EXPECT_EQ(deliveries(direction).size(), 64u);
   EXPECT_EQ(counters.overflowed, 36u);
-  direction.take(packet(1024), fromMilliseconds(10'000));  // empty again
+  direction.take(packet(1024), fromMilliseconds(10'000));  // the queue is empty again
   EXPECT_EQ(deliveries(direction).size(), 1u);
 }
 

@@ -11,7 +11,7 @@
 namespace bench::path {
 namespace {
 
-/// Ten ticks of a crowd, one every 100 ms from 100 ms on.
+/// Ten ticks of a crowd, one every 100 ms, the first at 100 ms.
 class FrameJudgeTest : public testing::Test {
  protected:
   FrameJudgeTest() {
@@ -22,7 +22,7 @@ class FrameJudgeTest : public testing::Test {
     }
   }
   const Picture& scene(std::uint32_t tick) const { return m_truth->find(tick)->picture; }
-  /// The crowd of one tick with the counter of another.
+  /// Returns the crowd of one tick with the counter of another.
   Picture mixed(std::uint32_t crowd_tick, std::uint32_t counter) const {
     Picture picture = scene(crowd_tick);
     for (int x = 0; x < kEchoColumn; ++x) picture.at(x, kStatusRow) = scene(counter).at(x, kStatusRow);
@@ -90,7 +90,7 @@ TEST_F(FrameJudgeTest, CountersThatNeverWereOrGoBackAreIgnored) {
 }
 
 TEST(Fluency, OfAScreenThatStandsStillForAWhile) {
-  // A frame every 100 ms, each 50 ms late, but for those at 500 and 600 ms.
+  // A frame every 100 ms, each 50 ms late, except those at 500 and 600 ms.
   std::vector<Shown> shown;
   for (int i = 0; i < 10; ++i) {
     if (i != 5 && i != 6)
@@ -98,7 +98,7 @@ TEST(Fluency, OfAScreenThatStandsStillForAWhile) {
           {fromMilliseconds(100.0 * i + 50), fromMilliseconds(100.0 * i), static_cast<std::uint32_t>(i + 1)});
   }
   const Fluency fluency = fluencyOf(shown, fromMilliseconds(50), fromMilliseconds(1050));
-  EXPECT_DOUBLE_EQ(fluency.frames_per_second, 7);  // the first was there before
+  EXPECT_DOUBLE_EQ(fluency.frames_per_second, 7);  // the first one was shown before
   EXPECT_NEAR(fluency.freeze_ms, 300, 1);
   EXPECT_NEAR(fluency.staleness_p50_ms, 113, 15);
   EXPECT_NEAR(fluency.staleness_p99_ms, 340, 2);

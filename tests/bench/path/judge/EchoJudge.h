@@ -1,4 +1,4 @@
-// How long keys take to the screen, where the screen only says which key was the last one that arrived.
+// Measures the time from a key to the screen if the screen shows only the last key that arrived.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@ namespace bench::path {
 
 class EchoJudge {
  public:
-  /// The screen shows the number of the last key modulo `period`; of the keys that come onto it at the same
-  /// time there must be fewer than that.
+  /// The screen shows the number of the last key modulo `period`. Fewer than `period` keys may appear at a
+  /// time.
   explicit EchoJudge(std::uint32_t period) : m_period(period) {}
 
-  /// A key goes into the terminal; its number, from 0 on.
+  /// Records a pressed key. Returns its number, from 0 on.
   std::uint32_t press(Nanoseconds now);
-  /// The screen shows this number now; nothing: none, or it is being painted.
+  /// Records the number on the screen; nullopt if none is shown or it is being painted.
   void look(std::optional<std::uint32_t> number, Nanoseconds now);
 
-  /// How long the keys took that were pressed in [from, to), in ms.
+  /// Returns the times of the keys pressed in [from, to), in ms.
   std::vector<double> latencies(Nanoseconds from, Nanoseconds to) const;
-  /// Keys pressed in [from, to) that were not seen.
+  /// Returns how many keys pressed in [from, to) did not appear.
   std::size_t unanswered(Nanoseconds from, Nanoseconds to) const;
 
  private:
@@ -33,7 +33,7 @@ class EchoJudge {
   };
   std::uint32_t m_period;
   std::vector<Key> m_keys;
-  std::size_t m_next = 0;  // the first that was not seen
+  std::size_t m_next = 0;  // the first key that has not appeared
 };
 
 }  // namespace bench::path

@@ -11,10 +11,10 @@ namespace bench::path {
 
 void FrameJudge::look(const Picture& screen, Nanoseconds now) {
   const auto counter = counterIn(screen);
-  if (!counter) return;  // being painted
+  if (!counter) return;  // it is being painted
   if (!m_shown.empty() && *counter <= m_shown.back().tick) return;
   const Truth::Moment* moment = m_truth.find(*counter);
-  if (moment == nullptr) return;  // half painted: a number that was none
+  if (moment == nullptr) return;  // a number that is half painted
   if (m_pending && *m_pending != *counter) m_refused.push_back(now);
   if (m_pending != counter) m_best = 0;
   m_pending = counter;

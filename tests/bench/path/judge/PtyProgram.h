@@ -1,4 +1,4 @@
-// A program at a terminal of 80×24.
+// A program on a terminal of 80×24.
 #pragma once
 
 #include <poll.h>
@@ -24,7 +24,7 @@ namespace bench::path {
 
 class PtyProgram {
  public:
-  /// Starts it, with TERM=xterm-256color. Throws std::runtime_error.
+  /// Starts the program with TERM=xterm-256color. Throws std::runtime_error.
   explicit PtyProgram(const std::vector<std::string>& command) : m_buffer(65536) {
     winsize size{};
     size.ws_col = kWidth;
@@ -33,7 +33,7 @@ class PtyProgram {
     if (m_pid < 0) throw std::runtime_error("there is no terminal to be had");
     if (m_pid == 0) becomeCommand(command);
   }
-  /// Hangs up, and ends it if that does not.
+  /// Closes the terminal, and kills the program if it does not end.
   ~PtyProgram() {
     close(m_terminal);
     kill(m_pid, SIGHUP);
@@ -47,7 +47,7 @@ class PtyProgram {
   PtyProgram(const PtyProgram&) = delete;
   PtyProgram& operator=(const PtyProgram&) = delete;
 
-  /// What it wrote, as soon as it wrote something; empty at the deadline, and when it has ended.
+  /// Returns the next output; empty at the deadline, or when the program has ended.
   std::string_view read(Nanoseconds deadline) {
     pollfd terminal{m_terminal, POLLIN, 0};
     const timespec timeout = toTimespec(std::max(deadline - monotonicNow(), Nanoseconds(0)));
@@ -58,11 +58,11 @@ class PtyProgram {
     return {};
   }
   bool hasEnded() const { return m_ended; }
-  /// Type these bytes.
+  /// Types these bytes.
   void write(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t size = ::write(m_terminal, bytes.data(), bytes.size());
-      if (size <= 0) return;  // it has gone; read() notices
+      if (size <= 0) return;  // it has ended, which read() notices
       bytes.remove_prefix(static_cast<std::size_t>(size));
     }
   }

@@ -8,7 +8,7 @@
 
 namespace bench::path {
 
-/// The smallest sample that is not less than `share` (0 to 1) of all of them; NaN without samples.
+/// Returns the smallest sample not less than `share` (0 to 1) of all samples; NaN without samples.
 inline double quantile(std::vector<double> samples, double share) {
   if (samples.empty()) return NAN;
   const double rank = std::ceil(share * static_cast<double>(samples.size())) - 1;

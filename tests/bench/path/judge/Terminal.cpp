@@ -9,10 +9,10 @@ namespace bench::path {
 namespace {
 
 constexpr std::uint8_t kWhite = 7;
-constexpr std::uint8_t kColors = 8;  // of the game; the same eight follow in a bright form
+constexpr std::uint8_t kColors = 8;  // colours of the game; their eight bright forms follow
 
-/// A bright colour counts as the one that it is the bright form of: dfclient draws blue so where it can,
-/// since plain blue on black is hard to read.
+/// A bright colour counts as its plain form: where possible, dfclient draws blue bright because plain blue on
+/// black is hard to read.
 std::uint8_t colorOf(const VTermColor& color) {
   if (VTERM_COLOR_IS_DEFAULT_FG(&color) || !VTERM_COLOR_IS_INDEXED(&color)) return kWhite;
   const std::uint8_t index = color.indexed.idx;

@@ -1,4 +1,4 @@
-// A terminal emulator (libvterm): what a person would see after these bytes.
+// A terminal emulator (libvterm) that shows what a person would see.
 #pragma once
 
 #include <vterm.h>
@@ -17,15 +17,15 @@ class Terminal {
  public:
   Terminal();
 
-  /// The program wrote these bytes: take in all up to one that changes the counter's row left of the echo, or
-  /// all of them. Returns what is left.
+  /// Processes output of the program, up to the byte that changes the counter's row left of the echo, or all
+  /// of it. Returns the rest.
   std::string_view feed(std::string_view bytes);
-  /// A character that is no ASCII becomes '?'; the default colour counts as white.
+  /// Returns the screen. Characters outside ASCII become '?'; the default colour counts as white.
   Picture picture() const;
-  /// Press the n-th of right, down, left, up, right, …; see takeAnswers().
+  /// Presses the n-th of right, down, left, up, right, …; see takeAnswers().
   void pressArrow(std::uint32_t n);
-  /// What the terminal sends to the program since the last call: answers to queries, arrow keys as the
-  /// program has asked for them.
+  /// Returns the terminal's bytes for the program since the last call: answers to queries, and arrow keys in
+  /// the mode that the program has set.
   std::string takeAnswers();
 
  private:
@@ -35,7 +35,7 @@ class Terminal {
   static void collect(const char* bytes, std::size_t size, void* p_answers);
   static int noteDamage(VTermRect where, void* p_touched);
 
-  bool m_touched = false;  // the counter
+  bool m_touched = false;  // the counter has changed
   std::string m_answers;
   std::unique_ptr<VTerm, Free> m_term;
   VTermScreen* m_screen;

@@ -1,4 +1,4 @@
-// Presses keys at random moments: letters, and if wanted arrows.
+// Presses keys at random times: letters, and arrows if requested.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace bench::path {
 
 class Typist {
  public:
-  /// Evenly distributed between nothing and twice this.
+  /// Mean time between two keys, distributed evenly between 0 and twice this.
   static constexpr Nanoseconds kMeanLetterGap{200'000'000};
   static constexpr Nanoseconds kMeanArrowGap{600'000'000};
 
@@ -21,7 +21,7 @@ class Typist {
   }
 
   enum class Key { kLetter, kArrow };
-  /// The key whose moment has come; call it again.
+  /// Returns a key that is due. Call again until it returns nullopt.
   std::optional<Key> due(Nanoseconds now) {
     if (now >= m_letter) {
       m_letter = now + gap(kMeanLetterGap);
@@ -33,7 +33,7 @@ class Typist {
     }
     return std::nullopt;
   }
-  /// The next moment.
+  /// Returns when the next key is due.
   Nanoseconds next() const { return m_arrows && m_arrow < m_letter ? m_arrow : m_letter; }
 
  private:

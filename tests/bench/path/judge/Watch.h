@@ -1,4 +1,4 @@
-// Somebody at the terminal: types, and notes what comes onto the screen when.
+// A simulated person at the terminal: types, and records when what appears on the screen.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace bench::path {
 
 class Watch {
  public:
-  /// `first_keys` are typed when the scene is on the screen. All others outlive the watch.
+  /// Types `first_keys` once the scene is on the screen. The other arguments must outlive the watch.
   Watch(PtyProgram& program, Terminal& terminal, const Truth& truth, const Typist& typist,
         std::string first_keys)
       : m_program(program),
@@ -28,11 +28,11 @@ class Watch {
         m_typist(typist),
         m_first_keys(std::move(first_keys)) {}
 
-  /// Only look, until a frame counts; no longer than `end`. Throws std::runtime_error if the program ends.
+  /// Watches until a frame counts, at most until `end`. Throws std::runtime_error if the program ends.
   void untilShown(Nanoseconds end) {
     while (monotonicNow() < end && m_frames.shown().empty()) lookUntil(end);
   }
-  /// Type and look. Throws std::runtime_error if the program ends.
+  /// Types and watches. Throws std::runtime_error if the program ends.
   void until(Nanoseconds end) {
     while (monotonicNow() < end) {
       type();
@@ -45,13 +45,13 @@ class Watch {
   const EchoJudge& arrows() const { return m_arrows; }
 
  private:
-  /// Take in what comes next.
+  /// Processes the next output.
   void lookUntil(Nanoseconds end) {
     const std::string_view bytes = m_program.read(end);
     if (m_program.hasEnded()) throw std::runtime_error("the program has ended");
     if (!bytes.empty()) look(bytes);
   }
-  /// Several frames may come at once: look at each.
+  /// Looks at each frame, because several may come at once.
   void look(std::string_view bytes) {
     const Nanoseconds now = monotonicNow();
     Picture screen;

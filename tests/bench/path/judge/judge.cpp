@@ -1,5 +1,5 @@
-// naiad_pty_judge: sits at a terminal, runs a program that shows the scene, types, watches, and prints one
-// line of `key=value …` about what it saw.
+// naiad_pty_judge: runs a program that shows the scene in a terminal, types, watches, and prints one line of
+// `key=value …` with the results.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ namespace {
 
 using namespace bench::path;
 
-constexpr Nanoseconds kStarts{30'000'000'000};  // until the first frame
-constexpr Nanoseconds kDrain{3'000'000'000};    // for keys that are still on their way
+constexpr Nanoseconds kStarts{30'000'000'000};  // timeout for the first frame
+constexpr Nanoseconds kDrain{3'000'000'000};    // time for keys that are still on their way
 
 struct Options {
   std::string truth;
@@ -39,7 +39,7 @@ Nanoseconds seconds(double value) {
   return Nanoseconds(static_cast<std::int64_t>(value * 1e9));
 }
 
-/// The scene makes the file of the truth when it starts, in its own time.
+/// Waits until the scene has created the truth file.
 SharedFile<Truth> waitForTruth(PtyProgram& program, Terminal& terminal, const std::string& name) {
   const Nanoseconds late = monotonicNow() + kStarts;
   std::string heard;
@@ -79,7 +79,7 @@ void print(const char* key, double value) {
   if (!std::isnan(value)) std::printf("%s=%.4f ", key, value);
 }
 
-/// What was seen in [from, to).
+/// Prints the figures of [from, to).
 void report(const Watch& watch, Nanoseconds from, Nanoseconds to) {
   const Fluency fluency = fluencyOf(watch.frames().shown(), from, to);
   print("fps", fluency.frames_per_second);

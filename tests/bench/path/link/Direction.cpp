@@ -6,7 +6,7 @@
 namespace bench::path {
 namespace {
 
-constexpr std::size_t kHeader = 20;  // of IPv4
+constexpr std::size_t kHeader = 20;  // of IPv4, in bytes
 constexpr std::uint8_t kUdp = 17;
 
 bool isUdp(std::span<const std::uint8_t> packet) {
@@ -42,7 +42,7 @@ void Direction::take(std::span<const std::uint8_t> packet, Nanoseconds now) {
   m_flying.push_back({{packet.begin(), packet.end()}, due});
 }
 
-/// When the last bit of a packet is on the wire; nothing if the queue has no room for it.
+/// Returns when the last bit of a packet is on the wire; nullopt if the queue has no space for it.
 std::optional<Nanoseconds> Direction::leaves(std::size_t bytes, Nanoseconds now) {
   if (m_options.rate_bit_s == 0) return now;
   const double nanos_per_byte = 8e9 / static_cast<double>(m_options.rate_bit_s);

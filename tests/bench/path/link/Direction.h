@@ -1,4 +1,4 @@
-// One direction of the link, in virtual time: packets go in, and come out later, or never.
+// One direction of the link, in virtual time: packets enter, and come out later or never.
 //
 //     in -> [ is it blocked? ] -> [ lost by chance? ] -> [ drop-tail queue, rate ] -> delay + jitter -> out
 #pragma once
@@ -17,11 +17,11 @@
 namespace bench::path {
 
 struct DirectionOptions {
-  Nanoseconds delay{};                  ///< of each packet
-  Nanoseconds jitter{};                 ///< up to so much more, evenly distributed; packets keep their order
-  double loss = 0;                      ///< chance of each packet to be lost, independently; 0 to 1
-  std::int64_t rate_bit_s = 0;          ///< of IP packets; 0: no limit, and no queue
-  std::size_t queue_bytes = 64 * 1024;  ///< what may wait to be sent
+  Nanoseconds delay{};                  ///< added to each packet
+  Nanoseconds jitter{};                 ///< maximum additional delay, distributed evenly without reordering
+  double loss = 0;                      ///< probability that a packet is lost, independently; 0 to 1
+  std::int64_t rate_bit_s = 0;          ///< bits of IP packets; 0: no limit and no queue
+  std::size_t queue_bytes = 64 * 1024;  ///< bytes that may wait to be sent
   bool block_udp = false;
   std::uint64_t seed = 1;
 };
@@ -31,11 +31,11 @@ class Direction {
   /// Counts in `counters`, which must outlive it.
   Direction(const DirectionOptions& options, DirectionCounters& counters);
 
-  /// An IP packet enters. What is not IPv4 vanishes uncounted.
+  /// Accepts an IP packet. Packets other than IPv4 are dropped without being counted.
   void take(std::span<const std::uint8_t> packet, Nanoseconds now);
-  /// When the next packet comes out; nothing while none is under way.
+  /// Returns when the next packet comes out; nullopt while none is under way.
   std::optional<Nanoseconds> next() const;
-  /// The packet that came out first, if its time has come, and when that was. Empty: none.
+  /// A packet that came out, and when it was due. Empty if none was due.
   struct Delivery {
     std::vector<std::uint8_t> packet;
     Nanoseconds due{};

@@ -15,7 +15,7 @@ namespace bench::path {
 
 class Link {
  public:
-  /// `server_tun` and `client_tun` do not block; `counters` outlive the link.
+  /// `server_tun` and `client_tun` must be non-blocking; `counters` must outlive the link.
   Link(int server_tun, int client_tun, const DirectionOptions& down, const DirectionOptions& up,
        LinkCounters& counters)
       : m_server_tun(server_tun),
@@ -24,7 +24,7 @@ class Link {
         m_up(up, counters.up),
         m_counters(counters) {}
 
-  /// Wait for packets and hand over those whose time has come, for at most `limit`.
+  /// Waits for packets and delivers those that are due, for at most `limit`.
   void run(Nanoseconds limit) {
     const Nanoseconds until = monotonicNow() + limit;
     while (monotonicNow() < until) {
@@ -52,7 +52,7 @@ class Link {
       const Nanoseconds now = monotonicNow();
       const Direction::Delivery delivery = direction.pop(now);
       if (delivery.packet.empty()) return;
-      // A network that has just gone takes no packet; whoever ended it knows.
+      // A network that has just ended takes no packet. Its owner notices that.
       [[maybe_unused]] const ssize_t taken = write(tun, delivery.packet.data(), delivery.packet.size());
       const auto step = static_cast<std::size_t>((now - delivery.due).count() / LinkCounters::kLateStepNanos);
       ++m_counters.late[std::min(step, LinkCounters::kLateSteps - 1)];

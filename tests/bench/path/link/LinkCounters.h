@@ -1,4 +1,4 @@
-// What a link counts, for others to read while it runs (SharedFile).
+// Counters of a link, which other processes read while it runs (SharedFile).
 #pragma once
 
 #include <array>
@@ -8,23 +8,23 @@
 
 namespace bench::path {
 
-/// One direction. All numbers since the link began.
+/// Counters of one direction since the link began.
 struct DirectionCounters {
-  std::atomic<std::uint64_t> bytes{0};       ///< of IP packets that were sent, headers and lost ones included
+  std::atomic<std::uint64_t> bytes{0};       ///< of IP packets sent, including headers and lost ones
   std::atomic<std::uint64_t> packets{0};     ///< sent
-  std::atomic<std::uint64_t> lost{0};        ///< packets, by chance
-  std::atomic<std::uint64_t> overflowed{0};  ///< packets that the queue had no room for
-  std::atomic<std::uint64_t> blocked{0};     ///< packets, because they were UDP
+  std::atomic<std::uint64_t> lost{0};        ///< packets lost by chance
+  std::atomic<std::uint64_t> overflowed{0};  ///< packets for which the queue had no space
+  std::atomic<std::uint64_t> blocked{0};     ///< packets dropped because they were UDP
 };
 
 struct LinkCounters {
-  DirectionCounters down;  ///< from the server to the client
+  DirectionCounters down;  ///< server to client
   DirectionCounters up;
 
   static constexpr std::size_t kLateSteps = 1000;
   static constexpr std::int64_t kLateStepNanos = 100'000;
-  /// How many packets were handed over so many tenths of a millisecond after their time; the last one: or
-  /// more.
+  /// Number of packets by delay beyond their time, in tenths of a millisecond. The last element includes all
+  /// longer delays.
   std::array<std::atomic<std::uint64_t>, kLateSteps> late{};
 };
 

@@ -53,7 +53,7 @@ void redirect(const std::string& log) {
   if (in < 0 || out < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(out, 2) < 0) _exit(kCannotRun);
 }
 
-/// ioctl() on a device through a socket of the present namespace.
+/// Calls ioctl() on a device through a socket of the present namespace.
 class Configuration {
  public:
   Configuration() : m_socket(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {}

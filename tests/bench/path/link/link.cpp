@@ -1,13 +1,13 @@
-// naiad_link: runs a server and a client in two networks that are joined by a link with delay, jitter, loss
-// and a rate. Both ends are tun devices; the packets pass through this process, so that any protocol can be
-// measured, by anybody who may make namespaces.
+// naiad_link: runs a server and a client in two networks, joined by a link with delay, jitter, loss and a
+// rate. Both ends are tun devices, and the packets pass through this process. So any protocol can be
+// measured, by all users that may create namespaces.
 //
 //     network of the server                               network of the client
 //     link0 10.77.0.1  <-- down: packets to the client --  link0 10.77.0.2
 //
-// Three processes of this program: the one that was called waits; its child is the first process of a process
-// namespace and carries the packets, so that everything ends with it; the server's and client's ancestors
-// move into their network and become the command.
+// This program runs as three processes: the first one waits; its child is the first process of a process
+// namespace and carries the packets, so that all processes end with it; the parents of server and client move
+// into their network and execute the command.
 #include "Link.h"
 
 #include <signal.h>
@@ -35,7 +35,7 @@ using namespace bench::path;
 constexpr int kFailed = 1;
 constexpr int kNotAllowed = 77;
 const std::string kSeparator = ":::";
-constexpr Nanoseconds kRound{10'000'000};  // between two looks at the children
+constexpr Nanoseconds kRound{10'000'000};  // time between two checks of the children
 constexpr Nanoseconds kServerStarts{15'000'000'000};
 
 struct Options {
@@ -66,7 +66,7 @@ DirectionOptions direction(const Options& options, const char* name, std::uint64
   return result;
 }
 
-/// Take in everybody who ended. The exit code of this child, if it was among them.
+/// Collects all ended children. Returns the exit code of `child` if it has ended.
 std::optional<int> reap(pid_t child) {
   std::optional<int> code;
   int status = 0;
@@ -97,7 +97,7 @@ int carry(const Options& options) {
   const pid_t server = server_network.start(options.server, options.server_log);
   const Nanoseconds late = monotonicNow() + kServerStarts;
   while (!isThere(options.ready_file)) {
-    // One that ends well has left something behind that serves.
+    // A process that succeeds may have left a server in the background.
     const bool failed = reap(server).value_or(0) != 0;
     if (failed || monotonicNow() > late) {
       throw std::runtime_error("the server did not start: " + textOf(options.server_log));
@@ -124,7 +124,7 @@ int guarded(const Options& options) {
 }
 
 int run(const Options& options) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // of whoever wanted it
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // when the parent ends
   try {
     unshareProcesses();
   } catch (const NotAllowed& reason) {
@@ -144,7 +144,7 @@ int run(const Options& options) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
 }
 
-/// Cut "own options ::: server ::: client" in three.
+/// Splits "own options ::: server ::: client" into three parts.
 std::vector<std::vector<std::string>> cut(int argc, char** argv) {
   std::vector<std::vector<std::string>> parts(1);
   for (int i = 1; i < argc; ++i) {

@@ -51,7 +51,7 @@ void Crowd::turn(Walker& walker) {
   }
 }
 
-// Far enough from the edges that the first move stays inside.
+// Starts far enough from the edges that the first move stays inside.
 Walker Crowd::newborn() {
   Walker walker;
   walker.id = m_next_id++;

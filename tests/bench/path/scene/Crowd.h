@@ -1,5 +1,5 @@
 // The scene of the suite `path`: 200 coloured characters that walk about on 80×24, 30 times a second. Every
-// program under test shows this simulation; it is a pure function of its seed and the number of ticks.
+// program under test shows this simulation. It depends only on its seed and the number of ticks.
 //
 // 80 % walk at up to ±0.5 cells per tick across and ±0.25 down, 10 % stand still, 10 % run at ±1 across. In
 // each tick 1 % of them turn, 2 % change their character, 0.2 % die while another one is born elsewhere; at
@@ -14,13 +14,13 @@
 namespace bench::path {
 
 inline constexpr int kCrowd = 200;             ///< walkers
-inline constexpr double kTicksPerSecond = 30;  ///< in all programs
-inline constexpr int kUnits = 1024;            ///< of a walker's position and velocity, per cell
+inline constexpr double kTicksPerSecond = 30;  ///< equal in all programs
+inline constexpr int kUnits = 1024;            ///< units of position and velocity per cell
 
-/// One character. Positions and velocities are whole numbers of 1/1024 cell, so that fixed point and
-/// floating point both move it exactly.
+/// One character. Positions and velocities are in 1/1024 cell, so that fixed point and floating point both
+/// move it exactly.
 struct Walker {
-  std::uint32_t id = 0;  ///< ascending with birth, never used again
+  std::uint32_t id = 0;  ///< ascending by birth, never reused
   int x = 0;             ///< drawn in the cell floor(x / kUnits + 0.5)
   int y = 0;
   int vx = 0;  ///< per tick
@@ -33,11 +33,11 @@ class Crowd {
  public:
   explicit Crowd(std::uint64_t seed);
 
-  /// Everybody decides (turns, changes, dies, bounces), then everybody moves by its velocity.
+  /// First all walkers decide (turn, change, die, bounce), then all move by their velocities.
   void tick();
-  /// Ticks so far.
+  /// Returns the number of ticks so far.
   std::uint32_t ticks() const { return m_ticks; }
-  /// In order of birth; the later ones are drawn over the earlier ones.
+  /// Returns the walkers in order of birth. Later ones are drawn over earlier ones.
   const std::vector<Walker>& walkers() const { return m_walkers; }
 
  private:
@@ -46,7 +46,7 @@ class Crowd {
   int within(int range);
   Walker newborn();
   void turn(Walker& walker);
-  bool decide(Walker& walker);  // false: it died
+  bool decide(Walker& walker);  // false if it died
 
   std::uint64_t m_state;
   std::uint32_t m_ticks = 0;

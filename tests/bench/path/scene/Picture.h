@@ -1,4 +1,4 @@
-// What is on an 80×24 screen: characters and their colours.
+// The content of an 80×24 screen: characters and their colours.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-/// A screen; trivially copyable, so that it can lie in shared memory.
+/// A screen. Trivially copyable, so that it can be in shared memory.
 struct Picture {
   std::array<Cell, static_cast<std::size_t>(kWidth) * kHeight> cells;
 

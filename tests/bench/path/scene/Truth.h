@@ -1,5 +1,5 @@
-// What the scene showed in its last 1024 ticks and when each of them began: written by the program that
-// simulates it, read by the judge, through a shared file.
+// The pictures and start times of the scene's last 1024 ticks. The program that simulates them writes this
+// shared file, and the judge reads it.
 #pragma once
 
 #include <array>
@@ -17,18 +17,18 @@ class Truth {
  public:
   struct Moment {
     std::uint32_t tick = 0;
-    Nanoseconds start{};  ///< CLOCK_MONOTONIC, of the beginning of the tick
+    Nanoseconds start{};  ///< start of the tick by CLOCK_MONOTONIC
     Picture picture;
   };
 
-  /// One writer. Tick 0 means nothing yet.
+  /// Publishes a tick. There may be only one writer; tick 0 means nothing yet.
   void publish(std::uint32_t tick, Nanoseconds start, const Picture& picture) {
     m_moments[tick % kMoments] = {tick, start, picture};
     m_newest.store(tick, std::memory_order_release);
   }
-  /// The newest tick, 0 before the first.
+  /// Returns the newest tick, 0 before the first.
   std::uint32_t newest() const { return m_newest.load(std::memory_order_acquire); }
-  /// Null for ticks that did not begin yet, and for those half a minute ago, which may be overwritten.
+  /// Returns null for ticks that have not begun, and for those half a minute ago, which may be overwritten.
   const Moment* find(std::uint32_t tick) const {
     const std::uint32_t last = newest();
     if (tick == 0 || tick > last || last - tick > kMoments - 32) return nullptr;

@@ -1,6 +1,6 @@
-// naiad_scene_curses: the scene as an ordinary terminal program, to be run over ssh and mosh.
+// naiad_scene_curses: the scene as an ordinary terminal program, for ssh and mosh.
 //
-// It draws 30 times a second, and at once when a key comes. It writes what it shows to a Truth.
+// It draws 30 times a second, and at once after a key. It writes its pictures to a Truth.
 #include <curses.h>
 #include <poll.h>
 #include <termios.h>
@@ -38,8 +38,7 @@ class Screen {
     set_escdelay(20);
     curs_set(0);
     start_color();
-    // On black, as curses programs are unless they ask for the terminal's own background; white (7) is pair
-    // 0.
+    // Black background, the default of curses programs. White (7) is pair 0.
     for (short color = 1; color < 7; ++color) init_pair(color, color, COLOR_BLACK);
   }
   ~Screen() { endwin(); }
@@ -51,14 +50,14 @@ class Screen {
       for (int x = 0; x < kWidth; ++x) put(x, y, scene.at(x, y));
     }
     put(kEchoColumn, kStatusRow, {echo, kStatusColor});
-    // Its four cells are the marker's alone.
+    // The four corner cells belong to the marker.
     for (std::uint32_t corner = 0; corner < 4; ++corner) putMarker(corner, corner == arrows % 4 ? '@' : ' ');
     refresh();
   }
 
  private:
-  /// Keep the terminal driver from cutting what curses writes at every line feed and backspace: each piece
-  /// may become a packet of its own.
+  /// Keeps the terminal driver from splitting curses' output at every line feed and backspace, because each
+  /// piece may become a separate packet.
   static void writeWhole() {
     nonl();
     termios modes{};
@@ -67,7 +66,7 @@ class Screen {
     tcsetattr(STDOUT_FILENO, TCSANOW, &modes);
   }
   static void put(int x, int y, Cell cell) {
-    // The last cell of all would scroll the screen; insch() does not.
+    // A character added to the last cell would scroll the screen; insch() does not.
     const chtype ch = static_cast<chtype>(static_cast<unsigned char>(cell.ch)) | COLOR_PAIR(cell.color % 7);
     if (x == kWidth - 1 && y == kHeight - 1) {
       mvinsch(y, x, ch);
@@ -81,7 +80,7 @@ class Screen {
   }
 };
 
-/// False when the terminal is gone.
+/// Waits for a key or the deadline. False if the terminal is gone.
 bool waitForKey(Nanoseconds deadline) {
   const Nanoseconds left = deadline - monotonicNow();
   pollfd input{0, POLLIN, 0};
@@ -110,7 +109,7 @@ void run(Truth& truth, std::uint64_t seed) {
       scene = drawScene(crowd);
       truth.publish(crowd.ticks(), now, scene);
       changed = true;
-      // Behind by a whole tick (the terminal did not take the bytes): go on from here.
+      // If a whole tick behind (the terminal did not take the bytes), continue from now.
       next = now - next > kTick ? now + kTick : next + kTick;
     }
     if (changed) screen.show(scene, echo, arrows);

@@ -1,4 +1,4 @@
-// The scene as a game for dfserver: the same crowd, as Objects that fly on their own between decisions.
+// The scene as a game for dfserver: the crowd as Objects that fly by themselves between decisions.
 //
 // Environment: NAIAD_SCENE_TRUTH names the file for the Truth, NAIAD_SCENE_SEED the crowd. Both are needed.
 #include <cassert>
@@ -33,24 +33,24 @@ double cells(int units) {
   return static_cast<double>(units) / kUnits;
 }
 
-/// One of the crowd.
+/// A walker of the crowd.
 class Figure : public df::Object {
  public:
-  /// `moves` until it is where the walker is.
+  /// Starts `moves` moves before the walker's position.
   Figure(const Walker& walker, int moves) {
     setSolidness(df::SPECTRAL);
     setPosition(df::Vector(cells(walker.x - moves * walker.vx), cells(walker.y - moves * walker.vy)));
     follow(walker);
   }
-  /// Take over what the walker decided in this tick; the world does the move.
+  /// Adopts the walker's decisions of this tick; the world does the move.
   void follow(const Walker& walker) {
-    if (walker.ch != m_walker.ch) setStaticLook();  // its look is asked for anew
+    if (walker.ch != m_walker.ch) setStaticLook();  // makes the engine call draw() again
     if (walker.vx != m_walker.vx || walker.vy != m_walker.vy) {
       setVelocity(df::Vector(cells(walker.vx), cells(walker.vy)));
     }
     m_walker = walker;
   }
-  /// Did the world move it as the crowd did? To be asked before the next decision.
+  /// True if the world moved it like the crowd. Call before the next decision.
   bool isInStep() const { return getPosition() == df::Vector(cells(m_walker.x), cells(m_walker.y)); }
 
   int draw() override {
@@ -61,7 +61,7 @@ class Figure : public df::Object {
   Walker m_walker;
 };
 
-/// What a player moves with the arrow keys: right, down, left, up, and so on.
+/// Moved by the player with the arrow keys: right, down, left, up, and so on.
 class Marker : public df::Object {
  public:
   Marker() {
@@ -78,7 +78,7 @@ class Marker : public df::Object {
   int draw() override { return DM.drawCh(getPosition(), '@', df::WHITE); }
 };
 
-/// Marker::step as a table: a client that knows it need not wait for the server.
+/// Returns Marker::step as a table, with which a client need not wait for the server.
 df::Controls markerControls() {
   using namespace df::Keyboard;
   return df::Controls()
@@ -92,7 +92,7 @@ df::Controls markerControls() {
       .step(0, -1);
 }
 
-/// Runs the crowd, and answers keys.
+/// Runs the crowd and handles keys.
 class Director : public df::Object {
  public:
   Director(Truth& truth, std::uint64_t seed) : m_truth(truth), m_crowd(seed) {
@@ -133,7 +133,7 @@ class Director : public df::Object {
 
   Figure* figureOf(const Walker& walker) {
     const auto it = m_figures.find(walker.id);
-    if (it == m_figures.end()) return new Figure(walker, 1);  // the tick's moves are still to come
+    if (it == m_figures.end()) return new Figure(walker, 1);  // the tick's move is still to come
     assert(it->second->isInStep());
     it->second->follow(walker);
     return it->second;

@@ -17,13 +17,13 @@ const std::string kBin = NAIAD_BINARY_DIR "/bin";
 constexpr const char* kSeparator = ":::";
 constexpr int kNotAllowed = 77;
 constexpr const char* kAddress = "10.77.0.1";
-constexpr const char* kLoopbackAddress = "127.77.0.1";  // the link can carry it, too
+constexpr const char* kLoopbackAddress = "127.77.0.1";  // an address that the link can carry, too
 
 void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// The address beside it: 10.77.0.2 for 10.77.0.1.
+/// Returns the client's address: 10.77.0.2 for 10.77.0.1.
 std::string clientOf(const std::string& server_address) {
   return server_address.substr(0, server_address.rfind('.')) + ".2";
 }

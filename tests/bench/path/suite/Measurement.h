@@ -1,4 +1,4 @@
-// One measurement of the suite `path`: a program on a link, several times with different seeds.
+// One measurement of the suite `path`: a program on a link, with several seeds.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 
 namespace bench::path {
 
-/// The link.
+/// Conditions of the link.
 struct Condition {
   double rtt_ms = 0;
   double loss_percent = 0;
@@ -22,15 +22,15 @@ struct Effort {
   int seeds = 5;
 };
 
-/// Median over the seeds of whatever the judge reports.
+/// Median over the seeds of each figure that the judge reports.
 using Figures = std::map<std::string, double>;
 
-/// Why this machine allows no measurement; nothing if it does.
+/// Returns why this machine allows no measurement; nullopt if it does.
 std::optional<std::string> notAllowedBecause();
-/// Does dfserver listen on addresses that are not loopback ones? Where it does not, the link joins two
-/// loopback addresses instead, and what it carries is not encrypted.
+/// True if dfserver listens on other addresses than loopback ones. Otherwise the link joins two loopback
+/// addresses, and its traffic is not encrypted.
 bool servesOthers();
-/// Measure; all seeds at the same time. Throws std::runtime_error if a run failed.
+/// Measures all seeds at once. Throws std::runtime_error if a run failed.
 Figures measure(const std::string& program, const Condition& condition, const Effort& effort);
 
 }  // namespace bench::path

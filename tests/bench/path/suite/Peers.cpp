@@ -38,7 +38,7 @@ void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Options from the environment, divided at blanks.
+/// Returns options from the environment, split at blanks.
 Words fromEnvironment(const char* name) {
   const char* value = std::getenv(name);
   std::istringstream text(value != nullptr ? value : "");
@@ -65,7 +65,7 @@ void makeSshKeys(const Place& place, const std::string& host_key) {
             "[" + place.address + "]:" + kSshPort + " " + readFile(host_key + ".pub"));
 }
 
-/// An sshd of this user's own, with keys that live as long as the run.
+/// Returns the command of this user's own sshd, with keys that exist only during the run.
 Words sshServer(const Place& place) {
   makeSshKeys(place, place.file("host_key"));
   writeFile(place.file("sshd_config"), std::string("Port ") + kSshPort + "\nListenAddress " + place.address +
@@ -74,11 +74,11 @@ Words sshServer(const Place& place) {
                                            place.file("sshd.pid") +
                                            "\nUsePAM no\nStrictModes no\nPermitRootLogin yes\n"
                                            "PasswordAuthentication no\nPrintMotd no\nPrintLastLog no\n");
-  if (geteuid() == 0) mkdir("/run/sshd", 0755);  // where a root's sshd locks up its unprivileged half
+  if (geteuid() == 0) mkdir("/run/sshd", 0755);  // sshd's privilege separation directory when run as root
   return {"/usr/sbin/sshd", "-D", "-e", "-f", place.file("sshd_config")};
 }
 
-/// ssh to an sshd of this user's, whose host key is in known_hosts; what it is to run comes behind.
+/// Returns the command for ssh to this user's sshd, without the remote command.
 Words sshClient(const Place& place, bool compressed) {
   const passwd* user = getpwuid(geteuid());
   if (user == nullptr) throw std::runtime_error("this user has no name");
@@ -100,7 +100,7 @@ Peer ssh(const Place& place, bool compressed) {
   return peer;
 }
 
-/// mosh-server leaves a server behind and prints the key for mosh-client; no ssh is needed to start it.
+/// mosh-server leaves a server in the background and prints the key for mosh-client, so ssh is not needed.
 Peer mosh(const Place& place) {
   Peer peer;
   const std::string answer = place.file("mosh");
@@ -117,13 +117,13 @@ Peer mosh(const Place& place) {
   return peer;
 }
 
-/// A home of their own keeps certificates and pins of a run out of the user's.
+/// Its own HOME keeps a run's certificates and pins separate from the user's.
 Peer dfclient(const Place& place, bool udp) {
   Peer peer;
   peer.ready_file = place.file("port");
   peer.server = {"env", "HOME=" + place.folder, "NAIAD_SCENE_TRUTH=" + place.truth(),
                  "NAIAD_SCENE_SEED=" + std::to_string(place.seed)};
-  // The scene writes its truth, which a game in a process of its own may not.
+  // The scene writes its truth file, which a game in its own process may not.
   append(peer.server,
          {place.bin + "/dfserver", "--in-process", "--game", place.bin + "/../lib/naiad_scene_game.so"});
   append(peer.server, {"--address", place.address, "--port", kGamePort, "--port-file", peer.ready_file});
@@ -131,13 +131,13 @@ Peer dfclient(const Place& place, bool udp) {
   peer.client = {"env", "HOME=" + place.folder, place.bin + "/dfclient", place.address + ":" + kGamePort};
   append(peer.client, {"--name", "judge"});
   append(peer.client, fromEnvironment("NAIAD_PATH_DFCLIENT"));
-  peer.first_keys = "\x1ds";  // Ctrl-] s: without the client's own status, which would hide some of the scene
+  peer.first_keys = "\x1ds";  // Ctrl-] s: hides the client's status, which would cover a part of the scene
   peer.arrows = true;
   peer.udp = udp;
   return peer;
 }
 
-/// For a script of sh; none of the words has a quote in it.
+/// Returns the words quoted for sh. They must not contain quotes.
 std::string quoted(const Words& words) {
   std::string text;
   for (const std::string& word : words) text.append("'").append(word).append("' ");
@@ -152,14 +152,14 @@ void makeCertificate(const Place& place, const std::string& certificate, const s
   if (runProgram(command).code != 0) throw std::runtime_error("openssl makes no certificate");
 }
 
-/// A folder of its own for what this run is about.
+/// Creates a folder for a part of this run.
 std::string makeFolder(const Place& place, const std::string& name) {
   std::filesystem::create_directory(place.file(name));
   return place.file(name);
 }
 
-/// A script of sh that starts the server with a visitors' socket, and when that is there, `then`. It may use
-/// $link, the link that dfserver prints.
+/// Makes a sh script that starts the server with a visitors' socket and then runs `then`. It may use $link,
+/// the link printed by dfserver.
 void leadThrough(const Place& place, Peer& peer, const std::string& then) {
   const std::string printed = quoted({place.file("server.out")});
   append(peer.server, {"--visitors", place.file("visitors")});
@@ -170,7 +170,7 @@ void leadThrough(const Place& place, Peer& peer, const std::string& then) {
   peer.server = {"sh", place.file("script")};
 }
 
-/// dfclient by way of the gateway for browsers: two WebSockets, as a page has them. Only the way differs.
+/// dfclient through the gateway for browsers: two WebSockets, like a page's. Only the transport differs.
 Peer web(const Place& place) {
   Peer peer = dfclient(place, false);
   const std::string certificate = place.file("web.pem");
@@ -191,7 +191,7 @@ Peer web(const Place& place) {
   return peer;
 }
 
-/// ssh to a door (deploy/door), which runs dfclient beside the server.
+/// ssh to a door (deploy/door) on the server's machine, which runs dfclient there.
 Peer sshDoor(const Place& place) {
   Peer peer = dfclient(place, true);
   const std::string script = NAIAD_SOURCE_DIR "/deploy/door";
@@ -223,7 +223,7 @@ bool isOurs(const std::string& program) {
   return program.starts_with("dfclient") || program == "web" || program == "ssh-door";
 }
 
-// An sshd that is not root's takes its own user's account for a locked one (OpenSSH 9.2).
+// An sshd without root takes its own user's account for locked (OpenSSH 9.2).
 std::optional<std::string> notPossibleBecause(const std::string& program) {
   if (program.starts_with("ssh") && geteuid() != 0) return "sshd-needs-root";
   return std::nullopt;

@@ -1,4 +1,4 @@
-// The programs that the suite `path` compares: how each is started, at both ends of the link.
+// The programs that the suite `path` compares, and how each is started at both ends of the link.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace bench::path {
 
-/// Where one run takes place.
+/// Environment of one run.
 struct Place {
   std::string bin;      ///< folder of our programs
-  std::string folder;   ///< of this run alone: keys, logs, truth
-  std::string address;  ///< of the server, as the client sees it
+  std::string folder;   ///< this run's own folder for keys, logs and truth
+  std::string address;  ///< the server's address as the client sees it
   std::uint64_t seed = 1;
 
   std::string file(const std::string& name) const { return folder + "/" + name; }
@@ -21,22 +21,22 @@ struct Place {
 
 /// Commands for both ends.
 struct Peer {
-  std::vector<std::string> server;  ///< stays, or leaves something behind that stays
-  std::string ready_file;           ///< is there when clients may come
+  std::vector<std::string> server;  ///< keeps running, or leaves a server in the background
+  std::string ready_file;           ///< exists when clients may connect
   std::vector<std::string> client;  ///< shows the scene in its terminal
-  std::string type_ahead;           ///< to be typed when it starts
-  std::string first_keys;           ///< to be typed when the scene is there
-  bool arrows = false;              ///< has keys whose effect the client may predict
-  bool udp = true;                  ///< false: the link lets no UDP through
+  std::string type_ahead;           ///< typed at the start
+  std::string first_keys;           ///< typed once the scene is shown
+  bool arrows = false;              ///< has arrow keys whose effect the client may predict
+  bool udp = true;                  ///< false: the link drops UDP
 };
 
-/// The programs there are, ssh first: by it runs are judged.
+/// Returns the available programs. ssh is first, because it validates the runs.
 const std::vector<std::string>& peerNames();
-/// Is it one of ours?
+/// True if it is one of ours.
 bool isOurs(const std::string& program);
-/// Why it cannot be measured here, without blanks; nothing if it can.
+/// Returns why it cannot be measured here, without blanks; nullopt if it can.
 std::optional<std::string> notPossibleBecause(const std::string& program);
-/// Write what the program needs into the folder, and tell how to start it. Throws std::runtime_error.
+/// Writes the program's files into the folder and returns its commands. Throws std::runtime_error.
 Peer preparePeer(const std::string& program, const Place& place);
 
 }  // namespace bench::path

@@ -1,4 +1,4 @@
-// Runs programs and listens to them.
+// Runs programs and reads their output.
 #pragma once
 
 #include <map>
@@ -8,14 +8,14 @@
 namespace bench::path {
 
 struct Finished {
-  int code = 0;        ///< exit code; 128 and the signal, if that ended it
+  int code = 0;        ///< exit code, or 128 + the signal that ended it
   std::string output;  ///< its stdout
 };
 
-/// Run a command to its end. Its stderr is ours. Throws std::runtime_error if it cannot be started.
+/// Runs a command to its end. Its stderr is ours. Throws std::runtime_error if it cannot be started.
 Finished runProgram(const std::vector<std::string>& command);
 
-/// The numbers of "word key=value key=value".
+/// Returns the numbers of "word key=value key=value".
 std::map<std::string, double> figuresOf(const std::string& line);
 
 }  // namespace bench::path

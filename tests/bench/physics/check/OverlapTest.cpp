@@ -48,7 +48,7 @@ TEST(Overlap, OfTurnedBoxesIsThatOfTheirSides) {
   const double corner = std::sqrt(0.5);
   EXPECT_NEAR(depth(unitBox(), {0, 0}, unitBox(), turned(0.5 + corner - 0.1, 0, eighth)), 0.1, kEps);
   EXPECT_NEAR(depth(unitBox(), turned(0, 0, eighth), unitBox(), turned(0.5, 0.5, eighth)), 1 - corner, kEps);
-  // The upright boxes around them overlap; along the turned one's side there is a gap.
+  // Their upright bounding boxes overlap, but there is a gap along the turned one's side.
   for (const double x : {-0.9, 0.9}) {
     EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), turned(x, 0.9, eighth)), 0);
     EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), turned(x, -0.9, eighth)), 0);
@@ -58,7 +58,7 @@ TEST(Overlap, OfTurnedBoxesIsThatOfTheirSides) {
 TEST(Overlap, OfACircleIsMeasuredFromItsEdge) {
   EXPECT_NEAR(depth(disc(1), {0, 0}, disc(0.5), {0.6, 0.8}), 0.5, kEps);
   EXPECT_EQ(depth(disc(1), {0, 0}, disc(0.5), {1.2, 0.95}), 0);
-  // Beside a side, at a corner, and with its centre inside.
+  // The circle is next to a side, at a corner, or with its centre inside.
   EXPECT_NEAR(depth(unitBox(), {0, 0}, disc(0.5), {0.2, 0.9}), 0.1, kEps);
   EXPECT_NEAR(depth(unitBox(), {0, 0}, disc(0.5), {0.74, 0.82}), 0.1, kEps);
   EXPECT_EQ(depth(unitBox(), {0, 0}, disc(0.5), {0.9, 0.9}), 0);
@@ -72,7 +72,7 @@ TEST(Overlap, OfCompoundsIsPartByPartAndNotWithThemselves) {
   const double quarter = std::acos(-1.0) / 2;
   EXPECT_EQ(depth(corner, {0, 0}, unitBox(), {0, 0.5}), 0);
   EXPECT_NEAR(depth(corner, {0, 0}, unitBox(), {0, 1}), 0.1, kEps);
-  // Turned by a quarter, the part below lies at the left.
+  // After a quarter turn, the lower part is at the left.
   EXPECT_NEAR(depth(corner, turned(0, 0, quarter), unitBox(), {-1.1, 0}), 0.2, kEps);
 }
 
@@ -110,7 +110,7 @@ TEST(WidestHinge, IsTheDistanceOfItsTwoAnchors) {
   scene.hinges = {{0, 1, 0.5, 0}, {Hinge::kWorld, 0, -0.5, 0}};
   EXPECT_EQ(widestHinge(scene, {{0, 0}, {1, 0}}), 0);
   EXPECT_NEAR(widestHinge(scene, {{0, 0}, {1.3, 0.4}}), 0.5, kEps);
-  // Hanging down from the world, the second one upside down below the first.
+  // Two hanging bodies, the second one upside down below the first.
   EXPECT_NEAR(widestHinge(scene, {{-0.5, 0.5, 0, 1}, {-1, 1.25, -1, 0}}), 0.25, kEps);
   EXPECT_NEAR(widestHinge(scene, {{0, 0.7}, {1, 0.7}}), 0.7, kEps);
 }

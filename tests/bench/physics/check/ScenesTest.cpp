@@ -42,7 +42,7 @@ TEST(Scenes, HangHundredLinksOnTheChain) {
   EXPECT_DOUBLE_EQ(scene.bodies.back().mass(), 100 * scene.bodies.front().mass());
 }
 
-// Moves one body as the test says.
+// Moves one body as the test specifies.
 class Scripted : public Simulation {
  public:
   explicit Scripted(const Scene& scene) : poses(startOf(scene)) {}
@@ -78,7 +78,7 @@ TEST(Run, LooksAfterEachTenthTick) {
 TEST(Run, CountsWhatIsThroughAWallFrozenOrNotFinite) {
   const Scene scene = boxOverFloor();
   Scripted sinking(scene), frozen(scene), lost(scene), dizzy(scene);
-  sinking.fall = 0.021;  // at the end alone its centre is in the floor
+  sinking.fall = 0.021;  // only at the end its centre is in the floor
   frozen.frozen = 1;
   lost.fall = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(run(scene, sinking, 1000).failed, 1);

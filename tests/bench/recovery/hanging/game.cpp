@@ -1,4 +1,4 @@
-// A game that hangs by the key H, which players who press keys at random do not press.
+// A game that hangs at the key H, which players with random keys do not press.
 #include "EventKeyboard.h"
 #include "EventStep.h"
 #include "GameManager.h"

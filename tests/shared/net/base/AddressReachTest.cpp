@@ -1,4 +1,4 @@
-// How near addresses are, in all their spellings.
+// The distance of addresses (own machine, local network, elsewhere), in all their spellings.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -15,7 +15,7 @@ using Time = TokenBucket::Time;
 constexpr Time kFirst{1h};
 constexpr BucketRate kRate{.per_second = 1, .burst = 3};
 
-/// A /64 of its own for each number.
+/// Returns a different /64 for each number.
 AddressPrefix prefix(std::uint64_t number) {
   AddressPrefix::Bytes bytes{};
   for (std::size_t i = 0; i < 8; ++i) bytes[i] = static_cast<std::uint8_t>(number >> (56 - 8 * i));

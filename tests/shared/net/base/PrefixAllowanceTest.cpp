@@ -16,7 +16,7 @@ AddressPrefix of(const std::string& text) {
 
 class PrefixAllowanceTest : public testing::Test {
  protected:
-  /// How many of `times` from there are allowed now.
+  /// Tries `times` times and returns how many are allowed now.
   int take(PrefixAllowance& allowance, const std::string& from, int times) const {
     int taken = 0;
     for (int i = 0; i < times; ++i) taken += allowance.take(of(from), now) ? 1 : 0;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A session at the gate, with the client's end of it.
+/// A session at the gate and its client.
 struct Guest {
   Guest(DatagramGate& door, std::uint64_t number)
       : client({.role = SealedLink::Role::kClient, .id = {number}, .random = {}, .limits = {}}),
@@ -57,7 +57,7 @@ Guests twentyGuests(DatagramGate& gate) {
   return guests;
 }
 
-/// Forged packets that reached a session's cryptography.
+/// Returns how many forged packets reached the cryptography of a session.
 std::uint64_t forgedForAll(const Guests& guests) {
   std::uint64_t sum = 0;
   for (const auto& guest : guests) sum += guest->server.counters().forged;
@@ -69,7 +69,7 @@ std::string forgedFor(ConnectionId id, SplitMix64& rng) {
   for (char& byte : packet) byte = static_cast<char>(rng.next());
   writeSealedPrefix(SealDirection::kClientToServer, 0, id, packet.data());
   packet[9] = static_cast<char>(rng.next());
-  packet[10] = 0x20;  // a number that the window lets through
+  packet[10] = 0x20;  // a sequence number that the replay window accepts
   return packet;
 }
 
@@ -161,7 +161,7 @@ TEST(DatagramGate, ForgedFloodLeavesAProvenSessionUnharmed) {
   ben.settle();
   SplitMix64 rng(3);
   int said = 0;
-  for (int tick = 0; tick < 300; ++tick) {  // 10 s with 300,000 forged packets, from everywhere, for her id
+  for (int tick = 0; tick < 300; ++tick) {  // 10 s, 300,000 forged packets from many addresses, with ann's id
     for (int i = 0; i < 1000; ++i) gate.receive(anywhere(rng), forgedFor({1}, rng), ann.now);
     for (Guest* guest : {&ann, &ben}) {
       guest->now += 33ms;
@@ -172,7 +172,7 @@ TEST(DatagramGate, ForgedFloodLeavesAProvenSessionUnharmed) {
   }
   EXPECT_EQ(ann.heard.size(), static_cast<std::size_t>(said));
   EXPECT_EQ(ben.heard.size(), static_cast<std::size_t>(said));
-  EXPECT_LT(ann.server.counters().forged, 64 + 32 * 11u);  // that many were decrypted, of 300,000
+  EXPECT_LT(ann.server.counters().forged, 64 + 32 * 11u);  // only so few of 300,000 were decrypted
   EXPECT_GT(ann.server.counters().forged, 300u);
   EXPECT_GT(gate.counters().claimed_flood, 290'000u);
 }
@@ -217,7 +217,7 @@ TEST(DatagramGate, StrangersHaveOneLimitInAll) {
   SplitMix64 rng(3);
   for (int i = 0; i < 10'000; ++i)
     gate.receive(anywhere(rng), forgedFor({1 + rng.below(20)}, rng), guests[0]->now);
-  EXPECT_EQ(forgedForAll(guests), 98u);  // settling took two
+  EXPECT_EQ(forgedForAll(guests), 98u);  // settle() used two of the rate
   EXPECT_GT(gate.counters().stranger_flood, 0u);
   for (int i = 0; i < 100; ++i) guests[0]->say("unharmed");
   EXPECT_EQ(guests[0]->heard.size(), 100u);

@@ -10,12 +10,12 @@
 namespace naiad::test {
 namespace {
 
-/// Key and initial vector.
+/// Returns key and initial vector in hexadecimal.
 std::string hexOf(const SealKey& key, std::size_t key_size) {
   return hexText(std::span(key.key).first(key_size)) + " " + hexText(key.iv);
 }
 
-// Made with HMAC-SHA256 and a few lines of Python, from exporter_master_secret 00 01 … 1f.
+// Computed with HMAC-SHA256 in Python from the exporter_master_secret 00 01 … 1f.
 TEST(DatagramKeys, KnownAnswers) {
   const DatagramKeys aes = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kKnownId, 0x13);
   EXPECT_EQ(hexOf(aes.client, 16), "4bf58675aeb5d26a6fb351d2ba56c3d4 84784d40194d0940a7028eaf");

@@ -1,4 +1,4 @@
-// The two ends of a session's sealed datagrams, and packets handed from one to the other by the test.
+// Both ends of a session's sealed datagrams. The test carries packets between them.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ inline Path pathFrom(std::string_view address, std::uint16_t port = 40'000) {
   return {.local = *makeEndpoint("192.0.2.1", 9876), .remote = *makeEndpoint(address, port)};
 }
 
-/// A packet by itself, for links give only views.
+/// A copy of a packet, because links return only views.
 struct Packet {
   Path path;
   std::string bytes;
@@ -51,7 +51,7 @@ struct LinkPair {
   std::string fromClient(std::string_view payload) { return seal(client, payload)->bytes; }
   std::string fromServer(std::string_view payload) { return seal(server, payload)->bytes; }
 
-  /// "<refused>" if nothing came of it.
+  /// Returns the payload; "<refused>" if the packet is refused.
   std::string toServer(std::string_view packet, const Path& path) {
     return std::string(server.open(path, packet, now).value_or("<refused>"));
   }
@@ -59,7 +59,7 @@ struct LinkPair {
   std::string toClient(std::string_view packet) {
     return std::string(client.open(server_path, packet, now).value_or("<refused>"));
   }
-  /// The client says something from `path`, is challenged, and answers from there.
+  /// Validates `path`: the client sends from it, is challenged, and answers from it.
   void settle(const Path& path) {
     toServer(fromClient("here"), path);
     toClient(fromServer("who?"));

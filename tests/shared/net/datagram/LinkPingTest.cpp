@@ -20,7 +20,7 @@ TEST(LinkPing, MeasuresTheWayThereAndBackWithoutTheWait) {
   EXPECT_EQ(pair.fromClient("key").size(), before) << "once";
   pair.now += 40ms;
   EXPECT_EQ(pair.toServer(ping), "key");
-  pair.now += 33ms;  // until the tick
+  pair.now += 33ms;  // wait for the tick
   const std::string echo = pair.fromServer("world");
   EXPECT_EQ(pair.fromServer("world").size(), echo.size() - 2) << "once";
   pair.now += 60ms;
@@ -67,7 +67,7 @@ TEST(LinkPing, AServerThatHeldItLongerThanItTookIsNotBelieved) {
 TEST(LinkPing, WaitsForAPacketWithRoom) {
   LinkPair pair;
   pair.toServer(pair.fromClient("here"));
-  pair.toClient(pair.fromServer("who?"));  // an answer of 8 bytes is pending
+  pair.toClient(pair.fromServer("who?"));  // an answer of 8 bytes is now pending
   pair.client.ping();
   const std::string full(pair.client.maxPayload(), 'x');
   EXPECT_EQ(pair.toServer(pair.fromClient(full)), full);

@@ -10,7 +10,7 @@ namespace {
 
 using Verdict = ReplayWindow::Verdict;
 
-/// What the window should say, from all that was ever marked.
+/// Computes the expected verdict from all marked numbers.
 Verdict plainly(const std::set<std::uint64_t>& marked, std::uint64_t sequence) {
   if (marked.contains(sequence))
     return *marked.rbegin() - sequence < ReplayWindow::kSize ? Verdict::kSeen : Verdict::kTooOld;
@@ -32,7 +32,7 @@ TEST(ReplayWindow, AgreesWithASetOfAllNumbers) {
       const std::uint64_t sequence = around > back ? around - back : 0;
       const Verdict verdict = window.check(sequence);
       ASSERT_EQ(verdict, plainly(marked, sequence)) << "round " << round << ", number " << sequence;
-      if (verdict != Verdict::kNew || rng.below(4) == 0) continue;  // some are tried, and turn out forged
+      if (verdict != Verdict::kNew || rng.below(4) == 0) continue;  // some are not marked, like forged ones
       window.mark(sequence);
       marked.insert(sequence);
       ASSERT_EQ(window.expected(), *marked.rbegin() + 1);
@@ -79,7 +79,7 @@ TEST(RestoreSequence, WhateverIsNearComesBack) {
   SplitMix64 rng(9);
   for (int i = 0; i < 300'000; ++i) {
     const std::uint64_t expected = rng.below(3) == 0 ? rng.below(200'000) : rng.next() >> (2 + rng.below(60));
-    const std::uint64_t offset = rng.below(0xffff);  // −32767 … 32767 from what is expected
+    const std::uint64_t offset = rng.below(0xffff);  // true number = expected − 32767 … expected + 32767
     if (expected + offset < 0x7fff) continue;
     const std::uint64_t truth = expected + offset - 0x7fff;
     if (truth >= std::uint64_t{1} << 62) continue;

@@ -1,4 +1,4 @@
-// What the tests of sealed datagrams share: a TLS 1.3 exporter without the TLS.
+// Helpers for tests of sealed datagrams: a TLS 1.3 exporter without TLS.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace naiad::test {
 
-/// RFC 8446, 7.5, with SHA-256, for a connection whose exporter_master_secret is `secret`.
+/// Returns the exporter of RFC 8446, 7.5, with SHA-256 and this exporter_master_secret.
 KeyExporter tlsExporter(std::string secret);
-/// The one that the known answers were made with: the bytes 0, 1, … 31.
+/// Returns the exporter of the known answers, whose secret is the bytes 0, 1, … 31.
 KeyExporter knownExporter();
 
 inline constexpr ConnectionId kKnownId{0x0123456789abcdef};
 
-/// Keys of an epoch of a session with knownExporter().
+/// Returns the keys for this epoch of a session with knownExporter().
 DatagramKeys knownKeys(AeadId aead, ConnectionId id = kKnownId, Epoch epoch = 0x13);
 
 inline constexpr AeadId kBothAeads[] = {AeadId::kAes128Gcm, AeadId::kChaCha20Poly1305};

@@ -41,7 +41,7 @@ OpenResult openWith(Opener& opener, std::string_view packet, std::string* payloa
   return result;
 }
 
-/// Decrypt one packet the plain way: a new context, the nonce counted by hand.
+/// Decrypts a packet in the simplest way, with a new context and a nonce made here.
 std::string openPlainly(const SealKey& key, std::uint64_t sequence, std::string_view packet) {
   const std::unique_ptr<EVP_CIPHER, decltype(&EVP_CIPHER_free)> cipher(
       EVP_CIPHER_fetch(nullptr, key.aead == AeadId::kAes128Gcm ? "AES-128-GCM" : "ChaCha20-Poly1305",
@@ -63,7 +63,7 @@ std::string openPlainly(const SealKey& key, std::uint64_t sequence, std::string_
   return EVP_DecryptFinal_ex(context.get(), bytes + text.size(), &written) == 1 ? text : "<forged>";
 }
 
-/// Both ends of the client's direction.
+/// Sealer and opener of packets from the client.
 struct Ends {
   explicit Ends(AeadId aead) : keys(knownKeys(aead)) {}
 
@@ -75,10 +75,10 @@ struct Ends {
 struct KnownAnswer {
   AeadId aead;
   SealDirection direction;
-  std::vector<std::string> packets;  // numbers 0, 1, 258: "hello", "", "\0world"
+  std::vector<std::string> packets;  // numbers 0, 1 and 258 with "hello", "" and "\0world"
 };
 
-// Made with Python's "cryptography", by a program that knows only the page.
+// Made with Python's "cryptography" by a program written only from the protocol page.
 const KnownAnswer kKnownAnswers[] = {
     {AeadId::kAes128Gcm,
      SealDirection::kClientToServer,
@@ -174,7 +174,7 @@ TEST(Seal, EveryFlippedBitIsRefusedAndHarmsNothing) {
       ASSERT_EQ(openWith(ends.opener, changed), OpenResult::kForged) << "bit " << bit;
     }
     EXPECT_EQ(ends.opener.failures(), 8 * packet.size());
-    EXPECT_EQ(ERR_peek_error(), 0u);  // TLS on the same thread would take it for its own
+    EXPECT_EQ(ERR_peek_error(), 0u);  // otherwise TLS on this thread would take the error for its own
     EXPECT_EQ(openWith(ends.opener, packet), OpenResult::kOpened);
   }
 }
@@ -283,7 +283,7 @@ TEST(Seal, PacketsCostNoAllocation) {
     EXPECT_TRUE(well);
     EXPECT_EQ(after - before, 0u);
     EVP_CIPHER_CTX_free(EVP_CIPHER_CTX_new());
-    EXPECT_GT(allocationsSoFar(), after);  // it does count
+    EXPECT_GT(allocationsSoFar(), after);  // checks that allocations are counted
   }
 }
 

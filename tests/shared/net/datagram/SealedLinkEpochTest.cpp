@@ -59,7 +59,7 @@ TEST(SealedLinkEpoch, ClientThatHearsNothingUsesNewKeysWhenTheOldOnesExpire) {
   pair.settle(pair.home);
   pair.client.startEpoch(1, pair.keys(1), pair.now);
   pair.now += 100ms;
-  pair.server.startEpoch(1, pair.keys(1), pair.now);  // nothing gets through to the client
+  pair.server.startEpoch(1, pair.keys(1), pair.now);  // the client receives nothing
   for (int i = 0; i < 150; ++i, pair.now += 100ms) {
     ASSERT_EQ(pair.toServer(pair.fromClient("x")), "x") << i;
     EXPECT_EQ(pair.client.seal("y", pair.now)->packet[0] & 15, i < 99 ? 0 : 1);
@@ -104,10 +104,10 @@ TEST(SealedLinkEpoch, LimitsOfTheKeyAreShownAndHeld) {
   EXPECT_EQ(pair.toServer(pair.fromClient("on we go")), "on we go");
 }
 
-// The client alone makes new streams, so it looks after the server's keys, too.
+// Only the client makes new streams, so it also watches the limit of the server's key.
 TEST(SealedLinkEpoch, AClientSeesTheLimitOfTheServersKey) {
   LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .most = 100});
-  pair.settle(pair.home);  // else the server may send only three times what has come
+  pair.settle(pair.home);  // otherwise the server may send only three times the bytes received
   for (int i = 1; i < 5; ++i) {
     EXPECT_FALSE(pair.client.wantsNewEpoch()) << i;
     EXPECT_EQ(pair.toClient(pair.fromServer("news")), "news");

@@ -17,7 +17,7 @@ TEST(SealedLinkPath, NewestPacketNamesTheAddress) {
   const std::string late = pair.fromClient("late");
   EXPECT_EQ(pair.toServer(pair.fromClient("new"), roamed), "new");
   EXPECT_EQ(pair.server.path(), roamed);
-  EXPECT_EQ(pair.toServer(late), "late");  // from home, but older
+  EXPECT_EQ(pair.toServer(late), "late");  // from home, but sent earlier
   EXPECT_EQ(pair.server.path(), roamed);
   EXPECT_EQ(pair.server.counters().path_changes, 2u);
 }
@@ -67,7 +67,7 @@ TEST(SealedLinkPath, UnprovenAddressGetsThreeTimesItsBytes) {
         out += sent->bytes.size();
       }
       ASSERT_LE(out, 3 * in);
-      ASSERT_GT(out + 28, 3 * in);  // and it does use it
+      ASSERT_GT(out + 28, 3 * in);  // and it uses the allowance
     }
     EXPECT_FALSE(pair.server.isValidated(victim));
   }
@@ -115,7 +115,7 @@ TEST(SealedLinkPath, AnswerToAnotherAddressProvesNothing) {
   pair.toServer(pair.fromClient(std::string(200, 'x')));
   pair.toClient(pair.fromServer("challenge for home"));
   const std::string answer = pair.fromClient("");
-  EXPECT_EQ(pair.toServer(answer, victim), "");  // the answer itself moves the session there
+  EXPECT_EQ(pair.toServer(answer, victim), "");  // this packet itself moves the session there
   EXPECT_EQ(pair.server.path(), victim);
   EXPECT_FALSE(pair.server.isValidated(victim));
   EXPECT_EQ(pair.server.counters().wrong_answers, 1u);
@@ -153,7 +153,7 @@ TEST(SealedLinkPath, OtherLocalAddressIsAnotherPath) {
   Path other = pair.home;
   other.local = *makeEndpoint("192.0.2.2", 9876);
   pair.toServer(pair.fromClient("x"), other);
-  EXPECT_EQ(pair.seal(pair.server, "y")->path, other);  // replies leave from the address that was addressed
+  EXPECT_EQ(pair.seal(pair.server, "y")->path, other);  // from the address that received the packet
 }
 
 }  // namespace

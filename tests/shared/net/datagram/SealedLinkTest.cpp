@@ -77,7 +77,7 @@ TEST(SealedLink, EveryRefusalHasItsCounter) {
   };
   EXPECT_EQ(pair.toServer(packet.substr(0, 27)), "<refused>");
   EXPECT_EQ(pair.toServer(packet + std::string(1200, 'x')), "<refused>");
-  EXPECT_EQ(pair.toServer(changed(0, 0x30)), "<refused>");  // the server's own kind
+  EXPECT_EQ(pair.toServer(changed(0, 0x30)), "<refused>");  // the kind of packets that the server sends
   EXPECT_EQ(pair.toServer(changed(3, 1)), "<refused>");
   EXPECT_EQ(pair.toServer(changed(0, 1)), "<refused>");
   EXPECT_EQ(pair.toServer(packet), "<refused>");
@@ -117,9 +117,9 @@ TEST(SealedLink, AuthenticNonsenseIsCountedAndMovesNothing) {
     packet.resize(sealer.seal(packet.data(), prefix, text.size()));
     return packet;
   };
-  seal("\0");  // number 0 was used
+  seal("\0");  // uses up number 0
   const Path elsewhere = pathFrom("203.0.113.1");
-  // A challenge to a server, reserved flags, an answer cut short.
+  // A challenge to a server, reserved flags, a truncated answer.
   for (const std::string& text : {"\x01"
                                   "12345678"s,
                                   "\x04"s, "\x80"s,

@@ -1,4 +1,4 @@
-// Everything together over a bad network in virtual time: sockets, gate, links, roaming, new keys, forgers.
+// Sockets, gate, links, roaming, new keys and forgers together, over a bad network in virtual time.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -23,7 +23,7 @@ SealedLink::Time timeOf(const VirtualClock& clock) {
   return SealedLink::Time(1h) + clock.now();
 }
 
-/// Both ends of one session; each says a counted message per tick, and checks that none is heard twice.
+/// Both ends of a session. Each sends a numbered message per tick and checks that none arrives twice.
 struct Player {
   Player(VirtualNetwork& network, VirtualClock& virtual_clock, DatagramGate& gate,
          DatagramSocket& server_socket, std::uint64_t number)
@@ -83,10 +83,10 @@ struct Player {
   std::set<int> heard_up, heard_down;
 };
 
-/// Bytes that went to each address, and came from it, by what the network saw.
+/// Bytes seen by the network, to and from each address.
 struct Ledger {
   std::map<Endpoint, std::uint64_t> to, from;
-  std::deque<std::string> copies;  // of what clients sent lately
+  std::deque<std::string> copies;  // newest packets from clients
 };
 
 struct World {
@@ -124,7 +124,7 @@ struct World {
 
 TEST(SealedSoak, CleanNetworkLosesNothing) {
   World world({.delay = 30ms}, 5);
-  world.run(20);  // every address is proven by then
+  world.run(20);  // until every address is validated
   for (const auto& player : world.players) {
     player->heard_up.clear();
     player->heard_down.clear();
@@ -148,7 +148,7 @@ TEST(SealedSoak, RoamingNewKeysAndForgersOverABadNetwork) {
       if (rng.below(8) == 0) world.network.rebind(*player->socket, *makeEndpoint(address, 1000));
       if (rng.below(12) == 0) player->startEpoch(player->epoch + 1);
     }
-    // Old packets again, changed ones, and noise, from everywhere.
+    // Replayed packets, modified ones and random bytes, from many addresses.
     for (int i = 0; i < 300; ++i) {
       std::string packet = world.ledger.copies.empty()
                                ? std::string(40, '\x10')
@@ -174,7 +174,7 @@ TEST(SealedSoak, RoamingNewKeysAndForgersOverABadNetwork) {
 }
 
 TEST(SealedSoak, StolenAddressesGetThreeTimesTheirBytesAndTheSessionGoesOn) {
-  // Someone on the way copies packets and is faster than the originals: the session follows, and comes back.
+  // An attacker on the path copies packets. The copies arrive first; the session follows them and returns.
   World world({.delay = 50ms}, 1);
   world.run(20);
   const Endpoint victim = *makeEndpoint("203.0.113.9", 53);

@@ -31,7 +31,7 @@ struct Peer {
     socket.flush();
   }
 
-  /// To where the newest packet came from.
+  /// Sends to the source of the newest packet.
   void reply(std::string_view packet) {
     socket.send(received.back().path, packet);
     socket.flush();
@@ -113,7 +113,7 @@ TEST_F(UdpSocketTest, BurstOfThreeThousandArrives) {
   Peer server(context, {.address = "127.0.0.1"}), client(context, {.address = "127.0.0.1"});
   for (int i = 0; i < 3000; ++i) {
     server.socket.send({server.at("127.0.0.1"), client.at("127.0.0.1")}, std::to_string(i));
-    if (i % 150 == 149) runReady(context);  // the kernel's buffer holds at least that many
+    if (i % 150 == 149) runReady(context);  // because the kernel's buffer holds at least this many
   }
   server.socket.flush();
   ASSERT_TRUE(arrive(context, client, 3000));
@@ -214,7 +214,7 @@ TEST_F(UdpSocketTest, SizesAreThoseOfDatagrams) {
   EXPECT_EQ(server.received[0].packet, std::string(1200, 'x'));
 }
 
-/// A plain socket that sends what ours would not.
+/// Sends with a plain socket what UdpSocket would not send.
 void sendRaw(const Endpoint& to, std::string_view packet) {
   const int descriptor = ::socket(AF_INET, SOCK_DGRAM, 0);
   sockaddr_in address{};
@@ -291,13 +291,13 @@ TEST_F(UdpSocketTest, BadAddressesAreSaidInASentence) {
     EXPECT_THROW(UdpSocket(context, {.address = address}), ListenError) << address;
 }
 
-/// What the kernel says about the socket that is bound to `local`.
+/// Returns an option of the socket that is bound to `local`.
 int optionOf(const Endpoint& local, int level, int option) {
   for (int descriptor = 0; descriptor < 1024; ++descriptor) {
     int type = 0, value = -1;
     socklen_t size = sizeof type;
     if (::getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) continue;
-    sockaddr_in6 address{};  // the port is at the same place in both families
+    sockaddr_in6 address{};  // both families have the port in one place
     size = sizeof address;
     if (::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0) continue;
     if (ntohs(address.sin6_port) != local.port) continue;

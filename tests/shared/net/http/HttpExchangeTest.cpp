@@ -1,4 +1,4 @@
-// Requests to a web server that the test plays by hand: plain on loopback, and in TLS.
+// Requests to a web server that the test plays by hand, in plain TCP on loopback and in TLS.
 #include <gtest/gtest.h>
 #include <openssl/ssl.h>
 #include <stdlib.h>
@@ -65,7 +65,7 @@ struct HttpExchangeTest : testing::Test {
     ASSERT_EQ(peer->write(bytes).outcome, ByteStream::Outcome::kDone);
     runReady(context);
   }
-  /// Accept, read the request, and answer it with these bytes.
+  /// Accepts a connection, reads the request, and answers with these bytes.
   void respond(std::string_view bytes) {
     accept();
     readRequest();
@@ -208,7 +208,7 @@ TEST_F(HttpExchangeTest, HandlerOfTheBodyMayCancel) {
   ASSERT_TRUE(runUntil(context, [&] { return called; }));
   peer.reset();
   context.restart();
-  context.run();  // nothing is left to do
+  context.run();  // returns only if nothing is left to do
   EXPECT_FALSE(ended);
 }
 
@@ -223,7 +223,7 @@ TEST_F(HttpExchangeTest, EventLoopMayEndWhileItRuns) {
   EXPECT_FALSE(called);
 }
 
-/// Adds an authority that the system is told to trust.
+/// Makes the system trust an additional authority.
 struct HttpsExchange : HttpExchangeTest {
   HttpsExchange() {
     std::ofstream(folder / "trusted.pem") << authority.certificate;

@@ -1,4 +1,4 @@
-// The start line of requests; lines and fields are tested with answers (HttpResponseReaderTest.cpp).
+// The start line of requests. HttpResponseReaderTest.cpp tests lines and fields.
 #include <gtest/gtest.h>
 
 #include "shared/net/http/HttpHead.h"

@@ -1,4 +1,4 @@
-// Answers of web servers: the same result in whatever pieces they come, and nothing ambiguous is read.
+// Answers of web servers: however they are split, the result is equal. Ambiguous ones are rejected.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -25,7 +25,7 @@ std::ostream& operator<<(std::ostream& out, const Answer& answer) {
              << answer.status << " body \"" << answer.body << "\" behind \"" << answer.behind << '"';
 }
 
-/// The pieces of the connection, and how it ends.
+/// Reads these pieces, and then the end of the connection if `ends`.
 Answer readPieces(const std::vector<std::string_view>& pieces, bool ends, const HttpLimits& limits) {
   HttpResponseReader reader(limits);
   Answer answer;
@@ -41,7 +41,7 @@ Answer readPieces(const std::vector<std::string_view>& pieces, bool ends, const 
   return answer;
 }
 
-/// Reads the text whole, byte by byte, and cut at each position. They must agree.
+/// Reads the text at once, byte by byte, and split at each position. All results must be equal.
 Answer readText(const std::string& text, bool ends = false, const HttpLimits& limits = {}) {
   const std::string_view view = text;
   const Answer whole = readPieces({view}, ends, limits);
@@ -194,7 +194,7 @@ TEST(HttpResponseReader, AnAnswerWithoutEndIsTakenOutPieceByPiece) {
   const std::string head = kOk + "Transfer-Encoding: chunked\r\n\r\n";
   std::string_view bytes = head;
   reader.feed(bytes);
-  for (int i = 0; i < 1000; ++i) {  // lines of chunks have their limit each
+  for (int i = 0; i < 1000; ++i) {  // each chunk has its own limit
     bytes = "8\r\nabcdefg\n\r\n";
     reader.feed(bytes);
     ASSERT_EQ(reader.error(), HttpError::kNone) << i;

@@ -1,4 +1,4 @@
-// A ReliableChannel of WebSocket frames, whose peer is a bare stream that the test plays by hand.
+// A ReliableChannel of WebSocket frames. Its peer is a bare stream that the test plays by hand.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -27,7 +27,7 @@ struct WebSocketChannel : testing::TestWithParam<Kind> {
   void peerSends(std::string_view bytes) {
     ASSERT_EQ(peer->write(bytes).outcome, ByteStream::Outcome::kDone);
   }
-  /// Waits until this many bytes have come from the channel.
+  /// Waits until the peer has received this many bytes.
   std::string peerReads(std::size_t count) {
     std::string all;
     EXPECT_TRUE(runUntil(context, [&] {

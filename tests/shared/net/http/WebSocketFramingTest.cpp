@@ -1,4 +1,4 @@
-// Frames of a WebSocket at a client's end: what a server may send, in whatever pieces, and what it may not.
+// WebSocket frames read by a client: those that a server may send, however split, and those it may not.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -16,7 +16,7 @@ WebSocketFraming makeFraming(std::size_t limit = kLimit) {
   return WebSocketFraming(limit, [] { return WebSocketFraming::Mask{'\x01', '\x02', '\x04', '\x08'}; });
 }
 
-/// A frame of a server. `bits`: first byte.
+/// Makes a frame of a server. `bits` is the first byte.
 std::string frame(unsigned bits, std::string_view payload) {
   std::string bytes(1, static_cast<char>(bits));
   if (payload.size() > 125) {
@@ -51,7 +51,7 @@ Outcome readPieces(const std::vector<std::string_view>& pieces, std::size_t limi
   return outcome;
 }
 
-/// Reads the stream whole, byte by byte, and cut at each position. They must agree.
+/// Reads the stream at once, byte by byte, and split at each position. All results must be equal.
 Outcome readStream(const std::string& stream, std::size_t limit = kLimit) {
   const std::string_view view = stream;
   const Outcome whole = readPieces({view}, limit);
@@ -128,7 +128,7 @@ TEST(WebSocketFraming, RefusesWhatServersMayNotSend) {
 }
 
 TEST(WebSocketFraming, MessagesOverTheLimitAreRefusedByTheirHeader) {
-  const std::string header("\x82\x7e\x03\xe9", 4);  // 1001
+  const std::string header("\x82\x7e\x03\xe9", 4);  // a length of 1001
   EXPECT_EQ(readStream(header).error, WebSocketClose::kTooBig);
   EXPECT_EQ(readStream(std::string("\x82\x7f\x7f\xff\xff\xff\xff\xff\xff\xff", 10)).error,
             WebSocketClose::kTooBig);

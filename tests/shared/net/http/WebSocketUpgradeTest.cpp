@@ -10,7 +10,7 @@ namespace {
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
 
-/// The answer of RFC 6455 1.3, with these fields in place of its own; an empty value leaves a field out.
+/// Returns the answer in RFC 6455, 1.3 with `changes` to its fields. An empty value removes a field.
 HttpHead answer(const Fields& changes = {}) {
   HttpHead head{"",
                 {{"upgrade", "WebSocket"},

@@ -60,7 +60,7 @@ TEST(LanMessage, NothingButAWholeQueryIsOne) {
     EXPECT_FALSE(readLanQuery(query.substr(0, size))) << size;
   EXPECT_FALSE(readLanQuery(query + '\0'));
   for (std::size_t i = 0; i < query.size(); ++i) {
-    if (i >= 8 && i < 24) continue;  // any nonce is one
+    if (i >= 8 && i < 24) continue;  // any nonce is valid
     for (int bit = 0; bit < 8; ++bit) {
       std::string other = query;
       other[i] = static_cast<char>(other[i] ^ (1 << bit));
@@ -116,12 +116,12 @@ TEST(LanMessage, EveryFieldOfAnAnswerHasItsRange) {
   };
   EXPECT_TRUE(with(0, "nlan"));
   EXPECT_FALSE(with(0, "nlam"));
-  EXPECT_FALSE(with(4, "\2"));                     // another format
+  EXPECT_FALSE(with(4, "\2"));                     // unknown format
   EXPECT_FALSE(with(5, "\1"));                     // a query
-  EXPECT_FALSE(with(24, std::string("\0\0", 2)));  // no port
-  EXPECT_FALSE(with(26, "\2"));                    // an unknown flag
+  EXPECT_FALSE(with(24, std::string("\0\0", 2)));  // port 0
+  EXPECT_FALSE(with(26, "\2"));                    // unknown flag
   EXPECT_FALSE(with(27, "\1"));
-  EXPECT_FALSE(with(48, "\6"));  // the name takes a byte of the game
+  EXPECT_FALSE(with(48, "\6"));  // the name would include a byte of the game
   EXPECT_FALSE(with(48, "\xff"));
   std::string longer = bytes.substr(0, 48) + static_cast<char>(161) + std::string(161, 'x') + '\0';
   EXPECT_FALSE(readLanAnswer(longer));

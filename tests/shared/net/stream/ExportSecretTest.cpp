@@ -1,4 +1,4 @@
-// Both ends of an encrypted channel know the same secrets, and no other channel does.
+// Both ends of an encrypted channel export equal secrets, and no other channel has them.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kLabel = "EXPERIMENTAL-naiad-datagram";
 
-/// The same at both ends; different for each use.
+/// Expects secrets that are equal at both ends and different for each use.
 void expectSecrets(const ReliableChannel& near, const ReliableChannel& far, std::set<std::string>& seen) {
   for (const auto& [label, text, bytes] :
        {std::tuple(kLabel, "one", 88), std::tuple(kLabel, "two", 88), std::tuple(kLabel, "", 88),

@@ -19,7 +19,7 @@ std::string framed(std::string_view payload) {
   return out;
 }
 
-/// Feed a copy, so that a sanitizer sees views that outlive their piece, and collect what comes out.
+/// Feeds a copy, so that a sanitizer detects views that outlive it, and collects the frames.
 void feed(FrameReader& reader, std::string_view bytes, std::vector<std::string>& frames) {
   const std::vector<char> piece(bytes.begin(), bytes.end());
   reader.feed({piece.data(), piece.size()});
@@ -74,7 +74,7 @@ TEST(Framing, EmptyFrameIsAnErrorForEver) {
 }
 
 TEST(Framing, FrameOverTheLimitIsAnErrorBeforeItsPayload) {
-  for (const std::size_t first : {1u, 2u, 7u}) {  // bytes that come before the others
+  for (const std::size_t first : {1u, 2u, 7u}) {  // bytes that arrive before the others
     FrameReader reader(4);
     std::vector<std::string> frames;
     feed(reader, framed("four"), frames);
@@ -110,7 +110,7 @@ TEST(Framing, LoweredLimitHoldsForAnIncompleteFrame) {
 TEST(Framing, KeepsOnlyBytesThatCame) {
   FrameReader reader(kMaxFramePayload);
   std::vector<std::string> frames;
-  feed(reader, "\xff\xff", frames);  // claims 64 KiB
+  feed(reader, "\xff\xff", frames);  // announces 64 KiB
   EXPECT_EQ(reader.buffered(), 2u);
   feed(reader, std::string(10, 'x'), frames);
   EXPECT_EQ(reader.buffered(), 12u);

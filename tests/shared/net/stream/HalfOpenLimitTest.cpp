@@ -19,7 +19,7 @@ AddressPrefix of(const std::string& text) {
   return AddressPrefix::of(asio::ip::make_address(text));
 }
 
-/// A /64 in a /56 of its own, of a customer who has a /48.
+/// Returns a /64 in its own /56. The customer has a /48.
 AddressPrefix customersNetwork(int customer, int network) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "2001:db8:%x:%x00::1", customer, network);
@@ -28,7 +28,7 @@ AddressPrefix customersNetwork(int customer, int network) {
 
 class HalfOpenLimitTest : public testing::Test {
  protected:
-  /// As a listener does; the connection that was ended, 0 for none.
+  /// Admits a connection like a listener. Returns the id of the one ended for it; 0: none.
   Id come(const AddressPrefix& prefix) {
     auto verdict = limit.judge(prefix);
     const Id ended = verdict.kind == Kind::kEndFirst ? verdict.id : 0;
@@ -38,7 +38,7 @@ class HalfOpenLimitTest : public testing::Test {
     limit.admit(++newest, prefix);
     return ended;
   }
-  /// The client hello comes with the connection. False: it was refused.
+  /// Admits a connection together with its ClientHello. False if it is refused.
   bool comeWithHello(const AddressPrefix& prefix) {
     const auto verdict = limit.judge(prefix);
     if (verdict.kind == Kind::kEndFirst) limit.release(verdict.id);
@@ -47,15 +47,15 @@ class HalfOpenLimitTest : public testing::Test {
     EXPECT_TRUE(limit.noteHello(newest)) << "judged the same when it came";
     return true;
   }
-  /// All places are taken by connections that have begun their hellos; then these are completed in turn, and
-  /// who may not go on is hung up on.
+  /// Fills all slots with connections in their ClientHellos. Completes these in order, releasing refused
+  /// ones.
   void beginAndFinishTogether(const std::vector<AddressPrefix>& prefixes) {
     for (std::size_t i = 0; limit.count() < 256; ++i) come(prefixes[i % prefixes.size()]);
     for (Id id = 1; id <= newest; ++id) {
       if (!limit.noteHello(id)) limit.release(id);
     }
   }
-  /// How many of `times` from each of `prefixes` in turn get in.
+  /// Admits `times` connections from each of `prefixes` in turn. Returns how many succeed.
   int flood(const std::vector<AddressPrefix>& prefixes, int times) {
     int admitted = 0;
     for (int i = 0; i < times; ++i) {
@@ -64,12 +64,12 @@ class HalfOpenLimitTest : public testing::Test {
     return admitted;
   }
 
-  /// Hellos of `count` networks that have none.
+  /// Expects that `count` networks without a connection can each complete a ClientHello.
   void expectRoomFor(int count) {
     for (int i = 0; i < count; ++i) EXPECT_TRUE(comeWithHello(of("192.0." + std::to_string(i) + ".1")));
   }
 
-  HalfOpenLimit limit{{}};  // 256, 64 of a prefix
+  HalfOpenLimit limit{{}};  // 256 in all, 64 per prefix
   Id newest = 0;
 };
 
@@ -96,7 +96,7 @@ TEST_F(HalfOpenLimitTest, TheMostCrowdedPrefixLosesItsOldest) {
 }
 
 TEST_F(HalfOpenLimitTest, AddressesOfOneNeighbourhoodCountTogether) {
-  for (int i = 0; i < 10; ++i) come(of("203.0.113.7"));  // the most crowded address
+  for (int i = 0; i < 10; ++i) come(of("203.0.113.7"));  // the address with most connections
   const Id crowd = newest + 1;
   for (int i = 0; i < 246; ++i) come(of("198.51.100." + std::to_string(i)));  // in the most crowded /24
   EXPECT_EQ(come(of("192.0.2.1")), crowd);
@@ -210,7 +210,7 @@ TEST_F(HalfOpenLimitTest, ReleasesWhatWasAdmittedAndNothingElse) {
   EXPECT_FALSE(limit.isSilent(1));
 }
 
-/// The same rules, counted from the beginning for each question.
+/// The rules of HalfOpenLimit, with all counts made anew for each question.
 class NaiveLimit {
  public:
   struct Entry {

@@ -8,7 +8,7 @@
 namespace naiad {
 namespace {
 
-const std::string kKey = "abcdefghijklmnopqrstuvwxya";  // ends in bits that are 0
+const std::string kKey = "abcdefghijklmnopqrstuvwxya";  // its last bits are 0
 const std::string kHex = "0123456789abcdef0123456789abcdeffedcba9876543210fedcba9876543210";
 
 std::optional<JoinLink> parse(const std::string& text) {
@@ -24,7 +24,7 @@ std::string problem(const std::string& text) {
 }
 
 TEST(ShortKey, IsTheFirst128BitsInBase32) {
-  // base32 of the 16 bytes 01 23 … ef 01 23 … ef, as coreutils' base32 prints it.
+  // Output of coreutils' base32 for the 16 bytes 01 23 … ef 01 23 … ef.
   EXPECT_EQ(ShortKey::of(*Fingerprint::parse(kHex)).text(), "aerukz4jvpg66ajdivtytk6n54");
 }
 
@@ -128,7 +128,7 @@ TEST(JoinLink, HostsThatAreNoneAreRefused) {
   for (std::string host; hosts >> host;) EXPECT_FALSE(parse("naiad://" + host + "#" + kKey)) << host;
 }
 
-// Its parts are used elsewhere, for texts that may hold any byte: addresses of pages, for one.
+// LinkHost also parses texts that may hold any byte, for example addresses of pages.
 TEST(LinkHostTest, AnAddressEndsAtItsBracketAndNotAtAZeroByte) {
   EXPECT_TRUE(LinkHost::parse("[::1]", 1));
   EXPECT_FALSE(LinkHost::parse(std::string_view("[::1\0]", 6), 1));

@@ -1,5 +1,5 @@
-// What a message within its limit may cost in memory: protobuf makes an object of two bytes, so the frame's
-// limit has to be small enough for the worst that fits into it.
+// Memory used by a message within its size limit: protobuf can make an object of two bytes, so the limit of a
+// frame must be small enough for the worst content.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -17,7 +17,7 @@
 namespace naiad {
 namespace {
 
-/// Bytes that a parsed message holds.
+/// Returns the heap bytes that a parsed message holds.
 template <class Message>
 std::size_t heapOf(const std::string& bytes) {
   const auto used = [] {
@@ -30,9 +30,9 @@ std::size_t heapOf(const std::string& bytes) {
   return used() - before;
 }
 
-/// A message whose field `outer` (its key) is `part` as often as it fits.
+/// Returns a message whose field `outer` (its key) repeats `part` as often as it fits.
 std::string filled(char outer, const std::string& part, std::size_t limit) {
-  const std::size_t room = limit - 4;  // the outer key and its length
+  const std::size_t room = limit - 4;  // without the outer key and its length
   std::string inner;
   while (inner.size() + part.size() <= room) inner += part;
   std::string bytes(1, outer);
@@ -51,7 +51,7 @@ class ParseMemory : public testing::Test {
 };
 
 TEST_F(ParseMemory, TheDearestHelloIsSmall) {
-  // Numbers of one byte in an unpacked list of words; empty texts again and again; one long text.
+  // One-byte numbers in an unpacked list of words, repeated empty texts, a text field.
   for (const char* part : {"\x48\x01", "\x1a\x00", "\x50\x01"}) {
     const std::string bytes = filled('\x0a', std::string(part, 2), kMaxHelloFrame);
     ASSERT_LE(bytes.size(), kMaxHelloFrame);
@@ -67,7 +67,7 @@ TEST_F(ParseMemory, TheDearestMessageOfAClientIsSmall) {
 }
 
 TEST_F(ParseMemory, TheDearestMessageOfAServerIsBounded) {
-  // Entries of no bytes: each becomes an object.
+  // Empty entries, each of which becomes an object.
   const std::string players = filled('\x22', std::string("\x0a\x00", 2), kMaxServerFrame);
   const std::size_t heap = heapOf<wire::ServerMessage>(players);
   EXPECT_GT(heap, 100u * 1024) << "this is the dear one";

@@ -31,7 +31,7 @@ TEST_F(PatientTimerTest, CallsOnceAndNotBeforeItsTime) {
 
 TEST_F(PatientTimerTest, AnAbsenceIsAPartOfItsTimeAndNoMore) {
   start(8ms);
-  std::this_thread::sleep_for(16ms);  // the context does not run
+  std::this_thread::sleep_for(16ms);  // time in which the context does not run
   for (int part = 1; part < PatientTimer::kParts; ++part) {
     EXPECT_EQ(context.run_one(), 1u);
     EXPECT_EQ(calls, 0) << "what came meanwhile has its turn first";

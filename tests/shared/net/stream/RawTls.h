@@ -1,5 +1,4 @@
-// One end of TLS that OpenSSL plays by itself, with settings of the test's choice and its bytes in the test's
-// hands.
+// One end of a TLS connection with OpenSSL alone. The test chooses its settings and carries its bytes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,16 +14,16 @@ namespace naiad::test {
 
 class RawTls {
  public:
-  /// A client with ALPN "naiad/1", unless `adjust` changes that.
+  /// Makes a client with ALPN "naiad/1" unless `adjust` changes that.
   explicit RawTls(const std::function<void(SSL_CTX*)>& adjust = nullptr);
   ~RawTls();
   RawTls(const RawTls&) = delete;
   RawTls& operator=(const RawTls&) = delete;
 
-  /// Go on; what it wants to send next.
+  /// Continues the handshake. Returns the bytes to send next.
   std::string advance();
   void feed(std::string_view bytes);
-  /// Exchange with a server on `socket` (made non-blocking) until the handshake ends one way or the other.
+  /// Exchanges bytes with a server on `socket` (made non-blocking) until the handshake succeeds or fails.
   void shakeHands(asio::io_context& context, tcp::socket& socket);
 
   bool done() const { return result_ == 1; }
@@ -38,7 +37,7 @@ class RawTls {
   bool failed_ = false;
 };
 
-/// For RawTls: no ALPN at all, or another one.
+/// Offers this ALPN name, or none if it is empty. May be called in RawTls's `adjust`.
 void offerAlpn(SSL_CTX* context, std::string_view name);
 
 }  // namespace naiad::test

@@ -1,4 +1,4 @@
-// Which redirects are followed by TCP, and to which addresses.
+// Redirects that TCP connectors follow, and addresses to which they connect.
 #include <gtest/gtest.h>
 
 #include <asio/io_context.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The error of an attempt to connect; empty: it was connected.
+/// Returns the error of an attempt to connect; empty if it succeeds.
 std::string connectError(const std::string& host,
                          const std::function<bool(const asio::ip::address&)>& allowed) {
   asio::io_context context;

@@ -1,4 +1,4 @@
-// How a TcpChannel ends, and what may happen to it meanwhile.
+// The ways in which a TcpChannel ends, and events at that time.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -62,7 +62,7 @@ TEST_P(TcpChannelEndTest, CloseGivesUpOnAPeerThatDoesNotRead) {
   EXPECT_FALSE(recorder.closed);
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kLocal);
-  EXPECT_EQ(peerReads(), ByteStream::Outcome::kBroken);  // a reset: the kernel keeps nothing for it
+  EXPECT_EQ(peerReads(), ByteStream::Outcome::kBroken);  // a reset: the kernel keeps no unsent data
 }
 
 TEST_P(TcpChannelEndTest, DestroyingWithoutCloseHangsUp) {
@@ -110,7 +110,7 @@ TEST_P(TcpChannelEndTest, MayBeDestroyedInItsFrameCallback) {
   pair.far->start({[&, marker = std::string(100, 'm')](std::string_view) {
                      ++frames;
                      pair.far.reset();
-                     EXPECT_EQ(marker.size(), 100u);  // the callback itself is still alive
+                     EXPECT_EQ(marker.size(), 100u);  // the callback itself still exists
                    },
                    [](CloseReason) { FAIL() << "callback after destruction"; }});
   pair.near->start(recorder.callbacks());
@@ -165,7 +165,7 @@ TEST_P(TcpChannelEndTest, ClosedBeforeStartItIsGoneWhenThePeerIs) {
   channel->close();
   channel.reset();
   peerEnds();
-  EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // nothing left to wait for
+  EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // no operation is pending
 }
 
 TEST_P(TcpChannelEndTest, KnowsItsPeersAddressAfterTheEndToo) {

@@ -78,7 +78,7 @@ TEST_P(TcpChannelTest, SlowReaderMakesUnsentBytesGrowAndThenOverflows) {
   EXPECT_EQ(channel->unsentBytes(), full + kFrameHeaderSize + 10'000);
   for (int i = 0; i < 100; ++i) {
     channel->send(std::string(10'000, 'x'));
-    EXPECT_FALSE(recorder.closed);  // never from inside send()
+    EXPECT_FALSE(recorder.closed);  // never called from within send()
     EXPECT_LE(channel->unsentBytes(), full + kCap);
   }
   EXPECT_EQ(channel->unsentBytes(), 0u);

@@ -11,11 +11,11 @@ using namespace std::chrono_literals;
 using namespace std::string_literals;
 
 struct TcpConnectorTest : ConnectFixture {
-  /// A port of 127.0.0.1 without a listener.
+  /// Returns a port of 127.0.0.1 without a listener.
   std::uint16_t closedPort() {
     return TcpListener(context, "127.0.0.1", 0, [](auto) {}).port();
   }
-  /// Connects there until it is done.
+  /// Connects and waits for the result.
   void connect(const std::string& host, std::uint16_t port, std::chrono::milliseconds timeout = 20s) {
     calls = 0;
     connector.connect(host, port, timeout, done());
@@ -46,7 +46,7 @@ TEST_F(TcpConnectorTest, DeliversAChannelThatWorks) {
 
 TEST_F(TcpConnectorTest, WhatCannotBeReachedGivesASentence) {
   const std::uint16_t port = closedPort();
-  const std::string unknown = std::string(70, 'x') + ".invalid";  // too long to be looked up elsewhere
+  const std::string unknown = std::string(70, 'x') + ".invalid";  // too long for a DNS query
   const std::string far = " is another machine: without encryption only loopback addresses are allowed.";
   for (const auto& [host, sentence] :
        {std::pair{"127.0.0.1"s,
@@ -61,7 +61,7 @@ TEST_F(TcpConnectorTest, WhatCannotBeReachedGivesASentence) {
 }
 
 TEST_F(TcpConnectorTest, SilenceEndsInATimeout) {
-  // A full backlog: the kernel leaves further connections unanswered.
+  // With a full backlog, the kernel leaves further connections unanswered.
   tcp::acceptor acceptor(context, tcp::v4());
   acceptor.bind({asio::ip::address_v4::loopback(), 0});
   acceptor.listen(1);

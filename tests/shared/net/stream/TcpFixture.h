@@ -18,7 +18,7 @@ struct TcpFixture : testing::TestWithParam<Kind> {
     makeChannel(options);
     channel->start(recorder.callbacks());
   }
-  /// Not started.
+  /// Makes the channel without starting it.
   void makeChannel(TcpOptions options) {
     StreamPair streams = connectedStreams(context, GetParam());
     peer = std::move(streams.far);
@@ -33,7 +33,7 @@ struct TcpFixture : testing::TestWithParam<Kind> {
       bytes.remove_prefix(size);
     }
   }
-  /// What has come for the peer goes nowhere. The outcome that ended it.
+  /// Reads and discards all bytes that have arrived for the peer. Returns the outcome that ended it.
   ByteStream::Outcome peerReads() {
     std::array<char, 16384> sink;
     for (;;) {
@@ -41,12 +41,12 @@ struct TcpFixture : testing::TestWithParam<Kind> {
       if (outcome != ByteStream::Outcome::kDone) return outcome;
     }
   }
-  /// In order: says that this was all (with TLS: close_notify), then closes.
+  /// Ends the stream in order (with TLS: close_notify), then closes the socket.
   void peerEnds() {
     ASSERT_EQ(peer->end(), ByteStream::Outcome::kDone);
     peer->socket().close();
   }
-  /// Like a program that was killed: closes, and says nothing (with TLS: no close_notify).
+  /// Closes the socket like a killed program, without an orderly end (with TLS: no close_notify).
   void peerVanishes() { peer->socket().close(); }
   void peerResets() {
     peer->socket().set_option(tcp::socket::linger(true, 0));
@@ -55,7 +55,7 @@ struct TcpFixture : testing::TestWithParam<Kind> {
   bool runUntilClosed() {
     return runUntil(context, [&] { return recorder.closed.has_value(); });
   }
-  /// Send until bytes stay behind, for the peer does not read.
+  /// Sends until bytes stay unsent because the peer does not read.
   void fillUp() {
     const std::string frame(16000, 'x');
     for (int quiet = 0; quiet < 3;) {

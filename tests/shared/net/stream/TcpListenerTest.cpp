@@ -81,7 +81,7 @@ TEST_F(TcpListenerTest, PortCanBeTakenAgainRightAfterItsConnectionsEnded) {
   const std::uint16_t port = listener->port();
   tcp::socket client = connectTo(*listener);
   ASSERT_TRUE(runUntil(context, [&] { return channels.size() == 1; }));
-  channels.clear();  // this side closes first and so keeps the port in TIME_WAIT
+  channels.clear();  // this side closes first, so its port stays in TIME_WAIT
   client.close();
   listener.reset();
   EXPECT_NO_THROW(TcpListener(context, "127.0.0.1", port, keep()));

@@ -1,4 +1,4 @@
-// What a client with TLS learns about a server, and which servers it gives up on.
+// Facts that a TLS client learns about a server, and servers that it rejects.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 
 struct TlsConnectorTest : TlsFixture {
-  /// As if `host` were the name of this machine.
+  /// Connects as if `host` were the name of this machine.
   void joinAs(const std::string& host, TcpConnector& by) {
     calls = 0;
     by.connect(host, {{asio::ip::make_address("127.0.0.1"), listener->port()}}, 20s, done());
@@ -52,7 +52,7 @@ TEST_F(TlsConnectorTest, ChainVerifiesForTheNameItWasMadeFor) {
     EXPECT_EQ(trusting.peerFacts()->chain_verifies, verifies) << host;
     EXPECT_EQ(trusting.peerFacts()->chain_problem.empty(), verifies) << host;
   }
-  joinAs("game.test", connector);  // this client does not trust that authority
+  joinAs("game.test", connector);  // this client does not trust the authority
   EXPECT_FALSE(connector.peerFacts()->chain_verifies);
 }
 

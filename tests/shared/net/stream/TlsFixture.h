@@ -1,4 +1,4 @@
-// A listener that does TLS, and its clients.
+// A TLS listener and its clients.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace naiad::test {
 
-/// What a connector makes.
+/// Holds the result of a connector.
 struct ConnectFixture : testing::Test {
   TcpConnector::Done done() {
     return [this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
@@ -37,7 +37,7 @@ struct ConnectFixture : testing::Test {
 };
 
 struct TlsFixture : ConnectFixture {
-  /// Silent connections are accepted at once, so that tests of them need not wait for the kernel.
+  /// Accepts silent connections at once, so that tests need not wait for the kernel.
   TlsFixture() { tls.defer_accept = std::chrono::seconds(0); }
   void listen(const std::string& address = "127.0.0.1") {
     if (!tls.context) tls.context = testServerContext();
@@ -50,7 +50,7 @@ struct TlsFixture : ConnectFixture {
     socket.connect({asio::ip::make_address(address), listener->port()});
     return socket;
   }
-  /// From an address in 127/8 of its own.
+  /// Connects from this address in 127/8.
   tcp::socket knockFrom(const std::string& own) {
     tcp::socket socket(context, tcp::endpoint(asio::ip::make_address(own), 0));
     socket.connect({asio::ip::make_address("127.0.0.1"), listener->port()});
@@ -61,7 +61,7 @@ struct TlsFixture : ConnectFixture {
     for (int i = 0; i < times; ++i) sockets.push_back(knock());
     return sockets;
   }
-  /// The server has hung up on it.
+  /// True if the server has closed the connection.
   static bool isOver(tcp::socket& socket) {
     std::error_code error;
     std::array<char, 4096> in;
@@ -70,7 +70,7 @@ struct TlsFixture : ConnectFixture {
     }
     return error != asio::error::would_block;
   }
-  /// Connect as a client does, and wait until both ends have a channel.
+  /// Connects like a client and waits until both ends have a channel.
   void join(const std::string& host = "127.0.0.1") {
     calls = 0;
     const std::size_t before = accepted.size();

@@ -1,4 +1,4 @@
-// What a listener with TLS takes, refuses and survives.
+// Connections that a TLS listener accepts, refuses and survives.
 #include <gtest/gtest.h>
 #include <openssl/err.h>
 
@@ -17,7 +17,7 @@ using namespace std::string_literals;
 
 using TlsListenerTest = TlsFixture;
 
-/// Frames both ways over the newest pair of channels.
+/// Sends frames both ways over the newest pair of channels.
 void expectConversation(TlsFixture& t) {
   ASSERT_TRUE(t.channel) << t.error;
   Recorder here, there;
@@ -109,7 +109,7 @@ TEST_F(TlsListenerTest, RefusesAHelloThatAnnouncesToBeLong) {
   listen();
   tcp::socket socket = knock();
   asio::write(socket,
-              asio::buffer("\x16\x03\x01\x40\x00\x01\x02\x00\x00"s));  // 131,072 bytes; nothing follows
+              asio::buffer("\x16\x03\x01\x40\x00\x01\x02\x00\x00"s));  // announces 131,072 bytes
   EXPECT_TRUE(runUntil(context, [&] { return counters().handshakes_failed == 1; }));
 }
 
@@ -119,7 +119,7 @@ TEST_F(TlsListenerTest, GivesNoTicketsToResumeWith) {
   RawTls client;
   client.shakeHands(context, socket);
   ASSERT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
-  accepted[0]->send("after the handshake");  // tickets would have come before this
+  accepted[0]->send("after the handshake");  // session tickets would have been sent before this
   char byte = 0;
   EXPECT_TRUE(runUntil(context, [&] {
     std::array<char, 4096> in;
@@ -164,7 +164,7 @@ TEST_F(TlsListenerTest, HandshakeThatStopsHalfwayIsEndedByTheDeadline) {
   std::error_code end;
   char byte = 0;
   socket.read_some(asio::buffer(&byte, 1), end);
-  EXPECT_TRUE(end);  // hung up
+  EXPECT_TRUE(end);  // connection closed
 }
 
 TEST_F(TlsListenerTest, IdleConnectionsFromOnePlaceAreLimited) {
@@ -175,8 +175,8 @@ TEST_F(TlsListenerTest, IdleConnectionsFromOnePlaceAreLimited) {
   EXPECT_TRUE(runUntil(context, [&] { return counters().half_open_ended == 15; }));
   EXPECT_EQ(listener->halfOpen(), 5u);
   for (std::size_t i = 0; i < flood.size(); ++i) EXPECT_EQ(isOver(flood[i]), i < 15) << "the oldest: " << i;
-  join();         // though its place is crowded
-  flood.clear();  // they hang up: place again
+  join();         // succeeds although its prefix is crowded
+  flood.clear();  // they disconnect and free their slots
   EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 0; }));
   EXPECT_EQ(counters().refused_from_prefix, 0u);
 }
@@ -239,7 +239,7 @@ TEST_F(TlsListenerTest, AHelloThatCameAndWasNotReadYetCounts) {
   listen();
   tcp::socket slow = knock();
   ASSERT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 1; }));
-  tcp::socket next = knock();  // is seen before the hello
+  tcp::socket next = knock();  // the listener sees it before the hello
   RawTls client;
   asio::write(slow, asio::buffer(client.advance()));
   client.shakeHands(context, slow);
@@ -265,8 +265,8 @@ TEST_F(TlsListenerTest, HellosOfFewPlacesLeaveOthersRoom) {
   expectConversation(*this);
 }
 
-/// 16 connections from four addresses of one network begin their hellos, and when all places are theirs, they
-/// finish them.
+/// Opens 16 connections from four addresses of one network. They begin their ClientHellos, and complete them
+/// when they hold all slots.
 std::vector<tcp::socket> finishHellosTogether(TlsFixture& t) {
   const std::string hello = RawTls().advance();
   std::vector<tcp::socket> flood;
@@ -322,7 +322,7 @@ TEST_F(TlsListenerTest, PlacesAreSetAsideForKnownPlaces) {
   expectConversation(*this);
 }
 
-/// Every prefix may shake hands so often.
+/// Allows this many handshakes per prefix.
 std::function<bool(const AddressPrefix&)> atMost(int times, std::map<AddressPrefix, int>& asked) {
   return [times, &asked](const AddressPrefix& prefix) { return ++asked[prefix] <= times; };
 }
@@ -373,7 +373,7 @@ TEST_F(TlsListenerTest, ABannedAddressGetsNotAByte) {
   for (int i = 0; i < 20; ++i) {
     tcp::socket one = knockFrom("127.1.1.1");
     std::error_code failure;
-    asio::write(one, asio::buffer(hello), failure);  // whether it arrives before the end or after
+    asio::write(one, asio::buffer(hello), failure);  // may fail if the connection has ended already
     std::array<char, 1> answer;
     one.non_blocking(true);
     ASSERT_TRUE(runUntil(context, [&] {
@@ -452,7 +452,7 @@ TEST_F(TlsListenerTest, ASilentConnectionWaitsInTheKernelFirst) {
   ASSERT_GT(tls.defer_accept.count(), 0) << "as shipped";
   listen();
   tcp::socket silent = knock();
-  join();  // came later, and was accepted: it speaks
+  join();  // later, but accepted first because it sends data
   EXPECT_EQ(listener->halfOpen(), 0u);
   EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 1; })) << "but it is not forgotten";
 }
@@ -477,7 +477,7 @@ TEST_F(TlsListenerTest, ClosingItBreaksHandshakesOff) {
   char byte = 0;
   socket.read_some(asio::buffer(&byte, 1), end);
   EXPECT_TRUE(end);
-  EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // nothing left to wait for
+  EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // no operation is pending
 }
 
 TEST_F(TlsListenerTest, MayBeDestroyedInItsCallback) {

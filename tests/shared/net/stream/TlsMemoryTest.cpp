@@ -1,4 +1,4 @@
-// What a connection that has not logged in may cost: 64 KiB of ours, 192 KiB with OpenSSL's.
+// Memory limits of a connection that has not logged in: 64 KiB of our own, 192 KiB with OpenSSL's.
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <openssl/crypto.h>
@@ -41,7 +41,7 @@ void* countedRealloc(void* memory, std::size_t size, const char*, int) {
   return moved;
 }
 
-// OpenSSL takes these only before it has allocated anything.
+// OpenSSL accepts these functions only before it has allocated anything.
 const bool counting = CRYPTO_set_mem_functions(countedMalloc, countedRealloc, countedFree) == 1;
 
 struct Heap {
@@ -62,10 +62,10 @@ struct TlsMemoryTest : TlsFixture {
     listen();
     accepted.reserve(2 * kConnections);
     sockets.reserve(2 * kConnections);
-    finishOne();  // what is made once is made
+    finishOne();  // makes everything that is allocated only once
     accepted.clear();
   }
-  /// Bytes per connection since `before`, printed and compared with the limits.
+  /// Prints the bytes per connection since `before` and compares them with the limits.
   void expectSmall(const char* what, const Heap& before) {
     const Heap after;
     const long openssl = (after.openssl - before.openssl) / kConnections;
@@ -73,7 +73,7 @@ struct TlsMemoryTest : TlsFixture {
     std::printf("%s: %ld bytes of OpenSSL's, %ld in all\n", what, openssl, all);
     EXPECT_GT(openssl, 1000);
     EXPECT_LE(openssl, 128 * 1024);
-    if (NAIAD_OTHER_HEAP) return;  // a sanitizer's heap does not count this way
+    if (NAIAD_OTHER_HEAP) return;  // a sanitizer's heap is not visible in mallinfo2()
     EXPECT_LE(all, 192 * 1024);
     EXPECT_LE(all - openssl, 64 * 1024);
   }
@@ -85,7 +85,7 @@ struct TlsMemoryTest : TlsFixture {
     const std::size_t wanted = accepted.size() + 1;
     ASSERT_TRUE(runUntil(context, [&] { return accepted.size() == wanted; }));
   }
-  /// Each sends `bytes` and then waits.
+  /// Opens all connections. Each sends `bytes` and then waits.
   void sendFromAll(const std::string& bytes) {
     for (int i = 0; i < kConnections; ++i) {
       sockets.push_back(knock());
@@ -106,7 +106,7 @@ TEST_F(TlsMemoryTest, IdleConnection) {
 
 TEST_F(TlsMemoryTest, HelloThatIsNotFinished) {
   const Heap before;
-  // The longest that is let in, but for its last byte; in one record.
+  // The longest accepted hello without its last byte, in one record.
   const std::string start = "\x16\x03\x01\x10\x04\x01\x00\x10\x00"s;
   sendFromAll(start + std::string(4095, 'x'));
   expectSmall("within the hello", before);

@@ -1,4 +1,4 @@
-// What may happen on an encrypted stream after its handshake that plain ones do not know.
+// Events after the handshake on an encrypted stream that plain streams do not have.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::string_literals;
 
-/// A channel whose peer is OpenSSL in the test's hands.
+/// A channel whose peer is OpenSSL, operated by the test.
 struct TlsStreamTest : TlsFixture {
   void SetUp() override {
     listen();
@@ -29,7 +29,7 @@ struct TlsStreamTest : TlsFixture {
               static_cast<int>(framed.size()));
     asio::write(socket, asio::buffer(client.advance()));
   }
-  /// What the client got until it has `size` bytes.
+  /// Reads until the client has received `size` bytes, and returns them.
   std::string clientReads(std::size_t size) {
     std::string got;
     EXPECT_TRUE(runUntil(context, [&] {
@@ -67,7 +67,7 @@ TEST_F(TlsStreamTest, PlainBytesAfterTheHandshakeBreakTheProtocol) {
 
 TEST_F(TlsStreamTest, RecordThatComesInPartLeavesTheLoopAtRest) {
   asio::write(socket, asio::buffer("\x17\x03\x03\x00\x20"s + std::string(10, 'x')));
-  for (int i = 0; i < 5; ++i) runReady(context);  // would not return
+  for (int i = 0; i < 5; ++i) runReady(context);  // would not return if the loop were busy
   context.restart();
   EXPECT_EQ(context.poll(), 0u);
   EXPECT_FALSE(recorder.closed);

@@ -23,7 +23,7 @@ std::string bytes(std::initializer_list<int> values) {
 }
 
 TEST(VisitorHeader, IsThatOfTheProxyProtocol) {
-  // As in section 2.2 of its specification: 192.0.2.7:50312, and a destination that is not known.
+  // Section 2.2 of the PROXY protocol's specification: 192.0.2.7:50312, unknown destination.
   const std::string written =
       kSignature + bytes({0x21, 0x11, 0, 12, 192, 0, 2, 7, 0, 0, 0, 0, 0xc4, 0x88, 0, 0});
   EXPECT_EQ(visitorHeader(at("192.0.2.7", 50312)), written);
@@ -37,7 +37,7 @@ TEST(VisitorHeader, AddressesComeBack) {
     EXPECT_EQ(visitorHeaderRest(header.substr(0, kVisitorHeaderBegin)), header.size() - kVisitorHeaderBegin);
     EXPECT_EQ(readVisitorHeader(header), visitor);
   }
-  // IPv4 that is mapped into IPv6 counts as IPv4, whoever mapped it.
+  // An IPv4 address mapped into IPv6 counts as IPv4.
   EXPECT_EQ(readVisitorHeader(visitorHeader(at("::ffff:192.0.2.7", 9))), at("192.0.2.7", 9));
   std::string header = visitorHeader(at("2001:db8::7", 9));
   const auto mapped = asio::ip::make_address_v6("::ffff:192.0.2.7").to_bytes();

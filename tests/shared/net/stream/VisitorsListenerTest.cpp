@@ -42,7 +42,7 @@ class VisitorsListenerTest : public testing::Test {
     socket.connect(Local::endpoint(m_options.path.string()));
     return socket;
   }
-  /// A connection that has said this.
+  /// Connects and sends this text.
   Local::socket say(const std::string& text) {
     Local::socket socket = connect();
     asio::write(socket, asio::buffer(text));
@@ -223,7 +223,7 @@ TEST_F(VisitorsListenerTest, AnothersSocketIsNotRemovedAtTheEnd) {
   EXPECT_TRUE(fs::exists(m_options.path));
 }
 
-/// A server skips snapshots while bytes are unsent: they must count on such a socket, too.
+/// A server skips snapshots while bytes are unsent, so these must be counted on such a socket, too.
 TEST(VisitorsChannel, BytesThatTheDoorHasNotReadAreUnsent) {
   asio::io_context context;
   Local::socket near(context);
