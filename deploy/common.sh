@@ -1,4 +1,4 @@
-# Shared by the scripts beside it: where things are, and how packages are installed.
+# Shared by the scripts in this folder: paths, and the installation of packages.
 # Sourced by bash with `set -euo pipefail` in force.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -9,7 +9,7 @@ fail() {
   exit "${2:-1}"
 }
 
-# wrong_option TYPED KNOWN...: say so, with the known one that begins most alike, and end with 2.
+# wrong_option TYPED KNOWN...: reports an unknown option, suggests the known one that begins most alike, exits with 2.
 wrong_option() {
   local typed=$1 known near="" length=2 same
   shift
@@ -21,34 +21,34 @@ wrong_option() {
 Run deploy/$(basename "$0") --help for more information." 2
 }
 
-# What deploy/package builds packages with, and what it tests them with.
+# Packages that deploy/package needs to build packages, and to test them.
 package_packages="dpkg-dev file"
 package_check_packages="lintian mmdebstrap systemd man-db groff zsh fish"
 
-# What it takes to build and run, and what the tests need on top of it: names in Debian 12 and 13.
+# Packages for building and running, and for the tests. The names are those of Debian 12 and 13.
 build_packages="g++ cmake ninja-build ccache libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev libboost-dev zlib1g-dev libsqlite3-dev libnats-dev nlohmann-json3-dev"
-# What dfclient is linked with beside that where it is one file: Debian 13's libcrypto.a calls it.
+# Also needed by a dfclient that is a single file: Debian 13's libcrypto.a calls it.
 static_packages="libzstd-dev"
-# What the page for browsers is made with, and what it is tested in.
+# Packages that make and test the page for browsers.
 page_packages="emscripten python3-fonttools python3-brotli python3-protobuf fonts-dejavu-core"
 check_packages="$build_packages $page_packages $static_packages nats-server doxygen pkg-config chromium chromium-driver libgtest-dev tmux python3 python3-websockets clang clang-format clang-tidy libclang-rt-dev ncurses-term openssh-client openssh-server openssl iproute2 fail2ban python3-yaml dpkg-dev systemd man-db groff zsh fish"
 
-# What makes the pages of the headers.
+# Packages that make the API's pages.
 docs_packages="doxygen"
 
-# A dfclient for 64-bit ARM: to compile it, and to run it in a test.
+# Packages to compile a dfclient for 64-bit ARM, and to run it in a test.
 arm64_packages="g++-aarch64-linux-gnu qemu-user-static"
 
-# What the benchmarks need on top of building, the libraries that they compare with among it.
+# Packages of the benchmarks, including the libraries that they compare with.
 bench_packages="$build_packages openssl libbox2d-dev libchipmunk-dev valgrind python3 libvterm-dev openssh-client openssh-server mosh"
 
-# What the laboratory needs on top of building: peers, and a solver for references. GCC, for its quad precision.
+# Packages of the laboratory: other engines to compare with, and a solver for references. GCC has quad precision.
 lab_packages="$build_packages libbox2d-dev libchipmunk-dev libsundials-dev libgtest-dev valgrind python3"
 
-# What reports how much of a decoder was reached by fuzzing.
+# Packages that report how much of a decoder the fuzzing reached.
 fuzz_packages="llvm"
 
-# missing_packages "a b c": prints those that are not installed, with a blank before each.
+# missing_packages "a b c": prints the packages that are not installed, each after a blank.
 missing_packages() {
   local package
   for package in $1; do
@@ -57,7 +57,7 @@ missing_packages() {
 }
 has_packages() { [ -z "$(missing_packages "$1")" ]; }
 
-# need_packages "a b c": install those that are missing, and only then call apt.
+# need_packages "a b c": installs missing packages. Calls apt only if there are any.
 need_packages() {
   local missing
   missing=$(missing_packages "$1")
@@ -85,21 +85,21 @@ need_packages() {
   rm -f "$log"
 }
 
-# build PRESET TARGET...: configure and build, quietly unless something goes wrong. No target: all.
+# build PRESET TARGET...: configures and builds, without output unless it fails. Builds all if no target is given.
 build() {
   local preset=$1 log options=()
   shift
-  # GCC writes addresses of its own memory into precompiled headers. Where these are always the same, so are the headers,
-  # and what was compiled with one is found again after it was compiled anew.
+  # GCC writes addresses of its own memory into precompiled headers. Without address randomisation the bytes of a header
+  # never change, so ccache still finds objects compiled with an earlier build of it.
   command -v ccache >/dev/null && options=("-DCMAKE_CXX_COMPILER_LAUNCHER=$(setarch -R true 2>/dev/null && echo 'setarch;-R;')ccache")
-  # All share the objects of `release`. Only deploy/check builds its tests; others leave them as they are.
+  # All scripts share the objects of `release`. Only deploy/check builds its tests; the others keep that setting.
   if [ "$preset" = release ] && [ "$(basename "$0")" = check ]; then
     options+=(-DNAIAD_TESTS=ON)
   elif [ "$preset" = release ] && [ ! -e "$root/build/release/CMakeCache.txt" ]; then
     options+=(-DNAIAD_TESTS=OFF)
   fi
-  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1  # another checkout has use for the same objects
-  # Without these ccache stores nothing that is compiled with a precompiled header.
+  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1  # other checkouts can use these objects
+  # ccache needs this to store objects compiled with a precompiled header.
   export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
   log=$(mktemp)
   say "building ($preset)"
@@ -112,7 +112,7 @@ build() {
   rm -f "$log"
 }
 
-# On a terminal, ninja's own progress line shows how far it is.
+# On a terminal, shows ninja's progress line.
 build_targets() {
   local preset=$1
   shift
