@@ -1,6 +1,6 @@
-// Breakout for four: everybody guards a side, and the bricks are in the middle. Sides that nobody guards are
-// walls, so the first player has the game that everybody knows. Shows: places for a few and a queue for the
-// others, fast Objects (setSwept), bouncing, levels.
+// Breakout for four: each player guards a side, and the bricks are in the middle. Unguarded sides are walls,
+// so a single player has the classic game. Shows: a limited number of places with a queue, fast Objects
+// (setSwept), bouncing, levels.
 #include <array>
 #include <cmath>
 

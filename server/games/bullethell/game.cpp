@@ -1,6 +1,6 @@
-// Bullet hell: hundreds of bullets at once, and a small ship among them. Your gun fires by itself; you have
-// to live. Shows: many Objects in straight flight (which cost the network nothing), levels, lives, friends
-// who share a boss.
+// Bullet hell: hundreds of bullets at once, and a small ship among them. Its gun fires by itself; the player
+// has to survive. Shows: many Objects in straight flight (which cost no network traffic), levels, lives,
+// friends who share a boss.
 #include <algorithm>
 #include <cmath>
 

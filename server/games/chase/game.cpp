@@ -1,6 +1,6 @@
-// Chase: gather the gold and keep away from the hounds. They run for whoever is nearest; the more gold is
-// gathered, the more of them there are. Shows: joining and leaving, declared controls, collisions, texts of
-// one's own.
+// Chase: gather the gold and keep away from the hounds. They run for the nearest player; the more gold is
+// gathered, the more of them there are. Shows: joining and leaving, declared controls, collisions, texts for
+// a single player.
 #include "Controls.h"
 #include "DisplayManager.h"
 #include "EventCollision.h"

@@ -1,4 +1,4 @@
-// A complete game: everybody who joins is an @ and walks with the arrow keys. Walls and others block.
+// A complete game: each player is an @ and walks with the arrow keys. Walls and other players block.
 #include "DisplayManager.h"
 #include "EventKeyboard.h"
 #include "EventPlayer.h"

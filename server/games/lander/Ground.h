@@ -1,4 +1,4 @@
-// The moon: a column of rock for each column of cells, with flat pads between the mountains.
+// The moon's surface: a column of rock per column of cells, with flat pads between the mountains.
 #pragma once
 
 #include "Object.h"
@@ -6,7 +6,7 @@
 /// A HARD Object without mass: bodies rest on it and bounce off it.
 class Ground : public df::Object {
  public:
-  /// Rock in column `x` from row `top` down; `worth` points for a landing, 0: no pad.
+  /// Creates rock in column `x` from row `top` down. A landing earns `worth` points; 0: not a pad.
   Ground(int x, int top, int worth);
   int getWorth() const { return m_worth; }
 
@@ -16,5 +16,5 @@ class Ground : public df::Object {
   int m_worth;
 };
 
-/// The whole landscape, another one in each world.
+/// Creates the whole landscape, a different one in each world.
 void makeLandscape();

@@ -1,4 +1,4 @@
-// A player's lander: a Body that falls, and jets that push it.
+// A player's lander: a falling Body with jets that push it.
 #pragma once
 
 #include <array>
@@ -27,10 +27,10 @@ class Ship : public df::PlayerObject<df::Body> {
   void crash(const std::string& why);
   void showStatus(df::Player& player) const;
 
-  double m_fuel = 0;                     // seconds of the main engine
-  std::array<int, JETS> m_burning = {};  // ticks that each jet still burns
-  int m_worth = 0;                       // of the pad it stands on
-  int m_standing = 0;                    // ticks on the pad
+  double m_fuel = 0;                     // remaining seconds of the main engine
+  std::array<int, JETS> m_burning = {};  // remaining ticks of each jet
+  int m_worth = 0;                       // points of the pad on which it stands
+  int m_standing = 0;                    // ticks it has stood on the pad
   int m_wait = 0;                        // ticks until the next launch
   std::string m_message;
 };

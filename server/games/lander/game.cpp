@@ -1,4 +1,4 @@
-// Lander: bring a ship down gently. Gravity, jets and impacts are the engine's; start reading at Ship.
+// Lander: bring a ship down gently. The engine does gravity, jets and impacts; start reading at Ship.
 #include "GameManager.h"
 #include "Ground.h"
 #include "PhysicsManager.h"

@@ -1,5 +1,5 @@
-// A lobby: each room of the server is a door with its name, its game and how many play there. Walk into one,
-// and you are in that room. Shows: what a game knows of rooms, and how it sends a player to one.
+// A lobby: each room of the server is a door with its name, game and number of players. Walking into a door
+// moves the player to its room. Shows: reading the list of rooms, and moving a player to one.
 #include <algorithm>
 
 #include "Controls.h"

@@ -1,5 +1,5 @@
-// A maze of 700 walls: find the way to the exit before the others do. Then there is another maze. Shows: a
-// world larger than the view, hundreds of Objects that come and go in one tick, steps as declared controls.
+// A maze of 700 walls: find the exit before the others do. Then a new maze begins. Shows: a world larger than
+// the view, hundreds of Objects that come and go in one tick, steps as declared controls.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
-// A platformer: run and jump to the flag. Friends are solid: stand on each other's heads where it is too high
-// for one. Shows: a world larger than the view, gravity as an acceleration, swept moves that land exactly, a
+// A platformer: run and jump to the flag. Friends are solid: stand on each other's heads to reach high
+// places. Shows: a world larger than the view, gravity as an acceleration, swept moves that land exactly, a
 // level drawn in text.
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// A player in the sandbox: a pointer that grabs, throws, makes and shoots.
+// A player's pointer in the sandbox: grabs, throws, makes and shoots things.
 #pragma once
 
 #include "Grip.h"
@@ -9,7 +9,7 @@ class Hand : public df::PlayerObject<> {
   explicit Hand(df::Player& player);
 
   int draw() override;
-  /// Does this player want gravity to turn?
+  /// True if this player has voted to turn gravity.
   bool wantsTurn() const { return m_wants_turn > 0; }
   void forgetTurn() { m_wants_turn = 0; }
 
@@ -19,7 +19,7 @@ class Hand : public df::PlayerObject<> {
   void keyboard(const df::EventKeyboard& event) override;
   void shoot();
 
-  df::Grip m_grip;       // on what is being dragged
+  df::Grip m_grip;       // holds the dragged thing
   int m_since_held = 0;  // ticks since the button was last known to be down
-  int m_wants_turn = 0;  // ticks that the vote still counts
+  int m_wants_turn = 0;  // remaining ticks of the player's vote
 };

@@ -1,10 +1,9 @@
-// What lies about in the sandbox and may be made by hand. All of it is made of Bodies; the engine does the
-// rest.
+// The loose things in the sandbox, which players may also make. They are Bodies; the engine does the rest.
 #pragma once
 
 #include "Body.h"
 
-/// Makes a Body one of the things that are counted and thrown about.
+/// Sets up a Body as one of the things that are counted and may be thrown.
 void makeThing(df::Body& body);
 
 class Crate : public df::Body {

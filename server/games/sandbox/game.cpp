@@ -1,5 +1,5 @@
-// The sandbox: crates, balls, a rope bridge, a cradle, a billiard corner, ragdolls, blobs and a flag, to be
-// dragged, thrown, stacked and shot at by everybody who comes. Start reading at Hand, then main().
+// The sandbox: crates, balls, a rope bridge, a cradle, a billiard corner, ragdolls, blobs and a flag. All
+// players can drag, throw, stack and shoot them. Start reading at Hand, then main().
 #include "Bridge.h"
 #include "GameManager.h"
 #include "Hand.h"

@@ -1,4 +1,4 @@
-// What ships shoot: flies straight on until it hits a saucer or leaves the screen. Friends are not hit.
+// A ship's shot: flies straight on until it hits a saucer or leaves the screen. It does not hit friends.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ class Bullet : public df::Object {
   /// Cells per tick across the screen.
   static constexpr double kSpeed = 2;
 
-  /// Shot by `player`, from `position` in `direction` (of any length but zero).
+  /// Creates the shot of `player` at `position`, in `direction` (of any length except zero).
   Bullet(std::uint32_t player, df::Color color, df::Vector position, df::Vector direction);
 
   int eventHandler(const df::Event* p_e) override;

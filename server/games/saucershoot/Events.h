@@ -1,5 +1,5 @@
-// The game's own events. They let the parts of the game work together without knowing each other: whoever
-// cares registers interest, exactly as for the engine's events.
+// The game's own events. Parts of the game use them to work together without knowing each other: they
+// register interest, as for the engine's events.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ inline const std::string NUKE_EVENT = "nuke";
 inline const std::string SHOT_DOWN_EVENT = "shot-down";
 inline const std::string SHIP_LOST_EVENT = "ship-lost";
 
-/// Another part of the game begins.
+/// Another part of the round begins.
 class EventRound : public df::Event {
  public:
   enum Part {
-    TITLE,   ///< it waits for somebody to begin
-    FLYING,  ///< everybody has ships
+    TITLE,   ///< waiting for a player to begin
+    FLYING,  ///< all players have ships
     OVER,    ///< all ships are lost
   };
   explicit EventRound(Part part) : m_part(part) { setType(ROUND_EVENT); }
@@ -28,7 +28,7 @@ class EventRound : public df::Event {
   Part m_part;
 };
 
-/// Somebody set off a nuke: nothing that flies against us survives.
+/// A player used a nuke: all enemies on the screen explode.
 class EventNuke : public df::Event {
  public:
   EventNuke() { setType(NUKE_EVENT); }
@@ -48,7 +48,7 @@ class EventShotDown : public df::Event {
   int m_points;
 };
 
-/// A ship was lost, which may be the pilot's last. Its pilot `name` has made `points` in this round.
+/// A ship was lost, perhaps the pilot's last. Its pilot `name` has earned `points` in this round.
 class EventShipLost : public df::Event {
  public:
   EventShipLost(std::string name, int points, bool is_last)

@@ -1,4 +1,4 @@
-// What is left of a saucer or a ship, for as long as its sprite takes.
+// The remains of a saucer or a ship, shown while their sprite plays.
 #pragma once
 
 #include "Object.h"
@@ -13,5 +13,5 @@ class Explosion : public df::Object {
   int m_time_to_live = 1;  // in ticks
 };
 
-/// Some of them at once, flying apart: the end of a ship.
+/// Makes several explosions that fly apart: the end of a ship.
 void explodeShip(df::Vector position);

@@ -1,4 +1,4 @@
-// The places on the screen that several parts of the game agree on.
+// The layout of the screen, shared by several parts of the game.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ inline double fieldHeight() {
   return DM.getVertical();
 }
 
-/// Ships and saucers keep their middles on the rows from here to there. The others are left to the texts.
+/// Ships and saucers keep their centres within these rows. The other rows are for texts.
 inline double topRow() {
   return 2;
 }
@@ -21,10 +21,10 @@ inline double bottomRow() {
   return fieldHeight() - 4;
 }
 
-/// The numbers of the texts that a player sees, see df::Player::setText().
+/// Numbers of a player's texts, see df::Player::setText().
 enum TextId : std::uint32_t {
   STATUS_TEXT,   ///< top left: the player's points, ships and nukes
-  TEAM_TEXT,     ///< top right: what flying together is worth at the moment
-  MESSAGE_TEXT,  ///< second last row: the keys, and what has just happened to this player
-  BEST_TEXT,     ///< at the bottom: the best pilots so far
+  TEAM_TEXT,     ///< top right: the present bonus for flying together
+  MESSAGE_TEXT,  ///< second last row: the keys, and this player's latest event
+  BEST_TEXT,     ///< bottom: the best pilots so far
 };

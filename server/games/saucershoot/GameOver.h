@@ -1,4 +1,4 @@
-// The end of the round, for as long as its sprite takes three times; then the title comes back.
+// The end of the round: shown while its sprite plays three times, then the title comes back.
 #pragma once
 
 #include "ViewObject.h"

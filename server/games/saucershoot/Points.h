@@ -1,4 +1,4 @@
-// What all pilots have earned together in this round: a point each second, and what saucers are worth.
+// All pilots' points in this round: one each second, plus the points of saucers.
 #pragma once
 
 #include "ViewObject.h"

@@ -1,4 +1,4 @@
-// The enemy. Saucers come in on the right, fly left, and come back again unless somebody stops them.
+// The enemy. Saucers enter on the right, fly left, and return until they are shot down.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 
 class Saucer : public df::Object {
  public:
-  /// About to come in on the right.
+  /// Creates a saucer about to enter on the right.
   Saucer();
 
-  /// Hit by a bullet of `player`. Return false if it has blown up before.
+  /// Handles a hit by a bullet of `player`. Returns false if the saucer has already exploded.
   bool shotBy(std::uint32_t player);
-  /// It blows up. Return false if it has done so before.
+  /// Explodes. Returns false if it has already exploded.
   bool explode();
 
   int eventHandler(const df::Event* p_e) override;

@@ -1,5 +1,5 @@
-// Sends in the saucers: a few when nobody flies, more for every pilot, and more and more the
-// longer the pilots survive. There is always an upper limit, so it never gets hopeless.
+// Sends the saucers: a few without pilots, more per pilot, and more the longer the pilots survive. There is
+// an upper limit, so that the game never becomes hopeless.
 #pragma once
 
 #include "Object.h"
@@ -14,8 +14,8 @@ class Spawner : public df::Object {
 
  private:
   void step(int tick);
-  /// Pilots have left: take back a saucer that nobody can see at the moment.
+  /// Removes a saucer that is not visible at the moment, after pilots have left.
   static void retireOne(const df::ObjectList& saucers);
 
-  int m_level = 0;  // saucers more than the pilots began with
+  int m_level = 0;  // saucers in addition to the initial number per pilot
 };

@@ -1,17 +1,17 @@
-// Whether a pilot keeps the trigger pulled: the space bar.
+// The state of a pilot's trigger, the space bar.
 //
-// A terminal may lose the moment a key goes up (the window loses the focus, say), so the trigger is also let
-// go when the pilot's keyboard has been silent for a while: no ship shoots for ever.
+// A terminal may miss the release of a key (when the window loses the focus, for example). So the trigger is
+// also released when the pilot's keyboard has been silent for a while, and no ship shoots endlessly.
 #pragma once
 
 #include "EventKeyboard.h"
 
 class Trigger {
  public:
-  /// Ticks. Longer than a keyboard waits before its first repeat.
+  /// Ticks; longer than a keyboard's delay before its first repeat.
   static constexpr int kPatience = 36;
 
-  /// Note what `event` says about the key.
+  /// Updates the state from a key event.
   void key(const df::EventKeyboard& event);
   /// Call once a tick, before the keys of that tick.
   void step();

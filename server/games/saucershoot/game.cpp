@@ -1,8 +1,7 @@
-// Saucer Shoot for everybody who comes: the game of the Dragonfly tutorial in full, for one pilot to eight or
-// more.
+// Saucer Shoot for many players: the whole game of the Dragonfly tutorial, for one to eight pilots or more.
 //
-// Start reading here, then go on with Round and Hero. dfserver loads this game, runs main() and shows it to
-// the players: nothing in it knows about networks.
+// Start reading here, then continue with Round and Hero. dfserver loads this game, runs main() and shows it
+// to the players; the game contains no network code.
 #include "GameManager.h"
 #include "Round.h"
 #include "Scoreboard.h"

@@ -1,6 +1,6 @@
-// Tron: each cycle leaves a wall behind it. Turn in time; who rides longest wins the round. Where only one
-// player is, a robot rides against them. Shows: rounds that players join when they come, many Objects at
-// rest, one class for players and robots, best scores that outlive the game.
+// Tron: each cycle leaves a wall behind it. Turn in time; the player who rides longest wins the round. A
+// single player rides against a robot. Shows: rounds that players can join, many Objects at rest, one class
+// for players and robots, best scores that outlive the game.
 #include <array>
 
 #include "DisplayManager.h"

@@ -1,4 +1,4 @@
-// An Object with mass: forces move it, by Newton's laws instead of the book's steps.
+// An Object with mass. Forces move it by Newton's laws, not by the book's steps.
 //
 //   class Ball : public df::Body {
 //    public:
@@ -6,14 +6,14 @@
 //   };
 //   PM.setGravity(df::Vector(0, 0.02));
 //
-// Within a tick a body's path is exact where mathematics has a formula for it (docs/physics/flight.md), so no
-// step is too long. HARD bodies hit, rest on and slide along each other and HARD Objects; SOFT ones get
-// contact events and push nothing; SPECTRAL ones touch nothing (docs/physics/bodies.md). Units: cells, ticks,
-// and a mass of the game's choosing; Seconds.h converts. All the rest of an Object works as ever; a velocity
-// or a position that is set from outside is taken over in the next tick.
+// Within a tick a body's path is computed exactly where a formula exists (docs/physics/flight.md), so no step
+// is too long. HARD bodies collide with, rest on and slide along each other and HARD Objects; SOFT ones get
+// contact events but push nothing; SPECTRAL ones touch nothing (docs/physics/bodies.md). Units are cells,
+// ticks and a mass unit that the game chooses; Seconds.h converts from seconds. Everything else works as in
+// any Object; changes of position or velocity not made by Body's setters take effect in the next tick.
 //
-// Setters return 0, or -1 for numbers that are not finite or out of range: then nothing changes, and the
-// world counts it (WorldLog::refusals).
+// Setters return 0. For numbers that are not finite or out of range they return -1, change nothing, and the
+// world counts the refusal (WorldLog::refusals).
 #pragma once
 
 #include <cstdint>
@@ -38,120 +38,121 @@ class Field;
 
 class Body : public Object {
  public:
-  /// An Object of mass 1 in the current world.
+  /// Creates an Object of mass 1 in the current world.
   Body();
   Body(const Body&) = delete;
   Body& operator=(const Body&) = delete;
   ~Body() override;
 
-  /// 1e-30 … 1e30, in the game's unit; 1 by default.
+  /// Mass, 1e-30 … 1e30, in the game's unit; 1 by default.
   int setMass(double mass);
   double getMass() const;
-  /// Factor of the world's gravity (PM.setGravity), −1e30 … 1e30; 1 by default, 0: none.
+  /// Factor of the world's gravity (PM.setGravity), −1e30 … 1e30; 1 by default, 0 for no gravity.
   int setGravityScale(double scale);
   double getGravityScale() const;
-  /// A kinematic body keeps its velocity and spin, whatever pushes it, and gravity does not move it: a lift,
-  /// a mill. Off by default.
+  /// Makes the body kinematic, like a lift or a mill: it keeps its velocity and spin whatever pushes it, and
+  /// ignores gravity. Off by default.
   void setKinematic(bool kinematic = true);
   bool isKinematic() const;
 
-  // How it touches.
+  // Contacts.
 
-  /// Coefficient of restitution: how much of the speed of an impact is left, 0 (clay, the default) … 1
-  /// (nothing is lost). Of two bodies the larger number counts.
+  /// Coefficient of restitution: the part of the impact speed that is left, 0 (clay, the default) … 1 (no
+  /// loss). For two bodies the larger number counts.
   int setRestitution(double restitution);
   double getRestitution() const;
-  /// Coulomb's µ, 0 (ice) … 1e30; 0.5 by default. Of two bodies the geometric mean counts.
+  /// Coulomb's coefficient of friction, 0 (ice) … 1e30; 0.5 by default. Two bodies: the geometric mean.
   int setFriction(double friction);
   double getFriction() const;
-  /// Does this body get an EventContactEnd when a contact ends? Off by default.
+  /// If set, this body gets an EventContactEnd when a contact ends. Off by default.
   void setContactEnds(bool contact_ends = true);
   bool hasContactEnds() const;
 
-  // Its shape: the Object's box, unless one of these sets another. Each of them also fits the Object's box
-  // around the shape. Lengths are in cells, as positions are, but a radius is in widths of a cell. A shape is
-  // at least 1e-6 widths of a cell wide and reaches at most 1e7 from the position; anything else is refused.
+  // Shape: the Object's box, unless one of these functions sets another. Each also fits the Object's box
+  // around the shape. Lengths are in cells, like positions, but a radius is in cell widths. A shape must be
+  // at least 1e-6 cell widths wide and reach at most 1e7 from the position; others are refused.
 
-  /// The Object's own box again, whatever setBox() makes of it; its middle need not be the position.
+  /// Returns to the Object's own box, and follows later setBox() calls. The position need not be its centre.
   int setBoxShape();
-  /// A box of this size around the position. Unlike setBox(), it turns with the body.
+  /// Sets a box of this size, centred on the position. Unlike setBox(), it turns with the body.
   int setBoxShape(double width, double height);
-  /// A circle around the position, as round as a cell's aspect lets it look.
+  /// Sets a circle around the position, drawn as round as the cell aspect allows.
   int setCircle(double radius);
-  /// A convex polygon of 3 to 16 corners, in order either way round, moved so that the position is its centre
-  /// of mass. -1 also if it is not convex.
+  /// Sets a convex polygon of 3 to 16 corners, in either order, moved so that the position is its centre of
+  /// mass. Also returns -1 if it is not convex.
   int setPolygon(const std::vector<Vector>& corners);
-  /// One more part, so that the body is a compound. `centre` and `corners` count from the centre of mass of
-  /// what was there; then all is moved so that the position is the centre of mass of the whole.
+  /// Adds one more part; several make a compound. `centre` and `corners` are relative to the centre of mass
+  /// before the call; then all parts are moved so that the position is the centre of mass of the whole.
   int addCircle(double radius, Vector centre);
-  /// `angle` in radians, −1e6 … 1e6.
+  /// `angle` is in radians, −1e6 … 1e6.
   int addBoxShape(double width, double height, Vector centre, double angle = 0);
   int addPolygon(const std::vector<Vector>& corners);
-  /// Its shapes in widths of a cell, relative to the position and not turned, for a class that draws them;
-  /// empty: the Object's box. Copy it to keep it: a change of any body may move it.
+  /// Returns the shapes in cell widths, relative to the position and not rotated, for classes that draw them.
+  /// Empty if the shape is the Object's box. Copy the result to keep it: changing any body may move it.
   const std::vector<naiad::physics::ConvexShape>& getShapes() const;
 
-  // How it turns. Angles are in radians, clockwise on the screen.
+  // Rotation. Angles are in radians, clockwise on the screen.
 
-  /// May it turn? Off by default: then nothing turns it but a spin that the game sets. Its moment of inertia
-  /// is that of its shape, evenly filled with its mass.
+  /// Lets the body turn. Off by default: then only a spin set by the game turns it. The moment of inertia is
+  /// that of its shape, evenly filled with its mass.
   void setTurning(bool turning = true);
   bool isTurning() const;
-  /// −1e6 … 1e6; getAngle() returns it in [−π, π].
+  /// Angle to set, −1e6 … 1e6; getAngle() returns it in [−π, π].
   int setAngle(double angle);
   double getAngle() const;
   /// Radians per tick, −1e6 … 1e6.
   int setSpin(double spin);
   double getSpin() const;
-  /// Moment of inertia about the centre of mass, in mass · (widths of a cell)².
+  /// Moment of inertia about the centre of mass, in mass · (cell widths)².
   double getInertia() const;
 
-  // In doubles, where an Object's position and velocity are rounded to 2^-32 cell.
+  // Positions and velocities in doubles; those of an Object are rounded to 2^-32 cell.
 
-  /// Cells, to ±2e9. Thaws a frozen body.
+  /// Position in cells, to ±2e9. Thaws a frozen body.
   int setPosition(Vector position) override;
   Vector getPosition() const;
-  /// From a point of the world to the position, in cells: as exact far from the origin as near it. (0,0) for
-  /// a point out of range.
+  /// Returns the displacement in cells from a point of the world to the position, equally exact near and far
+  /// from the origin. (0,0) for a point out of range.
   Vector getDisplacementFrom(Vector point) const;
   [[deprecated("say getDisplacementFrom")]] Vector getWayFrom(Vector point) const {
     return getDisplacementFrom(point);
   }
-  /// Cells per tick, to ±16777216. Thaws a frozen body.
+  /// Velocity in cells per tick, to ±16777216. Thaws a frozen body.
   DF_SETTER setVelocity(Vector velocity) override;
   Vector getVelocity() const;
 
-  /// Push it during the next tick; several pushes add up, to ±1e30. Mass · cells per tick².
+  /// Pushes the body during the next tick, in mass · cells per tick². Several pushes add up, to ±1e30.
   int applyForce(Vector force);
-  /// Change its velocity at once, by impulse / mass. Mass · cells per tick. -1 if it would be too fast.
+  /// Changes the velocity at once, by impulse / mass (mass · cells per tick). -1 if it would become too fast.
   int applyImpulse(Vector impulse);
-  /// The same at a point of the world, which also turns it if it may turn.
+  /// Like applyImpulse(), at a point of the world; also changes the spin if the body may turn.
   int applyImpulseAt(Vector impulse, Vector where);
-  /// Turn it during the next tick; several torques add up, to ±1e30. Force · widths of a cell.
+  /// Turns the body during the next tick, in force · cell widths. Several torques add up, to ±1e30.
   int applyTorque(double torque);
 
-  /// Drag: force over mass is `linear` · velocity + `quadratic` · velocity · |velocity|. Per tick, and per
-  /// width of a cell; both 0 … 1e30, 0 by default.
+  /// Sets drag: force over mass is `linear` · velocity + `quadratic` · velocity · |velocity|. `linear` is per
+  /// tick, `quadratic` per cell width; both 0 … 1e30, 0 by default.
   int setDrag(double linear, double quadratic = 0);
-  /// A spring of rest length 0 to a point of the world: force over mass is `stiffness` · displacement +
-  /// `damping` · velocity. Per tick² and per tick, both 0 … 1e30; 0 and 0: none.
+  /// Sets a spring of rest length 0 to a point of the world: force over mass is `stiffness` · displacement +
+  /// `damping` · velocity. `stiffness` is per tick², `damping` per tick, both 0 … 1e30; both 0 removes it.
   int setSpring(Vector anchor, double stiffness, double damping = 0);
-  /// A field around `origin` (cells). Null: none. The field must outlive the body or its next setField().
+  /// Puts the body into a field with its origin at `origin` (cells); null removes it. The field must outlive
+  /// the body or its next setField() call.
   int setField(const Field* p_field, Vector origin = Vector());
 
-  /// Is it in quarantine, because its motion has no finite solution (a field's singularity, say)? It stands
-  /// until its position or velocity is set.
+  /// True if the body is in quarantine because its motion has no finite solution (at a field's singularity,
+  /// for example). It stands still until its position or velocity is set.
   bool isFrozen() const;
 
-  // How it appears, unless its class has a draw() of its own: its shape, in character cells, at its angle.
+  // Drawing, unless the class overrides draw(): the shape in character cells, at its angle.
 
-  /// As an outline (the default), filled, or not at all. `ch`: of what characters; 0: by the direction of the
-  /// edge, and # for a filling. Return 0, else -1.
+  /// Draws the body as an outline (the default), filled, or not at all, with the character `ch`. 0 chooses
+  /// outline characters by the direction of the edge, and # for filling. Returns 0, else -1.
   int setDrawing(BodyDrawing drawing, char32_t ch = 0, Color color = COLOR_DEFAULT);
-  /// As a sprite that turns with it: rows (UTF-8) of up to 128 characters around the position; blanks are
-  /// holes. Return 0, else -1.
+  /// Draws the body as a sprite that turns with it: rows (UTF-8) of up to 128 characters, centred on the
+  /// position; blanks are transparent. Returns 0, else -1.
   int setDrawing(const std::vector<std::string>& rows, Color color = COLOR_DEFAULT);
-  /// A constant spin is sent to clients once, as a constant velocity is.
+  /// Sends a constant spin to clients only once, like a constant velocity.
   int draw() override;
 
  private:
@@ -167,8 +168,8 @@ class Body : public Object {
   naiad::physics::BodyLook& look();
 
   std::shared_ptr<naiad::physics::BodyTable> m_table;
-  std::uint32_t m_index;                             ///< in the table
-  std::shared_ptr<naiad::physics::BodyLook> m_look;  ///< from the first drawing on
+  std::uint32_t m_index;                             ///< index in m_table
+  std::shared_ptr<naiad::physics::BodyLook> m_look;  ///< null until setDrawing() or draw()
 };
 
 }  // namespace df

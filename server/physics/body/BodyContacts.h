@@ -1,5 +1,5 @@
-// Which HARD bodies and Objects touch, whichever solver found it: a body that changes its solver gets neither
-// a second EventCollision for what it lies on, nor misses the EventContactEnd.
+// The contacts of HARD bodies and Objects, independent of the solver that found them. A body that changes its
+// solver neither gets a second EventCollision for a lasting contact, nor misses the EventContactEnd.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,22 @@ namespace naiad::physics {
 
 class BodyContacts {
  public:
-  /// A tick begins.
+  /// Begins a tick.
   void beginTick();
-  /// Up to so many will be added: memory is taken once.
+  /// Reserves memory for this many further contacts.
   void expect(std::size_t contacts) {
     if (contacts > m_changes.capacity()) m_touching.reserve(m_touching.size() + contacts);
     reserveFor(m_changes, contacts);
   }
-  /// What a solver found; from each in the order of time. What is known already changes nothing.
+  /// Adds a begin or end found by a solver, in order of time for each solver. Ignores known states.
   void add(const BodyContact& contact);
   /// The body or obstacle is gone: its contacts end with this tick.
   void expire(ObjectKey key) { expireIn(key, 1, nullptr); }
-  /// The same for what this solver found.
+  /// Like the above, only for contacts found by this solver.
   void expire(ObjectKey key, BodySolver by) { expireIn(key, 1, &by); }
-  /// The body was handed to another solver: its contacts end, unless that solver finds them soon.
+  /// The body changed its solver: its contacts end soon, unless the new solver finds them.
   void handOver(ObjectKey key) { m_handed_over.push_back(key); }
-  /// The tick ends: contacts that began or ended in it.
+  /// Ends the tick. Returns the contacts that began or ended in it.
   std::vector<BodyContact>& finishTick();
 
   bool isTouching(ObjectKey key) const;
@@ -37,13 +37,13 @@ class BodyContacts {
  private:
   struct Touch {
     BodyContact contact;
-    int ticks_left = 0;  // ticks until it ends, unless a solver finds it again; 0: it lasts
+    int ticks_left = 0;  // ticks until it ends, unless a solver finds it again; 0: lasting
   };
   struct TouchCount {  // by slot
     std::uint32_t generation = 0;
-    int count = 0;  // of what it touches
+    int count = 0;  // number of contacts
   };
-  static constexpr int kHandOverTicks = 3;  // ticks: a solver may find a contact a tick before it presses
+  static constexpr int kHandOverTicks = 3;  // ticks; solvers may find contacts a tick before bodies press
   void expireIn(ObjectKey key, int ticks, const BodySolver* p_by);
   static std::uint64_t keyOf(const BodyContact& contact) {
     return std::uint64_t{contact.first.slot} << 32 | contact.second.slot;
@@ -52,12 +52,11 @@ class BodyContacts {
   void applyHandOvers();
   void count(const BodyContact& contact, int by);
 
-  std::unordered_map<std::uint64_t, Touch>
-      m_touching;  // in no order: what changes is sorted by those who hear it
+  std::unordered_map<std::uint64_t, Touch> m_touching;  // unordered; sendContactEvents() sorts the changes
   std::vector<TouchCount> m_counts;
   std::unordered_map<std::uint64_t, int>
-      m_other_counts;                    // of others in a slot that is counted already, by name
-  std::vector<ObjectKey> m_handed_over;  // in this tick, and not yet looked for
+      m_other_counts;                    // by name: counts of other Objects whose slot in m_counts is taken
+  std::vector<ObjectKey> m_handed_over;  // in this tick, not yet applied to m_touching
   bool m_has_expiring = false;
   std::vector<BodyContact> m_changes;
 };

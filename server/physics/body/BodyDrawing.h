@@ -1,15 +1,14 @@
-// How a Body appears on the screen (Body::setDrawing).
+// The ways in which a Body can be drawn (Body::setDrawing).
 #pragma once
 
 #include <cstdint>
 
 namespace df {
 
-/// How a Body is drawn.
 enum class BodyDrawing : std::uint8_t {
-  NONE,     ///< nothing
-  OUTLINE,  ///< its edge; by default in - / | and \, as the edge runs
-  FILL,     ///< all cells whose middle it covers
+  NONE,     ///< not drawn
+  OUTLINE,  ///< the edge; by default with - / | and \, by its direction
+  FILL,     ///< all cells whose centre it covers
   SPRITE,   ///< rows of characters that turn with it
 };
 

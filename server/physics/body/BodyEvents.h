@@ -1,4 +1,4 @@
-// Sends Objects the events of the contacts of bodies.
+// Sends contact events of bodies to Objects.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,8 @@
 
 namespace naiad::physics {
 
-/// Sorts `contacts` by (time, ids) and sends both Objects of each an EventCollision when it began, and when
-/// it ended an EventContactEnd to those bodies that asked for it. Handlers may do anything; an Object that is
-/// gone gets no event.
+/// Sorts `contacts` by (time, ids). Sends an EventCollision to both Objects of each contact that began, and
+/// an EventContactEnd to those bodies of an ended one that asked for it. Handlers may delete any Object.
 void sendContactEvents(World& world, std::vector<BodyContact>& contacts);
 
 }  // namespace naiad::physics

@@ -1,4 +1,4 @@
-// Where a body flies in a tick, by whatever moves it.
+// The flight of a body within a tick, under all its forces.
 #pragma once
 
 #include "physics/body/BodyTable.h"
@@ -9,13 +9,13 @@
 
 namespace naiad::physics {
 
-/// From the row's state, over `t` ticks from `time` on, under `acceleration` (gravity and forces). A status
-/// other than kDone: the body is to be frozen.
+/// Computes the flight from the row's state over `t` ticks, starting at `time`, under `acceleration` (gravity
+/// and applied force). Freeze the body if the status is not kDone.
 IntegratorStatus flyBody(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time,
                          double t, const IntegratorOptions& options, Flown& flown,
                          IntegratorCounters& counters);
 
-/// What pulls a body the more, the farther it is away: −k·(x − to) − c·v, beside a constant acceleration.
+/// A pull that grows with distance, −k·(x − to) − c·v, in addition to a constant acceleration.
 struct Pull {
   Place to;
   Spring spring;  ///< per unit of mass
@@ -24,26 +24,26 @@ struct Pull {
   }
 };
 
-/// For solvers that hold the body against other things, and therefore cannot fly it: is it pulled so that a
-/// force that is constant within a tick would not do? A spring is taken as it is; a field is linearised where
+/// Used by solvers that hold the body against others and cannot call flyBody(). True if a force that is
+/// constant within the tick is not accurate enough. Springs are returned exactly. A field is linearised where
 /// it is stiff (more than 1 per tick²), by its Jacobian or three calls of it, with the stiffness of its
-/// steepest direction. What `pull` leaves out is `acceleration`.
+/// steepest direction. `acceleration` is the part that `pull` does not include.
 bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Pull& pull);
 
-/// Likewise, what a magnet does to it.
+/// A magnet's effect on a body, also for such solvers.
 struct Magnet {
-  double rate = 0;  ///< at which it turns the body's velocity: rad per tick, from x to y
-  Vec2 rest;        ///< the acceleration by everything else
+  double rate = 0;  ///< rate at which it turns the velocity: rad per tick, from x to y
+  Vec2 rest;        ///< acceleration by all other forces
 };
 
-/// Is there one, which turns more than it damps? Four calls of the field.
+/// True if there is a magnet that turns the velocity and damps it little. Calls the field four times.
 bool magnetOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Magnet& magnet);
 
-/// The joint that pulls a body so: a kMouse without a limit, whose b is still to be set.
+/// Returns the joint for this pull: a kMouse without limit. The caller sets its `b`.
 Joint jointOf(const Pull& pull, double mass);
 
-/// The same as flyBody() on a spring joint (kSpring) from `anchor`, a point of the world, to its middle. By
-/// formula while it moves along the spring, or if that has length 0; integrated otherwise.
+/// Like flyBody(), for a body whose centre hangs on a spring joint (kSpring) from `anchor`, a point of the
+/// world. Uses a formula if the body moves along the spring or its length is 0; integrates otherwise.
 IntegratorStatus flyHanging(const BodyRow& row, const BodyMedium& medium, const Joint& spring, Place anchor,
                             Vec2 acceleration, double time, const IntegratorOptions& options, Flown& flown,
                             IntegratorCounters& counters);

@@ -1,4 +1,4 @@
-// What a body is shaped like, and how it turns: of those whose shape is not their Object's box, or that turn.
+// The shape and rotation of a body that turns, or whose shape differs from its Object's box.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,17 @@
 
 namespace naiad::physics {
 
-/// Plain data, beside the body's row.
+/// Plain data that extends the body's row.
 struct BodyForm {
-  std::vector<ConvexShape> shapes;  ///< about the centre of mass, which is the place; none: the Object's box
-  double reach = 0;                 ///< of all shapes, from the place
-  double unit_inertia = 0;          ///< moment of inertia per mass, of `shapes`
-  Rotation rotation;                ///< of the shapes against the axes of the world
-  double spin = 0;                  ///< rad per tick
-  double torque = 0;                ///< for the next step
-  std::uint32_t version = 0;        ///< counts other shapes
-  bool is_turning = false;          ///< may impacts and torques turn it?
+  std::vector<ConvexShape>
+      shapes;                 ///< relative to the centre of mass, which is the place; none: the Object's box
+  double reach = 0;           ///< maximum distance of a shape's point from the place
+  double unit_inertia = 0;    ///< moment of inertia of `shapes` per mass
+  Rotation rotation;          ///< rotation of the shapes relative to the world's axes
+  double spin = 0;            ///< rad per tick
+  double torque = 0;          ///< applied in the next step
+  std::uint32_t version = 0;  ///< counts changes of the shapes
+  bool is_turning = false;    ///< true if impacts and torques may turn it
 };
 
 }  // namespace naiad::physics

@@ -1,7 +1,7 @@
-// Pictures of shapes in characters: one, or as many as make up a turn.
+// Draws shapes with characters: one frame, or all frames of a turn.
 //
-// A cell is 1 wide and `aspect` high in the metric in which shapes live, so that a square that turns stays a
-// square on the screen. The pictures are drawn around the cell nearest to the body's place.
+// In the metric of the shapes a cell is 1 wide and `aspect` high, so that a rotated square looks square on
+// the screen. Frames are drawn around the cell nearest to the body's place.
 #pragma once
 
 #include <cstdint>
@@ -18,28 +18,28 @@ namespace naiad::physics {
 
 struct FrameStyle {
   df::BodyDrawing how = df::BodyDrawing::OUTLINE;
-  char32_t ch = 0;  ///< of outline and filling; 0: lines by the direction of the edge, # for a filling
+  char32_t ch = 0;  ///< outline and filling; 0: lines by the direction of the edge, # for filling
   df::Color color = df::COLOR_DEFAULT;
-  std::vector<std::u32string> rows;  ///< of a sprite, around its middle; blanks are holes
-  bool spoke = false;                ///< circles show how they are turned
+  std::vector<std::u32string> rows;  ///< rows of a sprite, centred; blanks are transparent
+  bool spoke = false;                ///< draws a radius in circles to show the angle
 };
 
-/// The character of a line that runs so, in cells. The borders are at 22.5° and 67.5°.
+/// Returns the character for a line in this direction (cells). It changes at 22.5° and 67.5°.
 char32_t lineAlong(Vec2 direction, double aspect);
 
-/// The shapes, turned, as they look in character cells.
+/// Draws the rotated shapes in character cells.
 Appearance drawShapes(std::span<const ConvexShape> shapes, Rotation rotation, double aspect,
                       const FrameStyle& style);
 
 struct TurnFrames {
   Sequence frames;
-  std::uint32_t repeats = 1;  ///< how often the sequence is shown in a whole turn
+  std::uint32_t repeats = 1;  ///< number of repetitions of the sequence in a whole turn
 };
-/// A turn, in steps by which no edge moves by more than half the width of a cell, unless that takes more than
-/// what a look may have. Shapes that look the same after a part of a turn have frames for that part alone.
+/// Draws a turn in steps by which no edge moves by more than half a cell width, unless that exceeds the size
+/// limit of a look. Shapes with rotational symmetry have frames only for a part of the turn.
 TurnFrames drawTurn(std::span<const ConvexShape> shapes, double aspect, const FrameStyle& style);
 
-/// In what part of a turn, 1/n, does it come to look as it did? 1 for most, 0 for a circle about the origin.
+/// Returns n if the shapes look equal after 1/n of a turn: 1 for most, 0 for a circle about the origin.
 std::uint32_t symmetryOf(std::span<const ConvexShape> shapes);
 
 }  // namespace naiad::physics

@@ -1,4 +1,4 @@
-// The bodies that an ImpactWorld moves, and their obstacles: keeps that world in step with the table.
+// Keeps an ImpactWorld in step with the table: the bodies that it moves, and their obstacles.
 #pragma once
 
 #include <array>
@@ -18,43 +18,43 @@ class BodyImpacts {
   BodyImpacts() { m_world.setReserve(ImpactWorld::kUsualReserve); }
   using Index = BodyTable::Index;
 
-  /// Can an ImpactWorld have a body of this form, and this box of its Object? Then `body` gets the shape, and
-  /// `offset` says where its middle is from the body's place.
+  /// True if an ImpactWorld can move a body of this form and Object box. Then sets the shape of `body`, and
+  /// `offset` to its centre relative to the body's place.
   static bool canHave(const BodyForm& form, const Metric& metric, const FixedBox& box, ImpactBody& body,
                       Vec2& offset);
 
-  /// No body takes part in this tick, until it is added.
+  /// Begins a tick without bodies; add() adds them.
   void beginTick();
-  /// The body takes part in this tick: with the shape in `body`, the rest is filled in here. False if its
-  /// numbers are beyond what can be calculated with.
+  /// Adds a body to this tick. `body` has the shape; this function sets the other fields. False if numbers
+  /// are too large to calculate with.
   bool add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset);
-  /// No body takes part, nor did one in the last tick.
+  /// True if no body takes part, and none did in the last tick.
   bool isEmpty() const { return m_active.empty() && !m_was_active; }
-  /// Steps the bodies that were added by a tick. `is_costly` of their states says which were given up, as
+  /// Steps the added bodies by a tick. Sets `is_costly` in the states of bodies that were abandoned because
   /// they would have cost too much.
   void step(World& world, const BodyTable& table, std::vector<BodyState>& states, BodyContacts& contacts);
 
   bool hasGivenUp() const { return m_world.hasGivenUp(); }
-  /// Another solver moves the body in this tick: what the step has done to it is forgotten.
+  /// Another solver moves the body in this tick: discards the results of the step for it.
   void passOn(const BodyState& state);
-  /// Appends the contacts of those that are still here, whose states get places and velocities.
+  /// Appends the contacts of the remaining bodies, and sets places and velocities in their states.
   void finish(std::vector<BodyState>& states, BodyContacts& contacts);
 
   const ImpactCounters& counters() const { return m_world.counters(); }
 
  private:
   struct Proxy {              // by index of the table
-    std::uint64_t order = 0;  // of the body's construction: which body it stands for
+    std::uint64_t order = 0;  // construction order of the body that this entry belongs to
     int id = -1;
     bool is_used = false;  // in this tick
-    Place row_place;       // what the table got last,
-    Place world_place;     // which is this to the ImpactWorld,
-    Vec2 offset;           // with this between them
+    Place row_place;       // place last given to the table
+    Place world_place;     // row_place as the ImpactWorld has it
+    Vec2 offset;           // world_place − row_place
   };
   struct ActiveBody {
     Index index;
     ImpactBody body;
-    Place search_centre;  // where obstacles were searched, and how far
+    Place search_centre;  // centre and half size of the searched area for obstacles
     Vec2 search_half;
   };
   struct Identity {  // by id
@@ -64,7 +64,7 @@ class BodyImpacts {
   };
   struct FoundContact {
     BodyContact contact;
-    std::array<int, 2> states;  // −1: an obstacle's
+    std::array<int, 2> states;  // −1: an obstacle
   };
 
   void adapt(const BodyState& state, const BodyRow& row, ImpactBody& body);

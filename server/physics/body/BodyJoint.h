@@ -1,12 +1,13 @@
-// A joint between two bodies, or a body and the world. PM.add… makes it and hands out one of these:
+// A joint between two bodies, or between a body and the world. The PM.add… functions make joints and return
+// one of these:
 //
 //   df::Joint rope = PM.addRope(p_hook, p_crate);
 //   df::Joint axle = PM.addHinge(p_wheel, nullptr, p_wheel->getPosition());   // null: the world
 //   axle.setBreakForce(20);
 //
-// A value: copy it, keep it, throw it away; the joint stays. It goes when it is removed, when it breaks, and
-// with either of its bodies; then exists() says so, setters return −1, and nothing else happens. Bodies that
-// are joined do not collide with each other.
+// A Joint is a handle: copying or destroying it does not affect the joint. The joint ends when it is removed,
+// when it breaks, or when one of its bodies is deleted. After that exists() is false and setters return −1.
+// Joined bodies do not collide with each other.
 #pragma once
 
 #include <cstdint>
@@ -18,52 +19,51 @@ namespace naiad::physics {
 class BodyTable;
 struct JointEntry;
 
-/// Which joint of a table: an index that is used again, and a generation that is not.
+/// Identifies a joint of a table: an index that may be reused, and a generation that is not.
 struct JointKey {
   std::uint32_t index = 0;
-  std::uint32_t generation = 0;  ///< 0: none
+  std::uint32_t generation = 0;  ///< 0: no joint
 };
 }  // namespace naiad::physics
 
 namespace df {
 
-/// Setters return 0, or -1 (and no change) for numbers that are not finite or out of range, for a joint that
-/// is gone, and for a kind of joint without that setting.
+/// Setters return 0. They return -1 and change nothing for numbers that are not finite or out of range, for a
+/// joint that does not exist any more, and for a kind of joint without that setting.
 class Joint {
  public:
-  /// No joint.
+  /// Refers to no joint.
   Joint() = default;
 
-  /// Is the joint still there?
+  /// True while the joint exists.
   bool exists() const;
-  /// Return 0, or -1 if it is gone.
+  /// Removes the joint. Returns 0, or -1 if it does not exist.
   int remove();
 
-  /// It breaks when its mean force over a tick exceeds this. Mass · widths of a cell per tick², >= 0;
-  /// infinity by default.
+  /// Sets the force at which the joint breaks: it breaks when its mean force over a tick is larger. Mass ·
+  /// cell widths per tick², >= 0; infinity by default.
   int setBreakForce(double force);
-  /// The same for the torque that holds the angle. Force · widths of a cell.
+  /// Like setBreakForce(), for the torque that holds the angle. Force · cell widths.
   int setBreakTorque(double torque);
-  /// Of a distance (> 0), a rope (> 0, the greatest) or a spring (>= 0, the rest length). Widths of a cell,
-  /// to 1e30.
+  /// Sets the length of a distance joint (> 0), the maximum length of a rope (> 0) or the rest length of a
+  /// spring (>= 0). Cell widths, to 1e30.
   int setLength(double length);
-  /// 0 for a joint that is gone.
+  /// Returns 0 if the joint does not exist.
   double getLength() const;
-  /// Of a spring or a mouse: mass per tick² and mass per tick, both 0 … 1e30.
+  /// Spring or mouse joints only. Mass per tick² and mass per tick, both 0 … 1e30.
   int setStiffness(double stiffness, double damping);
-  /// Of a motor: radians per tick, −1e30 … 1e30, of the second body against the first.
+  /// Motors only. Speed of the second body relative to the first, radians per tick, −1e30 … 1e30.
   int setSpeed(double speed);
-  /// Of a motor the greatest torque, of a mouse the greatest force along each axis; >= 0, infinity too.
+  /// Sets a motor's maximum torque, or a mouse joint's maximum force along each axis; >= 0, may be infinity.
   int setStrength(double strength);
-  /// Of an angle limit, in radians: −π < lower <= upper < π, of the second body against the first.
+  /// Angle limits only. Radians of the second body relative to the first: −π < lower <= upper < π.
   int setLimits(double lower, double upper);
-  /// Of a mouse: where to pull, in cells.
+  /// Mouse joints only. The point to pull to, in cells.
   int setTarget(Vector target);
 
-  /// Its mean force on the second body in the last tick, mass · cells per tick²; (0,0) for a joint that is
-  /// gone.
+  /// Mean force on the second body in the last tick, mass · cells per tick²; (0,0) if the joint is gone.
   Vector getForce() const;
-  /// The same for the torque. Force · widths of a cell.
+  /// Like getForce(), for the torque, in force · cell widths.
   double getTorque() const;
 
  private:

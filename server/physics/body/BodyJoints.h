@@ -1,7 +1,7 @@
 // The joints of a world's bodies.
 //
-// Of bodies the table knows their rows (BodyTable.h). A joint of a body with the world has its own place
-// there, so that a scene that is moved by whole cells behaves the same.
+// Bodies are named by their rows in the BodyTable. A joint to the world stores its anchor place, so that a
+// scene moved by whole cells behaves identically.
 #pragma once
 
 #include <cstdint>
@@ -15,28 +15,28 @@ namespace naiad::physics {
 
 struct JointEntry {
   Joint joint;   ///< a and b are rows, or BodyJoints::kWorld
-  Place anchor;  ///< of a joint with the world: where on it; the joint's anchor there is 0
+  Place anchor;  ///< joint to the world: its point there; the joint's own anchor on that side is 0
   std::uint32_t generation = 0;
   bool used = false;
-  std::uint32_t tunings = 0;  ///< how often the game has changed a number of it
+  std::uint32_t tunings = 0;  ///< counts changes of the joint's numbers by the game
 };
 
 class BodyJoints {
  public:
-  static constexpr int kWorld = -1;  ///< in the place of a body's row
+  static constexpr int kWorld = -1;  ///< stands for the world in place of a row
 
   JointKey add(const Joint& joint, Place anchor);
-  /// Null once it is removed, broken, or one of its bodies is gone.
+  /// Returns null if the joint was removed, is broken, or one of its bodies is deleted.
   JointEntry* find(JointKey key);
   void remove(JointKey key);
-  /// A body dies: its joints go with it.
+  /// Removes all joints of a deleted body.
   void removeOf(int row);
 
-  /// Used or not; their order depends only on the calls before.
+  /// Includes unused entries; the order depends only on the previous calls.
   std::vector<JointEntry>& entries() { return m_entries; }
   const std::vector<JointEntry>& entries() const { return m_entries; }
   int count() const { return m_count; }
-  /// Counts what came, went or was changed in kind: groups have to be found again.
+  /// Counts joints added, removed or changed in kind; after a change groups must be found again.
   std::uint64_t changes() const { return m_changes; }
   void markChanged() { ++m_changes; }
 

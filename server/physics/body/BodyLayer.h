@@ -1,8 +1,8 @@
-// The physics' part of a world's update(): steps all bodies by one tick, at once.
+// The physics' part of a world's update(): steps all bodies by one tick.
 //
-// A world gets this layer with its first Body or its first PM.set…, and has no cost before. Each body is
-// moved by one of several: its own flight if nothing can touch it, an ImpactWorld, a JointSolver, a
-// RigidWorld, a SubstepWorld; which one is decided again in each tick (BodyIslands.h).
+// A world gets this layer with its first Body or its first PM.set… call, and has no cost before. In each tick
+// BodyIslands chooses the solver of each body: its own flight if nothing can touch it, an ImpactWorld, a
+// JointSolver, a RigidWorld or a SubstepWorld.
 #pragma once
 
 #include <memory>
@@ -23,24 +23,24 @@
 
 namespace naiad::physics {
 
-/// Of what is a body, rigid or soft: is it there, and neither inactive nor about to be deleted?
+/// True if the rigid or soft body is in the world, active, and not about to be deleted.
 inline bool takesPart(const WorldStore& store, ObjectKey key) {
   constexpr std::uint32_t kNeeded = WorldStore::kInWorld | WorldStore::kActive | WorldStore::kBody;
   return store.isCurrent(key) && (store.flags(key.slot) & kNeeded) == kNeeded;
 }
 
-/// All have moved: places these, if they take part. Handlers run.
+/// Places the Objects that take part, after all have moved. Runs handlers.
 void placeMoved(World& world, const std::vector<MovedObject>& all);
 
 class BodyLayer : public df::Layer {
  public:
   BodyLayer() : m_table(std::make_shared<BodyTable>()) {}
-  /// The layer of this world; made if there is none.
+  /// Returns the layer of this world, after creating it if needed.
   static BodyLayer& of(World& world);
 
   void step(World& world) override;
   const std::shared_ptr<BodyTable>& table() { return m_table; }
-  /// Of this tick, for layers that come after.
+  /// States of this tick, for the layers that follow.
   const std::vector<BodyState>& states() const { return m_states; }
   bool isTouching(ObjectKey key) const { return m_contacts.isTouching(key); }
   const ImpactCounters& impactCounters() const { return m_impacts.counters(); }
@@ -70,7 +70,7 @@ class BodyLayer : public df::Layer {
   void quarantine(World& world, State& state, const char* p_why);
   void logCrowd(World& world);
 
-  /// Cells per tick. What has just begun to slide down a slope is slow for long, and must not fall asleep.
+  /// Cells per tick; small, so that bodies that begin to slide down a slope do not sleep.
   static constexpr double kSleepSpeed = 1e-5;
 
   std::shared_ptr<BodyTable> m_table;
@@ -79,22 +79,22 @@ class BodyLayer : public df::Layer {
   BodyIslands m_islands;
   RigidWorld m_rigid_world{RigidOptions{.sleep_speed = kSleepSpeed}};
   SubstepWorld m_substep_world;
-  // 500 boxes in a drum take it less time than Box2D with 4 times 8 + 3 iterations, and overlap by less.
+  // 500 boxes in a drum need less time than in Box2D with 4 times 8 + 3 iterations, and overlap less.
   SubstepWorld m_heap_world{SubstepOptions{.searches = 2, .substeps = 5}};
   BodyRigids m_rigids{BodySolver::kRigid, m_rigid_world};
   BodyRigids m_substeps{BodySolver::kSubstep, m_substep_world};
   BodyRigids m_heaps{BodySolver::kHeap, m_heap_world};
   BodyContacts m_contacts;
   BodySensors m_sensors;
-  // Of this step; kept for their memory.
+  // Scratch memory of a step.
   std::vector<State> m_states;
-  std::vector<double> m_unit_inertias;  // by state; 0: it does not turn
-  // Is any HARD body joined, or more than a box or a circle, or was any moved by the SubstepWorld?
+  std::vector<double> m_unit_inertias;  // by state; 0: does not turn
+  // True if any HARD body is joined or other than a box or circle, or was moved by the SubstepWorld.
   bool m_is_mixed = false;
-  bool m_has_pulls = false;               // does a Pull act on any joined body?
-  std::int64_t m_evaluations_before = 0;  // of fields, before this tick
+  bool m_has_pulls = false;               // true if a Pull acts on any joined body
+  std::int64_t m_evaluations_before = 0;  // evaluations of fields before this tick
   bool m_was_fast = false;
-  bool m_has_substeps = false;  // is any for the SubstepWorld?
+  bool m_has_substeps = false;  // true if the SubstepWorld moves any body
   std::vector<MovedObject> m_moved;
   bool m_has_logged_crowd = false;
 };

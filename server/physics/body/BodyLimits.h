@@ -1,4 +1,4 @@
-// The numbers that bodies accept from a game.
+// Limits of numbers that a game may set on bodies.
 #pragma once
 
 #include <cmath>
@@ -7,10 +7,10 @@
 
 namespace df {
 
-inline constexpr double kMaxBodyNumber = 1e30;  ///< of any number: products of two stay finite
-inline constexpr double kMaxSpin = 1e6;  ///< rad per tick: an angle gains no more than a double resolves well
+inline constexpr double kMaxBodyNumber = 1e30;  ///< limit of all numbers: the product of two stays finite
+inline constexpr double kMaxSpin = 1e6;  ///< rad per tick; beyond, a double does not resolve the angle well
 
-// All are false for NaN.
+// All of these return false for NaN.
 
 inline bool isUsable(double value) {
   return std::abs(value) <= kMaxBodyNumber;

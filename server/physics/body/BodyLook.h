@@ -1,8 +1,8 @@
-// What a Body looks like: the pictures of its turn, and which of them is shown.
+// The drawing of a Body: the frames of its turn, and the choice of the frame shown.
 //
-// The picture shown follows a selector (naiad::Selector), an integer function of the tick: as long as the
-// body turns as that says, to within a part of a picture, the selector stays, and nothing has to be
-// published. So what is on the screen is always what the selector says, on the server too.
+// The frame shown follows a selector (naiad::Selector), an integer function of the tick. While the body turns
+// as the selector says, within a part of a frame, the selector stays and nothing has to be published. So the
+// screen always shows what the selector says, on the server too.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,15 @@ namespace naiad::physics {
 
 class BodyLook {
  public:
-  /// From now on draw it so.
+  /// Draws with this style from now on.
   void restyle(FrameStyle style);
 
-  /// Take in how the body is in this tick. `box`: the Object's, which is its shape where it has no other.
+  /// Updates frames and selector from the body's state in this tick. `box` is the Object's, used as shape if
+  /// the form has none.
   void update(const BodyForm& form, const df::FixedBox& box, double aspect, std::uint32_t tick);
   const Sequence& frames() const { return m_turn.frames; }
   const Selector& selector() const { return m_selector; }
-  /// Did the last update() make other pictures? Did it choose another selector?
+  /// True if the last update() made new frames; true if it chose a new selector.
   bool hasNewFrames() const { return m_new_frames; }
   bool hasNewSelector() const { return m_new_selector; }
 
@@ -37,9 +38,9 @@ class BodyLook {
   FrameStyle m_style;
   TurnFrames m_turn;
   Selector m_selector;
-  // What the pictures were made of.
+  // The input from which the frames were drawn.
   bool m_made = false;
-  bool m_turns = false;  ///< they show a whole turn; else only `m_rotation`
+  bool m_turns = false;  ///< the frames show a whole turn; else only `m_rotation`
   std::vector<ConvexShape> m_shapes;
   df::FixedBox m_box;
   double m_aspect = 0;
@@ -48,7 +49,7 @@ class BodyLook {
   bool m_new_selector = false;
 };
 
-/// 2^32 are a turn; `angle` is finite, in radians.
+/// Converts a finite angle in radians to units of 2^-32 turn.
 std::uint32_t integerAngle(double angle);
 
 }  // namespace naiad::physics

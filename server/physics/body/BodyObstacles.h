@@ -1,7 +1,6 @@
-// The obstacles of a solver: HARD Objects without mass that bodies may run into in this tick.
+// The obstacles of a solver: HARD Objects without mass that bodies may hit in this tick.
 //
-// They are found by the world's own grid, and kept while a body is near. An Object without bodies near it
-// costs nothing.
+// The world's grid finds them, and they are kept while a body is near. Other Objects cost nothing.
 #pragma once
 
 #include <vector>
@@ -16,20 +15,20 @@ class BodyObstacles {
  public:
   struct Obstacle {
     ObjectKey key;
-    int id = -1;  ///< the solver's; −1: it does not know it yet
+    int id = -1;  ///< id in the solver; −1: not added yet
     bool is_near = true;
   };
 
-  /// No obstacle is near, until it is marked.
+  /// Begins a tick; markNear() marks the obstacles that are near.
   void beginTick();
   void markNear(ObjectKey key);
-  /// Ordered by slot. The solver takes in those without an id, and drops those that are not near.
+  /// Sorted by slot. The solver adds those without an id and removes those that are not near.
   std::vector<Obstacle>& all() { return m_all; }
   void removeFar() {
     std::erase_if(m_all, [](const Obstacle& obstacle) { return !obstacle.is_near; });
   }
 
-  /// Is the Object one: solid, HARD, and no body?
+  /// True if the Object is an obstacle: solid, HARD and not a body.
   static bool isObstacle(const WorldStore& store, ObjectKey key) {
     return store.isCurrent(key) && store.collides(key.slot) && store.solidness(key.slot) == HARD &&
            !store.has(key.slot, WorldStore::kBody);
@@ -39,7 +38,7 @@ class BodyObstacles {
   std::vector<Obstacle> m_all;
 };
 
-/// Everything within `half` to either side of `centre`, in the world's own numbers, and a little more.
+/// Returns the box of `half` to each side of `centre` in the world's numbers, slightly enlarged.
 FixedBox regionOf(const Metric& metric, const Place& centre, Vec2 half);
 
 }  // namespace naiad::physics

@@ -1,5 +1,4 @@
-// The bodies that a RigidWorld or a SubstepWorld moves, their joints and obstacles: keeps that world in step
-// with the table.
+// Keeps a RigidWorld or SubstepWorld in step with the table: its bodies, their joints and obstacles.
 #pragma once
 
 #include <vector>
@@ -14,17 +13,16 @@ namespace naiad::physics {
 
 class BodyRigids {
  public:
-  /// `solver`: kRigid, kSubstep or kHeap, which `stepper` is.
+  /// `solver` is the kind of `stepper`: kRigid, kSubstep or kHeap.
   BodyRigids(BodySolver solver, RigidStepper& stepper) : m_solver(solver), m_world(stepper) {}
   BodyRigids(const BodyRigids&) = delete;
   BodyRigids& operator=(const BodyRigids&) = delete;
 
-  /// Does no body take part, and did none in the last tick?
+  /// True if no body takes part, and none did in the last tick.
   bool isEmpty() const { return m_count == 0; }
-  /// Did the last step give it up, as a heap?
+  /// True if the last step gave the body's group up; it goes to the heap solver.
   bool isGivenUp(const BodyTable& table, BodyTable::Index row) const;
-  /// Steps the bodies with this solver by a tick, with the kinematic ones near them. `unit_inertias` by
-  /// state; 0: it does not turn.
+  /// Steps the bodies with this solver, and kinematic ones near them. `unit_inertias` is by state; 0: fixed.
   void step(const WorldStore& store, BodyTable& table, std::vector<BodyState>& states,
             const std::vector<double>& unit_inertias, BodyContacts& contacts);
 
@@ -33,16 +31,16 @@ class BodyRigids {
     std::uint64_t order = 0;
     int id = -1;
     bool is_used = false;
-    std::uint32_t version = 0;  // of the form
-    FixedBox box;               // of the Object, if that is its shape
+    std::uint32_t version = 0;  // version of the form
+    FixedBox box;               // the Object's box, if that is the shape
   };
   struct JointProxy {  // by entry of the table's joints
     std::uint32_t generation = 0;
     std::uint32_t tunings = 0;
     int id = -1;
-    int anchor = -1;  // the body that stands for the world
+    int anchor = -1;  // the body that represents the world
   };
-  struct PullProxy {  // by row of the table: the joint that pulls it
+  struct PullProxy {  // by row of the table: the joint for its pull
     std::uint64_t order = 0;
     int id = -1;
     Pull pull;
@@ -82,8 +80,8 @@ class BodyRigids {
   std::vector<FixedBox> m_obstacle_boxes;  // by id
   BodySurroundings m_surroundings;
   int m_count = 0;
-  bool m_has_pulls = false;  // does one pull on any of its bodies in this tick?
-  Vec2 m_fastest;            // of its bodies, along each axis, at the start of the tick
+  bool m_has_pulls = false;  // true if a pull acts on one of its bodies in this tick
+  Vec2 m_fastest;            // maximum speeds of its bodies along each axis at the start of the tick
   bool m_may_sleep = true;
 };
 

@@ -1,4 +1,4 @@
-// SOFT bodies and SOFT Objects are sensors: they get contact events, and push nothing.
+// SOFT bodies and SOFT Objects are sensors: they get contact events but push nothing.
 #pragma once
 
 #include <vector>
@@ -12,12 +12,11 @@
 
 namespace naiad::physics {
 
-/// The contacts of sensors, kept from tick to tick. Shapes that an ImpactWorld does not know count as the
-/// Object's box.
+/// The contacts of sensors, kept from tick to tick. Shapes unknown to an ImpactWorld count as boxes.
 class BodySensors {
  public:
-  /// After all bodies have moved: appends the contacts that began on their paths, or ended. (A pair of which
-  /// neither is SOFT belongs to the solvers.)
+  /// Call after all bodies have moved. Appends the contacts that began on their paths, or ended. Solvers
+  /// handle pairs in which neither is SOFT.
   void step(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
             std::vector<BodyContact>& contacts);
 
@@ -30,11 +29,11 @@ class BodySensors {
     std::uint64_t order = 0;
     bool is_body = false;
     bool is_soft = false;
-    ImpactBody shape;   ///< where its middle was when the tick began
-    Vec2 displacement;  ///< since then
+    ImpactBody shape;   ///< its centre is that at the beginning of the tick
+    Vec2 displacement;  ///< movement since the beginning of the tick
   };
   struct Touch {
-    ObjectKey first, second;  ///< a body, and a body made later or an Object
+    ObjectKey first, second;  ///< a body, and a later body or an Object
     friend bool operator==(const Touch& a, const Touch& b) {
       return a.first == b.first && a.second == b.second;
     }
@@ -55,15 +54,15 @@ class BodySensors {
   void sortPairs();
   void examine(const Pair& pair, bool were_touching, std::vector<BodyContact>& contacts);
 
-  std::vector<Mover> m_movers;    // bodies, by order; behind them the Objects of m_pairs
-  std::size_t m_bodies = 0;       // how many movers are bodies
-  std::vector<Pair> m_pairs;      // to be examined, by slots
-  std::vector<Pair> m_sorted;     // scratch of sortPairs()
-  std::vector<Touch> m_touching;  // at the end of the last tick, by slots
+  std::vector<Mover> m_movers;    // bodies in creation order, then the Objects of m_pairs
+  std::size_t m_bodies = 0;       // number of movers that are bodies
+  std::vector<Pair> m_pairs;      // pairs to examine, by slots
+  std::vector<Pair> m_sorted;     // scratch memory of sortPairs()
+  std::vector<Touch> m_touching;  // touching at the end of the last tick, by slots
   std::vector<Touch> m_now;
-  std::vector<std::uint32_t> m_by_slot;  // the bodies among the movers
-  std::vector<std::size_t> m_asking;     // movers, by number of their region
-  ImpactTree m_soft;                     // of SOFT bodies
+  std::vector<std::uint32_t> m_by_slot;  // the bodies among the movers, by slot
+  std::vector<std::size_t> m_asking;     // movers by the number of their region
+  ImpactTree m_soft;                     // the SOFT bodies
   std::vector<SweptBox> m_boxes;
   std::vector<int> m_ids;
   BodySurroundings m_surroundings;

@@ -1,4 +1,4 @@
-// A body's state within a tick, from the table's row until it is published.
+// A body's state during a tick, from reading the table's row to publishing.
 #pragma once
 
 #include "engine/world/WorldView.h"
@@ -8,18 +8,18 @@
 
 namespace naiad::physics {
 
-/// What moves it.
+/// The solver that moves a body.
 enum class BodySolver : std::uint8_t {
-  kFlight,        ///< nothing can touch it: its own flight
-  kImpact,        ///< ImpactWorld: it does not turn, and is a box along the axes or a circle
+  kFlight,        ///< own flight, because nothing can touch it
+  kImpact,        ///< ImpactWorld: does not turn; a box along the axes or a circle
   kJoints,        ///< JointSolver
   kRigid,         ///< RigidWorld
   kJointImpacts,  ///< JointSolver, from impact to impact (JointImpacts): circles may hit it
-  kSubstep,       ///< SubstepWorld: at ACCURACY_FAST, or what would cost the others too much
-  kHeap,          ///< another one, in finer steps: large groups that a RigidWorld has given up
+  kSubstep,       ///< SubstepWorld: at ACCURACY_FAST, or if it is too expensive for the others
+  kHeap,          ///< a SubstepWorld with finer steps: large groups that a RigidWorld gave up
 };
 
-/// Is that a SubstepWorld?
+/// True for solvers that are a SubstepWorld.
 constexpr bool isSoft(BodySolver solver) {
   return solver == BodySolver::kSubstep || solver == BodySolver::kHeap;
 }
@@ -27,45 +27,45 @@ constexpr bool isSoft(BodySolver solver) {
 struct BodyState {
   BodyTable::Index index;
   ObjectKey key;
-  std::uint64_t order = 0;  ///< the Object's, in the world
+  std::uint64_t order = 0;  ///< creation order of the Object in the world
   BodySolver solver = BodySolver::kFlight;
   bool is_hard = false;
   bool is_soft = false;
-  bool is_costly = false;   ///< on joints, or after impacts, that cost more than their number allows
-  bool is_in_heap = false;  ///< the RigidWorld has given it up in the last tick
+  bool is_costly = false;   ///< too expensive for its size, because of joints or impacts
+  bool is_in_heap = false;  ///< the RigidWorld gave it up in the last tick
   bool is_kinematic = false;
   bool is_joined = false;
-  bool is_simple = false;         ///< an ImpactWorld can have it
-  bool is_sprung = false;         ///< a spring or a stiff field pulls it: what holds it must know `pull`
-  bool must_be_held = false;      ///< its flight is not known, or no JointSolver follows its `pull` or magnet
-  double turn_rate = 0;           ///< of the magnet that turns it where something holds it: rad per tick
-  bool is_bent = false;           ///< its own path is not that of a constant acceleration
-  bool is_near_rigid = false;     ///< kinematic, and on the path of one in the RigidWorld
-  bool is_near_substep = false;   ///< the same of the SubstepWorld
-  bool is_touched = false;        ///< by anything, in this tick or the last one
-  bool contacts_changed = false;  ///< a contact began or ended in this tick
-  bool turns_alone = true;        ///< nothing turns it but its own torque
-  int group = -1;                 ///< with solver kJointImpacts: bodies that may hit one another
-  const char* p_failure = nullptr;  ///< why it has to be frozen; null: it has not
-  double radius = 0;                ///< of a circle about its place that does not turn; 0: it is none
-  Place start;                      ///< at the beginning of the tick
+  bool is_simple = false;        ///< an ImpactWorld can move it
+  bool is_sprung = false;        ///< a spring or stiff field pulls it: solvers must use `pull`
+  bool must_be_held = false;     ///< its flight is unknown, or the JointSolver cannot follow a pull or magnet
+  double turn_rate = 0;          ///< rad per tick by a magnet, while other bodies hold it
+  bool is_bent = false;          ///< its own path is not that of a constant acceleration
+  bool is_near_rigid = false;    ///< kinematic and on the path of a body in the RigidWorld
+  bool is_near_substep = false;  ///< kinematic and on the path of a body in a SubstepWorld
+  bool is_touched = false;       ///< touched by anything in this or the last tick
+  bool contacts_changed = false;    ///< a contact began or ended in this tick
+  bool turns_alone = true;          ///< only its own torque turns it
+  int group = -1;                   ///< kJointImpacts only: bodies that may hit each other have one number
+  const char* p_failure = nullptr;  ///< reason to freeze it, or null
+  double radius = 0;                ///< radius of a circle about its place that does not turn; 0 for others
+  Place start;                      ///< place at the beginning of the tick
   Vec2 start_velocity;
-  Vec2 push;    ///< gravity and force over mass
-  Pull pull;    ///< if it is sprung
-  Vec2 size;    ///< of its shape, with some room
-  Vec2 reach;   ///< how far around `start` it gets on its own, its shape included
-  Flown flown;  ///< where it would go on its own
-  Place place;  ///< at the end
+  Vec2 push;    ///< gravity plus applied force over mass
+  Pull pull;    ///< valid if is_sprung
+  Vec2 size;    ///< half size of its shape, with some margin
+  Vec2 reach;   ///< half size of the area around `start` that it can reach on its own, shape included
+  Flown flown;  ///< flight if nothing touches it
+  Place place;  ///< result of the tick
   Vec2 velocity;
   Rotation rotation;
   double spin = 0;
-  Vec2 acceleration;  ///< what clients extrapolate with
+  Vec2 acceleration;  ///< used by the clients' extrapolation
 
-  /// Does `pull` act on it, where it does not fly on its own?
+  /// True if `pull` acts on it when it does not fly on its own.
   bool isPulled() const { return is_sprung && (pull.spring.stiffness > 0 || pull.spring.damping > 0); }
 };
 
-/// Two bodies of a group with solver kJointImpacts whose paths may cross in this tick: indices of states.
+/// Two bodies of a group with solver kJointImpacts whose paths may cross in this tick, as indices of states.
 struct BodyCandidatePair {
   int group = -1;
   int a = -1, b = -1;  ///< a < b
@@ -75,20 +75,20 @@ struct BodyCandidatePair {
   }
 };
 
-/// An Object that gets another position once all have moved.
+/// An Object that gets a new position after all have moved.
 struct MovedObject {
   ObjectKey key;
   FixedVector where;
 };
 
-/// What becomes of contacts.
+/// The begin or end of a contact.
 struct BodyContact {
   double time = 0;  ///< 0 … 1, within the tick
   ObjectKey first, second;
   std::uint64_t first_order = 0, second_order = 0;
   double impulse = 0;
   bool is_begin = true;
-  BodySolver by = BodySolver::kFlight;  ///< which solver found it
+  BodySolver by = BodySolver::kFlight;  ///< solver that found it
 };
 
 }  // namespace naiad::physics

@@ -1,7 +1,6 @@
-// The Objects without mass that are near many bodies.
+// Finds the Objects without mass near many bodies.
 //
-// The world's grid is asked once for bodies that are in one place, not once for each: in a heap each question
-// would find the heap again.
+// Bodies in one place share a query of the world's grid: in a heap, each query returns the whole heap.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +14,10 @@ namespace naiad::physics {
 class BodySurroundings {
  public:
   void clear() { m_regions.clear(); }
-  /// Adds a region to the next query. The first since clear() has number 0, the next 1, and so on.
+  /// Adds a region to the next query. Regions are numbered from 0 since clear().
   void addRegion(const FixedBox& region);
-  /// Calls visit(number, key) for each Object in the store's grid that is no body and touches the region of
-  /// that number, edges included: by numbers, then in creation order.
+  /// Calls visit(number, key) for each Object in the store's grid that is not a body and touches the region
+  /// with that number, edges included. The order is by numbers, then by creation.
   template <class Visit>
   void query(const WorldStore& store, Visit visit) {
     search(store);
@@ -38,7 +37,7 @@ class BodySurroundings {
   };
   struct Other {
     ObjectKey key;
-    FixedBox box;  // in the world
+    FixedBox box;  // in world coordinates
   };
   void search(const WorldStore& store);
   bool listOthers(const WorldStore& store);

@@ -1,8 +1,7 @@
-// The bodies of a world: what the physics knows of each, beside what the store knows of all Objects.
+// The bodies of a world: their physical data, in addition to what the store has for all Objects.
 //
-// A scene without bodies has no table. A body has a row from construction to destruction; rows of
-// deleted bodies are used again; `order` is the order of construction. Counted: by the layer and by each
-// Body, so that a Body that outlives its world goes on working.
+// A scene without bodies has no table. A body has a row from construction to destruction; rows of deleted
+// bodies are reused. The layer and each Body share ownership, so a Body may outlive its world.
 #pragma once
 
 #include <cstdint>
@@ -20,44 +19,44 @@
 
 namespace naiad::physics {
 
-/// What moves a body, beside forces.
+/// The force law of a body in flight.
 enum class FlightKind : std::uint8_t {
-  kFree,  ///< gravity and this tick's force: constant
+  kFree,  ///< constant: gravity and this tick's force
   kLinearDrag,
   kQuadraticDrag,
-  kSpring,  ///< to a point; linear drag adds to its damping
-  kField,   ///< that the game defines; linear and quadratic drag count as well
+  kSpring,  ///< a spring to a point; linear drag is added to its damping
+  kField,   ///< defined by the game; linear and quadratic drag also act
 };
 
-/// Of bodies and of Objects without mass.
+/// Default friction of bodies and Objects without mass.
 inline constexpr double kUsualFriction = 0.5;
 
-/// Of every body, read and written in each step.
+/// Data of every body, read and written in each step.
 struct BodyRow {
   ObjectKey key;
   const Object* p_object = nullptr;
-  std::uint64_t order = 0;       ///< of construction
+  std::uint64_t order = 0;       ///< order of construction
   std::uint8_t last_solver = 0;  ///< the BodySolver that moved it in the last step
   Place place;                   ///< the Object's position
   Vec2 velocity;                 ///< metric cells per tick
-  Vec2 force;                    ///< for the next step, mass · metric cells per tick²
+  Vec2 force;                    ///< applied in the next step, mass · metric cells per tick²
   double mass = 1;
-  double inverse_mass = 1;  ///< 0 for a kinematic one
+  double inverse_mass = 1;  ///< 0 if kinematic
   double gravity_scale = 1;
   double restitution = 0;
   double friction = kUsualFriction;
   FlightKind flight = FlightKind::kFree;
   bool used = false;
   bool is_kinematic = false;
-  bool hears_ends = false;    ///< of contacts
-  bool touches_soft = false;  ///< a soft body has pushed it since its last step: no case for event-exactness
-  bool frozen = false;        ///< quarantined: stands until the game sets its place or velocity
-  FixedVector
-      published_position;  ///< as the store got it last; if it holds another now, the game moved the body
+  bool hears_ends = false;         ///< gets EventContactEnd
+  bool touches_soft = false;       ///< a soft body pushed it in the last step, so it cannot be event-exact
+  bool frozen = false;             ///< quarantined: stands still until the game sets its place or velocity
+  FixedVector published_position;  ///< last position given to the store; if the store's differs, the game
+                                   ///< moved the body
   FixedVector published_velocity;
 };
 
-/// Of those that use it.
+/// Data of bodies with drag, a spring or a field.
 struct BodyMedium {
   double linear_drag = 0;     ///< force over velocity and mass, per tick
   double quadratic_drag = 0;  ///< force over velocity² and mass, per metric cell
@@ -67,20 +66,20 @@ struct BodyMedium {
   Place field_origin;
 };
 
-/// Of a world, set by its game (PhysicsManager).
+/// Settings of a world, set by its game (PhysicsManager).
 struct BodySettings {
   Vec2 gravity;                               ///< metric cells per tick²
-  double obstacle_friction = kUsualFriction;  ///< of HARD Objects without mass
-  double obstacle_restitution = 0;            ///< likewise
+  double obstacle_friction = kUsualFriction;  ///< friction of HARD Objects without mass
+  double obstacle_restitution = 0;            ///< restitution of HARD Objects without mass
   IntegratorOptions integrator;
-  bool is_fast = false;   ///< bodies are moved by a SubstepWorld
-  bool may_sleep = true;  ///< groups at rest
+  bool is_fast = false;   ///< a SubstepWorld moves all bodies
+  bool may_sleep = true;  ///< groups at rest may sleep
 };
 
-/// Since the world was made.
+/// Counters since the world was made.
 struct BodyCounters {
   std::uint64_t quarantined = 0;  ///< bodies that were frozen
-  std::uint64_t limited = 0;      ///< times that a push, speed, spin or place was cut to the largest there is
+  std::uint64_t limited = 0;      ///< pushes, speeds, spins and places reduced to the limit
   IntegratorCounters integrator;
 };
 
@@ -92,37 +91,37 @@ class BodyTable {
   void remove(Index index);
   BodyRow& row(Index index) { return m_rows[index]; }
   const BodyRow& row(Index index) const { return m_rows[index]; }
-  /// Grows when it is asked for the first time.
+  /// Creates the entry if needed.
   BodyMedium& medium(Index index);
   const BodyMedium& medium(Index index) const { return index < m_media.size() ? m_media[index] : kNoMedium; }
-  /// Likewise.
+  /// Creates the entry if needed.
   BodyForm& form(Index index);
   const BodyForm& form(Index index) const { return index < m_forms.size() ? m_forms[index] : kNoForm; }
-  /// Moment of inertia per mass, of a body with this Object's box if it has no other shape.
+  /// Returns the moment of inertia per mass; `box` is the Object's box, used if the body has no other shape.
   double unitInertia(Index index, const FixedBox& box) const;
-  /// Take over what the game has done to position and velocity since the last step, by the Object's own
-  /// setters: these are what the store holds now.
+  /// Takes over changes that the game made to position and velocity since the last step by the Object's own
+  /// setters. The arguments are the store's present values.
   void absorb(Index index, FixedVector position, FixedVector velocity);
-  /// What kind of flight its medium asks for.
+  /// Sets the body's FlightKind from its medium.
   void classify(Index index);
 
-  /// Those in use, by order of construction.
+  /// Rows in use, by order of construction.
   const std::vector<Index>& inOrder() const { return m_order; }
 
   BodyJoints joints;
   Metric metric;
   BodySettings settings;
   BodyCounters counters;
-  std::int64_t ticks = 0;  ///< steps since the world was made: the time of fields
-  int soft_bodies = 0;     ///< they live in the same metric
+  std::int64_t ticks = 0;  ///< steps since the world was made; also the time of fields
+  int soft_bodies = 0;     ///< number of soft bodies; they use `metric`, too
 
  private:
   static const BodyMedium kNoMedium;
   static const BodyForm kNoForm;
 
   std::vector<BodyRow> m_rows;
-  std::vector<BodyMedium> m_media;  ///< by index; shorter than m_rows
-  std::vector<BodyForm> m_forms;    ///< likewise
+  std::vector<BodyMedium> m_media;  ///< index of the row; may be shorter than m_rows
+  std::vector<BodyForm> m_forms;    ///< index of the row; may be shorter than m_rows
   std::vector<Index> m_free;
   std::vector<Index> m_order;
   std::uint64_t m_next_order = 1;

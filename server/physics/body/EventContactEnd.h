@@ -1,7 +1,7 @@
-// Sent to a Body or SoftBody that asked for it (setContactEnds) when a contact has ended.
+// Event sent to a Body or SoftBody when a contact ends, if it called setContactEnds().
 //
-// As an EventCollision it comes after all bodies have moved, in the order of (time, ids); a bounce within a
-// tick begins a contact and ends it.
+// Like an EventCollision it is sent after all bodies have moved, ordered by time, then by ids. A bounce
+// within a tick both begins and ends a contact.
 #pragma once
 
 #include "Event.h"
@@ -9,17 +9,17 @@
 
 namespace df {
 
-/// Comes to those that ask: Body::setContactEnds.
+/// Sent only after setContactEnds() of Body or SoftBody.
 inline const EventType CONTACT_END_EVENT("df-contact-end");
 
 class EventContactEnd : public Event {
  public:
-  /// Without Objects.
+  /// Creates an event without Objects.
   EventContactEnd() : EventContactEnd(nullptr, nullptr) {}
-  /// The contact of `p_o1`, a Body or SoftBody, with `p_o2`.
+  /// Creates the event for the contact of `p_o1`, a Body or SoftBody, with `p_o2`.
   EventContactEnd(Object* p_o1, Object* p_o2) : Event(&CONTACT_END_EVENT), m_p_obj1(p_o1), m_p_obj2(p_o2) {}
 
-  /// As they were in the collision event that began it.
+  /// The Objects have the roles that they had in the collision event that began the contact.
   void setObject1(Object* p_new_o1) { m_p_obj1 = p_new_o1; }
   Object* getObject1() const { return m_p_obj1; }
   void setObject2(Object* p_new_o2) { m_p_obj2 = p_new_o2; }

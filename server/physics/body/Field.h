@@ -1,4 +1,4 @@
-// A field of force that a game defines: gravity towards a planet, wind, a magnet.
+// A force field defined by a game: gravity towards a planet, wind, a magnet.
 //
 //   class Planet : public df::Field {
 //     df::Vector accelerationAt(df::Vector d, df::Vector, double) const override {
@@ -18,7 +18,7 @@ class ForceField;
 
 namespace df {
 
-/// Body::setField() puts a body into it. It must outlive the bodies in it.
+/// A body enters the field by Body::setField(). The field must outlive the bodies in it.
 class Field {
  public:
   Field();
@@ -26,16 +26,16 @@ class Field {
   Field& operator=(const Field&) = delete;
   virtual ~Field();
 
-  /// The acceleration of a body, in widths of a cell per tick². `displacement` is from the field's origin to
-  /// the body, in widths of a cell both ways (a row of cells is PM.getAspect() of them high); `velocity` is
-  /// in the same per tick; `time` is in ticks since the world's first. It must be a pure function of these:
-  /// it is called several times per tick, and for states that the body never reaches. A body whose
-  /// acceleration is not finite is frozen (Body::isFrozen).
+  /// Returns the acceleration of a body, in cell widths per tick². `displacement` is from the field's origin
+  /// to the body, in cell widths along both axes (a row of cells is PM.getAspect() cell widths high).
+  /// `velocity` is in cell widths per tick, `time` in ticks since the world's first. Must be a pure function
+  /// of these arguments: it is called several times per tick, also for states that the body never reaches. A
+  /// body whose acceleration is not finite is frozen (Body::isFrozen).
   virtual Vector accelerationAt(Vector displacement, Vector velocity, double time) const = 0;
 
  private:
   friend class Body;
-  std::unique_ptr<naiad::physics::ForceField> m_forces;  ///< the same for the integrators
+  std::unique_ptr<naiad::physics::ForceField> m_forces;  ///< adapter for the integrators
 };
 
 }  // namespace df

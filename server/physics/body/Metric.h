@@ -1,7 +1,7 @@
-// Between the world's cells and the metric in which bodies live.
+// Converts between the world's cells and the metric in which bodies move.
 //
-// A character cell is about twice as high as wide. Bodies live where a unit is the width of a cell both ways:
-// x is the same, y is multiplied by the aspect. Boxes of the book stay boxes in cells.
+// A character cell is about twice as high as wide. The metric's unit is the width of a cell along both axes:
+// x is unchanged, y is multiplied by the aspect. Boxes of the book stay boxes in cells.
 #pragma once
 
 #include <cmath>
@@ -18,22 +18,22 @@ class Metric {
   static constexpr double kMinAspect = 0.25;  ///< height over width of a character cell
   static constexpr double kMaxAspect = 4;
 
-  /// `aspect`: height of a cell over its width, kMinAspect … kMaxAspect. Where it is a whole number, or a
-  /// half or a quarter, conversions are exact, and a scene that is moved by whole cells goes on as it did.
+  /// `aspect` is the height of a cell over its width, kMinAspect … kMaxAspect. If it is a whole number, a
+  /// half or a quarter, conversions are exact, and a scene moved by whole cells behaves identically.
   explicit Metric(double aspect = 2)
       : m_aspect(aspect), m_per_aspect(isPowerOfTwo(aspect) ? 1 / aspect : 0) {}
   double aspect() const { return m_aspect; }
 
-  /// A displacement, a velocity, a force …
+  /// Converts a displacement, velocity or force.
   Vec2 fromCells(df::Vector v) const { return {v.x(), v.y() * m_aspect}; }
   df::Vector toCells(Vec2 v) const { return {v.x, overAspect(v.y)}; }
 
   Place placeOf(df::FixedVector position) const;
-  /// Rounded to nearest. `place` lies within df::kMaxCells: see isInRange().
+  /// Rounds to nearest. `place` must be in range: see isInRange().
   df::FixedVector fixedOf(const Place& place) const;
-  /// Can fixedOf() express it?
+  /// True if fixedOf() can represent it.
   bool isInRange(const Place& place) const;
-  /// A position in cells, all its digits.
+  /// Converts a position in cells with full precision.
   Place placeAtCells(df::Vector position) const;
   df::Vector cellsOf(const Place& place) const;
 
@@ -42,11 +42,11 @@ class Metric {
     int exponent = 0;
     return std::frexp(x, &exponent) == 0.5;
   }
-  // The same quotient either way; a product is ready much sooner.
+  // Both give equal quotients; a multiplication is much faster.
   double overAspect(double y) const { return m_per_aspect != 0 ? y * m_per_aspect : y / m_aspect; }
 
   double m_aspect;
-  double m_per_aspect;  // exact; 0 if that is not to be had
+  double m_per_aspect;  // exact; 0 if 1/aspect is not exact
 };
 
 }  // namespace naiad::physics

@@ -19,89 +19,87 @@ namespace df {
 
 class Body;
 
-/// How bodies are moved. No Object, picture or event is of another kind with one than with the other; paths
-/// differ.
+/// The solver that moves bodies. Objects, drawing and events work alike with both; only the paths differ.
 enum Accuracy {
-  ACCURACY_DEFAULT,  ///< impacts at their moment, joints and piles solved for directly where that is
-                     ///< affordable
-  ACCURACY_FAST,     ///< all HARD and all joined bodies in soft sub-steps (docs/physics/substep.md)
+  ACCURACY_DEFAULT,  ///< impacts at their exact moment; joints and piles solved directly where affordable
+  ACCURACY_FAST,     ///< all HARD and all joined bodies move in soft sub-steps (docs/physics/substep.md)
 };
 
-/// Like all managers it works on the current world and holds no state of its own. Setters return 0, or -1 for
-/// numbers that are not finite or out of range: then nothing changes, and the world counts it
+/// Like all managers it works on the current world and has no state of its own. Setters return 0. For numbers
+/// that are not finite or out of range they return -1, change nothing, and the world counts the refusal
 /// (WorldLog::refusals).
 class PhysicsManager : public Manager {
  public:
   static PhysicsManager& getInstance();
 
-  /// Cells per tick², −1e30 … 1e30 on each axis, for every body times its gravity scale; (0,0) by default.
+  /// Acceleration of every body, times its gravity scale, in cells per tick², −1e30 … 1e30 on each axis;
+  /// (0,0) by default.
   int setGravity(Vector gravity);
   Vector getGravity() const;
-  /// Height of a character cell over its width, 0.25 … 4; 2 by default. Lengths, angles and circles look
-  /// right on such a screen. -1 while there are bodies.
+  /// Height of a character cell over its width, 0.25 … 4; 2 by default. With the screen's true aspect,
+  /// lengths, angles and circles look right. -1 while there are bodies.
   int setAspect(double aspect);
   double getAspect() const;
-  /// How fields (Field.h) are integrated; docs/physics/flight.md compares the methods. Tolerances in (0, 1],
-  /// sub-steps 1 … 1e4, limits of steps and evaluations 1 … 1e7.
+  /// Sets how fields (Field.h) are integrated; docs/physics/flight.md compares the methods. Tolerances are in
+  /// (0, 1], limits of steps and evaluations 1 … 1e7.
   int setIntegrator(const naiad::physics::IntegratorOptions& options);
   const naiad::physics::IntegratorOptions& getIntegrator() const;
 
-  /// Of HARD Objects that are no bodies: friction 0 … 1e30, 0.5 by default; restitution 0 … 1, 0 by default.
-  /// See Body::setFriction, setRestitution.
+  /// Friction of HARD Objects that are not bodies: 0 … 1e30, 0.5 by default. Restitution: 0 … 1, 0 by
+  /// default. See Body::setFriction and setRestitution.
   int setObstacleFriction(double friction);
   double getObstacleFriction() const;
   int setObstacleRestitution(double restitution);
   double getObstacleRestitution() const;
 
-  /// From the next tick on. ACCURACY_DEFAULT at first. −1 for anything else.
+  /// Takes effect in the next tick. ACCURACY_DEFAULT by default; −1 for any other value.
   int setAccuracy(Accuracy accuracy);
   Accuracy getAccuracy() const;
-  /// May groups of bodies at rest sleep? They cost next to nothing then, and wake when touched. True at
-  /// first.
+  /// Lets groups of resting bodies sleep: they cost almost nothing, and wake when touched. True by default.
   void setSleeping(bool may_sleep);
   bool isSleeping() const;
 
-  // Joints. At least one of the two is a body of the current world; null is the world itself, where a
-  // function takes points. Points and directions are in cells, of the world, as the bodies lie now; lengths
-  // in widths of a cell. Refused, and counted, are a body of another world, twice the same body, and numbers
-  // that are not finite or out of range: then the joint that is returned does not exist (Joint::exists).
+  // Joints. At least one side must be a body of the current world; null is the world itself, in functions
+  // that take points. Points and directions are world coordinates in cells, with the bodies where they are
+  // now; lengths are in cell widths. A body of another world, the same body twice, and numbers that are not
+  // finite or out of range are refused and counted: then the returned joint does not exist (Joint::exists).
 
-  /// A rod: the points stay as far apart as they are.
+  /// Adds a rod: keeps the points at their present distance.
   Joint addDistance(Body* p_a, Body* p_b, Vector point_a, Vector point_b);
-  /// The same between the positions of two bodies.
+  /// Like the above, between the positions of two bodies.
   Joint addDistance(Body* p_a, Body* p_b);
-  /// The points get no farther apart than they are now, or than `length` > 0.
+  /// Adds a rope: the points get no farther apart than they are now, or than `length` > 0.
   Joint addRope(Body* p_a, Body* p_b, Vector point_a, Vector point_b);
   Joint addRope(Body* p_a, Body* p_b);
   Joint addRope(Body* p_a, Body* p_b, double length);
-  /// Both turn about this point, which they share.
+  /// Adds a hinge: both bodies turn about this shared point.
   Joint addHinge(Body* p_a, Body* p_b, Vector point);
-  /// They stay as they lie to each other.
+  /// Adds a weld: the bodies keep their relative position and angle.
   Joint addWeld(Body* p_a, Body* p_b, Vector point);
-  /// `point`, fixed to the second, slides on the line through it along `axis`, fixed to the first; they do
-  /// not turn against each other.
+  /// Adds a slider: `point`, fixed to the second body, slides along the line through it with direction
+  /// `axis`, fixed to the first. The bodies do not turn relative to each other.
   Joint addSlider(Body* p_a, Body* p_b, Vector point, Vector axis);
-  /// Pulls the points to the distance that they have now (Joint::setLength changes it): force = `stiffness` ·
-  /// stretch + `damping` · its rate. Mass per tick² and mass per tick, both 0 … 1e30.
+  /// Adds a spring that pulls the points to their present distance (Joint::setLength changes it): force =
+  /// `stiffness` · stretch + `damping` · its rate. Mass per tick² and mass per tick, both 0 … 1e30.
   Joint addSpring(Body* p_a, Body* p_b, Vector point_a, Vector point_b, double stiffness, double damping = 0);
   Joint addSpring(Body* p_a, Body* p_b, double stiffness, double damping = 0);
-  /// Turns the second against the first at `speed` (radians per tick), with a torque of at most `strength` >=
-  /// 0 (force · widths of a cell). The second is a body.
+  /// Adds a motor: turns the second body relative to the first at `speed` (radians per tick), with a torque
+  /// of at most `strength` >= 0 (force · cell widths). The second must be a body.
   Joint addMotor(Body* p_a, Body* p_b, double speed, double strength);
-  /// Keeps the angle of the second against the first (radians, 0 as they lie now) between these: −π < lower
-  /// <= 0 <= upper < π. The second is a body.
+  /// Adds an angle limit: keeps the angle of the second body relative to the first (radians, 0 at present)
+  /// between these: −π < lower <= 0 <= upper < π. The second must be a body.
   Joint addAngleLimit(Body* p_a, Body* p_b, double lower, double upper);
-  /// Drags a body by a point of it towards Joint::setTarget(), at first where the point is: a critically
-  /// damped spring of one radian per tick, with a force of at most `strength` >= 0 along each axis.
+  /// Adds a mouse joint: drags a point of the body towards Joint::setTarget(), initially the point itself. It
+  /// is a critically damped spring of one radian per tick, with at most the force `strength` on each axis.
   Joint addMouse(Body* p_body, Vector grabbed, double strength);
-  int getJointCount() const;  ///< Joints there are.
+  int getJointCount() const;  ///< Number of joints.
 
-  /// Bodies in the world, removed ones included.
+  /// Number of bodies, including removed ones that are not deleted yet.
   int getBodyCount() const;
-  /// How many times a body has been frozen so far (Body::isFrozen).
+  /// Number of times that a body was frozen (Body::isFrozen).
   std::uint64_t getQuarantineCount() const;
-  /// How many times a body's acceleration, speed, spin or place was too large for a world, and was cut to the
-  /// largest: 16777216 cells and 10^6 radians per tick, 2e9 cells from the origin. It goes on from there.
+  /// Number of times that a body's acceleration, speed, spin or position was reduced to the limit: 16777216
+  /// cells and 1e6 radians per tick, 2e9 cells from the origin. The body continues with the limit.
   std::uint64_t getLimitCount() const;
 
  private:

@@ -1,5 +1,4 @@
-// Conversions from seconds: the engine counts in ticks, 30 of them to a second (GameManager's frame of 33
-// ms).
+// Conversions from seconds: the engine counts in ticks, 30 per second (GameManager's frame of 33 ms).
 //
 //   ball.setVelocity(df::perSecond(df::Vector(15, 0)));             // cells per second
 //   PM.setGravity(df::perSecondSquared(df::Vector(0, 18)));         // cells per second per second
@@ -9,22 +8,21 @@
 
 namespace df {
 
-/// 30.
 inline constexpr double TICKS_PER_SECOND = 30;
 
-/// Per second to per tick.
+/// Converts from per second to per tick.
 constexpr double perSecond(double value) {
   return value / TICKS_PER_SECOND;
 }
-/// Per second to per tick.
+/// Converts from per second to per tick.
 constexpr Vector perSecond(Vector value) {
   return {perSecond(value.x()), perSecond(value.y())};
 }
-/// Per second² to per tick².
+/// Converts from per second² to per tick².
 constexpr double perSecondSquared(double value) {
   return value / (TICKS_PER_SECOND * TICKS_PER_SECOND);
 }
-/// Per second² to per tick².
+/// Converts from per second² to per tick².
 constexpr Vector perSecondSquared(Vector value) {
   return {perSecondSquared(value.x()), perSecondSquared(value.y())};
 }

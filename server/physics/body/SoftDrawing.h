@@ -1,4 +1,4 @@
-// Soft bodies in characters.
+// Draws soft bodies with characters.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace naiad::physics {
 
-/// How it is to be drawn, and the picture of it that is on the screen.
+/// The style of a soft body's drawing, and its last picture.
 struct SoftDrawn {
   struct Cell {
     std::int64_t x = 0;
@@ -23,15 +23,14 @@ struct SoftDrawn {
   char32_t ch = 0;
   df::Color color = df::COLOR_DEFAULT;
 
-  std::vector<Place> nodes;  ///< when it was drawn
-  std::vector<Cell> cells;   ///< by rows, each once
+  std::vector<Place> nodes;  ///< positions when it was drawn
+  std::vector<Cell> cells;   ///< sorted by rows, without duplicates
 };
 
-/// Draw it again if a node has moved by more than a twentieth of a cell since: so what is at rest looks
+/// Draws again only if a node has moved by more than a twentieth of a cell since, so that bodies at rest look
 /// still.
 void redraw(SoftDrawn& drawn, const SoftBody& body, const Metric& metric);
-/// Put it on the screen, for the Object whose draw() is running. Return 0, or -1 if some of it is too far
-/// away.
+/// Puts the picture on the screen for the Object whose draw() runs. Returns 0, or -1 if it is too far away.
 int put(const SoftDrawn& drawn);
 
 }  // namespace naiad::physics

@@ -1,7 +1,7 @@
-// Soft bodies' part of a world's update(): after all bodies have moved, they go on for the same tick.
+// The soft bodies' part of a world's update(): moves them by a tick after all rigid bodies.
 //
-// A world gets this layer with its first soft body, and pays nothing before. What a soft body does to rigid
-// ones is applied to them after its step (SoftObstacles.h).
+// A world gets this layer with its first soft body, and has no cost before. The effect of soft bodies on
+// rigid ones is applied after the step (SoftObstacles.h).
 #pragma once
 
 #include <memory>
@@ -22,11 +22,11 @@ class SoftLayer : public df::Layer {
  public:
   SoftLayer(BodyLayer& bodies, std::shared_ptr<BodyTable> table)
       : m_bodies(bodies), m_table(std::make_shared<SoftTable>(std::move(table))) {}
-  /// The layer of this world; made if there is none, after the one of bodies.
+  /// Returns the layer of this world; creates it, after the layer of bodies, if needed.
   static SoftLayer& of(World& world);
-  /// The grab of a soft body is the obstacle with this id. Others have their Object's slot as id.
+  /// Returns the obstacle id of a soft body's grab. Other obstacles have their Object's slot as id.
   static int grabIdOf(int id) { return SoftObstacles::kFirstGrabId + id; }
-  /// Publishes a new soft body: its Object gets position and box.
+  /// Publishes a new soft body: sets position and box of its Object.
   static void publishNow(World& world, SoftTable& table, int id);
 
   void step(World& world) override;
@@ -35,7 +35,7 @@ class SoftLayer : public df::Layer {
  private:
   struct Touch {
     ObjectKey first, second;
-    // What the solver calls them.
+    // Ids in the solver.
     int body;
     int other;
     bool is_other_soft;
@@ -49,14 +49,14 @@ class SoftLayer : public df::Layer {
   void publish(World& world, int id);
   void logCrowd(World& world);
 
-  BodyLayer& m_bodies;  // lives as long: it is a layer of the same world, and came before
+  BodyLayer& m_bodies;  // an earlier layer of the same world, so it outlives this one
   std::shared_ptr<SoftTable> m_table;
   SoftObstacles m_obstacles;
   std::vector<Touch> m_touching;
   SoftSleep m_sleep;
   Vec2 m_gravity;
   bool m_has_logged_crowd = false;
-  // Of this step; kept for their memory.
+  // Scratch memory of a step.
   std::vector<MovedObject> m_moved;
   std::vector<BodyContact> m_contact_changes;
 };

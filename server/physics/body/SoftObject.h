@@ -1,4 +1,4 @@
-// Objects that give way: rope, cloth, blob, beam.
+// Deformable objects: rope, cloth, blob, beam.
 //
 //   PM.setGravity(df::Vector(0, 0.02));
 //   auto *p_blob = new df::Blob(df::Vector(20, 5), 3);              // radius: 3 widths of a cell
@@ -7,17 +7,17 @@
 //   p_rope->pin(p_rope->getNodeCount() - 1);
 //   p_rope->attach(10, p_crate);
 //
-// A soft body consists of nodes, points with mass, and what holds them together. Its position is its centre
-// of mass, its velocity that of the centre, its box goes around it; setting position or velocity moves the
-// whole, pins too. It hits HARD bodies and HARD Objects and other soft bodies, and both sides get an
-// EventCollision, once when a contact begins, and on request by an EventContactEnd. The book's moves pass
-// through it: it is SPECTRAL.
+// A soft body consists of nodes, which are points with mass, and of springs and beams between them. Its
+// position is its centre of mass, its velocity that of the centre, and its box encloses it. Setting position
+// or velocity moves the whole body, pinned nodes too. It collides with HARD bodies, HARD Objects and other
+// soft bodies. Both sides get an EventCollision when a contact begins, and on request an EventContactEnd when
+// it ends. Because it is SPECTRAL, Objects that move by the book's rules pass through it.
 //
-// Units: positions in cells, lengths in widths of a cell, times in ticks, mass in the game's unit. The
-// stiffness is given as an acceleration (widths of a cell per tick²), so that it does not depend on the mass.
+// Units: positions in cells, lengths in cell widths, times in ticks, mass in the game's unit. Stiffness is an
+// acceleration (cell widths per tick²), so that it does not depend on the mass.
 //
-// Setters return 0, or -1 for numbers that are not finite or out of range: then nothing changes, and the
-// world counts it (WorldLog::refusals). A constructor counts it too, and takes its default instead.
+// Setters return 0. For numbers that are not finite or out of range they return -1, change nothing, and the
+// world counts the refusal (WorldLog::refusals). Constructors count it too, and use their default instead.
 #pragma once
 
 #include <cstdint>
@@ -40,80 +40,78 @@ namespace df {
 
 class Body;
 
-/// What ropes, cloths, blobs and beams have in common.
+/// Common base of ropes, cloths, blobs and beams.
 class SoftBody : public Object {
  public:
   SoftBody(const SoftBody&) = delete;
   SoftBody& operator=(const SoftBody&) = delete;
   ~SoftBody() override;
 
-  /// In the game's unit.
+  /// Mass in the game's unit.
   double getMass() const;
   /// Factor of the world's gravity (PM.setGravity), −1e6 … 1e6; 1 by default.
   int setGravityScale(double scale);
-  /// Coulomb's µ, 0 … 1e6; 0.5 by default. Of two bodies the geometric mean counts.
+  /// Coulomb's coefficient of friction, 0 … 1e6; 0.5 by default. For two bodies the geometric mean counts.
   int setFriction(double friction);
-  /// Drag: speeds fall as exp(-drag · ticks). 0 … 1e6 per tick, 0.02 by default.
+  /// Sets drag: speeds decay as exp(-drag · ticks). 0 … 1e6 per tick, 0.02 by default.
   int setDrag(double drag);
 
-  /// Change the velocity of the whole at once, by impulse / mass. Mass · cells per tick, to ±1e9.
+  /// Changes the velocity of the whole body at once, by impulse / mass. Mass · cells per tick, to ±1e9.
   int applyImpulse(Vector impulse);
-  /// The same for one node alone.
+  /// Like applyImpulse(), for one node.
   int applyImpulse(int node, Vector impulse);
-  /// Push the whole during the next tick, each node by its mass; several pushes add up, to ±1e9. Mass · cells
-  /// per tick².
+  /// Pushes the whole body during the next tick, each node in proportion to its mass, in mass · cells per
+  /// tick². Several pushes add up, to ±1e9.
   int applyForce(Vector force);
-  /// The same for one node alone. For a lasting force, apply it in each tick.
+  /// Like applyForce(), for one node. For a lasting force, apply it in each tick.
   int applyForce(int node, Vector force);
 
-  /// Does it get an EventContactEnd when a contact ends? Off by default.
+  /// If set, this body gets an EventContactEnd when a contact ends. Off by default.
   void setContactEnds(bool contact_ends = true) { m_has_contact_ends = contact_ends; }
   bool hasContactEnds() const { return m_has_contact_ends; }
 
-  // Its nodes: 0 … getNodeCount() - 1.
+  // Nodes, numbered 0 … getNodeCount() - 1.
 
-  /// How many nodes it has; they are numbered from 0.
   int getNodeCount() const;
-  /// In cells, and in cells per tick; (0,0) if there is no such node.
+  /// Cells, and cells per tick; (0,0) if the node does not exist.
   Vector getNodePosition(int node) const;
   Vector getNodeVelocity(int node) const;
-  /// The node that is nearest to a point; -1 for a point out of range.
+  /// Returns the node nearest to a point; -1 for a point out of range.
   int getNearestNode(Vector where) const;
-  /// Hold a node where it is, whatever pulls at it; or release it.
+  /// Pins a node where it is, whatever pulls at it, or releases it.
   int pin(int node, bool pinned = true);
   bool isPinned(int node) const;
-  /// Join a node to the point of a body where it is now; it pulls at both. The two do not collide with each
-  /// other. It ends when the body does. A node has at most one body: the last one.
+  /// Joins a node to the point of a body where the node is now; each pulls at the other. The two do not
+  /// collide. The attachment ends when the body is deleted. A node is attached to at most one body, the last.
   int attach(int node, Body* p_body);
-  /// -1 also if it was not attached.
+  /// Also returns -1 if it was not attached.
   int detach(int node);
 
-  // Dragging, as a mouse does: the node that is nearest to a point follows a target, with at most `strength`
-  // as force.
+  // Dragging with a mouse: the node nearest to a point follows a target, with a force of at most `strength`.
 
-  /// Take the node nearest to `where` (cells); `strength` is the greatest force. Return 0, else -1.
+  /// Grabs the node nearest to `where` (cells); `strength` is the maximum force. Returns 0, else -1.
   int grab(Vector where, double strength);
-  /// At first where it was grabbed. -1 if nothing is grabbed.
+  /// Moves the drag target, initially the grabbed node's position. -1 if nothing is grabbed.
   int dragTo(Vector target);
-  void release();          ///< Let go; nothing if nothing is grabbed.
-  bool isGrabbed() const;  ///< Is a node?
+  void release();          ///< Ends dragging; does nothing if nothing is grabbed.
+  bool isGrabbed() const;  ///< True while a node is grabbed.
 
-  /// Is it in quarantine, because its motion has no finite solution? It stands and collides with nothing
-  /// until its position or velocity is set; then it is back in the shape in which it was made.
+  /// True if the body is in quarantine because its motion has no finite solution. It stands still and
+  /// collides with nothing until its position or velocity is set; then it has its original shape again.
   bool isFrozen() const;
-  /// Has it come to rest? It costs next to nothing until something touches or changes it.
+  /// True while the body sleeps at rest. It costs almost nothing until something touches or changes it.
   bool isAsleep() const;
 
-  /// As its lines (OUTLINE), with what they enclose (FILL), or not at all. `ch`: of what characters; 0: by
-  /// the direction of the line, and # for a filling. Return 0, else -1.
+  /// Draws the body as lines (OUTLINE), with the enclosed area (FILL), or not at all, with the character
+  /// `ch`. 0 chooses characters by the direction of the line, and # for filling. Returns 0, else -1.
   int setDrawing(BodyDrawing drawing, char32_t ch = 0, Color color = COLOR_DEFAULT);
   int draw() override;
 
  protected:
-  /// For kinds of soft bodies: an Object without nodes; then make() once.
+  /// Derived classes: the constructor creates an Object without nodes; call make() once after it.
   SoftBody();
   void make(const naiad::physics::SoftBody& body);
-  /// `value`, or, counted as refused, `usual` if it does not lie within the limits.
+  /// Returns `value` if it lies within the limits; else counts a refusal and returns `usual`.
   double checked(const char* what, double value, double least, double most, double usual) const;
   Vector checked(const char* what, Vector position) const;
 
@@ -128,42 +126,42 @@ class SoftBody : public Object {
 
   std::shared_ptr<naiad::physics::SoftTable> m_table;
   std::shared_ptr<naiad::physics::SoftDrawn> m_drawn;
-  int m_id = -1;  ///< in the table
+  int m_id = -1;  ///< id in m_table; −1 before make()
   bool m_has_contact_ends = false;
 };
 
-/// From `from` to `to`, hanging free: pin() its ends.
+/// A rope between two points, not fixed anywhere: pin() its ends.
 class Rope : public SoftBody {
  public:
-  /// `stiffness`, 1e-6 … 1e6: hung up, it is longer by about gravity / (2 · stiffness) of its length.
-  /// `links` 0: as its length asks for; to 200.
+  /// `stiffness`, 1e-6 … 1e6: hanging, the rope stretches by about gravity / (2 · stiffness) of its length.
+  /// `links` is at most 200; 0 chooses the number by the length.
   Rope(Vector from, Vector to, double mass = 1, double stiffness = 20, int links = 0);
 };
 
-/// Between `from` and `to`. It keeps its angle at a pinned node only with a second pin, or if it is clamped.
+/// A beam between two points. To keep its angle at a pinned node it needs a second pin, or to be clamped.
 class Beam : public SoftBody {
  public:
-  /// `stiffness`, 1e-6 … 1e6: clamped at `from`, its own weight bends it by gravity / stiffness of its
-  /// length; its bending stiffness EI is stiffness · mass · length² / 8. `elements` 0: as its length asks
-  /// for; else 2 … 100.
+  /// `stiffness`, 1e-6 … 1e6: clamped at `from`, the beam bends under its own weight by gravity / stiffness
+  /// of its length. Its bending stiffness EI is stiffness · mass · length² / 8. `elements` is 2 … 100; 0
+  /// chooses the number by the length.
   Beam(Vector from, Vector to, double mass = 1, double stiffness = 1, bool is_clamped = false,
        int elements = 0);
 };
 
-/// A piece of cloth, seen from the front. Hang it up by its nodes.
+/// A piece of cloth, seen from the front. Pin some nodes to hang it up.
 class Cloth : public SoftBody {
  public:
-  /// `width` and `height` in cells, 0.5 … 1000. `stiffness`, 1e-6 … 1e6: hung up, it is longer by about
-  /// gravity / (2 · stiffness) of its height. `columns` and `rows` of threads, 2 … 128; 0: as its size asks
-  /// for, at most 25. Above some 25 × 25 the body is moved by another method, whose cost grows with the
-  /// number of nodes (docs/physics/soft.md). If they are given, threads are taut once they are 3 % longer
-  /// than at rest (or 0.15 / stiffness, if that is more), so that the corners that a cloth hangs on bear it.
+  /// `width` and `height` are in cells, 0.5 … 1000. `stiffness`, 1e-6 … 1e6: hanging, the cloth stretches by
+  /// about gravity / (2 · stiffness) of its height. `columns` and `rows` of threads are 2 … 128; 0 chooses
+  /// the number by the size, at most 25. Above about 25 × 25 another method moves the body, whose cost grows
+  /// with the number of nodes (docs/physics/soft.md). If either is given, threads become taut when stretched
+  /// by 3 % (or 0.15 / stiffness, if that is more), so that the corners that a cloth hangs on bear it.
   Cloth(Vector corner, double width, double height, double mass = 1, double stiffness = 5, int columns = 0,
         int rows = 0);
-  /// Threads across and down, one more than meshes.
+  /// Threads across and down: one more than there are meshes.
   int getColumns() const { return m_columns; }
   int getRows() const { return m_rows; }
-  /// The node where column and row meet, both from 0 on, from the upper left corner; -1 if there is none.
+  /// Returns the node where a column and row meet, counted from 0 at the upper left corner; -1 if none.
   int getNode(int column, int row) const;
 
  private:
@@ -172,11 +170,11 @@ class Cloth : public SoftBody {
   bool m_is_upright = false;
 };
 
-/// A skin full of gas.
+/// A gas-filled elastic skin.
 class Blob : public SoftBody {
  public:
-  /// `radius` in widths of a cell, 0.1 … 1000. `stiffness`, 1e-6 … 1e6: the more, the rounder it stays; at
-  /// rest under gravity it is flatter by about 2 · gravity / stiffness of its height.
+  /// `radius` is in cell widths, 0.1 … 1000. `stiffness`, 1e-6 … 1e6: a stiffer blob stays rounder. At rest
+  /// under gravity its height is reduced by about 2 · gravity / stiffness of it.
   Blob(Vector where, double radius, double mass = 1, double stiffness = 1);
 };
 

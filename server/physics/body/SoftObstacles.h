@@ -1,5 +1,4 @@
-// Objects and bodies near soft bodies, as obstacles of a SoftWorld, and what the soft bodies do to them in
-// turn.
+// Objects and rigid bodies near soft bodies, as obstacles of a SoftWorld, and the forces on them.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +16,27 @@ class SoftObstacles {
   static constexpr int kFirstGrabId = 1 << 30;
 
   void clear();
-  /// Adds what is near this soft body, and what it is attached to. `reach`: as far as it gets in this tick.
+  /// Adds all obstacles near this soft body, and the bodies attached to it. `reach` is how far it gets in
+  /// this tick.
   void gather(const World& world, const BodyLayer& bodies, SoftTable& table, int id, Vec2 reach);
-  /// A checksum of what gather() found for it: keys and places. 0 if some of it moves.
+  /// Returns a checksum over keys and places of what gather() found; 0 if any of it moves.
   std::uint64_t surrounding() const { return m_is_lively ? 0 : m_sum; }
   void addGrab(const SoftTable& table, const SoftEntry& entry, int id);
   std::vector<SoftObstacle>& all();
 
-  /// After the step: velocities and places of the bodies that were pushed. A body that lies on something
-  /// else that is rigid takes the impulse into its next step instead, which knows what it lies on.
+  /// Call after the step: updates velocities and places of pushed bodies. A body that lies on something rigid
+  /// gets the impulse in its own next step, because that handles its contacts.
   void apply(World& world, BodyLayer& bodies, SoftTable& table, std::vector<MovedObject>& moved);
-  /// The key of what has this id in the step; generation 0 if none has.
+  /// Returns the key of the obstacle with this id in the step; generation 0 if it does not exist.
   ObjectKey keyOf(int obstacle) const;
 
  private:
   struct Source {
     ObjectKey key;
-    int state = -1;  ///< of the body; −1: no body
-    int grab = -1;   ///< of this soft body
+    int state = -1;  ///< state of the body; −1: not a body
+    int grab = -1;   ///< id of the soft body whose grab it is
     int shape = -1;
-    // What the bodies' step has already done to it, as the last tick's impulses.
+    // Effects of the last tick's impulses, already in the bodies' step.
     Vec2 gained;        ///< velocity
     double turned = 0;  ///< spin
   };
@@ -44,10 +44,10 @@ class SoftObstacles {
   struct Pushed {
     BodyTable::Index index;
     ObjectKey key;
-    FixedVector published;  ///< its position as clients have it
+    FixedVector published;  ///< position as sent to clients
     Vec2 impulse;
     double angular_impulse;
-    bool is_near;  ///< in the current step
+    bool is_near;  ///< found by the current gather()
   };
 
   const Pushed* findPushed(ObjectKey key);
@@ -63,11 +63,11 @@ class SoftObstacles {
   void publish(World& world, BodyTable& table, Pushed& pushed, std::vector<MovedObject>& moved);
 
   std::vector<Source> m_sources;
-  std::vector<SoftObstacle> m_obstacles;  // by the same index
+  std::vector<SoftObstacle> m_obstacles;  // by index in m_sources
   std::vector<ConvexShape> m_shapes;
   std::vector<ObjectKey> m_found;
-  std::vector<Pushed> m_pushed;   // in the last step, by the key's slot
-  std::vector<Pushed> m_pushing;  // in this one
+  std::vector<Pushed> m_pushed;   // in the last step, by slot of the key
+  std::vector<Pushed> m_pushing;  // in the current step
   std::uint64_t m_sum = 0;
   bool m_is_lively = false;
 };

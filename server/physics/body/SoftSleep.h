@@ -1,4 +1,4 @@
-// Which soft bodies sleep: a body that lies still is not stepped until something near it changes.
+// Decides which soft bodies sleep: a body that lies still is not stepped until something near it changes.
 #pragma once
 
 #include <span>
@@ -9,18 +9,18 @@
 
 namespace naiad::physics {
 
-/// Neighbours fall asleep together, and wake together.
+/// Neighbours fall asleep and wake together.
 class SoftSleep {
  public:
-  /// A tick begins, with ids below `id_limit`.
+  /// Begins a tick; ids are below `id_limit`.
   void begin(int id_limit);
-  /// How far around its centre of mass the body may touch something in this tick.
+  /// Sets how far around its centre of mass the body may touch something in this tick.
   void setReach(int id, Vec2 reach) { m_reaches[static_cast<std::size_t>(id)] = reach; }
-  /// Before the step: wakes the sleeping bodies beside one that is awake.
+  /// Call before the step: wakes sleeping bodies next to one that is awake.
   void wakeNeighbours(SoftTable& table);
-  /// After the step: marks the bodies that something movable presses on. They do not sleep.
+  /// Call after the step: marks bodies on which something movable presses. They do not sleep.
   static void findLoads(SoftTable& table, std::span<const SoftObstacle> obstacles);
-  /// At the end of the tick: puts the bodies to sleep that may, exactly still.
+  /// Call at the end of the tick: puts bodies to sleep, with velocity zero, if they may.
   void update(SoftTable& table);
 
  private:
@@ -30,7 +30,7 @@ class SoftSleep {
   void findGroups(SoftTable& table, Allows allows);
 
   std::vector<Vec2> m_reaches;  // by id
-  UnionFind m_groups;           // of ids
+  UnionFind m_groups;           // over ids
   std::vector<char> m_allows;   // by root
 };
 

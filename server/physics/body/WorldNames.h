@@ -1,4 +1,4 @@
-// What bodies share with the engine: its names, in the namespace of the physics.
+// Names of the engine that bodies use, in the namespace of the physics.
 #pragma once
 
 #include "engine/world/WorldView.h"

@@ -1,4 +1,4 @@
-// Bounds of a body in whole numbers: what the broad phase compares.
+// Bounds of a body in whole numbers, as the broad phase compares them.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace naiad::physics {
 
-/// In units of 1/64 metric cell, both ends included. Whole numbers, so that a scene moved by whole cells has
-/// the same bounds, moved; up to 2^55 cells.
+/// Units of 1/64 metric cell, both ends included, up to 2^55 cells. With whole numbers a scene moved by whole
+/// cells has equal bounds, moved.
 struct GridBounds {
   std::int64_t lower_x, lower_y, upper_x, upper_y;
 
@@ -19,7 +19,7 @@ struct GridBounds {
 };
 
 inline constexpr std::int64_t kGridUnits = 64;  ///< per metric cell
-/// Bounds are clamped to 2^46 cells around the body's own, so that they fit their numbers.
+/// Bounds are clamped to 2^46 cells around the body's own, to avoid overflow.
 inline constexpr double kMaxGridUnits = 0x1p52;
 
 constexpr bool overlap(const GridBounds& a, const GridBounds& b) {
@@ -33,16 +33,16 @@ constexpr GridBounds unite(const GridBounds& a, const GridBounds& b) {
   return {std::min(a.lower_x, b.lower_x), std::min(a.lower_y, b.lower_y), std::max(a.upper_x, b.upper_x),
           std::max(a.upper_y, b.upper_y)};
 }
-/// Half the perimeter: what a node of a tree costs.
+/// Half the perimeter: the cost measure of a tree's node.
 constexpr std::int64_t perimeter(const GridBounds& a) {
   return (a.upper_x - a.lower_x) + (a.upper_y - a.lower_y);
 }
 
-/// The least bounds on the grid around `bounds` at `place`, `margin` >= 0 metric cells wider on every side.
-/// A body hit so hard that it is about to be frozen may ask for any.
+/// Returns the smallest grid bounds around `bounds` at `place`, enlarged by `margin` >= 0 metric cells on
+/// every side. Accepts any numbers, because a body that is hit very hard asks before it is frozen.
 inline GridBounds gridBounds(const Place& place, const Bounds& bounds, double margin) {
   const auto whole = [](double units) {
-    const double bound = units < kMaxGridUnits ? units : kMaxGridUnits;  // also where that is no number
+    const double bound = units < kMaxGridUnits ? units : kMaxGridUnits;  // also if `units` is NaN
     return static_cast<std::int64_t>(bound > -kMaxGridUnits ? bound : -kMaxGridUnits);
   };
   const auto down = [&whole](double x) { return whole(std::floor(x * kGridUnits)); };

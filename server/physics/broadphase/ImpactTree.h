@@ -1,9 +1,9 @@
-// The one tree of boxes: around what bodies sweep in a tick, or around their widened bounds (BroadPhase.h).
+// A tree of boxes: around areas that bodies sweep in a tick, or their widened bounds (BroadPhase.h).
 //
-// The problem is all pairs of boxes at once, and what overlaps a single one: the tree is built or refitted
-// for all of them, and then boxes only grow, as when an impact gives a body another path.
+// Finds all pairs of boxes at once, or all that overlap a single one. The tree is built or refitted for all
+// boxes; after that boxes only grow, for example when an impact gives a body another path.
 //
-// The order in which a query finds bodies depends on the whole scene; no result may depend on it.
+// Queries find bodies in an order that depends on the whole scene; no result may depend on it.
 #pragma once
 
 #include <cstdint>
@@ -31,13 +31,13 @@ constexpr SweptBox join(const SweptBox& a, const SweptBox& b) {
           {a.high.x > b.high.x ? a.high.x : b.high.x, a.high.y > b.high.y ? a.high.y : b.high.y}};
 }
 
-/// A leaf per body; n·log n to build, n to refit, about log n to ask or to let one leaf grow. Keeps its
+/// One leaf per body. n·log n to build, n to refit, about log n to query or to enlarge a leaf. Keeps its
 /// memory.
 class ImpactTree {
  public:
-  /// Takes `boxes[i]` for the bodies `ids[i]`, ids below `id_count`. Refits the old tree if the ids are the
-  /// same and its boxes have not spread too far, and rebuilds it otherwise. `values[i]`: a number of the
-  /// caller's for that body, of which a node has the least of all below it; none: 0.
+  /// Sets `boxes[i]` for the bodies `ids[i]`, all below `id_count`. Refits the old tree if the ids are
+  /// unchanged and its boxes have not spread too far, otherwise rebuilds it. `values[i]` is an arbitrary
+  /// number per body (0 if omitted), of which a node keeps the minimum of all below it.
   void update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count,
               const std::vector<float>& values = {});
 
@@ -46,15 +46,15 @@ class ImpactTree {
   /// Enlarges the box of a body by `box`.
   void grow(int id, const SweptBox& box);
 
-  /// What is below a node: one body or more.
+  /// The bodies below a node, at least one.
   struct Below {
-    const SweptBox& box;  // around all of theirs
-    float least;          // of their values
+    const SweptBox& box;  // around all their boxes
+    float least;          // minimum of their values
     int bodies;
-    int node;  // its number, until the next update()
+    int node;  // index of the node, valid until the next update()
   };
 
-  /// Of every node, by its number: what joins(a, b) makes of ofBody(id) of all bodies below it.
+  /// Sets of_nodes for every node: ofBody(id) for leaves, joins(a, b) of the children's values otherwise.
   template <typename Summary, typename OfBody, typename Joins>
   void summarize(std::vector<Summary>& of_nodes, OfBody&& ofBody, Joins&& joins) const {
     of_nodes.resize(m_nodes.size());
@@ -64,8 +64,8 @@ class ImpactTree {
     }
   }
 
-  /// Goes down from the top, and below a node if enters(Below) says so; calls found(id) for every body that
-  /// it comes to. What is near the body `beside` comes first, if it is not below 0.
+  /// Descends from the top into nodes for which enters(Below) is true, and calls found(id) for every body
+  /// reached. Bodies near the body `beside` come first, if that is not negative.
   template <typename Enters, typename Found>
   void walk(Enters&& enters, Found&& found, int beside = -1) const {
     const int near = beside < 0 ? size() : nodeOfMany(m_leaf_of[beside]);
@@ -88,7 +88,7 @@ class ImpactTree {
     if (near > 0) walkThrough(0, size());
   }
 
-  /// Calls found(id) for every body whose box overlaps `box`. If it returns false, that was the last one.
+  /// Calls found(id) for every body whose box overlaps `box`. Stops if it returns false.
   template <typename Found>
   void query(const SweptBox& box, Found&& found) const {
     for (int i = 0; i < size();) {
@@ -107,13 +107,12 @@ class ImpactTree {
     }
   }
 
-  /// Calls found(i, j), i < j, for every two bodies whose boxes overlap, once. A few bodies that are side by
-  /// side are asked for together.
+  /// Calls found(i, j), i < j, once for every two overlapping bodies. Queries small groups together.
   template <typename Found>
   void queryPairs(Found&& found) {
     queryPairs(std::forward<Found>(found), [](const Below& /*below*/) { return false; });
   }
-  /// The same without the bodies below nodes of which skips(Below) is true: these are in no pair.
+  /// Like queryPairs(), without the bodies below nodes for which skips(Below) is true.
   template <typename Found, typename Skips>
   void queryPairs(Found&& found, Skips&& skips) {
     for (int i = 0; i < size();) {
@@ -126,7 +125,7 @@ class ImpactTree {
         ++i;
         continue;
       }
-      m_near.clear();  // those of the few come first
+      m_near.clear();  // the bodies of the small group come first
       for (int k = i; k < size();) {
         const Node& node = m_nodes[k];
         const bool overlapping = overlaps(node.box, few.box) && !skips(below(k));
@@ -146,16 +145,15 @@ class ImpactTree {
     }
   }
 
-  /// The same for those who ask what hangs together, but no pairs within what is known to: of bodies in one
-  /// place it finds about as many pairs as bodies. areOne(i, j): do i and j hang together, so that no pair
-  /// between what hangs together with i and with j is of interest? Once true it stays so, and follows from
-  /// the pairs found before.
+  /// Like queryPairs(), for grouping: skips pairs within groups that are already known. For bodies in one
+  /// place it finds about as many pairs as bodies. areOne(i, j) is true if the groups of i and j need no
+  /// further pairs between them. Once true it must stay so, and it may depend only on the pairs found before.
   template <typename Found, typename AreOne>
   void queryGroups(Found&& found, AreOne&& areOne) {
     if (m_nodes.empty()) return;
     m_member.clear();
     for (const Node& node : m_nodes) m_member.push_back(node.id);
-    // One of the bodies below a node, if all of them are one; −1: they are not, or it is not known yet.
+    // Returns one of the bodies below a node if all belong to one group; −1 if not, or not known yet.
     const auto memberOf = [&](int node) {
       int& member = m_member[node];
       if (member >= 0) return member;
@@ -171,7 +169,7 @@ class ImpactTree {
       const Node &one = m_nodes[a], &other = m_nodes[b];
       if (a == b) {
         if (one.id >= 0) continue;
-        // The two against each other at last, when each may have become one.
+        // Processed last, when each child may have become one group.
         const int first = a + 1, second = secondOf(a);
         if (overlaps(m_nodes[first].box, m_nodes[second].box)) stack[height++] = {first, second};
         stack[height++] = {first, first};
@@ -190,14 +188,14 @@ class ImpactTree {
 
  private:
   static double sizeOf(const SweptBox& box) { return (box.high.x - box.low.x) + (box.high.y - box.low.y); }
-  static constexpr int kDepth = 128;      // halved at every level: far more than any number of bodies needs
-  static constexpr int kNodesOfFew = 15;  // eight bodies and what is above them
+  static constexpr int kDepth = 128;      // levels; each halves the bodies, so this is far more than needed
+  static constexpr int kNodesOfFew = 15;  // eight bodies and their inner nodes
   static constexpr int kNodesOfMany = 255;
-  struct Node {  // its first child is the next one
+  struct Node {  // its first child is the next node
     SweptBox box;
     int parent;
-    int id;   // of the leaf's body; −1 above
-    int end;  // the first node that is not below it
+    int id;   // body of a leaf; −1 for inner nodes
+    int end;  // first node after its subtree
     float least;
   };
   struct Leaf {
@@ -209,13 +207,13 @@ class ImpactTree {
   Below below(int node) const {
     return {m_nodes[node].box, m_nodes[node].least, (m_nodes[node].end - node + 1) / 2, node};
   }
-  // The first one above with so many below it, or the top.
+  // Returns the lowest ancestor with kNodesOfMany nodes below it, or the top.
   int nodeOfMany(int node) const {
     while (m_nodes[node].end - node < kNodesOfMany && m_nodes[node].parent >= 0) node = m_nodes[node].parent;
     return node;
   }
 
-  // Of two nodes the larger one is divided.
+  // Divides the larger of two nodes.
   void divide(int a, int b, std::pair<int, int>* stack, int& height) const {
     const Node &one = m_nodes[a], &other = m_nodes[b];
     const bool divides_one = other.id >= 0 || (one.id < 0 && sizeOf(one.box) > sizeOf(other.box));
@@ -230,7 +228,7 @@ class ImpactTree {
 
   std::vector<Node> m_nodes;
   std::vector<int> m_leaf_of;
-  std::vector<int> m_ids;  // of the last build, as given
+  std::vector<int> m_ids;  // of the last build, in the caller's order
   std::vector<int> m_order;
   std::vector<int> m_member;                       // by node, during queryGroups()
   std::vector<Leaf> m_near;                        // during queryPairs()

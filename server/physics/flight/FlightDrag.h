@@ -1,5 +1,4 @@
-// Flight through a medium whose drag grows with the square of the velocity. (One whose drag grows with the
-// velocity is a spring without stiffness: FlightSpring.h.)
+// Flight with quadratic drag. (A medium with linear drag is a spring without stiffness: FlightSpring.h.)
 #pragma once
 
 #include "physics/flight/FlightFree.h"
@@ -7,18 +6,19 @@
 
 namespace naiad::physics {
 
-/// v' = a − q·|v|·v along one line, in closed form: tanh, tan, or 1/(1 + qvt), whichever fits. `drag` is q >=
-/// 0, per cell; its limit velocity is √(a/q).
+/// Solves v' = a − q·|v|·v along a line in closed form by tanh, tan or 1/(1 + qvt). `drag` is q >= 0, per
+/// cell; the terminal velocity is √(a/q).
 struct FlownOnLine {
   double displacement;
   double velocity;
 };
 FlownOnLine flyQuadraticDragOnLine(double velocity, double acceleration, double drag, double t);
 
-/// The same in the plane. Along one line (no acceleration, no velocity, or both parallel) the closed form;
-/// otherwise, for there is none, error-controlled integration to about 1e-12 of displacement and velocity
-/// (1e-9 where drag is so strong that the implicit method takes over). `counters` adds up what the
-/// integration took. A status other than kDone: `flown` is where it stopped.
+/// Flight in the plane. Uses the closed form along a line (acceleration or velocity zero, or both parallel).
+/// Flight in the plane. Uses the closed form along a line (acceleration or velocity zero, or both parallel).
+/// Other cases have no closed form and are integrated with error control to about 1e-12 of displacement and
+/// velocity (1e-9 if drag is so strong that the implicit method takes over). Adds the integration's work to
+/// `counters`. If the status is not kDone, `flown` is where it stopped.
 IntegratorStatus flyQuadraticDrag(Vec2 velocity, Vec2 acceleration, double drag, double t, Flown& flown,
                                   IntegratorCounters& counters);
 

@@ -1,4 +1,4 @@
-// Flight through a field of force that a game defines.
+// Flight through a force field that a game defines.
 #pragma once
 
 #include "physics/flight/FlightFree.h"
@@ -7,32 +7,31 @@
 
 namespace naiad::physics {
 
-/// What a field does to a body, per unit of mass. Must be a pure function of its arguments (and of what does
-/// not change during a tick): it is called several times per tick, in an order of the integrator's choosing,
-/// and with states that the body never reaches.
+/// The acceleration by a field. Must be a pure function of its arguments and of data that is constant during
+/// a tick: it is called several times per tick, in any order, and for states that the body never reaches.
 class ForceField {
  public:
   virtual ~ForceField() = default;
-  /// `position` is relative to the field's own origin, in metric cells; `time` is the world's.
+  /// `position` is relative to the field's origin, in metric cells; `time` is the world's.
   virtual Vec2 acceleration(Vec2 position, Vec2 velocity, double time) const = 0;
-  /// The acceleration's derivatives. Optional: with false, integrators that need them take differences.
+  /// Computes the acceleration's derivatives. Optional: if false, integrators use finite differences.
   virtual bool jacobian(Vec2 /*position*/, Vec2 /*velocity*/, double /*time*/, Mat22& /*by_position*/,
                         Mat22& /*by_velocity*/) const {
     return false;
   }
 };
 
-/// How the velocity alone changes itself: a(v) − a(0) = λv, as complex numbers, and what differs from that.
+/// Linear part of a velocity's effect on itself: a(v) − a(0) = λv as complex numbers, and the rest.
 struct Turning {
-  Vec2 lambda;  ///< − damping, rate of turning in rad per tick
+  Vec2 lambda;  ///< (−damping, rate of turning in rad per tick)
   Vec2 rest;
 };
 
-/// Four calls of the field.
+/// Calls the field four times.
 Turning turningAt(const ForceField& field, Vec2 position, Vec2 velocity, double time);
 
-/// From `time` to `time + t`, by the method of `options`. `position` is relative to the field's origin.
-/// A status other than kDone: `flown` is where it stopped, and the caller should freeze the body.
+/// Flies from `time` to `time + t` by the method of `options`. `position` is relative to the field's origin.
+/// If the status is not kDone, `flown` is where it stopped, and the caller should freeze the body.
 IntegratorStatus flyField(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t,
                           const IntegratorOptions& options, Flown& flown, IntegratorCounters& counters);
 

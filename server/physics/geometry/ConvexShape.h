@@ -1,8 +1,8 @@
-// What a body that rotates is made of: convex shapes, with corners that may be rounded.
+// Convex shapes, with corners that may be rounded: the parts of a body that can rotate.
 //
-// Every shape is a core of up to 16 points and a radius around it: one point is a circle, two are a capsule,
-// more are a polygon. So there is one kind of shape and one algorithm for each question. A compound is
-// several shapes whose points are relative to the same body.
+// Every shape is a core of up to 16 points and a radius around it. One point makes a circle, two a capsule,
+// more a polygon, so one algorithm serves all kinds. A compound is several shapes whose points are relative
+// to one body.
 #pragma once
 
 #include <array>
@@ -14,52 +14,51 @@
 
 namespace naiad::physics {
 
-inline constexpr int kMaxVertices = 16;  ///< enough for what looks round; a real circle is a radius
-/// Metric cells: a shape is at least this wide and at most this far from its body's origin. Between the two
-/// lie 13 of a double's 16 digits.
+inline constexpr int kMaxVertices = 16;  ///< enough for a polygon that looks round; circles use the radius
+/// Metric cells: minimum width of a shape, and maximum distance from its body's origin. They are 13 of a
+/// double's 16 digits apart.
 inline constexpr double kSmallestShape = 1e-6;
 inline constexpr double kLargestShape = 1e7;
-/// Each corner rises at least this part of the polygon's size above the line between its neighbours.
+/// Minimum height of a corner above the line between its neighbours, as a part of the polygon's size.
 inline constexpr double kSmallestCorner = 1e-6;
 
-/// Plain data. Points are relative to the body's origin, in its own axes. Made by the functions below, which
-/// see to it that it is valid; only the first `count` points and normals mean anything.
+/// Plain data. Points are relative to the body's origin, in the body's axes. Create shapes only with the
+/// functions below, which check them. Entries of `vertices` and `normals` from `count` on are undefined.
 struct ConvexShape {
   std::int32_t count = 0;  ///< points of the core, 1 … kMaxVertices
   double radius = 0;       ///< metric cells around the core; > 0 if the core has no area
-  double reach = 0;        ///< largest distance of a point of the core from the origin
-  std::array<Vec2, kMaxVertices> vertices = {};  ///< in the sense from x to y (positive area)
-  std::array<Vec2, kMaxVertices> normals = {};   ///< outward, of the edge from vertex i to the next one
+  double reach = 0;        ///< maximum distance of a core point from the origin
+  std::array<Vec2, kMaxVertices> vertices = {};  ///< ordered from x to y, so the area is positive
+  std::array<Vec2, kMaxVertices> normals = {};   ///< outward normal of the edge from vertex i to the next
 };
 
 enum class ShapeStatus : std::uint8_t {
   kOk,
-  kNotFinite,  ///< a NaN or an infinity
+  kNotFinite,  ///< NaN or infinity
   kTooFew,     ///< fewer than three points
   kTooMany,    ///< more than kMaxVertices
-  kTooSmall,   ///< no area worth the name, equal points, a radius below zero
+  kTooSmall,   ///< almost no area, equal points, or a negative radius
   kTooLarge,   ///< beyond kLargestShape
-  kNotConvex,  ///< a corner turns in, is flat, or edges cross
+  kNotConvex,  ///< a corner turns inward or is flat, or edges cross
   kClockwise,  ///< the points run from y to x
 };
 
-/// All of them write `shape` only if they return kOk. `centre` is where it sits on its body.
+/// The make functions write `shape` only if they return kOk. `centre` is its place on the body.
 ShapeStatus makeCircle(double radius, Vec2 centre, ConvexShape& shape);
-/// From `a` to `b`, with half discs at both ends.
+/// Makes a capsule from `a` to `b`, with half discs at both ends.
 ShapeStatus makeCapsule(Vec2 a, Vec2 b, double radius, ConvexShape& shape);
-/// Half sizes before rounding; the radius goes on top of them.
+/// The half sizes do not include the radius, which is added to them.
 ShapeStatus makeBox(double half_width, double half_height, Vec2 centre, Rotation rotation, double radius,
                     ConvexShape& shape);
 ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape& shape);
 
-/// Have they the same points and normals, in the same order, and the same radius?
+/// True if points, normals, their order and the radius are equal.
 bool isEqual(const ConvexShape& a, const ConvexShape& b);
 
-/// The same shape elsewhere on its body: turned about the origin, then moved. The caller sees to the limits.
+/// Returns the shape rotated about the origin, then translated. The caller checks the limits.
 ConvexShape moved(const ConvexShape& shape, Rotation rotation, Vec2 by);
 
-/// A shape in the axes of the world, still relative to the body's origin: what pairs are tested with. Points
-/// to what its maker keeps.
+/// A shape in world axes, relative to the body's origin, for pair tests. It does not own its points.
 struct TurnedView {
   std::int32_t count;
   double radius;
@@ -68,7 +67,7 @@ struct TurnedView {
   const Vec2* normals;
 };
 
-/// The same with corners of its own. Made once per body and step. Only the first `count` entries are written.
+/// Like TurnedView, with its own points. Made once per body and step; the first `count` entries are valid.
 struct TurnedShape {
   std::int32_t count;
   double radius;
@@ -79,12 +78,12 @@ struct TurnedShape {
   operator TurnedView() const { return {count, radius, reach, vertices.data(), normals.data()}; }
 };
 void turn(const ConvexShape& shape, Rotation rotation, TurnedShape& turned);
-/// Into `corners`, of which there are two for each point: first the points, then the normals.
+/// Writes to `corners`, which has two entries per point: first all points, then all normals.
 void turn(const ConvexShape& shape, Rotation rotation, std::span<Vec2> corners);
-/// What the latter has made.
+/// Returns a view of what turn() wrote to `corners`.
 TurnedView turnedView(const ConvexShape& shape, std::span<const Vec2> corners);
 
-/// The least half width, rounding included: what passes it by more is on its other side.
+/// Half of the minimum width, rounding included. An object that penetrates deeper comes out on the far side.
 double thicknessOf(const ConvexShape& shape);
 
 /// Bounds relative to the body's origin.

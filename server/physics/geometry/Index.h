@@ -1,4 +1,4 @@
-// Bodies, nodes and rows are counted by int, and containers of the standard library are indexed by size_t.
+// Converts int, which counts bodies, nodes and rows, to size_t, which indexes standard containers.
 #pragma once
 
 #include <concepts>
@@ -6,7 +6,7 @@
 
 namespace naiad::physics {
 
-/// `i` is not negative.
+/// `i` must not be negative.
 template <std::integral Number>
 constexpr std::size_t at(Number i) {
   return static_cast<std::size_t>(i);

@@ -1,7 +1,7 @@
-// Where and how two convex shapes touch: a normal and up to two points.
+// The contact of two convex shapes: a normal and up to two points.
 //
-// All input and output is relative to the bodies' origins, so a pair at 1e9 cells gives the bits of the same
-// pair at the origin. What lies along the axes is exact: a box that hovers by 2^-20 is reported to do so.
+// All input and output is relative to the bodies' origins, so a pair at 1e9 cells gives the bits of an equal
+// pair at the origin. Shapes along the axes are exact: a gap of 2^-20 under a box is reported as such.
 #pragma once
 
 #include <array>
@@ -12,16 +12,16 @@
 namespace naiad::physics {
 
 struct ManifoldPoint {
-  Vec2 anchor_a;          ///< midway between the surfaces, from A's origin, in the axes of the world
-  Vec2 anchor_b;          ///< the same point from B's origin
-  double separation = 0;  ///< along the normal; > 0 is a gap
-  /// Which corners touch here: vertex of A, vertex of B. The same while the contact lasts, whichever edge the
-  /// normal is taken from, so that a solver can go on from the last step's impulse.
+  Vec2 anchor_a;          ///< midway between the surfaces, relative to A's origin, in world axes
+  Vec2 anchor_b;          ///< this point relative to B's origin
+  double separation = 0;  ///< along the normal; > 0: gap
+  /// The corners that touch here: vertex of A, vertex of B. Constant while the contact lasts, whichever edge
+  /// gives the normal, so that a solver can start from the last step's impulse.
   std::uint32_t id = 0;
 };
 
-/// The edge that the normal is taken from. Handed back in the next step, it is kept until another one is
-/// clearly better, so that rounding does not make the normal jump between equal ones.
+/// The edge that gives the normal. If passed to the next step it is kept until another one is clearly better,
+/// so that rounding does not switch the normal between equal edges.
 struct ReferenceFace {
   enum class Owner : std::uint8_t { kNone, kA, kB };
   Owner owner = Owner::kNone;
@@ -29,26 +29,26 @@ struct ReferenceFace {
   friend constexpr bool operator==(ReferenceFace a, ReferenceFace b) = default;
 };
 
-/// A kept edge may be worse than the best by this part of the smaller shape's reach: far above rounding, far
-/// below what is seen.
+/// A kept edge may be worse than the best by this part of the smaller shape's reach. Far above rounding, far
+/// below what is visible.
 inline constexpr double kFaceHysteresis = 1e-3;
 
 struct Manifold {
-  Vec2 normal;  ///< of length one, from A to B
+  Vec2 normal;  ///< unit length, from A to B
   std::int32_t count = 0;
   std::array<ManifoldPoint, 2> points;
   ReferenceFace reference;
 };
 
-/// `offset` is from A's origin to B's, a difference of two places. Points with a gap beyond `speculative` are
-/// left out. Without `kept` the smallest separation is exact; with it, within the hysteresis. Returns whether
-/// there is a point; if not, of `manifold` only the count is written. `prefers_faces`: two polygons whose
-/// nearest points are corners, yet of which one has an edge in front of the other's, get the two points of
-/// these edges; which corner is the nearest one may be another one before they meet.
+/// Finds the contact of `a` and `b`. `offset` is from A's origin to B's, a difference of two places. Drops
+/// points with a gap above `speculative`. The smallest separation is exact without `kept`, and within the
+/// hysteresis with it. Returns true if there is a point; otherwise sets only the count of `manifold`.
+/// `prefers_faces` concerns two polygons with corners as nearest points, one of which has an edge in front of
+/// the other's: they get the two points of these edges, because another corner may be nearest when they meet.
 bool collide(const TurnedView& a, const TurnedView& b, Vec2 offset, double speculative, ReferenceFace kept,
              Manifold& manifold, bool prefers_faces = false);
 
-/// For a pair that is tested once: turns the shapes first.
+/// Rotates the shapes first; for pairs that are tested once.
 bool collide(const ConvexShape& a, Rotation rotation_a, const ConvexShape& b, Rotation rotation_b,
              Vec2 offset, double speculative, Manifold& manifold);
 

@@ -1,4 +1,4 @@
-// Mass, centre and moment of inertia: of a shape of even density, in closed form, and of several together.
+// Mass, centre and moment of inertia of shapes with constant density, in closed form, and of compounds.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@ namespace naiad::physics {
 
 struct Mass {
   double mass = 0;
-  Vec2 centre;         ///< of mass, relative to the body's origin
+  Vec2 centre;         ///< centre of mass, relative to the body's origin
   double inertia = 0;  ///< about the centre
 };
 
-/// Of both together. Where shapes overlap, the overlap counts twice.
+/// Sum of two bodies. Where shapes overlap, the overlap counts twice.
 constexpr Mass operator+(const Mass& a, const Mass& b) {
   const double mass = a.mass + b.mass;
   if (mass == 0) return {};
@@ -22,14 +22,14 @@ constexpr Mass operator+(const Mass& a, const Mass& b) {
           a.inertia + b.inertia + (a.mass * b.mass / mass) * lengthSquared(apart)};
 }
 
-/// Mass per metric cell squared; 1 gives the area. Exact formulas for corners, edges and rounding alike; what
-/// remains is rounding.
+/// `density` is mass per metric cell squared; 1 gives the area. The formulas for corners, edges and rounding
+/// are exact except for floating-point rounding.
 Mass massOf(const ConvexShape& shape, double density);
 
-/// Of a compound: one density per shape. Overlaps count as often as they are covered.
+/// Mass of a compound, with one density per shape. Overlaps count once per shape.
 Mass massOf(std::span<const ConvexShape> shapes, std::span<const double> densities);
 
-/// Moves the shapes so that the centre of mass becomes the origin, about which bodies turn.
+/// Moves the shapes so that the centre of mass becomes the origin, which bodies rotate about.
 void recentre(std::span<ConvexShape> shapes, Mass& mass);
 
 }  // namespace naiad::physics

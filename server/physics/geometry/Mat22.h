@@ -1,4 +1,4 @@
-// A 2×2 matrix: Jacobians, effective masses.
+// A 2×2 matrix, for Jacobians and effective masses.
 #pragma once
 
 #include "physics/geometry/Vec2.h"
@@ -28,7 +28,7 @@ constexpr double determinant(const Mat22& m) {
   return m.xx * m.yy - m.xy * m.yx;
 }
 
-/// x with m·x = b; zero if m is singular.
+/// Returns x with m·x = b; zero if m is singular.
 constexpr Vec2 solve(const Mat22& m, Vec2 b) {
   const double d = determinant(m);
   if (d == 0) return {};

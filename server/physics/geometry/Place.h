@@ -1,7 +1,7 @@
-// Where a body is: a whole number of metric cells and the rest.
+// A body's position: a whole number of metric cells plus a remainder.
 //
-// The physics never sees an absolute coordinate in floating point, only differences of places and
-// displacements, so a scene that is moved by whole cells, to 1e9 of them, behaves the same to the last bit.
+// The physics never uses absolute floating-point coordinates, only differences of places and displacements.
+// So a scene moved by whole cells, to 1e9 of them, behaves identically to the last bit.
 #pragma once
 
 #include <cmath>
@@ -12,9 +12,9 @@
 
 namespace naiad::physics {
 
-/// Metric: a unit is the width of a character both ways, so y is scaled by the aspect of a cell. The rest
-/// lies in [−0.5, 0.5), so that equal places are equal; a whole part stays below 2^62, which is the caller's
-/// to see to.
+/// The unit is the width of a character along both axes, so y is scaled by the aspect of a cell. The
+/// remainder lies in [−0.5, 0.5), so that equal places compare equal. The caller keeps the whole part below
+/// 2^62.
 struct Place {
   std::int64_t cell_x = 0;
   std::int64_t cell_y = 0;
@@ -24,7 +24,7 @@ struct Place {
   friend constexpr bool operator==(const Place& a, const Place& b) = default;
 };
 
-/// The displacement from b to a. Exact whenever the difference has no more digits than a double.
+/// Returns the displacement from b to a. Exact if the difference fits the digits of a double.
 constexpr Vec2 operator-(const Place& a, const Place& b) {
   return {static_cast<double>(a.cell_x - b.cell_x) + (a.dx - b.dx),
           static_cast<double>(a.cell_y - b.cell_y) + (a.dy - b.dy)};
@@ -45,14 +45,15 @@ constexpr void advance(std::int64_t& cell, double& rest, double by) {
 
 }  // namespace place_detail
 
-/// `from` moved by `by`, with one rounding per axis, of the rest. Each component of `by` is below 2^51 cells.
+/// Returns `from` moved by `by`, rounding the remainder once per axis. Components of `by` must be below 2^51
+/// cells.
 constexpr Place operator+(Place from, Vec2 by) {
   place_detail::advance(from.cell_x, from.dx, by.x);
   place_detail::advance(from.cell_y, from.dy, by.y);
   return from;
 }
 
-/// The place of a point near the origin, |x|, |y| < 2^51.
+/// Returns the place of a point near the origin, |x|, |y| < 2^51.
 constexpr Place placeAt(Vec2 point) {
   return Place{} + point;
 }

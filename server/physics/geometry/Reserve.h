@@ -1,5 +1,5 @@
-// Memory for what is about to be added, taken once: growing by doubling writes to twice as many new pages,
-// and a page that is written to for the first time costs as much as solving for a contact.
+// Reserves memory once for elements about to be added. Growing by doubling writes to twice as many new pages,
+// and the first write to a page costs as much as solving a contact.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace naiad::physics {
 
-/// Room for `size` elements. It never grows by less than doubling, so that calls that ask for a little more
-/// each time stay cheap.
+/// Makes room for `size` elements. At least doubles the capacity if it grows, so that repeated calls with
+/// slightly larger sizes stay cheap.
 template <class Element>
 void reserveFor(std::vector<Element>& elements, std::size_t size) {
   if (elements.capacity() < size) elements.reserve(std::max(size, 2 * elements.capacity()));

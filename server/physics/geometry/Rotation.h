@@ -1,7 +1,7 @@
 // A rotation as a complex number of length one.
 //
-// Quarter turns are exact, so what lies along the axes stays free of rounding. Turning by small angles, which
-// is what a body does in a step, needs no elementary function.
+// Quarter turns are exact, so shapes along the axes stay free of rounding errors. Rotating by small angles,
+// as bodies do in a step, needs no elementary function.
 #pragma once
 
 #include "Elementary.h"
@@ -17,7 +17,7 @@ struct Rotation {
   friend constexpr Vec2 operator*(Rotation q, Vec2 v) {
     return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y};
   }
-  /// First b, then a; the order does not matter in the plane.
+  /// Rotates by b, then by a; the order does not matter in the plane.
   friend constexpr Rotation operator*(Rotation a, Rotation b) {
     return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s};
   }
@@ -28,25 +28,24 @@ constexpr Rotation inverse(Rotation q) {
   return {q.c, -q.s};
 }
 
-/// `q` back on the unit circle, for what rounding or one step took it off: an error e becomes 3/2 e². No
-/// root.
+/// Returns `q` on the unit circle again after rounding: an error e becomes 3/2 e². No square root.
 constexpr Rotation renormalised(Rotation q) {
   const double factor = 1.5 - 0.5 * (q.c * q.c + q.s * q.s);
   return {q.c * factor, q.s * factor};
 }
 
-/// A finite angle in radians.
+/// `angle` is in radians and finite.
 inline Rotation rotationBy(double angle) {
   const df::math::SineCosine of = df::math::sincos(angle);
   return {of.cosine, of.sine};
 }
 
-/// In [−π, π].
+/// Returns radians in [−π, π].
 inline double angleOf(Rotation q) {
   return df::math::atan2(q.s, q.c);
 }
 
-/// `q` turned by a finite angle, exactly but for rounding. Up to 1/8 rad it is the diagonal Padé
+/// Returns `q` rotated by a finite angle, exact but for rounding. Up to 1/8 rad it uses the diagonal Padé
 /// approximation of order 8, whose length is one by construction and whose error is below 3e-16; beyond, the
 /// elementary functions.
 inline Rotation turned(Rotation q, double angle) {

@@ -1,4 +1,4 @@
-// How far apart two convex shapes are, and along which line: what manifolds and times of impact rest upon.
+// Distance of two convex shapes and its direction: the base of manifolds and times of impact.
 #pragma once
 
 #include <limits>
@@ -13,39 +13,39 @@ enum class Feature : std::uint8_t {
   kVertices,  ///< a vertex of each
 };
 
-/// Between the cores; take both radii off for the gap between the shapes.
+/// Distance of the cores; subtract both radii for the gap between the shapes.
 struct Separation {
-  double distance;  ///< > 0: apart, by so much; < 0: to be moved so far along the normal to come apart
-  Vec2 normal;      ///< of length one, from A to B
+  double distance;  ///< > 0: gap; < 0: distance to move along the normal until they are apart
+  Vec2 normal;      ///< unit length, from A to B
   Feature feature;
-  std::int32_t index_a;  ///< the edge (named after its first vertex) or the vertex of A
-  std::int32_t index_b;  ///< likewise of B
+  std::int32_t index_a;  ///< edge of A (by its first vertex) or vertex of A
+  std::int32_t index_b;  ///< edge or vertex of B
 };
 
-/// The best edge of one core: the one that the other core is farthest outside of.
+/// The edge of one core that the other core is farthest outside of.
 struct FaceSeparation {
   double distance = -std::numeric_limits<double>::infinity();
   std::int32_t edge = 0;
-  std::int32_t support = 0;  ///< the nearest vertex of the other
+  std::int32_t support = 0;  ///< nearest vertex of the other core
 };
 
-/// One edge of `shape` against all of `other`, whose origin is `offset` from the shape's. The supports are
-/// compared before the offset between the bodies is added, so that equal sizes cancel exactly.
+/// Compares one edge of `shape` with all of `other`, whose origin is `offset` from the shape's. The supports
+/// are compared before the bodies' offset is added, so that equal sizes cancel exactly.
 FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const TurnedView& other,
                               Vec2 offset);
-/// The best one; ends early with one beyond `enough`. Nothing (−∞) for a shape without edges.
+/// Returns the best edge, or the first found with more than `enough`. −∞ for a shape without edges.
 FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 offset, double enough);
-/// How far a circle about `centre` is from the shape at least, by the shape's faces alone: nothing (−∞) where
-/// it has none.
+/// Returns a lower bound of the distance of a circle about `centre` to the shape, by the shape's faces alone;
+/// −∞ for a shape without faces.
 double faceGap(const TurnedView& shape, Vec2 centre, double radius);
 
-/// `offset`: from A's origin to B's. Exact but for rounding, by separating axes and, where the nearest
-/// features are both corners, by the distance between edges that these axes single out. No iteration. Once it
-/// is clear that the distance exceeds `enough` the result may be any lower bound above it, with its axis.
+/// `offset` is from A's origin to B's. Exact but for rounding, by separating axes and, if the nearest
+/// features are both corners, by the distance between edges that these axes determine. Not iterative. If the
+/// distance exceeds `enough`, the result may be any lower bound above it, with its axis.
 Separation separation(const TurnedView& a, const TurnedView& b, Vec2 offset,
                       double enough = std::numeric_limits<double>::infinity());
 
-/// The same with `face_a` and `face_b` already known.
+/// Like separation(), with `face_a` and `face_b` already known.
 Separation separationFrom(const TurnedView& a, const TurnedView& b, Vec2 offset, const FaceSeparation& face_a,
                           const FaceSeparation& face_b);
 

@@ -1,4 +1,4 @@
-// Which character cells a shape covers, for drawing it.
+// Finds the character cells that a shape covers, for drawing.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace naiad::physics {
 
-/// The cells of one row whose centres lie in the shape: they are one after another, for shapes are convex.
+/// The cells of one row whose centres lie in the shape, contiguous because shapes are convex.
 struct CellSpan {
   std::int32_t row;
   std::int32_t first;
-  std::int32_t last;  ///< included
+  std::int32_t last;  ///< inclusive
   friend constexpr bool operator==(const CellSpan& a, const CellSpan& b) = default;
 };
 
-/// `centre` is where the body's origin is, in metric cells from the centre of cell (0, 0) of the result: any
-/// cell near it that the caller counts from. A cell is 1 wide and `aspect` > 0 high. `spans` is replaced:
-/// rows from top to bottom, none of them empty, none left out between two others that are not empty unless
-/// the shape is thinner than a cell there. Nothing beyond `furthest` cells is examined.
+/// `centre` is the body's origin in metric cells from the centre of cell (0, 0) of the result, which may be
+/// any cell near it. A cell is 1 wide and `aspect` > 0 high. Replaces `spans` by the non-empty rows from top
+/// to bottom; a row between two others can only be missing if the shape is thinner than a cell there.
+/// Examines nothing beyond `furthest` cells.
 void rasterise(const TurnedShape& shape, Vec2 centre, double aspect, std::vector<CellSpan>& spans,
                std::int32_t furthest = 4096);
 

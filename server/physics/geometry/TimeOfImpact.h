@@ -1,14 +1,14 @@
-// When two convex shapes that move and turn first touch.
+// Finds when two moving and rotating convex shapes first touch.
 //
-// The time-of-impact finder for what turns: any convex shapes, straight and evenly turning over a sub-step.
-// No formula gives that moment. ImpactTime.h has one, for boxes and circles that do not turn; ShapeQuery.h
-// casts a point, for soft bodies' nodes; JointImpacts.h follows paths that joints bend.
+// This is the time of impact for rotating bodies: any convex shapes that move straight and rotate evenly over
+// a sub-step, for which no formula exists. ImpactTime.h has a formula for boxes and circles that do not
+// rotate; ShapeQuery.h casts points, for soft bodies' nodes; JointImpacts.h follows paths bent by joints.
 //
-// Conservative advancement. At each stop the separating axis is known; along it, the gap at any later time is
-// at least what every pair of corners would leave if it went straight on, less the most that turning can bend
-// its path. What turns fast is a disc until it has come near, so that turns before that cost nothing. The
-// first time at which that bound is used up is safe to go to, so nothing is ever passed, and because the
-// bound is right to second order, the steps converge like Newton's. Cf. B. Mirtich, "Impulse-based dynamic
+// The method is conservative advancement. At each stop the separating axis is known. Along it, the gap at any
+// later time is at least the minimum over all pairs of corners, if these went straight on, less the maximum
+// by which rotation bends their paths. A fast rotating body is treated as a disc until it is near. It is safe
+// to advance to the first time at which this bound reaches zero, so no contact is missed; because the bound
+// is right to second order, the steps converge like Newton's. See B. Mirtich, "Impulse-based dynamic
 // simulation of rigid body systems", 1996, and X. Zhang, M. Lee, Y. J. Kim, "Interactive continuous collision
 // detection for non-convex polyhedra", 2006.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace naiad::physics {
 
-/// From time 0 to time 1: the origin moves straight, the body turns evenly about it.
+/// Motion from time 0 to time 1: the origin moves straight, the body rotates evenly about it.
 struct RigidMotion {
   Vec2 displacement;
   Rotation start;
@@ -25,30 +25,31 @@ struct RigidMotion {
 };
 
 enum class TimeOfImpactStatus : std::uint8_t {
-  kApart,       ///< they do not touch
-  kHit,         ///< they touch at `time`
-  kUnresolved,  ///< still apart at `time`, and not known any further: out of iterations. To be counted.
+  kApart,       ///< no contact
+  kHit,         ///< contact at `time`
+  kUnresolved,  ///< no contact until `time`; later is unknown, because of the iteration limit. The caller
+                ///< should count these.
 };
 
 struct TimeOfImpact {
   TimeOfImpactStatus status = TimeOfImpactStatus::kApart;
-  bool touched_before = false;  ///< they touched or overlapped at time 0
-  double time = 1;              ///< never late
-  double gap = 0;               ///< between the surfaces at `time`, if they hit
-  Vec2 normal;                  ///< of length one, from A to B at `time`, if they hit
+  bool touched_before = false;  ///< touching or overlapping at time 0
+  double time = 1;              ///< never too late
+  double gap = 0;               ///< between the surfaces at `time`, for kHit
+  Vec2 normal;                  ///< unit length, from A to B at `time`, for kHit
   std::int32_t iterations = 0;
 };
 
-/// The most of 1.5 million random sweeps was 106 (docs/physics/shapes.md).
+/// The maximum in 1.5 million random sweeps was 106 (docs/physics/shapes.md).
 inline constexpr std::int32_t kImpactIterations = 200;
 
-/// How near counts as touching, for shapes of this size and this far from each other.
+/// Returns the distance that counts as touching for shapes of this size and distance.
 double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, Vec2 relative_displacement);
 
-/// The first time in [0, 1] at which the gap is at most `target` (>= 0), found when it is within the
-/// tolerance of it. A pair that is as near as that at time 0 hits when it has come nearer by another four
-/// tolerances: one that slides, rests or separates does not. `offset` is from A's origin to B's at time 0;
-/// everything is finite and the displacements are up to 1e9 cells.
+/// Finds the first time in [0, 1] at which the gap is at most `target` (>= 0), within the tolerance. A pair
+/// that is this near at time 0 hits when it has come nearer by another four tolerances; a pair that slides,
+/// rests or separates does not. `offset` is from A's origin to B's at time 0. All numbers are finite and
+/// displacements are up to 1e9 cells.
 TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
                           const RigidMotion& motion_b, Vec2 offset, double target = 0);
 

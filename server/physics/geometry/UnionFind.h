@@ -1,4 +1,4 @@
-// Which of many things hang together.
+// Connected sets of things.
 #pragma once
 
 #include <algorithm>
@@ -9,16 +9,16 @@
 
 namespace naiad::physics {
 
-/// Sets of numbers from 0 on, which only grow together. The lowest number of a set is its root, whatever the
-/// order in which they were united. Keeps its memory.
+/// Disjoint sets of numbers from 0 on that can be united. The lowest number of a set is its root, independent
+/// of the order of uniting. Keeps its memory.
 class UnionFind {
  public:
-  /// So many numbers, each alone.
+  /// Makes `count` sets of one number each.
   void reset(std::size_t count) {
     m_parent.clear();
     extend(count);
   }
-  /// So many in all; the new ones alone.
+  /// Extends to `count` numbers in all; each new one is a set by itself.
   void extend(std::size_t count) {
     const std::size_t before = m_parent.size();
     m_parent.resize(count);

@@ -1,5 +1,4 @@
-// A vector in metric cells: what the physics calculates with. Plain data, everything constexpr but the
-// length.
+// A vector in metric cells, the unit of all physics calculations. Plain data; all but length() is constexpr.
 //
 // y grows downward, as everywhere in the project; a positive angle therefore turns clockwise on the screen.
 #pragma once
@@ -27,26 +26,26 @@ struct Vec2 {
 constexpr double dot(Vec2 a, Vec2 b) {
   return a.x * b.x + a.y * b.y;
 }
-/// The z component of the product in space: positive if b is clockwise from a on the screen.
+/// The z component of the cross product: positive if b is clockwise from a on the screen.
 constexpr double cross(Vec2 a, Vec2 b) {
   return a.x * b.y - a.y * b.x;
 }
-/// The velocity of the point `a` of a body that turns at `spin` rad per unit of time.
+/// Velocity of the point `a` of a body that turns at `spin` rad per unit of time.
 constexpr Vec2 cross(double spin, Vec2 a) {
   return {-spin * a.y, spin * a.x};
 }
-/// `a` turned by a right angle, from x to y.
+/// Returns `a` rotated by a right angle, from x to y.
 constexpr Vec2 perpendicular(Vec2 a) {
   return {-a.y, a.x};
 }
 constexpr double lengthSquared(Vec2 a) {
   return dot(a, a);
 }
-/// Overflows beyond 1e154: what enters the physics is below 1e30.
+/// Overflows beyond 1e154; the physics accepts only values below 1e30.
 inline double length(Vec2 a) {
   return std::sqrt(lengthSquared(a));
 }
-/// Are both components finite?
+/// True if both components are finite.
 constexpr bool isFinite(Vec2 a) {
   return a.x - a.x == 0 && a.y - a.y == 0;
 }

@@ -1,4 +1,4 @@
-// What an ImpactWorld moves: bodies that do not rotate, axis-aligned boxes and circles.
+// The bodies of an ImpactWorld: axis-aligned boxes and circles that do not rotate.
 #pragma once
 
 #include <cmath>
@@ -11,21 +11,22 @@ namespace naiad::physics {
 
 enum class ImpactShape : std::uint8_t { kBox, kCircle };
 
-/// Plain data. Time counts in ticks, lengths in metric cells.
+/// Plain data. Time is in ticks, lengths are in metric cells.
 struct ImpactBody {
-  Place place;              ///< of the centre
-  Vec2 velocity;            ///< per tick
-  Vec2 acceleration;        ///< gravity and force over mass, constant within a tick
-  Vec2 half = {0.5, 0.5};   ///< half the box, or the radius in x; >= 0, a box may be flat but not a point
-  double inverse_mass = 1;  ///< 0: static, or kinematic if it has a velocity; nothing pushes it
-  double restitution = 0;   ///< 0 … 1; of a pair the larger one counts
-  double friction = 0;      ///< >= 0; of a pair the geometric mean counts
+  Place place;        ///< place of the centre
+  Vec2 velocity;      ///< per tick
+  Vec2 acceleration;  ///< gravity plus force over mass, constant within a tick
+  Vec2 half = {0.5,
+               0.5};  ///< half size of the box, or the radius in x; >= 0, a box may be flat but not a point
+  double inverse_mass = 1;  ///< 0: static, or kinematic if it has a velocity; not pushed by others
+  double restitution = 0;   ///< 0 … 1; for a pair the larger one counts
+  double friction = 0;      ///< >= 0; for a pair the geometric mean counts
   ImpactShape shape = ImpactShape::kBox;
 
   friend constexpr bool operator==(const ImpactBody& a, const ImpactBody& b) = default;
 };
 
-/// May the body be taken in? Everything finite and below 1e30, sizes below 1e12.
+/// True if the body is valid: all numbers finite and below 1e30, sizes below 1e12.
 inline bool isSound(const ImpactBody& body) {
   constexpr double kLargest = 1e30;  // squares and products of two stay finite
   const auto isSmall = [](double x) { return std::fabs(x) <= kLargest; };  // false for NaN
@@ -39,7 +40,7 @@ inline bool isSound(const ImpactBody& body) {
          std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1;
 }
 
-/// Half of the box around it.
+/// Returns half of the size of its bounding box.
 constexpr Vec2 halfExtentOf(const ImpactBody& body) {
   return body.shape == ImpactShape::kCircle ? Vec2{body.half.x, body.half.x} : body.half;
 }

@@ -1,9 +1,9 @@
-// Bodies that do not rotate, event by event: the exact moment of every impact, and the rest of the tick used.
+// Event-driven simulation of bodies that do not rotate: handles every impact at its exact moment.
 //
-// Between events each body flies in closed form (FlightFree.h). A queue gives the next event of all pairs; it
-// is handled, and only the pairs of the bodies that it changed are examined again. Bodies that lie on one
-// another get the accelerations that keep them so (ImpactRest.h) and then fly like any other until something
-// changes. Results depend on ids, places relative to one another, and inputs alone.
+// Between events each body flies in closed form (FlightFree.h). A queue gives the next event of all pairs.
+// After it is handled, only the pairs of the changed bodies are examined again. Bodies at rest on others get
+// the accelerations that keep them there (ImpactRest.h), and then fly like any other until something changes.
+// Results depend only on ids, relative places and inputs.
 #pragma once
 
 #include <cstdint>
@@ -18,114 +18,114 @@ namespace naiad::physics {
 
 /// A contact began or ended. A bounce does both.
 struct ImpactEvent {
-  double time;  ///< since the start of the tick
+  double time;  ///< time since the start of the tick
   int first;    ///< the lower id
   int second;
   bool is_begin;
-  double impulse;  ///< along the normal, on second, when it begins
-  Vec2 normal;     ///< from first to second
+  double impulse;  ///< impulse on second, along the normal; 0 for an end
+  Vec2 normal;     ///< direction from first to second
   int order = 0;   ///< index in the list
 };
 
-/// What has happened since the world was made.
+/// Counters since the world was made.
 struct ImpactCounters {
   std::int64_t ticks = 0;
   std::int64_t impacts = 0;
   std::int64_t forecasts = 0;    ///< pairs examined
-  std::int64_t overlaps = 0;     ///< of those, how many were too deep in one another to be kept apart
+  std::int64_t overlaps = 0;     ///< examined pairs that overlapped too deeply to be separated
   std::int64_t rest_solves = 0;  ///< groups of resting bodies
-  std::int64_t unconverged = 0;  ///< of those, how many got an approximate solution
+  std::int64_t unconverged = 0;  ///< groups of resting bodies with only an approximate solution
   std::int64_t quarantined = 0;  ///< bodies frozen
-  std::int64_t given_up = 0;     ///< bodies whose tick would have cost too much
+  std::int64_t given_up = 0;     ///< bodies abandoned because their tick would have cost too much
 };
 
 enum class ImpactStepStatus : std::uint8_t {
   kDone,
-  kQuarantined,  ///< done, and at least one body had to be frozen
-  kRefused       ///< not a time; nothing happened
+  kQuarantined,  ///< done, but at least one body had to be frozen
+  kRefused       ///< `dt` is invalid; nothing happened
 };
 
-/// Not thread-safe. No allocation in step() once the scene has shown what it needs.
+/// Not thread-safe. After a warm-up, step() does not allocate.
 class ImpactWorld {
  public:
-  /// What a tick may take, in multiplications (about a nanosecond each): so much …
+  /// Work budget of a tick, in multiplications (about a nanosecond each). This part is shared by all bodies.
   static constexpr double kWorkOfTick = 1e6;
-  /// … so much for each body, whose own share that is …
+  /// Budget per body, in addition; also the body's own share.
   static constexpr double kWorkOfBody = 5e3;
-  /// … and so much for each event, which covers an impact of two bodies, but not the solution of a large
-  /// group that lies there. Events get it until a reserve is empty. A body whose own share is spent when all
-  /// of it is gone is given up for this tick.
+  /// Budget per event, in addition. It covers an impact of two bodies, but not the solution of a large
+  /// resting group. Events get it until a reserve is empty. A body that has used its own share when the whole
+  /// budget is used up is abandoned for this tick.
   static constexpr double kWorkOfEvent = 1e3;
   static constexpr double kUsualReserve = 20'000 * kWorkOfEvent;
-  /// Bounds the work of ticks: until then it is not.
+  /// Limits the work per tick; unlimited by default.
   void setReserve(double work) { m_reserve = work; }
-  /// A bounce that would not rise higher than this (cells) ends in rest: the Zeno guard. Far below the
-  /// world's unit of 2^-32 cell.
+  /// A bounce that would not rise higher than this (cells) ends at rest, to avoid infinitely many bounces.
+  /// Far below the world's unit of 2^-32 cell.
   static constexpr double kRestHeight = 1e-11;
-  /// So does one that follows as many others of the same body in the same moment, unless it is elastic.
+  /// Limit of impacts of one body at one moment; the next inelastic one ends at rest.
   static constexpr int kMaxAtOnce = 32;
 
-  /// Two bodies that were put into one another deeper than this pass until they have parted. (What cannot be
-  /// pushed lets no body go deeper.)
+  /// Two movable bodies placed into each other deeper than this ignore each other until they are apart. (If
+  /// one is immovable, the other may leave it but gets no deeper.)
   static constexpr double kDeepest = 1e-6;
 
-  /// Returns the id, the lowest free one, or −1 if the body is not sound.
+  /// Returns the lowest free id, or −1 if the body is invalid.
   int add(const ImpactBody& body);
-  /// Replaces a body, and thaws it. False if there is none, or `body` is not sound; then nothing changes.
+  /// Replaces a body and thaws it. Changes nothing and returns false if the id or `body` is invalid.
   bool set(int id, const ImpactBody& body);
-  /// Its contacts end without an event.
+  /// Removes a body; its contacts end without events.
   bool remove(int id);
 
   const ImpactBody& body(int id) const { return m_bodies[id]; }
   bool exists(int id) const {
     return id >= 0 && id < static_cast<int>(m_bodies.size()) && m_motions[id].exists;
   }
-  /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
+  /// True if the body is in quarantine: it is unchanged and collides with nothing until set().
   bool isFrozen(int id) const { return m_motions[id].is_frozen; }
-  /// Was the body given up in this tick, as its group would have cost too much? What it has touched in the
-  /// tick must be moved otherwise, from where it began. It collides with nothing until set().
+  /// True if the body was abandoned in this tick because its group would have cost too much. Another solver
+  /// must move it and all that it touched, from the tick's beginning. It collides with nothing until set().
   bool isGivenUp(int id) const { return m_motions[id].is_given_up; }
   bool hasGivenUp() const { return m_has_given_up; }
-  /// What the last tick has taken.
+  /// Work of the last tick.
   double work() const { return m_work; }
-  /// Does the body, which can be pushed, touch anything?
+  /// True if the movable body touches anything.
   bool isTouching(int id) const { return m_motions[id].first_contact >= 0; }
-  /// What moves it at the end of the last step, with what contacts add.
+  /// Acceleration at the end of the last step, including contacts.
   Vec2 acceleration(int id) const { return m_motions[id].acceleration; }
-  /// Ids are below this.
+  /// All ids are below this.
   int idLimit() const { return static_cast<int>(m_bodies.size()); }
 
-  /// For the next step: the world is known `half` to either side of `centre`, and if an impact sends the body
-  /// out of that, the step ends there. Everywhere, unless it is set.
+  /// Sets the known area for the next step: `half` to each side of `centre`. If an impact sends the body out
+  /// of it, the step ends there. Unlimited if not set.
   void setReach(int id, const Place& centre, Vec2 half);
 
-  /// Goes on by `dt` > 0 ticks, or until a body would leave its reach. `goes_on`: the rest of a tick, with
-  /// what is left of its work.
+  /// Advances by `dt` > 0 ticks, or until a body would leave its reach. `goes_on` is true for the rest of a
+  /// tick, which continues with the remaining budget.
   ImpactStepStatus step(double dt = 1, bool goes_on = false);
-  /// How far the last step went on.
+  /// Time by which the last step advanced.
   double stepped() const { return m_stepped; }
 
-  /// Of the last step, by (time, ids).
+  /// Events of the last step, by (time, ids).
   const std::vector<ImpactEvent>& events() const { return m_events; }
   const ImpactCounters& counters() const { return m_counters; }
 
  private:
   struct Motion {
-    double time = 0;    // when place and velocity hold, within the tick
-    Vec2 acceleration;  // with what contacts add
+    double time = 0;    // time within the tick at which place and velocity are valid
+    Vec2 acceleration;  // including contacts
     unsigned generation = 0;
     int first_contact = -1;
-    double work = 0;         // in this tick
-    int events_at_once = 0;  // at the moment of the last one
+    double work = 0;         // work in this tick
+    int events_at_once = 0;  // number of events at the time last_event
     double last_event = -1;
     int local = -1;  // index in the current group
     bool has_reach = false;
     bool exists = false;
     bool is_frozen = false;
-    bool is_given_up = false;  // frozen until it is set
-    bool is_dirty = false;     // set() since the last step
-    bool is_changed = false;   // in m_changed
-    bool is_visited = false;   // by the current settle()
+    bool is_given_up = false;  // and frozen until set()
+    bool is_dirty = false;     // set() was called since the last step
+    bool is_changed = false;   // listed in m_changed
+    bool is_visited = false;   // visited by the current settle()
   };
   struct Reach {
     Place centre;
@@ -134,14 +134,14 @@ class ImpactWorld {
   struct Contact {
     int first = -1;  // −1: free
     int second = -1;
-    int next_of_first = -1;  // lists of the bodies that can be pushed; of the free ones: next free
+    int next_of_first = -1;  // lists of contacts of each movable body; for free ones: next free
     int next_of_second = -1;
     ImpactAxis axis = ImpactAxis::kNearest;
     bool is_resting = false;
-    bool is_tried = false;   // by touchCandidates(): one only if it presses
-    bool is_listed = false;  // in m_group_contacts
+    bool is_tried = false;   // tried by touchCandidates(): a contact only if it presses
+    bool is_listed = false;  // listed in m_group_contacts
   };
-  /// What a group is solved for: speeds after an impact, accelerations at rest, or places.
+  /// The unknowns of a group: speeds after an impact, accelerations at rest, or places.
   enum class Purpose : std::uint8_t { kImpact, kRest, kPlace };
   enum class Kind : std::uint8_t { kImpact, kStop, kEdge };
   struct Pending {
@@ -156,10 +156,10 @@ class ImpactWorld {
   struct Candidate {
     int id, other;
   };
-  struct PairState {  // of two bodies at a moment
+  struct PairState {  // two bodies at a moment
     ImpactTouch touch;
     Vec2 velocity;
-    double approach;  // > 0 if they do
+    double approach;  // > 0 if they approach
     double rest_speed;
   };
 
@@ -216,7 +216,7 @@ class ImpactWorld {
 
   std::vector<ImpactBody> m_bodies;
   std::vector<Motion> m_motions;
-  std::vector<Reach> m_reaches;  // by id; only as many as were set
+  std::vector<Reach> m_reaches;  // by id; as long as needed
   std::vector<Contact> m_contacts;
   int m_free_contact = -1;
   std::vector<ImpactEvent> m_events;
@@ -224,17 +224,17 @@ class ImpactWorld {
 
   double m_dt = 0;
   double m_stepped = 0;
-  bool m_is_beyond = false;  // a body's reach
+  bool m_is_beyond = false;  // a body left its reach
   bool m_has_given_up = false;
   static constexpr double kUnbounded = 1e300;
   double m_reserve = kUnbounded;
   double m_work = 0, m_most_work = 0;           // in this tick
-  double m_reserve_left = 0;                    // likewise
-  int m_lowest_free = 0;                        // no id below it is free
-  std::vector<int> m_ending;                    // contacts, in remove()
-  std::vector<Candidate> m_candidates;          // pairs whose boxes overlap when the tick begins
-  std::int64_t m_origin_x = 0, m_origin_y = 0;  // of the broad phase
-  std::vector<int> m_ids;                       // those that take part
+  double m_reserve_left = 0;                    // in this tick
+  int m_lowest_free = 0;                        // all lower ids are in use
+  std::vector<int> m_ending;                    // scratch memory of remove()
+  std::vector<Candidate> m_candidates;          // pairs with overlapping boxes at the beginning of the tick
+  std::int64_t m_origin_x = 0, m_origin_y = 0;  // origin of the broad phase
+  std::vector<int> m_ids;                       // bodies that take part
   std::vector<SweptBox> m_boxes;
   ImpactTree m_tree;
   std::vector<Pending> m_queue;
@@ -243,7 +243,7 @@ class ImpactWorld {
 
   RestSolver m_rest;
   std::vector<int> m_group;           // bodies of the current group
-  std::vector<int> m_group_contacts;  // and what holds them together
+  std::vector<int> m_group_contacts;  // contacts within it
   std::vector<double> m_group_masses;
 };
 

@@ -1,7 +1,8 @@
-// A rope of rods between centres: RATTLE as JointIsland does it, in two passes along the rope per iteration.
+// A rope of rods between centres: RATTLE as in JointIsland, in two passes along the rope per iteration.
 //
-// Moving, measuring and the forward half of the solution go down the rope together, the other half and the
-// impulses come back up; x and y go side by side. That is a third of the general method's instructions.
+// One pass down the rope moves, measures and does the forward half of the solution; the pass back does the
+// other half and applies the impulses. x and y are calculated in parallel. This takes a third of the
+// instructions of the general method.
 #pragma once
 
 #include <span>
@@ -17,25 +18,25 @@ class JointChain {
   enum class Status : std::uint8_t {
     kDone,
     kSlow,  ///< a stage did not converge
-    kBad    ///< the rods nearly depend on one another: not for this method
+    kBad    ///< the rods are nearly dependent: not solvable by this method
   };
   struct Rod {
     int a, b;
     double square, half_inverse_length;
   };
 
-  /// `rods` in an order in which each one shares a movable body with the next one, and with no other.
+  /// `rods` must be in an order in which each shares a movable body with the next one, and with no other.
   void connect(std::span<const Rod> rods, std::span<const JointMass> masses);
   bool isEmpty() const { return m_rods.empty(); }
 
-  /// By body; `multiplier` by rod, per unit of time.
+  /// The spans are by body, `multiplier` by rod, per unit of time.
   void load(std::span<const Vec2> place, std::span<const Vec2> velocity, std::span<const Vec2> acceleration,
             std::span<const double> multiplier, double tolerance);
-  /// Takes out of the velocities what the rods do not allow.
+  /// Removes from the velocities what the rods do not allow.
   Status project();
-  /// A stage over h != 0. After anything but kDone, load again.
+  /// Advances by a stage of h != 0. If the result is not kDone, load again.
   Status stage(double h, std::uint64_t& iterations);
-  /// `multiplier` per unit of time; `force` sums the impulses on b, and is by what `place_of` says of a rod.
+  /// Writes the results. `multiplier` is per unit of time; `force` sums the impulses on b, by `place_of`.
   void store(std::span<Vec2> place, std::span<Vec2> velocity, std::span<double> multiplier,
              std::span<Vec2> force, std::span<const int> place_of) const;
 
@@ -47,7 +48,7 @@ class JointChain {
     int body;
   };
   struct Link {
-    Pair direction;  // from this node to the next one, over the length
+    Pair direction;  // from this node to the next, over the length
     Pair force;
     double square, half_inverse_length;
     double multiplier, last_multiplier;

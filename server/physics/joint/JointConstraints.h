@@ -1,5 +1,5 @@
-// The joints of an island as rows: scalar constraints with value, Jacobian, bounds and multiplier, in the
-// order in which they are eliminated. One joint has up to three rows.
+// The joints of an island as rows: scalar constraints with value, Jacobian, bounds and multiplier, in
+// elimination order. A joint has up to three rows.
 #pragma once
 
 #include <cstdint>
@@ -18,76 +18,76 @@ struct JointConstraints {
   enum class Kind : std::uint8_t { kHard, kRope, kSoft, kMotor, kLimit };
   using Rod = JointChain::Rod;
 
-  struct Link {  // a joint, with what does not change within a step
+  struct Link {  // a joint, with data that is constant within a step
     JointKind kind;
-    bool is_plain;     // both anchors at the centres
-    bool holds_angle;  // of b against a
+    bool is_plain;     // both anchors are at the centres
+    bool holds_angle;  // holds the angle of b relative to a
     int index;         // in the caller's joints
     int a, b;          // in JointMotion
     int row[3];        // −1: none
     Vec2 anchor_a, anchor_b;
-    Vec2 arm_a, arm_b;  // the anchors as turned now
+    Vec2 arm_a, arm_b;  // the anchors at the present rotation
     Vec2 target;
     double length, half_inverse_length;
-    double pulled_inverse_mass;  // of b
-    double calm_force;           // the greatest force that is calm in a step of length 1: see isCalm()
-    double bound;                // of the angle limit that is nearer
+    double pulled_inverse_mass;  // inverse mass of b, if pulled
+    double calm_force;           // largest force that is calm in a step of length 1: see isCalm()
+    double bound;                // the nearer bound of the angle limit
   };
 
-  /// Rows for `joint_indices` (indices into `all_joints`), and no values yet.
+  /// Makes rows for `joint_indices` (indices into `all_joints`), without values.
   JointConstraints(const JointMotion& motion, std::span<const int> joint_indices,
                    std::span<const Joint> all_joints);
 
-  /// Before a step: `all_joints` stay where they are until its end. Multipliers begin at what the joints
-  /// remember of the last step (warm starting).
+  /// Call before a step; `all_joints` must stay in place until its end. Multipliers start from those of the
+  /// last step, stored in the joints (warm start).
   void load(const JointMotion& motion, std::span<const Joint> all_joints);
-  /// After a step of `h`, whose last stage was `last_h` long: forces, and multipliers to remember.
+  /// Call after a step of `h` with a last stage of length `last_h`: stores forces and multipliers.
   void store(std::span<Joint> all_joints, double h, double last_h) const;
 
-  /// Turns the anchors with their bodies.
+  /// Rotates the anchors with their bodies.
   void setArms(const JointMotion& motion);
-  /// The values C of all rows, and their Jacobians.
+  /// Computes the values C of all rows, and with kJacobian their Jacobians.
   template <bool kJacobian>
   void evaluate(const JointMotion& motion);
-  /// Softness and bounds for a stage of `h`.
+  /// Sets softness and bounds for a stage of `h`.
   void prepare(const JointMotion& motion, double h);
-  /// How far a row is from being fulfilled, as a length.
+  /// Returns the error of a row as a length.
   double residual(int at_row, const JointMotion& motion, double h) const;
   double targetSpeed(int at_row) const;
   /// Holds rows at a bound that their multiplier has left, and releases those that return within `tolerance`.
-  /// Has a row changed?
+  /// Returns true if a row has changed.
   bool changeActiveSet(const JointMotion& motion, double h, bool may_clamp, double tolerance);
   /// Adds impulses, one per row, to the links' forces.
   void addForces(const std::vector<double>& impulse);
 
-  /// Does h resolve how fast the joints' forces turn them? Composed steps are longer than h / substeps, and
-  /// gain nothing where they resolve nothing (a whip, a heavy weight on a light chain).
+  /// True if h resolves the rotation of joints by their forces. Composed steps are longer than h / substeps,
+  /// and have no advantage where they resolve nothing (a whip, a heavy weight on a light chain).
   bool isCalm(std::span<const Joint> all_joints, double h) const;
-  /// How many sub-steps of a step of `h` it takes to follow the swing of unlimited mice.
+  /// Number of sub-steps of a step of `h` needed to follow the oscillation of mouse joints without limit.
   int substepsOf(std::span<const Joint> all_joints, double h) const;
-  /// May steps be composed of stages of which some run backwards? Not if a row loses energy.
+  /// True if steps may be composed of stages some of which run backwards. Not possible if a row loses energy.
   bool mayCompose(const JointMotion& motion, std::span<const Joint> all_joints, double h) const;
 
   std::vector<Link> links;
   std::vector<Vec2> force;  // by link: sums of impulses
   std::vector<double> torque;
-  std::vector<Rod> rods;  // by row; empty unless all links are rods between centres
+  std::vector<Rod> rods;  // by row; used only if all links are rods between centres
 
-  // By row.
+  // The index of these is the row.
   std::vector<JointRow> rows;
   std::vector<Kind> kind;
   std::vector<int> link_of;
   std::vector<double> value;  // C
   std::vector<double> value_before;
   std::vector<double> multiplier;        // impulse of the first half of a stage
-  std::vector<double> softness, memory;  // of soft rows: multiplier·softness + C + memory·C before
-  std::vector<double> diagonal;          // what softness adds to the matrix
+  std::vector<double> softness, memory;  // soft rows: multiplier·softness + C + memory·C before
+  std::vector<double> diagonal;          // added to the matrix by softness
   std::vector<double> low, high;         // bounds of the multiplier
-  std::vector<std::int8_t> side;         // the bound that holds the multiplier: −1 the lower, +1 the upper
-  std::vector<std::uint8_t> is_out;      // is the row left out of the matrix for positions?
+  std::vector<std::int8_t> side;         // bound at which the multiplier is held: −1 lower, +1 upper
+  std::vector<std::uint8_t> is_out;      // true if the row is excluded from the matrix for positions
   std::vector<int> one_sided, soft;      // lists of rows
   bool is_smooth = false;                // no row is one-sided or soft
-  const Joint* joints = nullptr;         // the caller's, within a step
+  const Joint* joints = nullptr;         // the caller's joints, during a step
 
  private:
   const Joint& jointOf(int at_row) const;

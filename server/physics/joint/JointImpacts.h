@@ -1,13 +1,13 @@
-// Jointed circles that bounce off one another: from impact to impact, each at its moment, pair by pair.
+// Jointed circles that bounce off each other: handles impacts at their moments, pair by pair.
 //
-// Between impacts a JointSolver moves them. An impact is that of two bodies alone, with the effective masses
-// that their joints leave them; a chain of touching bodies is a sequence of impacts in the same moment. So
-// Newton's cradle passes its momentum on, where a simultaneous solution would share it out (Chatterjee and
-// Ruina 1998 explain that choice).
+// Between impacts a JointSolver moves the bodies. An impact concerns two bodies only, with their effective
+// masses under their joints; a chain of touching bodies gives a sequence of impacts at one moment. So
+// Newton's cradle passes its momentum on, where a simultaneous solution would distribute it (Chatterjee and
+// Ruina 1998 explain this choice).
 //
-// Its time-of-impact finder is for paths that no formula describes: a joint bends them. The distance of two
-// centres is that of a cubic (Hermite) interpolation of each path, and from there the moment is found by
-// Newton's method on the JointSolver itself. ImpactTime.h needs a polynomial, TimeOfImpact.h a straight path.
+// This is the time of impact for paths that joints bend, which have no formula. The distance of two centres
+// is estimated by cubic (Hermite) interpolation of each path; then Newton's method on the JointSolver itself
+// finds the moment. ImpactTime.h needs a polynomial, TimeOfImpact.h a straight path.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@
 
 namespace naiad::physics {
 
-/// Two circles about their bodies' centres that may touch within a step. Neither body turns.
+/// Two circles about their bodies' centres that may touch within a step. Neither body rotates.
 struct JointPair {
   int a = -1, b = -1;      ///< a < b
   double reach = 0;        ///< the sum of the radii
@@ -26,24 +26,24 @@ struct JointPair {
 };
 
 struct JointImpact {
-  double time = 0;  ///< since the start of the step
+  double time = 0;  ///< time since the start of the step
   int pair = -1;
   double impulse = 0;  ///< along the normal, on b
 };
 
-/// Keeps its memory from step to step, and nothing else.
+/// Keeps only its memory from step to step.
 class JointImpacts {
  public:
-  /// Steps the bodies of these pairs, with all that is joined to them, over h. Bodies without a joint fly
-  /// with a constant force. False, and nothing has moved, where it is not for this method: bodies that press
-  /// on one another or overlap, joints that only pull or push, carriers that move.
+  /// Steps the bodies of these pairs, with everything joined to them, by h. Unjoined bodies fly under a
+  /// constant force. Returns false and moves nothing if the method does not apply: bodies press on each other
+  /// or overlap, joints only pull or push, or carriers move.
   bool step(JointSolver& solver, std::span<JointBody> bodies, std::span<Joint> joints,
             std::span<const JointPair> pairs, double h);
 
-  /// Puts the bodies back to where they were before the last step that was done.
+  /// Restores the bodies to their state before the last successful step.
   void undo(std::span<JointBody> bodies);
 
-  /// Of the last step that was done, in order.
+  /// Impacts of the last successful step, in order.
   std::span<const JointImpact> impacts() const { return m_impacts; }
   /// Indices of the solver's islands that the last step moved.
   std::span<const int> islands() const { return m_islands; }
@@ -68,19 +68,19 @@ class JointImpacts {
   void save(std::span<const JointBody> bodies);
   void restore(std::span<JointBody> bodies) const;
 
-  // Of the current step.
+  // State of the current step.
   JointSolver* m_solver = nullptr;
   std::span<const JointPair> m_pairs;
-  std::vector<double> m_floor;  // by pair: the gap may not fall below
-  std::vector<int> m_islands;   // of the solver
-  std::vector<int> m_bodies;    // of all these islands, and free ones; sorted
+  std::vector<double> m_floor;  // by pair: lower limit of the gap
+  std::vector<int> m_islands;   // islands of the solver
+  std::vector<int> m_bodies;    // sorted: bodies of all these islands, and free ones
   std::vector<int> m_free;
   std::vector<int> m_joints;
-  std::vector<JointBody> m_first, m_before;  // at the start of the step, and of the flight
+  std::vector<JointBody> m_first, m_before;  // at the start of the step, and of the present flight
   std::vector<Vec2> m_force;                 // by joint: sums of impulses
   std::vector<double> m_torque;
-  std::vector<Change> m_change;   // by m_bodies: what a unit impulse does
-  std::vector<int> m_responding;  // indices in m_bodies: those that the unit impulse changes
+  std::vector<Change> m_change;   // by m_bodies: change by a unit impulse
+  std::vector<int> m_responding;  // indices in m_bodies that the unit impulse changes
   std::vector<JointImpact> m_impacts;
 };
 

@@ -1,11 +1,11 @@
-// Bodies that joints connect, directly or through others, and how they move through a step.
+// Bodies connected by joints, directly or through others, and their motion in a step.
 //
-// A stage is RATTLE: half a kick, positions that fulfil the constraints by a simplified Newton iteration with
-// the factors of J·M⁻¹·Jᵀ at the start, half a kick, velocities that fulfil them. Springs and other soft rows
-// take the trapezoidal rule in the same equations, so that no stiffness limits the step; one-sided rows
-// (ropes, limits, motors and mice at their greatest force) are found by an active set. If the iteration does
-// not converge, the whole step is repeated with shorter stages; if that does not help, stages are halved, and
-// at last a regularised one follows that cannot gain energy (JointFallback.cpp).
+// A stage is RATTLE: half a kick; positions that fulfil the constraints, by simplified Newton iteration with
+// the factors of J·M⁻¹·Jᵀ at the start; half a kick; velocities that fulfil them. Springs and other soft rows
+// use the trapezoidal rule in these equations, so that stiffness does not limit the step. One-sided rows
+// (ropes, limits, motors and mice at maximum force) are found by an active set. If the iteration does not
+// converge, the whole step is repeated with shorter stages; if that does not help, stages are halved, and at
+// last a regularised stage follows that cannot gain energy.
 #pragma once
 
 #include <cstdint>
@@ -23,29 +23,29 @@ namespace naiad::physics {
 
 class JointIsland {
  public:
-  /// Indices into the arrays of all bodies and joints. Bodies with inverse mass and inertia 0 may be in many
-  /// islands, the others are in one.
+  /// `bodies` and `joints` are indices into the arrays of all. Bodies with inverse mass and inertia 0 may be
+  /// in many islands, others in only one.
   JointIsland(std::span<const int> bodies, std::span<const int> joints, std::span<const JointBody> all_bodies,
               std::span<const Joint> all_joints);
 
-  /// Moves the movable bodies over h > 0 and writes the joints' forces. The arrays are those it was made for.
+  /// Moves the movable bodies over h > 0, writes the joints' forces. The arrays are those of the constructor.
   void step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
             JointOptions options, JointCounters& counters);
 
-  /// Projects the velocities onto those that the joints allow, and changes nothing else.
+  /// Projects the velocities onto those that the joints allow; changes nothing else.
   void hold(std::span<JointBody> bodies, std::span<const Joint> joints, JointCounters& counters);
 
   bool isFrozen() const { return m_is_frozen; }
-  /// Do all its joints push and pull, with any force?
+  /// True if all its joints can both push and pull, with unlimited force.
   bool isTwoSided() const { return m_constraints.one_sided.empty(); }
-  /// Indices of its joints, as they were given.
+  /// Appends the indices of its joints in the caller's array.
   void appendJoints(std::vector<int>& joints) const {
     for (const JointConstraints::Link& link : m_constraints.links) joints.push_back(link.index);
   }
-  /// Indices of its bodies, as they were given.
+  /// Indices of its bodies in the caller's array.
   std::span<const int> bodies() const { return m_motion.body; }
   int rows() const { return static_cast<int>(m_constraints.rows.size()); }
-  /// Entries that elimination adds: 0 for a tree.
+  /// Number of entries that elimination adds: 0 for a tree.
   int fill() const { return m_matrix.filled() - m_matrix.entries(); }
 
  private:
@@ -68,25 +68,25 @@ class JointIsland {
   void applyImpulses(const std::vector<double>& impulse);
   void restore();
 
-  // JointFallback.cpp
+  // JointStage.cpp: the last resort
   bool regularisedStage(double h, JointCounters& counters);
   bool projectPlaces(double h, JointCounters& counters);
 
   JointMotion m_motion;
   JointConstraints m_constraints;
   JointMatrix m_matrix;
-  JointChain m_chain;                         // empty, unless it is one
+  JointChain m_chain;                         // empty if the island is not a chain
   std::vector<double> m_second;               // by row: impulses of the second half of a stage
   std::vector<double> m_rest;                 // by row: residuals, right-hand sides, increments
-  std::vector<std::uint8_t> m_is_out_second;  // by row: is it left out of the matrix for velocities?
-  double m_tolerance = 0;                     // of positions, metric cells
-  double m_last_h = 0;                        // of the stage that the multipliers are for
-  int m_finer = 1;                            // times as many stages as asked for, in the next step
-  int m_calm_steps = 0;                       // since m_finer changed
+  std::vector<std::uint8_t> m_is_out_second;  // by row: true if excluded from the matrix for velocities
+  double m_tolerance = 0;                     // tolerance of positions, metric cells
+  double m_last_h = 0;                        // length of the stage to which the multipliers belong
+  int m_finer = 1;                            // factor for the number of stages in the next step
+  int m_calm_steps = 0;                       // steps since m_finer changed
   bool m_is_rod = false;                      // two bodies on one rod: JointRod.h
   bool m_is_frozen = false;
-  bool m_is_regularised = false;  // the fall-back has the rest of this step
-  bool m_is_factored = false;     // for positions at the present place
+  bool m_is_regularised = false;  // this step continues with regularised stages
+  bool m_is_factored = false;     // for positions, at the present place
 };
 
 }  // namespace naiad::physics

@@ -10,8 +10,8 @@
 
 namespace naiad::physics {
 
-/// Largest coordinate (metric cells), speed or acceleration within an island: beyond it, positions relative
-/// to the origin have no digits left below a cell.
+/// Limit of coordinates (metric cells), speeds and accelerations within an island: beyond it, positions
+/// relative to the origin do not resolve a cell.
 inline constexpr double kMaxJointMotion = 1e15;
 
 inline bool isBelow(Vec2 a, double limit) {
@@ -27,10 +27,10 @@ struct JointMotion {
 
   /// False if a number is out of range.
   bool load(std::span<const JointBody> all_bodies, Vec2 gravity);
-  /// Writes the movable bodies. False, and nothing is written, if a number is out of range.
+  /// Writes the movable bodies. Returns false and writes nothing if a number is out of range.
   bool store(std::span<JointBody> all_bodies) const;
   void storeVelocities(std::span<JointBody> all_bodies) const;
-  /// Stops the movable bodies outside, where they are.
+  /// Stops the movable bodies of `all_bodies` where they are.
   void halt(std::span<JointBody> all_bodies) const;
 
   void save();
@@ -39,31 +39,30 @@ struct JointMotion {
   void saveKicked();
   void restoreKicked();
 
-  /// Velocities after `h` under the constant forces.
+  /// Advances velocities by `h` under the constant forces.
   void kick(double h);
-  /// Positions from the saved ones, `h` at the present velocities.
+  /// Computes positions from the saved ones, `h` at the present velocities.
   void move(double h);
-  /// One impulse per row. `is_rods`: every row has two bodies and turns neither.
+  /// Applies one impulse per row. `is_rods`: every row has two bodies and turns neither.
   void applyImpulses(std::span<const JointRow> rows, const double* impulse, bool is_rods);
-  /// The relative velocity along a row: J·v.
+  /// Returns the relative velocity along a row: J·v.
   double speedAlong(const JointRow& row) const;
 
-  /// Limits each speed to that of the heaviest body: what is left of a light chain's whirling on a great
-  /// weight.
+  /// Limits each speed to that of the heaviest body, to stop the whirling of a light chain on a heavy weight.
   void slowLightBodies();
   void stopAll();
   void scaleVelocities(double factor);
   double kineticEnergy() const;
-  /// Of the constant forces, since save().
+  /// Returns the work of the constant forces since save().
   double workSinceSave() const;
 
-  std::vector<int> body;  ///< index outside
+  std::vector<int> body;  ///< index in the caller's arrays
   std::vector<JointMass> mass;
   std::vector<Vec2> place, velocity, acceleration;
   std::vector<Rotation> rotation;
   std::vector<double> spin, turn_acceleration;
   Place origin;
-  double extent = 1;  ///< the largest coordinate at the last load, at least 1
+  double extent = 1;  ///< maximum coordinate at the last load, at least 1
   bool is_turning = false;
 
  private:

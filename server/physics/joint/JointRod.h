@@ -1,9 +1,8 @@
-// Two points on a rod: RATTLE in closed form, for the smallest of all trees (a pendulum, a dumb-bell).
+// Two points on a rod: RATTLE in closed form for the smallest island (a pendulum, a dumb-bell).
 //
-// The centre of mass flies exactly; the displacement from one end to the other goes by RATTLE. In the plane
-// that is a direction and a rate of turning: half a kick turns faster, a stage over h turns by the angle
-// whose sine is h times the rate, half a kick follows. (That follows from the position equation's
-// multiplier.)
+// The centre of mass flies exactly; RATTLE moves the displacement from one end to the other. In the plane
+// this is a direction and a rate of turning: half a kick changes the rate, a stage of length h turns by the
+// angle with sine h · rate, and half a kick follows. (This follows from the position equation's multiplier.)
 #pragma once
 
 #include <cmath>
@@ -14,12 +13,12 @@
 
 namespace naiad::physics {
 
-/// Everything over the rod's length.
+/// All vectors are divided by the rod's length.
 struct JointRod {
-  Vec2 direction;     ///< from a to b, of length one
-  double rate = 0;    ///< at which it turns
-  Vec2 acceleration;  ///< of b against a, without the rod
-  double gain = 0;    ///< of the rate, by that: direction × acceleration
+  Vec2 direction;     ///< unit length, from a to b
+  double rate = 0;    ///< rate of turning
+  Vec2 acceleration;  ///< acceleration of b relative to a, without the rod
+  double gain = 0;    ///< change of `rate` by it: direction × acceleration
   Vec2 pull;          ///< sum of the rod's impulses on b, per reduced mass
 
   static constexpr double kMinCosineSquared = 0.01;  ///< a stage turns by less than 84°
@@ -32,8 +31,8 @@ struct JointRod {
 
   Vec2 velocity() const { return rate * perpendicular(direction); }
 
-  /// A stage over h != 0, which may be negative, `per_h` its inverse. False if the rod turns too far for it;
-  /// nothing has changed then.
+  /// Advances by a stage of h != 0, which may be negative; `per_h` is 1 / h. Returns false and changes
+  /// nothing if the rod would turn too far.
   bool advance(double h, double per_h) {
     const double kick = 0.5 * h, kicked = rate + kick * gain, sine = h * kicked;
     const double under_root = 1 - sine * sine;
@@ -50,8 +49,8 @@ struct JointRod {
   }
 };
 
-/// Moves two bodies on one rod over h > 0, and writes the joint's force. False, and nothing has changed,
-/// where it is not for this method: a body turns, the rod is stretched, or turns too far in a stage.
+/// Moves two bodies on one rod over h > 0, and writes the joint's force. Returns false and changes nothing if
+/// the method does not apply: a body turns, the rod is stretched, or it turns too far in a stage.
 bool stepRod(JointBody& a, JointBody& b, Joint& joint, double h, Vec2 gravity, const JointOptions& options,
              JointCounters& counters);
 

@@ -1,8 +1,8 @@
 // All jointed bodies of a scene: finds their islands, and steps each of them.
 //
-// The arrays belong to the caller; the solver keeps the islands and its working memory. A step allocates
-// nothing, except for the one after a joint broke. Islands are independent: what happens in one, a quarantine
-// too, leaves the bits of the others alone. Any thread, one at a time.
+// The caller owns the arrays; the solver has the islands and its working memory. A step does not allocate,
+// except after a joint broke. Islands are independent: nothing that happens in one, including quarantine,
+// changes the bits of another. Not thread-safe.
 #pragma once
 
 #include <span>
@@ -14,32 +14,32 @@ namespace naiad::physics {
 
 class JointSolver {
  public:
-  /// Finds the islands. To be called when bodies or joints came, went, or changed in anything but place,
-  /// velocity, rotation, spin, force, torque, target, speed, stiffness, damping, limits and strength. Frozen
-  /// islands get another chance. Returns −1 and changes nothing if a joint or a body is not valid, else 0.
+  /// Finds the islands. Call when bodies or joints were added, removed or changed, other than in place,
+  /// velocity, rotation, spin, force, torque, target, speed, stiffness, damping, limits or strength. Thaws
+  /// frozen islands. Returns 0, or −1 without any change if a joint or body is invalid.
   int connect(std::span<const JointBody> bodies, std::span<const Joint> joints);
 
-  /// Moves every body that is joined over h > 0, also immovable ones that have a velocity, and writes forces
-  /// into the joints; others are left alone. Gravity is an acceleration for all bodies with mass. Returns −1
-  /// and does nothing if h, gravity or the arrays' sizes are not usable, else 0.
-  /// Islands with `is_moved` (by island; empty: none) have been stepped already and are skipped.
+  /// Moves every joined body over h > 0, including immovable ones that have a velocity, and writes forces
+  /// into the joints; other bodies are unchanged. Gravity is an acceleration of all bodies with mass. Skips
+  /// islands with `is_moved` (by island; may be empty), which have been stepped already. Returns 0, or −1
+  /// without any effect if h, gravity or the arrays' sizes are invalid.
   int step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
            JointOptions options = {}, std::span<const std::uint8_t> is_moved = {});
 
-  /// One of islands(), alone: what it does within a step.
+  /// Steps one island alone, for a part of a step.
   void stepIsland(int island, std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity) {
     m_islands[static_cast<std::size_t>(island)].step(bodies, joints, h, gravity, {}, m_counters);
   }
-  /// Projects its velocities onto those that its joints allow.
+  /// Projects the velocities of one island onto those that its joints allow.
   void holdIsland(int island, std::span<JointBody> bodies, std::span<const Joint> joints) {
     m_islands[static_cast<std::size_t>(island)].hold(bodies, joints, m_counters);
   }
-  /// In islands(), of a body that can be moved; −1: it is not joined.
+  /// Returns the index in islands() of a movable body's island; −1 if it is not joined.
   int islandOf(int body) const { return m_island_of[static_cast<std::size_t>(body)]; }
 
   const JointCounters& counters() const { return m_counters; }
   std::span<const JointIsland> islands() const { return m_islands; }
-  /// Is this body moved by a step?
+  /// True if a step moves this body.
   bool isJoined(int body) const { return m_is_joined[static_cast<std::size_t>(body)] != 0; }
 
  private:
@@ -47,8 +47,8 @@ class JointSolver {
 
   std::vector<JointIsland> m_islands;
   std::vector<std::uint8_t> m_is_joined;
-  std::vector<int> m_island_of;  // by body; −1: none, or many
-  std::vector<int> m_carriers;   // immovable ones
+  std::vector<int> m_island_of;  // by body; −1: not joined, or in several islands
+  std::vector<int> m_carriers;   // immovable bodies
   std::size_t m_joint_count = 0;
   JointCounters m_counters;
 };

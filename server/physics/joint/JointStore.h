@@ -1,4 +1,4 @@
-// The joints of a world of bodies, by id, from step to step.
+// The joints of a world of bodies, by id, kept from step to step.
 #pragma once
 
 #include <array>
@@ -12,38 +12,37 @@
 
 namespace naiad::physics {
 
-/// Whatever ids are used again, joints are listed in the order in which they were added: a group does not
-/// depend on what was in the world before.
+/// Joints are listed in the order of addition although ids are reused, so groups do not depend on the past.
 class JointStore {
  public:
-  /// The world has checked that it is valid. Returns its id.
+  /// Returns the id. The caller has checked that the joint is valid.
   int add(const Joint& joint, bool may_touch);
-  /// False if it is of another kind or on other bodies. A broken one stays broken.
+  /// Returns false if kind or bodies differ. A broken joint stays broken.
   bool set(int id, const Joint& joint);
   void remove(int id);
   bool exists(int id) const { return id >= 0 && id < limit() && m_entries[at(id)].exists; }
-  /// As it was given, with what the last step wrote.
+  /// Returns the joint with the results of the last step.
   const Joint& joint(int id) const { return m_entries[at(id)].joint; }
-  /// Ids, in the order of addition.
+  /// Ids in the order of addition.
   const std::vector<int>& ids() const { return m_order; }
-  /// Does one of them keep the two bodies from touching?
+  /// True if a joint between the two bodies disables their contacts.
   bool keepsApart(int a, int b);
-  /// visit(a, b) for every joint that is not broken; a is −1 for a mouse.
+  /// Calls visit(a, b) for every joint that is not broken; a is −1 for a mouse.
   template <class Visit>
   void visitWorking(Visit visit) const {
     for (const int id : m_order) {
       if (!joint(id).is_broken) visit(firstOf(joint(id)), joint(id).b);
     }
   }
-  /// Its first body; −1: a mouse has none.
+  /// Returns its first body; −1 for a mouse, which has only one.
   static int firstOf(const Joint& joint) { return joint.kind == JointKind::kMouse ? -1 : joint.a; }
 
  protected:
   using Memory = std::array<double, 3>;
 
-  /// Multipliers of the last sub-step per its length, by row: the next first guess.
+  /// Multipliers of the last sub-step per its length, by row: the initial guess of the next.
   Memory& memoryOf(int id) { return m_entries[at(id)].memory; }
-  /// What it exerted in a step. Does that break it?
+  /// Stores the force and torque of a step. Returns true if they break the joint.
   bool finish(int id, Vec2 force, double torque);
 
  private:
@@ -60,7 +59,7 @@ class JointStore {
   std::vector<Entry> m_entries;
   std::vector<int> m_free;
   std::vector<int> m_order;
-  std::vector<std::pair<int, int>> m_apart;  // bodies that are kept from touching, sorted
+  std::vector<std::pair<int, int>> m_apart;  // sorted pairs of bodies without contacts
   bool m_is_apart_sorted = true;
 };
 

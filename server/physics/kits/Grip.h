@@ -1,11 +1,10 @@
-// A pointer's hold on a body, rigid or soft: grab, drag, release.
+// Lets a pointer grab, drag and release a body, rigid or soft.
 //
 //   m_grip.grab(event.getMousePosition());    // what lies there
 //   m_grip.dragTo(event.getMousePosition());  // as the mouse moves
 //   m_grip.release();                         // it flies on as fast as it was dragged
 //
-// A Body is held by a mouse joint, a SoftBody by its nearest node. The grip releases it when the grip is
-// destroyed, and when the body is.
+// A Body is held by a mouse joint, a SoftBody by its nearest node, until the grip or body is destroyed.
 #pragma once
 
 #include "BodyJoint.h"
@@ -18,7 +17,7 @@ class SoftBody;
 
 class Grip {
  public:
-  /// A pull of 3 cells per tick² on what it holds, whatever its mass.
+  /// Maximum pull in cells per tick², independent of the body's mass.
   static constexpr double kUsualStrength = 3;
 
   Grip() = default;
@@ -26,15 +25,15 @@ class Grip {
   Grip& operator=(const Grip&) = delete;
   ~Grip() { release(); }
 
-  /// Releases what it holds, and takes hold of the first Body or SoftBody at `where` (cells), in the state
-  /// that the player saw whose input is handled (WM.objectsSeenAt). `strength` > 0: the greatest force over
-  /// mass, in cells per tick². A soft body that another grip holds is skipped. Return 0, else -1: nothing is
-  /// there, or a number is out of range.
+  /// Releases the held body and grabs the first Body or SoftBody at `where` (cells), as seen by the player
+  /// whose input is being handled (WM.objectsSeenAt). `strength` > 0 is the maximum force over mass, in cells
+  /// per tick². Skips soft bodies that another grip holds. Returns 0, or -1 if nothing is there or a number
+  /// is out of range.
   int grab(Vector where, double strength = kUsualStrength);
-  /// Pulls it towards `where`. Return 0, else -1: nothing is held, or the place is out of range.
+  /// Pulls the body towards `where`. Returns 0, or -1 if nothing is held or the place is out of range.
   int dragTo(Vector where);
-  void release();          ///< Let go; nothing if it holds nothing.
-  bool isHolding() const;  ///< Does it hold a body that is there?
+  void release();          ///< Does nothing if nothing is held.
+  bool isHolding() const;  ///< True if it holds a body that still exists.
 
  private:
   Joint m_joint;

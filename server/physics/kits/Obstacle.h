@@ -1,4 +1,4 @@
-// A wall, a floor, a rail: HARD, without mass, and nothing moves it. Bodies lie on it and bounce off it
+// A wall, floor or rail: HARD, without mass, unmovable. Bodies rest on it and bounce off it
 // (PM.setObstacleFriction, setObstacleRestitution).
 #pragma once
 
@@ -10,8 +10,8 @@ namespace df {
 
 class Obstacle : public Object {
  public:
-  /// Of `width` by `height` whole cells, `corner` the one on the upper left, all drawn as `ch`. For numbers
-  /// out of range it keeps the position or the box of a new Object.
+  /// Creates a block of `width` by `height` whole cells, drawn as `ch`; `corner` is its upper left cell. For
+  /// numbers out of range it keeps the position or the box of a new Object.
   Obstacle(Vector corner, int width, int height, char ch = '#', Color color = COLOR_DEFAULT);
 
   int draw() override;

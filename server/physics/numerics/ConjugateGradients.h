@@ -1,14 +1,13 @@
-// A symmetric positive definite system of 2 × 2 blocks, one row of them per node, solved by iteration.
+// Iterative solution of a symmetric positive definite system of 2 × 2 blocks, one block row per node.
 //
-// Conjugate gradients, preconditioned by the diagonal's blocks. Each iteration costs a multiplication by the
-// matrix, that is nodes + pairs, however far apart their numbers are: this is for what is too wide for a
-// SoftBand. The matrix is kept by diagonals, which is short and fast for a mesh: its pairs have few different
-// distances of numbers.
+// Conjugate gradients, preconditioned by the diagonal blocks. Each iteration costs a multiplication by the
+// matrix, proportional to nodes + pairs, however far apart the node numbers of pairs are. Used for systems
+// that are too wide for a SoftBand. The matrix is stored by diagonals; a mesh has only few.
 //
-// The iteration runs in floats, four nodes at a time, plain operators, each rounded once, sums in a fixed
-// order: the same bits on every processor. It finds a correction to some digits; the caller's residual in
-// doubles brings the rest with the next one. The sum that is minimised falls in each iteration, so stopping
-// early is safe.
+// The iteration uses floats, four nodes at a time, plain operators with one rounding each, and sums in a
+// fixed order, so that all processors give equal bits. It finds a correction to some digits; the caller
+// repeats it with the residual in doubles for more. The minimised function falls in each iteration, so
+// stopping early is safe.
 #pragma once
 
 #include <span>
@@ -25,35 +24,35 @@ class ConjugateGradients {
     int a;
     int b;
   };
-  /// A symmetric block; `xy` stands for both corners.
+  /// A symmetric block; `xy` is both off-diagonal entries.
   struct Block {
     double xx = 0, xy = 0, yy = 0;
   };
 
-  /// How many diagonals pairs take: different |a − b|. Each costs memory and time as all nodes do.
+  /// Returns the number of diagonals for these pairs: different |a − b|. Each costs the memory and time of
+  /// all nodes.
   static int diagonalsOf(std::span<const Pair> pairs);
 
-  /// Blocks (a, b) and (b, a) of these pairs and the diagonal may differ from zero; a != b, and a pair may
-  /// come twice.
+  /// Sets the pattern: the diagonal, and blocks (a, b) and (b, a) of these pairs, a != b. Pairs may repeat.
   void resize(int nodes, std::span<const Pair> pairs);
-  /// All zero. `scale` > 0: how large entries are, roughly, so that they and their inverses are floats.
+  /// Sets all to zero. `scale` > 0 is the rough size of entries, so that they and their inverses fit floats.
   void clear(double scale);
-  /// Both blocks (a, b) and (b, a) of this pair.
+  /// Adds to both blocks (a, b) and (b, a) of this pair.
   void addPair(int pair, const Block& block);
   void addDiagonal(int node, const Block& block) {
     Block& sum = m_diagonal[at(node)];
     sum.xx += block.xx, sum.xy += block.xy, sum.yy += block.yy;
   }
-  /// A node's stiffness so far: the mean of the diagonal's two.
+  /// Returns a node's stiffness so far: the mean of its two diagonal entries.
   double diagonalOf(int node) const { return 0.5 * (m_diagonal[at(node)].xx + m_diagonal[at(node)].yy); }
 
-  /// Replaces `rows` (x and y per node) by the solution, or by what `most` iterations find of it. They end
-  /// when the error is below `tolerance` of zero's. Returns the iterations, or −1 if the diagonal is not
-  /// positive definite.
+  /// Replaces `rows` (x and y per node) by the solution, or by the approximation after `most` iterations.
+  /// Ends when the error is below `tolerance` times that of zero. Returns the number of iterations, or −1 if
+  /// the diagonal is not positive definite.
   int solve(std::span<double> rows, int most, double tolerance);
 
  private:
-  /// One number per node. In front of them and behind them are zeros, for neighbours that there are not.
+  /// One number per node, with zeros before and after for missing neighbours.
   using Numbers = std::vector<float>;
   struct Points {
     Numbers x, y;
@@ -63,7 +62,7 @@ class ConjugateGradients {
   };
   struct Diagonal {
     int distance;
-    Blocks blocks;  ///< of the nodes i and i + distance: number i
+    Blocks blocks;  ///< index i: between the nodes i and i + distance
   };
   struct Slot {
     int diagonal, node;
@@ -78,13 +77,13 @@ class ConjugateGradients {
   void turn(float keep);
 
   int m_nodes = 0;
-  int m_margin = 0;  // numbers in front of the first node's
+  int m_margin = 0;  // numbers before the first node's
   std::vector<Diagonal> m_diagonals;
   std::vector<Slot> m_slots;  // by pair
   std::vector<Block> m_diagonal;
-  Blocks m_middle, m_inverse;  // the diagonal's blocks, and their inverses
+  Blocks m_middle, m_inverse;  // the diagonal blocks and their inverses
   Points m_solution, m_residual, m_direction, m_product;
-  double m_unit = 1;  // entries times this are about one
+  double m_unit = 1;  // scales entries to about one
 };
 
 }  // namespace naiad::physics

@@ -7,7 +7,7 @@
 
 namespace naiad::physics {
 
-/// Fill matrix(), decompose() once, then solve() as often as wanted. No allocation.
+/// Fill matrix(), call decompose() once, then solve() any number of times. Does not allocate.
 template <int N>
 class DenseSolve {
  public:

@@ -1,4 +1,4 @@
-// The error-controlled integrators behind one call, and how the automatic one decides.
+// One call for all error-controlled integrators, and the choice of the automatic method.
 #pragma once
 
 #include <algorithm>
@@ -11,23 +11,22 @@ namespace naiad::physics {
 
 namespace automatic {
 
-/// Derivatives that a smooth motion never needs in one call: above it the implicit method may be the better
-/// one.
+/// Evaluations per call that smooth motion never needs: above it the implicit method may be faster.
 inline constexpr int kManyEvaluations = 1500;
-/// Steps of the implicit method in which it must finish the call. A lasting oscillation would take it many
+/// Steps in which the implicit method must finish the call on trial. A lasting oscillation would need many
 /// more.
 inline constexpr int kTrialSteps = 100;
-/// At most so much in one call: both are about half a millisecond.
+/// Limits of one call, each about half a millisecond.
 inline constexpr int kMaxEvaluations = 8000;
 inline constexpr int kMaxSteps = 600;
 inline constexpr int kEvaluationsAtLeast = 150;
 inline constexpr int kCoarseSteps = 16;
-/// What does not fit into these steps is solved the more coarsely.
+/// Factor by which tolerances grow if these steps do not suffice.
 inline constexpr double kLoosening = 100;
-/// Next to a jump steps are short for a while.
+/// Factor for the limit of evaluations, because steps next to a jump are short for a while.
 inline constexpr int kPatience = 2;
 
-/// Extrapolation; when that is slow, Radau on trial; then extrapolation again, up to the limit.
+/// Extrapolation; if that is slow, Radau on trial; then extrapolation again, up to the limit.
 template <int N, class System>
 IntegratorStatus integrateExactly(const System& system, double& t, double end, StateVector<N>& y,
                                   const IntegratorOptions& limited, IntegratorCounters& counters) {
@@ -48,9 +47,9 @@ IntegratorStatus integrateExactly(const System& system, double& t, double end, S
   return status;
 }
 
-/// What that does not solve goes on with Radau, as coarsely as its limit asks, and at last without error
-/// control. So it ends, unless numbers are not finite. Where the limit of derivatives is too low to see how
-/// stiff it is, Radau begins.
+/// If extrapolation fails, continues with Radau, with larger tolerances if its limit requires, and at last
+/// without error control. So it always ends, unless numbers are not finite. If the limit of evaluations is
+/// too low to detect stiffness, starts with Radau.
 template <int N, class System>
 IntegratorStatus integrate(const System& system, double t, double end, StateVector<N>& y,
                            const IntegratorOptions& options, IntegratorCounters& counters) {
@@ -73,8 +72,9 @@ IntegratorStatus integrate(const System& system, double t, double end, StateVect
 
 }  // namespace automatic
 
-/// From `t` to `end` >= t by kExtrapolation, kRadau or, for any other method, automatically. What that
-/// decides depends on the arguments alone. `y` is as far as it came, at the end if the status is kDone.
+/// Integrates from `t` to `end` >= t by kExtrapolation, kRadau or, for any other method, automatically. The
+/// automatic choice depends only on the arguments. `y` is the state reached: that at `end` if the status is
+/// kDone.
 template <int N, class System>
 IntegratorStatus integrate(const System& system, double t, double end, StateVector<N>& y,
                            const IntegratorOptions& options, IntegratorCounters& counters) {

@@ -1,11 +1,9 @@
-// Gragg's midpoint rule with Bulirsch and Stoer's extrapolation: explicit, error-controlled, of variable
-// order.
+// Gragg's midpoint rule with Bulirsch–Stoer extrapolation: explicit, error-controlled, of variable order.
 //
-// One step of length H is taken with 2, 4, 6 … sub-steps by the modified midpoint rule, whose error has only
-// even powers of the sub-step: a polynomial in its square is extrapolated to zero (Aitken and Neville;
-// Hairer, Nørsett and Wanner, "Solving Ordinary Differential Equations I", II.9). Column k is of order 2k.
-// Order and step go by the least work per unit of time. No table of coefficients: the method is what its
-// formulas say.
+// A step of length H is computed with 2, 4, 6 … sub-steps by the modified midpoint rule, whose error has only
+// even powers of the sub-step, and a polynomial in its square is extrapolated to zero (Aitken and Neville;
+// Hairer, Nørsett and Wanner, "Solving Ordinary Differential Equations I", II.9). Column k has order 2k.
+// Order and step are chosen for the least work per unit of time.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +15,8 @@
 
 namespace naiad::physics {
 
-/// The largest component of `error` over what is allowed for a step from `y` to `y` + `increment`; +∞ if it
-/// is not a number.
+/// Returns the largest component of `error` relative to the allowed error for a step from `y` to `y` +
+/// `increment`; +∞ if it is NaN.
 template <int N>
 double scaledError(const StateVector<N>& error, const StateVector<N>& y, const StateVector<N>& increment,
                    double absolute, double relative) {
@@ -32,7 +30,7 @@ double scaledError(const StateVector<N>& error, const StateVector<N>& y, const S
   return largest;
 }
 
-/// Are all components numbers that one can go on with?
+/// True if all components are finite and in range for further calculation.
 template <int N>
 bool isUsable(const StateVector<N>& y) {
   return std::all_of(y.begin(), y.end(), [](double value) { return std::fabs(value) <= 1e300; });
@@ -40,11 +38,11 @@ bool isUsable(const StateVector<N>& y) {
 
 namespace extrapolation {
 
-inline constexpr int kColumns = 8;  ///< of the table: order 16 at most
+inline constexpr int kColumns = 8;  ///< columns of the table; order 16 at most
 inline constexpr int kMaxSubsteps = 2 * kColumns;
 
-/// Row i (of 2(i + 1) sub-steps) is corrected in column j by its difference to the row before, times
-/// 1 / ((n_i / n_(i−1−j))² − 1).
+/// Row i (with 2(i + 1) sub-steps) is corrected in column j by its difference to the row before, times 1 /
+/// ((n_i / n_(i−1−j))² − 1).
 inline constexpr auto kWeights = [] {
   std::array<std::array<double, kColumns>, kColumns> weights{};
   for (int i = 1; i < kColumns; ++i) {
@@ -56,33 +54,32 @@ inline constexpr auto kWeights = [] {
   return weights;
 }();
 
-/// Derivatives that the first k columns take together, the one at the start among them.
+/// Number of derivatives for the first k columns together, including the one at the start.
 constexpr int evaluationsOf(int columns) {
   return 1 + columns * columns;  // 1 + Σ (2j − 1)
 }
 
-/// How many times longer (or shorter) a step may be whose error in column k was `error` times what is
-/// allowed.
+/// Returns the factor for the length of a step whose error in column k was `error` times the allowed one.
 inline double stepFactor(double error, int columns) {
   const double power = 1.0 / (2 * columns - 1);
   const double factor = 0.94 * df::math::exp(power * df::math::log(0.65 / std::max(error, 1e-30)));
   return std::clamp(factor, 0.02, 6.0);
 }
 
-/// By how much the columns after this one can still reduce the error: column j by about (2j)².
+/// Returns the factor by which later columns can still reduce the error: column j by about (2j)².
 constexpr double hopeAfter(int columns) {
   double hope = 1;
   for (int j = columns + 1; j <= kColumns; ++j) hope *= 4.0 * j * j;
   return hope;
 }
 
-/// One step: its rows, their extrapolation and what it says about the next step.
+/// One step: the table's rows, their extrapolation, and the choice of the next step.
 template <int N, class System>
 class Step {
  public:
   Step(const System& system, const IntegratorOptions& options) : m_system(system), m_options(options) {}
 
-  /// From `y` at `t`, where the derivative is `rate`, by `length`. True if a column was good enough.
+  /// Steps from `y` at `t`, with derivative `rate`, by `length`. True if a column was accurate enough.
   bool take(double t, const StateVector<N>& y, const StateVector<N>& rate, double length) {
     for (m_columns = 0; m_columns < kColumns;) {
       StateVector<N> error{}, last = midpoints(t, y, rate, length, 2 * (m_columns + 1));
@@ -102,10 +99,10 @@ class Step {
     return false;
   }
 
-  /// Does the derivative jump next to one of the step's ends? `rate` and `rate_at_end` are those there. The
-  /// midpoint rule hardly looks at the ends, so its rows would agree on a force that was switched on, or off,
-  /// unseen. Judged by the second differences at the ends, against those farther in (or, with four sub-steps,
-  /// against each other). About odd sub-steps, for the rule's own error alternates.
+  /// True if the derivative jumps near an end of the step. `rate` and `rate_at_end` are the derivatives
+  /// there. The midpoint rule hardly uses the ends, so its rows would agree although a force was switched on
+  /// or off there. Compares the second differences at the ends with those farther inside (or, with four
+  /// sub-steps, with each other), taken about odd sub-steps because the rule's own error alternates.
   bool missesJump(const StateVector<N>& y, const StateVector<N>& rate, const StateVector<N>& rate_at_end,
                   double length) const {
     const int n = 2 * m_columns;
@@ -125,11 +122,11 @@ class Step {
 
   const StateVector<N>& increment() const { return m_row[m_columns - 1]; }
   int columns() const { return m_columns; }
-  /// Derivatives taken, without the one at the start.
+  /// Evaluations of the derivative, without the one at the start.
   int evaluations() const { return evaluationsOf(m_columns) - 1; }
 
-  /// How long the next step should be, over this one: in the column in which a unit of time costs least.
-  /// After a step that was good at once, a column more than it needed may be worth it.
+  /// Returns the length of the next step relative to this one, by the column with the least cost per unit of
+  /// time. After a step that succeeded at once, one more column may be tried.
   double nextFactor(bool may_grow) const {
     int best = 2;
     double factor = stepFactor(m_errors[2], 2);
@@ -144,7 +141,7 @@ class Step {
   }
 
  private:
-  // The increment of the modified midpoint rule with n sub-steps, n even.
+  // Returns the increment of the modified midpoint rule with n sub-steps, n even.
   StateVector<N> midpoints(double t, const StateVector<N>& y, const StateVector<N>& rate, double length,
                            int n) {
     const double h = length / n;
@@ -161,17 +158,16 @@ class Step {
   const System& m_system;
   const IntegratorOptions& m_options;
   int m_columns = 0;
-  std::array<StateVector<N>, kColumns>
-      m_row;  // the last row of the table: the step's increment in column 1, 2 …
-  std::array<StateVector<N>, kMaxSubsteps> m_slope;  // of the last row, at its sub-steps but the ends
+  std::array<StateVector<N>, kColumns> m_row;        // last row of the table: the step's increment by columns
+  std::array<StateVector<N>, kMaxSubsteps> m_slope;  // derivatives of the last row at its inner sub-steps
   std::array<double, kColumns + 1> m_errors{};
 };
 
 }  // namespace extrapolation
 
-/// From `t` to `end` >= t. On return `t` and `y` are as far as it has come: the end, if the status is kDone.
-/// `patience` > 0: it gives up as well when so many times the limit of derivatives would be passed at the
-/// pace of the last step.
+/// Integrates from `t` to `end` >= t. On return `t` and `y` are the state reached: the end if the status is
+/// kDone. With `patience` > 0 also gives up if, at the pace of the last step, the total would exceed
+/// `patience` times the limit of evaluations.
 template <int N, class System>
 IntegratorStatus integrateByExtrapolation(const System& system, double& t, double end, StateVector<N>& y,
                                           const IntegratorOptions& options, IntegratorCounters& counters,
@@ -218,7 +214,7 @@ IntegratorStatus integrateByExtrapolation(const System& system, double& t, doubl
     }
     was_rejected = !is_accepted;
 
-    // The rest at this pace: stiffness shows in steps that the accuracy alone would not ask for.
+    // Estimates the rest at this pace: stiffness shows in steps shorter than accuracy alone requires.
     const double ahead = (end - t) / length * extrapolation::evaluationsOf(step.columns());
     const bool is_slow = patience > 0 && evaluations > 150 && is_accepted &&
                          ahead > static_cast<double>(patience) * options.max_evaluations;

@@ -1,9 +1,8 @@
-// Radau IIA with three stages: implicit, of order 5, L-stable, error-controlled. For stiff systems.
+// Radau IIA with three stages for stiff systems: implicit, order 5, L-stable, error-controlled.
 //
-// Hairer and Wanner, "Solving Ordinary Differential Equations II", IV.8: the stages' increments are the
-// unknowns, a simplified Newton iteration with one decomposition per step, and an error estimate of order 3
-// that is filtered by the stiff part itself. Dimensions here are small, so the 3N equations are solved as
-// they stand.
+// See Hairer and Wanner, "Solving Ordinary Differential Equations II", IV.8. The unknowns are the stages'
+// increments, found by simplified Newton iteration with one decomposition per step. The error estimate has
+// order 3 and is filtered by the stiff part. The 3N equations are solved directly, as N is small.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +26,7 @@ inline constexpr std::array<std::array<double, 3>, 3> kWeights = {{
 }};
 /// The real eigenvalue of the weights: (6 + ∛81 − ∛9) / 30.
 inline constexpr double kGamma = 0.27488882959532694;
-/// How the stages' increments enter the error estimate, times kGamma.
+/// Weights of the stages' increments in the error estimate, times kGamma.
 inline constexpr std::array<double, 3> kErrorWeights = {-(13 + 7 * kRoot6) / 3, (-13 + 7 * kRoot6) / 3,
                                                         -1.0 / 3};
 inline constexpr int kMaxNewton = 10;  ///< iterations; slower convergence shortens the step instead
@@ -35,8 +34,7 @@ inline constexpr int kMaxNewton = 10;  ///< iterations; slower convergence short
 template <int N>
 using Stages = std::array<StateVector<N>, 3>;
 
-/// The polynomial through (0, 0) and the stages' increments at their nodes, at `s` steps after the step's
-/// start.
+/// Evaluates the polynomial through (0, 0) and the stages' increments, `s` steps after the step's start.
 template <int N>
 StateVector<N> continued(const Stages<N>& stages, double s) {
   StateVector<N> value{};
@@ -58,17 +56,17 @@ class Step {
     loosen(1);
   }
 
-  /// Tolerances are so many times those of the options.
+  /// Multiplies the tolerances of the options by `factor`.
   void loosen(double factor) {
     m_absolute = factor * m_options.stiff_absolute;
     m_relative = factor * m_options.stiff_relative;
     m_newton_limit = std::max(0x1p-48 / m_relative, 0.01);
   }
 
-  /// The derivative at the start of the step.
+  /// Derivative at the start of the step.
   const StateVector<N>& rate() const { return m_rate; }
 
-  /// Look at the start. Returns the length for a first step: in it the state changes by about a hundredth.
+  /// Evaluates the start. Returns a first step's length, in which the state changes by about a hundredth.
   double begin(double t, const StateVector<N>& y) {
     evaluate(t, y, m_rate);
     m_has_jacobian = false;
@@ -76,7 +74,7 @@ class Step {
     return speed > 0 ? std::max(0.01 * scaled(y, y), 1.0) / speed : HUGE_VAL;
   }
 
-  /// Find the stages of a step from `y` at `t`. False if Newton's iteration does not converge.
+  /// Finds the stages of a step from `y` at `t`. False if Newton's iteration does not converge.
   bool solve(double t, const StateVector<N>& y, double length) {
     if (!m_has_jacobian) findJacobian(t, y);
     m_has_jacobian = true;
@@ -86,8 +84,8 @@ class Step {
     return has_converged;
   }
 
-  /// Instead of all that: y += (I − hJ)⁻¹·h·y′. Where that leads elsewhere than the derivative does, since
-  /// what is to come runs away faster than a step can see, nothing moves.
+  /// Fallback: y += (I − hJ)⁻¹·h·y′. If that is not in the direction of the derivative, because the solution
+  /// runs away faster than a step can resolve, the state is not changed.
   bool takeCoarsely(double t, StateVector<N>& y, double length) {
     evaluate(t, y, m_rate);
     findJacobian(t, y);
@@ -110,7 +108,7 @@ class Step {
     return true;
   }
 
-  /// What the solved step is wrong by, over what is allowed. `is_careful`: filter twice before a rejection.
+  /// Error of the solved step relative to the allowed one. `is_careful`: filters twice before a rejection.
   double error(double t, const StateVector<N>& y, double length, bool is_careful) {
     auto& matrix = m_filter.matrix();
     for (int m = 0; m < N; ++m) {
@@ -131,7 +129,7 @@ class Step {
     return std::clamp(caution * df::math::exp(-0.25 * df::math::log(std::max(error, 1e-20))), 0.1, 8.0);
   }
 
-  /// Accept the step; `t` is its end.
+  /// Accepts the step; `t` is its end.
   void advance(double t, StateVector<N>& y, double length, bool is_last) {
     for (int m = 0; m < N; ++m) y[m] += m_increments[2][m];
     m_last_increments = m_increments;
@@ -151,7 +149,7 @@ class Step {
     return scaledError<N>(change, y, StateVector<N>{}, m_absolute, m_relative);
   }
 
-  // By the system's own formula, or by differences.
+  // Uses the system's own formula, or finite differences.
   void findJacobian(double t, const StateVector<N>& y) {
     ++m_counters.jacobians;
     if constexpr (requires { m_system.jacobian(t, y, m_jacobian); }) {
@@ -168,7 +166,7 @@ class Step {
     }
   }
 
-  // The last step's polynomial, continued.
+  // Extrapolates the last step's polynomial.
   Stages<N> predicted(double length) const {
     Stages<N> increments{};
     if (m_last_length == 0) return increments;
@@ -179,7 +177,7 @@ class Step {
     return increments;
   }
 
-  // I − h·A⊗J.
+  // Decomposes I − h·A⊗J.
   bool decompose(double length) {
     auto& matrix = m_newton.matrix();
     for (int i = 0; i < 3; ++i) {
@@ -202,7 +200,7 @@ class Step {
       if (size <= 1e-3 * m_newton_limit) return true;
       if (m_iterations > 1) {
         const double contraction = size / last_size;
-        // Near the floor that rounding sets, a small residue must do.
+        // Near the floor that rounding sets, a small residual is accepted.
         if (contraction >= 1) return contraction < 2 && size <= m_newton_limit;
         const double left = contraction / (1 - contraction) * size;
         if (left <= m_newton_limit) return true;
@@ -214,7 +212,7 @@ class Step {
     return false;
   }
 
-  // One iteration; returns the size of what it changed.
+  // Does one iteration; returns the size of the change.
   double improve(double t, const StateVector<N>& y, double length) {
     Stages<N> rates;
     for (int i = 0; i < 3; ++i) {
@@ -243,7 +241,7 @@ class Step {
     return size;
   }
 
-  // The raw estimate with the derivative `rate` at the start, its stiff part damped.
+  // Returns the raw estimate from the derivative `rate` at the start, with its stiff part damped.
   StateVector<N> filtered(const StateVector<N>& rate, double length) const {
     StateVector<N> estimate;
     for (int m = 0; m < N; ++m) {
@@ -260,8 +258,7 @@ class Step {
   IntegratorCounters& m_counters;
   double m_absolute = 0;
   double m_relative = 0;
-  double m_newton_limit = 0;  // the part of the allowed error that the iteration may leave; rounding sets a
-                              // floor to it
+  double m_newton_limit = 0;  // part of the allowed error left by the iteration; limited by rounding
   StateVector<N> m_rate{};
   StateMatrix<N> m_jacobian{};
   bool m_has_jacobian = false;
@@ -269,14 +266,14 @@ class Step {
   DenseSolve<N> m_filter;
   Stages<N> m_increments{};
   int m_iterations = 0;
-  Stages<N> m_last_increments{};  // of the accepted step before, for the prediction
+  Stages<N> m_last_increments{};  // of the previous accepted step, for the prediction
   double m_last_length = 0;
 };
 
 }  // namespace radau
 
-/// From `t` to `end` >= t. On return `t` and `y` are as far as it has come: the end, if the status is kDone.
-/// `loosening`: by what the tolerances grow with each third of the steps that are allowed.
+/// Integrates from `t` to `end` >= t. On return `t` and `y` are the state reached: the end if the status is
+/// kDone. The tolerances grow by the factor `loosening` after each third of the allowed steps.
 template <int N, class System>
 IntegratorStatus integrateByRadau(const System& system, double& t, double end, StateVector<N>& y,
                                   const IntegratorOptions& options, IntegratorCounters& counters,
@@ -316,8 +313,8 @@ IntegratorStatus integrateByRadau(const System& system, double& t, double end, S
   return IntegratorStatus::kDone;
 }
 
-/// In so many equal steps, linearly implicit (Rosenbrock's of order 1): bounded at any stiffness, and without
-/// error control.
+/// Integrates in this many equal, linearly implicit steps (Rosenbrock's method of order 1): bounded for any
+/// stiffness, without error control.
 template <int N, class System>
 IntegratorStatus integrateCoarsely(const System& system, double t, double end, StateVector<N>& y, int steps,
                                    const IntegratorOptions& options, IntegratorCounters& counters) {

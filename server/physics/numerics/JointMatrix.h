@@ -1,9 +1,9 @@
-// The matrix J·M⁻¹·Jᵀ of the constraints of an island, its sparse LDLᵀ factors, and solving with them.
+// The matrix J·M⁻¹·Jᵀ of an island's constraints, its sparse LDLᵀ factors, and solutions with them.
 //
-// Rows are eliminated in an order that adds least fill: on a tree of bodies none at all, so that factoring
-// and solving are O(n) (Baraff, "Linear-time dynamics using Lagrange multipliers", 1996, says why such an
-// order exists); a loop adds the fill of a dense complement for what closes it, no wider than the loop is.
-// The order, the pattern and the list of updates are made once, when the joints change.
+// Rows are eliminated in an order with little fill. A tree of bodies has none, so that factoring and solving
+// are O(n) (see Baraff, "Linear-time dynamics using Lagrange multipliers", 1996). A loop adds the fill of a
+// dense complement for its closing joint, no wider than the loop. Order, pattern and the list of updates are
+// computed only when joints change.
 #pragma once
 
 #include <cstdint>
@@ -14,44 +14,43 @@
 
 namespace naiad::physics {
 
-/// A scalar constraint's Jacobian: (−n, ja) on body a, (n, jb) on body b.
+/// Jacobian of a scalar constraint: (−n, ja) on body a, (n, jb) on body b.
 struct JointRow {
   Vec2 n;
   double ja = 0;
   double jb = 0;
-  int a = -1;  ///< −1: none
+  int a = -1;  ///< −1: no body
   int b = -1;
 };
 
-/// Inverse mass and inertia of a body. Both 0: an immovable one.
+/// Inverse mass and inertia of a body; both 0 if it is immovable.
 struct JointMass {
   double inverse_mass = 0;
   double inverse_inertia = 0;
 };
 
-/// The order in which to eliminate rows that touch `bodies[row]` = {a, b}; −1 and immovable bodies connect
-/// nothing.
+/// Returns the elimination order of `rows`, which are connected by shared movable bodies.
 std::vector<int> eliminationOrder(std::span<const JointRow> rows, std::span<const JointMass> masses);
 
 class JointMatrix {
  public:
-  /// `rows` are in elimination order, which is the order of all arrays below.
+  /// `rows` must be in elimination order, which is the order of all arrays below.
   void analyse(std::span<const JointRow> rows, std::span<const JointMass> masses);
 
-  /// Rows with `is_out` are left out (their solution is 0). `softness` is added to the diagonal; null is
-  /// zero. `regularisation` multiplies the diagonal by 1 + itself. Returns the number of rows that depend on
-  /// others, whose multipliers will be 0.
+  /// Excludes rows with `is_out` (their solution is 0). Adds `softness` to the diagonal; null is zero.
+  /// Multiplies the diagonal by 1 + `regularisation`. Returns the number of rows that depend on others; their
+  /// multipliers will be 0.
   int factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
              const double* softness, double regularisation = 0);
 
-  /// From right-hand side to solution, in place.
+  /// Replaces the right-hand side by the solution.
   void solve(double* x) const;
 
-  /// Does each row share a body with the next one, and with no other?
+  /// True if each row shares a body with the next one, and with no other.
   bool isChain() const { return m_is_chain; }
-  /// Is no entry more than kBand rows below the diagonal? So it is for chains of hinges.
+  /// True if no entry is more than kBand rows below the diagonal, as for chains of hinges.
   bool isBand() const { return !m_band.empty(); }
-  /// Entries below the diagonal that are not zero in the factor, and in the matrix.
+  /// Number of non-zero entries below the diagonal in the factor (filled) and in the matrix (entries).
   int filled() const { return static_cast<int>(m_row.size()); }
   int entries() const { return m_entries; }
 
@@ -60,7 +59,7 @@ class JointMatrix {
 
   void solveBand(double* x) const;
 
-  struct Term {  // of an entry: rows i and k meet at a body
+  struct Term {  // part of an entry: rows i and k meet at a body
     int at, i, k, body;
     double sign;
     bool i_is_b, k_is_b;
@@ -69,14 +68,14 @@ class JointMatrix {
   int m_size = 0;
   int m_entries = 0;
   bool m_is_chain = false;   // each row shares a body with the next one, and with no other
-  std::vector<int> m_begin;  // of each column in m_row and m_lower
+  std::vector<int> m_begin;  // begin of each column in m_row and m_lower
   std::vector<int> m_row;
-  std::vector<int> m_targets;  // of the updates in the order of factoring; ~row for a diagonal one
+  std::vector<int> m_targets;  // of the updates in factoring order; ~row for a diagonal entry
   std::vector<Term> m_terms;
   std::vector<double> m_lower;
-  std::vector<double> m_inverse;  // of the pivots
+  std::vector<double> m_inverse;  // inverse pivots
   std::vector<double> m_pivot;
-  std::vector<double> m_band;  // by column, the entries below the diagonal; empty: some are further below
+  std::vector<double> m_band;  // by column, the entries below the diagonal; empty if the matrix is wider
 };
 
 }  // namespace naiad::physics

@@ -1,4 +1,4 @@
-// A symmetric positive definite system whose entries lie near the diagonal: Cholesky without roots.
+// A symmetric positive definite band matrix: Cholesky factorisation without square roots.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,10 @@
 
 namespace naiad::physics {
 
-/// LDLᵀ within a band: n · band² / 2 multiplications to decompose, 2 · n · band to solve. Allocates in
-/// resize() alone.
+/// LDLᵀ of a band: n · band² / 2 multiplications to decompose, 2 · n · band to solve. Allocates in resize().
 class SoftBand {
  public:
-  /// Entries (i, j) with |i − j| <= band may differ from zero.
+  /// Sets the size; only entries (i, j) with |i − j| <= band may differ from zero.
   void resize(int size, int band) {
     m_size = size;
     m_band = band;
@@ -22,10 +21,10 @@ class SoftBand {
   }
   int size() const { return m_size; }
   void clear() { std::fill(m_entries.begin(), m_entries.end(), 0); }
-  /// i >= j.
+  /// i >= j
   double& entry(int i, int j) { return m_entries[at(j) * at(m_stride) + at(i - j)]; }
 
-  /// False if a pivot is not positive (or not a number); then solve() must not be called.
+  /// Returns false if a pivot is not positive (or NaN); then solve() must not be called.
   bool decompose();
 
   /// Replaces the right-hand side by the solution.
@@ -47,11 +46,11 @@ class SoftBand {
   }
 
  private:
-  // Pivots that are eliminated from what is right of them at once, so that it is read and written once for
-  // all of them. In a narrow band there is too little to gain.
+  // Number of pivots eliminated from the columns to the right in one pass, so that these are read and written
+  // once. Not worthwhile in a narrow band.
   static constexpr int kPivots = 4;
   static constexpr int kWideBand = 12;
-  static constexpr int kPadding = 7;  // zeros below a column: what four pivots and whole vectors go beyond it
+  static constexpr int kPadding = 7;  // zeros after a column, where pivots and whole vectors read beyond it
 
   int widthOf(int j) const { return std::min(m_band, m_size - 1 - j); }
   bool invertPivot(int j);
@@ -61,8 +60,8 @@ class SoftBand {
 
   int m_size = 0;
   int m_band = 0;
-  int m_stride = 0;               // from column to column
-  std::vector<double> m_entries;  // column by column, from the diagonal down; decomposed: L, and 1/D
+  int m_stride = 0;               // distance between columns
+  std::vector<double> m_entries;  // by column, from the diagonal down; after decompose(): L and 1/D
 };
 
 }  // namespace naiad::physics

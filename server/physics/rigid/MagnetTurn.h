@@ -1,8 +1,8 @@
-// What turns a body's velocity and does no work: a magnet's force, within a sub-step.
+// Turns a body's velocity by a magnet's force within a sub-step, without doing work.
 //
-// The push is at right angles to the velocity that contacts and joints have left. Where something holds the
-// body, they take the push away and leave that velocity; turning it by its angle instead would take it away,
-// too, and brake the body. Where nothing does, the push alone would make it faster: withoutWork().
+// The push is perpendicular to the velocity left by contacts and joints. If something holds the body, they
+// remove the push and keep that velocity; rotating it by its angle instead would brake the body. If the body
+// is free, the push alone would make it faster: see withoutWork().
 #pragma once
 
 #include <algorithm>
@@ -13,25 +13,25 @@
 
 namespace naiad::physics {
 
-/// Radians in a sub-step. A stronger magnet turns what is held no faster: its force is smaller, and does as
-/// little work.
+/// Radians in a sub-step. A stronger magnet turns a held body no faster: its force is reduced, and also does
+/// no work.
 inline constexpr double kMaxMagnetTurn = 1;
 
-/// A velocity that a magnet pushes by `push`.
+/// A velocity, and a magnet's push on it.
 struct MagnetTurn {
   Vec2 before;
   Vec2 push;
 };
 
-/// `rate`: radians per tick, from x to y; over `h` ticks.
+/// `rate` is in radians per tick, from x to y; `h` in ticks.
 inline MagnetTurn magnetTurn(Vec2 velocity, double rate, double h) {
   const double angle = std::clamp(rate * h, -kMaxMagnetTurn, kMaxMagnetTurn);
   return {velocity, (df::math::sin(angle) / df::math::cos(angle)) * perpendicular(velocity)};
 }
 
-/// What the body's velocity became by that push and all others, as fast as these alone make it. A free body
-/// has turned by exactly the angle. `least`: a part of the push; if less is left of it, something holds the
-/// body, and `after` differs by what undoes the errors of joints.
+/// Rescales `after`, the velocity after this and all other pushes, so that the magnet does no work. A free
+/// body is then turned by exactly the angle. `least` is a part of the push: if less of it is left, something
+/// holds the body, and `after` only differs by corrections of joint errors; then it is returned unchanged.
 inline Vec2 withoutWork(const MagnetTurn& turn, Vec2 after, double least) {
   const double square = lengthSquared(after), work = dot(turn.push, turn.before + after);
   if (std::fabs(work) <= least * lengthSquared(turn.push)) return after;

@@ -1,4 +1,4 @@
-// What a RigidWorld moves: bodies that turn, push one another, slide and roll.
+// The bodies of a RigidWorld, which rotate, push each other, slide and roll.
 #pragma once
 
 #include <cmath>
@@ -9,26 +9,26 @@
 
 namespace naiad::physics {
 
-/// Plain data. Time counts in ticks, lengths in metric cells, angles in radians from x to y. Its shapes are
-/// given beside it, relative to `place`.
+/// Plain data. Time is in ticks, lengths are in metric cells, angles in radians from x to y. The shapes are
+/// passed separately, relative to `place`.
 struct RigidBody {
-  Place place;  ///< of the centre of mass
+  Place place;  ///< place of the centre of mass
   Vec2 velocity;
   Rotation rotation;
   double spin = 0;             ///< rad per tick
   double inverse_mass = 1;     ///< 0: static, or kinematic if it has a velocity
-  double inverse_inertia = 0;  ///< 0: nothing but its own spin turns it
-  Vec2 acceleration;           ///< gravity and the like; its mean over a step
-  Vec2 jerk;                   ///< by how much it grows per tick within a step
-  double turn_rate = 0;        ///< of a magnet that turns its velocity (MagnetTurn.h): rad per tick
-  double torque = 0;           ///< counts from set() until the next set()
-  double friction = 0;         ///< >= 0; of a pair the geometric mean counts
-  double restitution = 0;      ///< 0 … 1; of a pair the larger one counts
+  double inverse_inertia = 0;  ///< 0: only its own spin turns it
+  Vec2 acceleration;           ///< gravity and other forces over mass; mean over a step
+  Vec2 jerk;                   ///< growth of the acceleration per tick within a step
+  double turn_rate = 0;        ///< rad per tick by which a magnet turns its velocity (MagnetTurn.h)
+  double torque = 0;           ///< acts from set() until the next set()
+  double friction = 0;         ///< >= 0; for a pair the geometric mean counts
+  double restitution = 0;      ///< 0 … 1; for a pair the larger one counts
 
   friend constexpr bool operator==(const RigidBody& a, const RigidBody& b) = default;
 };
 
-/// May the body be taken in? Everything finite and below 1e30, the rotation of length one.
+/// True if the body is valid: all numbers finite and below 1e30, the rotation of unit length.
 inline bool isSound(const RigidBody& body) {
   const auto isSmall = [](double x) { return std::fabs(x) <= 1e30; };  // false for NaN
   const auto isPart = [&](double x) { return x >= 0 && isSmall(x); };

@@ -1,4 +1,4 @@
-// The joints of rigid bodies as constraints on velocities, solved for together with the contacts.
+// The joints of rigid bodies as velocity constraints, solved together with the contacts.
 #pragma once
 
 #include <array>
@@ -13,29 +13,29 @@
 
 namespace naiad::physics {
 
-/// What a row asks in one half of a sub-step: (J·v − target) + softness · (what this half's impulse is) = 0.
+/// A row in one half of a sub-step: (J·v − target) + softness · (impulse of this half) = 0.
 struct RigidRowHalf {
   double target = 0;
   double softness = 0;
-  double mass = 0;  ///< effective mass: 1 / (J·M⁻¹·Jᵀ + softness); 0: this half does nothing more
-  double low = 0, high = 0;  ///< of the impulse since the sub-step began
-  double given = 0;          ///< an impulse that does not depend on the velocities
+  double mass = 0;           ///< effective mass, 1 / (J·M⁻¹·Jᵀ + softness); 0: this half is finished
+  double low = 0, high = 0;  ///< bounds of the impulse since the sub-step began
+  double given = 0;          ///< impulse that does not depend on the velocities
 };
 
 /// One scalar constraint on two bodies.
 struct RigidRow : SpeedRow {
-  std::int32_t a = -1, b = -1;        ///< a: −1 for a mouse
+  std::int32_t a = -1, b = -1;        ///< a is −1 for a mouse
   double inverse_effective_mass = 0;  ///< J·M⁻¹·Jᵀ
-  bool is_soft = false;               ///< starts from no impulse
-  double impulse = 0;                 ///< since the sub-step began; between sub-steps, of the last one
-  double before = 0;                  ///< of the first half, in the second
-  double warm = 0;                    ///< what each half starts from
+  bool is_soft = false;               ///< starts from impulse 0
+  double impulse = 0;                 ///< this sub-step so far; between sub-steps, the last one
+  double before = 0;                  ///< impulse of the first half, during the second
+  double warm = 0;                    ///< initial guess of each half
   std::array<RigidRowHalf, 2> half;
 };
 
 class RigidJoints : public JointStore {
  public:
-  /// Rows for those of which a body is active.
+  /// Makes rows for the joints with an active body.
   template <class IsActive>
   void begin(std::span<const RigidBody> bodies, std::span<const RigidState> states, double h,
              IsActive isActive) {
@@ -51,7 +51,7 @@ class RigidJoints : public JointStore {
   void refresh(std::span<const RigidState> states);
   void beginFirstHalf(std::span<RigidState> states, double h);
   void beginSecondHalf(std::span<RigidState> states, double h);
-  /// Of the joint that visitLinks visits as number `link`.
+  /// Returns the rows of the joint that visitLinks() visits as number `link`.
   std::span<RigidRow> rowsOfLink(int link) {
     const Link& l = m_links[static_cast<std::size_t>(link)];
     return std::span(m_rows).subspan(static_cast<std::size_t>(l.row), static_cast<std::size_t>(l.count));
@@ -60,12 +60,12 @@ class RigidJoints : public JointStore {
     return m_rows[static_cast<std::size_t>(m_links[static_cast<std::size_t>(link)].row)].is_soft;
   }
   double solve(int link, std::span<RigidState> states, bool is_second);
-  /// Makes what undoes overlap go along with the joints.
+  /// Makes the velocities that undo overlap compatible with the joints.
   void hold(std::span<RigidState> states) const;
   void endSubstep();
-  /// Writes forces; returns how many broke.
+  /// Writes forces; returns the number of joints that broke.
   int end(double dt, double h);
-  /// visit(a, b) for every joint of this step; a is −1 for a mouse.
+  /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse.
   template <class Visit>
   void visitLinks(Visit visit) const {
     for (const Link& link : m_links) visit(link.a, link.b);
@@ -82,7 +82,7 @@ class RigidJoints : public JointStore {
     Vec2 arm_a, arm_b;  // at the start of the step
     Vec2 offset;        // from a to b, or from the target to b
     Vec2 axis;          // at the start of the step
-    Rotation between;   // of b against a and the reference, at the start of the step
+    Rotation between;   // rotation of b relative to a and the reference, at the start of the step
     Vec2 force;
     double torque = 0;
   };

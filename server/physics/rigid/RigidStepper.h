@@ -1,4 +1,4 @@
-// What moves bodies that turn, a step at a time: RigidWorld or SubstepWorld.
+// Base of RigidWorld and SubstepWorld, which move rotating bodies step by step.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace naiad::physics {
 
-/// A contact of two bodies began or ended; however many of their shapes take part, it is one.
+/// A contact of two bodies began or ended. Counts as one, however many of their shapes touch.
 struct RigidEvent {
-  double time = 0;  ///< since the start of the step: when the sub-step began, or the moment of a fast impact
+  double time = 0;  ///< ticks since the start of the step: a sub-step's begin, or a fast impact
   int first = 0;    ///< the lower id
   int second = 0;
   bool is_begin = false;
-  double impulse = 0;  ///< when it begins: along the normal, on second, until the end of the step
-  Vec2 normal;         ///< when it begins: from first to second
+  double impulse = 0;  ///< begin only: on second, along the normal, until the end of the step
+  Vec2 normal;         ///< begin only: direction from first to second
 };
 
 /// Not thread-safe.
@@ -27,46 +27,46 @@ class RigidStepper {
  public:
   virtual ~RigidStepper() = default;
 
-  /// That many bodies will be there: memory is taken once.
+  /// Reserves memory for this many bodies.
   virtual void expect(std::size_t /*bodies*/) {}
-  /// `order`: unique among the bodies. Shapes are relative to the centre of mass; none: a body that touches
-  /// nothing, for joints. Returns the id, or −1 if the body is not sound.
+  /// Adds a body. `order` is unique. Shapes are relative to the centre of mass; without shapes the body
+  /// touches nothing and is only for joints. Returns the id, or −1 if the body is invalid.
   virtual int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) = 0;
-  /// Replaces a body's state, wakes it and what it lies among, and thaws it. Equal to what there is: nothing
-  /// happens. False if there is none, or `body` is not sound; then nothing changes.
+  /// Replaces a body's state, thaws it, and wakes it and its neighbours. No effect if the state is equal.
+  /// Returns false and changes nothing if the id or `body` is invalid.
   virtual bool set(int id, const RigidBody& body) = 0;
   virtual bool setShapes(int id, std::span<const ConvexShape> shapes) = 0;
-  /// Its contacts end without an event; joints with it go, too. What it carried wakes.
+  /// Removes a body and its joints; its contacts end without events. Wakes the bodies that lay on it.
   virtual bool remove(int id) = 0;
   virtual const RigidBody& body(int id) const = 0;
   virtual bool exists(int id) const = 0;
-  /// Ids are below this.
+  /// All ids are below this.
   virtual int idLimit() const = 0;
-  /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
+  /// True if the body is in quarantine: it is unchanged and collides with nothing until set().
   virtual bool isFrozen(int id) const = 0;
-  /// Did it move only a part of its way in the last step, though nothing has pushed it?
+  /// True if it moved only a part of its way in the last step, although nothing pushed it.
   virtual bool isStopped(int id) const = 0;
 
-  /// Between bodies that exist; `joint.a` and `joint.b` are ids. Bodies on a joint do not touch each other
-  /// unless `may_touch`. Returns the joint's id, or −1 if it is not valid.
+  /// Adds a joint between existing bodies; `joint.a` and `joint.b` are ids. Joined bodies do not touch each
+  /// other unless `may_touch`. Returns the joint's id, or −1 if it is invalid.
   int addJoint(const Joint& joint, bool may_touch = false);
-  /// Changes targets, speeds, strengths and lengths: not the kind nor the bodies. Wakes the bodies.
+  /// Changes targets, speeds, strengths and lengths, but not the kind or the bodies. Wakes the bodies.
   bool setJoint(int id, const Joint& joint);
   bool removeJoint(int id);
   bool jointExists(int id) const { return joints().exists(id); }
-  /// As it was given, with what the last step wrote: force, torque, is_broken. A broken one stays, and does
-  /// nothing, until it is removed.
+  /// Returns the joint with the results of the last step: force, torque, is_broken. A broken joint stays,
+  /// without effect, until it is removed.
   const Joint& joint(int id) const { return joints().joint(id); }
 
-  /// May groups at rest sleep?
+  /// Sets whether groups at rest may sleep.
   virtual void setSleeping(bool may_sleep) = 0;
-  /// Did the last step take what a SubstepWorld would do better, with all that it touches?
+  /// True if the last step gave up the body and all that it touches, for a SubstepWorld.
   virtual bool isGivenUp(int id) const = 0;
-  /// Were ever so many in one place that some pass through others?
+  /// True if crowding ever made some bodies pass through others.
   virtual bool hasThinned() const = 0;
-  /// Goes on by a tick.
+  /// Advances by a tick.
   virtual void step() = 0;
-  /// Of the last step, by (time, ids).
+  /// Events of the last step, by (time, ids).
   const std::vector<RigidEvent>& events() const { return m_events; }
 
  protected:
@@ -79,7 +79,7 @@ class RigidStepper {
  private:
   virtual const JointStore& joints() const = 0;
   virtual JointStore& joints() = 0;
-  /// The body, and what fell asleep with it.
+  /// Wakes the body and those that fell asleep with it.
   virtual void wakeRing(int id) = 0;
   void wakeEnds(const Joint& joint);
 };

@@ -1,9 +1,9 @@
-// Which contacts with other soft bodies count where too many of them are in one place.
+// Limits the contacts between soft bodies where too many of them are in one place.
 //
-// A body among others is tested node by node against each of them. Hundreds in one place would be too many
-// contacts to solve for; so in a crowd a body touches only the nearest others, and the deepest of its
-// contacts with them count. It passes through the rest until there is room. What a crowd costs grows with the
-// number of its bodies, not with the number of their pairs; a body in no crowd is not affected.
+// A body is tested node by node against each neighbour. Hundreds in one place would give too many contacts to
+// solve. So in a crowd a body touches only the nearest others, and only the deepest contacts with them count;
+// it passes through the rest until there is room. The cost of a crowd grows with the number of its bodies,
+// not of their pairs. Bodies outside a crowd are not affected.
 #pragma once
 
 #include <vector>
@@ -14,23 +14,22 @@ namespace naiad::physics {
 
 class SoftCrowd {
  public:
-  /// A body among more others than this, or than half as many as its own nodes, is in a crowd; as many
-  /// contacts of its nodes with them count. No more bodies of one size lie around one in a plane than six.
+  /// A body with more neighbours than this, and than half its boundary's nodes, is in a crowd. At most this
+  /// many contacts of its nodes with them count. (In a plane, six equal bodies fit around one.)
   static constexpr int kMaxOthers = 8;
 
-  /// Appends the contacts of the nodes of `views[which]` with the other bodies. False if it is in a crowd,
-  /// and some were left out.
+  /// Appends contacts of the nodes of `views[which]` with other bodies. False if crowding left some out.
   bool findContacts(const std::vector<SoftView>& views, std::size_t which, std::vector<SoftRow>& rows);
 
  private:
   struct Other {
-    std::size_t index;  // of its view
-    double square;      // of the distance
-    std::size_t turn;   // of bodies in one place each begins with another one
+    std::size_t index;  // index of its view
+    double square;      // squared distance
+    std::size_t turn;   // tie-breaker: each of several bodies in one place begins with another one
   };
   void gather(const std::vector<SoftView>& views, std::size_t which);
 
-  std::vector<Other> m_others;  // whose bounds overlap
+  std::vector<Other> m_others;  // bodies with overlapping bounds
 };
 
 }  // namespace naiad::physics

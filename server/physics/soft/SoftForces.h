@@ -1,4 +1,4 @@
-// How far a soft body's springs are from rest, and in which direction they push: shared by step and energy.
+// Deformation of a soft body's springs and the direction of their forces, for the step and the energy.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace naiad::physics {
 
 struct SoftSpan {
   double length;   ///< > 0
-  Vec2 direction;  ///< of length one, from a to b
+  Vec2 direction;  ///< unit length, from a to b
 };
 
-/// Nodes in one place count as a millionth apart.
+/// Nodes at one place count as a millionth of the rest length apart.
 inline SoftSpan spanOf(const SoftBody& body, const SoftStretch& s) {
   const Vec2 offset =
       body.nodes[static_cast<std::size_t>(s.b)].offset - body.nodes[static_cast<std::size_t>(s.a)].offset;
@@ -23,14 +23,14 @@ inline SoftSpan spanOf(const SoftBody& body, const SoftStretch& s) {
   return far > least ? SoftSpan{far, offset / far} : SoftSpan{least, {1, 0}};
 }
 
-/// How far it is stretched beyond its limit; `longer` than at rest.
+/// Returns the stretch beyond the limit; `longer` is the stretch beyond the rest length.
 inline double tautBeyond(const SoftStretch& s, double longer) {
   return s.limit > 0 ? std::max(0.0, longer - s.limit * s.rest_length) : 0;
 }
 
 struct SoftCorner {
-  double bent;     ///< angle less rest angle, −π … π
-  Vec2 slopes[3];  ///< of the angle by the offsets of c, b and a
+  double bent;     ///< angle minus rest angle, −π … π
+  Vec2 slopes[3];  ///< derivatives of the angle by the offsets of c, b and a
 };
 
 inline SoftCorner cornerOf(const SoftBody& body, const SoftBend& s) {
@@ -51,7 +51,7 @@ inline SoftCorner cornerOf(const SoftBody& body, const SoftBend& s) {
   return corner;
 }
 
-/// Inside the boundary; negative if it runs from y to x.
+/// Area inside the boundary; negative if it runs from y to x.
 inline double areaOf(const SoftBody& body) {
   double twice = 0;
   const Vec2 from = body.nodes[static_cast<std::size_t>(body.boundary[0])].offset;

@@ -1,9 +1,8 @@
-// The forces of contacts and attachments within one group of soft bodies, all at once.
+// Solves the forces of all contacts and attachments within a group of soft bodies.
 //
-// Each row has the compliance of all bodies of the group, as a whole and implicitly: a column of the inverse
-// of the bodies' own systems. So a stiff beam on two supports is as easy as a ball. What is left is a
-// complementarity problem with friction, as large as the number of contacts, swept by Gauss and Seidel, there
-// and back.
+// Each row has the implicit compliance of all bodies of the group: a column of the inverse of the bodies' own
+// systems. So a stiff beam on two supports is as easy as a ball. What remains is a complementarity problem
+// with friction in the number of contacts, solved by Gauss–Seidel sweeps forwards and backwards.
 #pragma once
 
 #include <span>
@@ -16,7 +15,7 @@ namespace naiad::physics {
 
 /// An obstacle's motion within a sub-step.
 struct SoftObstacleMotion {
-  Vec2 velocity;  ///< at its end, without contacts
+  Vec2 velocity;  ///< velocity at the end of the sub-step, without contacts
   double spin = 0;
   double inverse_mass = 0;
   double inverse_inertia = 0;
@@ -24,7 +23,7 @@ struct SoftObstacleMotion {
 
 class SoftRowSolver {
  public:
-  /// What a group's solution needs to see; by body id and by obstacle's index.
+  /// Input of a group's solution; indexed by body id and by obstacle index.
   struct Scene {
     const std::vector<SoftBody>& bodies;
     const std::vector<SoftElastic>& elastics;
@@ -32,9 +31,9 @@ class SoftRowSolver {
     double h;
   };
 
-  /// Finds the rows' forces. Each starts from what it has. False if the sweeps did not settle.
+  /// Finds the rows' forces, starting from their present values. False if the sweeps did not converge.
   bool solve(const Scene& scene, const std::vector<int>& group, std::vector<SoftRow*>& rows);
-  /// The change of a body of the group, by rows of its system, contacts included.
+  /// Returns the change of a body of the group, contacts included, by rows of its system.
   std::span<const double> changeOf(int body) const {
     return {&m_changes[m_begins[static_cast<std::size_t>(body)]], m_sizes[static_cast<std::size_t>(body)]};
   }
@@ -48,13 +47,13 @@ class SoftRowSolver {
   double compliance(const Scene& scene, const SoftRow& row, int axis) const;
   double settle(const Scene& scene, std::size_t index, SoftRow& row);
 
-  std::vector<double> m_responses;    // to a force of one along each axis of each row
-  std::vector<double> m_changes;      // of the bodies' offsets
-  std::vector<std::size_t> m_begins;  // by body: where its part of them begins
+  std::vector<double> m_responses;    // to a unit force along each axis of each row
+  std::vector<double> m_changes;      // changes of the bodies' offsets
+  std::vector<std::size_t> m_begins;  // by body: begin of its part of m_changes
   std::vector<std::size_t> m_sizes;
   std::vector<SoftObstacleMotion> m_motions;  // obstacles' motion
-  std::vector<double> m_gaps;                 // two per row: that which does not change
-  std::vector<double> m_compliances;          // two per row: displacement by a force of one
+  std::vector<double> m_gaps;                 // two per row: the constant part of the gaps
+  std::vector<double> m_compliances;          // two per row: displacement by a unit force
 };
 
 }  // namespace naiad::physics

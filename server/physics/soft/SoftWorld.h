@@ -1,7 +1,7 @@
-// Soft bodies in motion: implicit sub-steps, contacts with rigid bodies and with one another, attachments.
+// Simulation of soft bodies: implicit sub-steps, contacts with rigid and soft bodies, attachments.
 //
-// Bodies that touch, or that touch the same movable obstacle, form a group, which is solved as one; groups do
-// not see each other. Results depend on ids, places relative to one another, and inputs alone.
+// Bodies that touch each other or a common movable obstacle form a group, which is solved as one; groups are
+// independent. Results depend only on ids, relative places and inputs.
 #pragma once
 
 #include <cstdint>
@@ -18,104 +18,102 @@
 
 namespace naiad::physics {
 
-/// Two bodies began to touch in this step, or no longer do.
+/// The contact of two bodies began or ended in this step.
 struct SoftEvent {
   int body;   ///< a soft body's id
-  int other;  ///< the obstacle's id, or a soft body's higher than `body`
+  int other;  ///< obstacle id, or id of a soft body higher than `body`
   bool is_other_soft;
   bool is_begin;
-  double impulse;  ///< when it begins: the sum along the normals, in this step
+  double impulse;  ///< begin only: sum along the normals in this step
 };
 
-/// A node that is held to a point of an obstacle; it pulls at both.
+/// A node attached to a point of an obstacle; each pulls at the other.
 struct SoftAttachment {
   int body = -1;
   int node = 0;
-  int obstacle = 0;  ///< id; while no such obstacle is given, nothing is held
-  Vec2 anchor;       ///< in the obstacle's axes, from its centre of mass
+  int obstacle = 0;  ///< obstacle id; no effect in steps without this obstacle
+  Vec2 anchor;       ///< relative to the obstacle's centre of mass, in its axes
 };
 
-/// What has happened since the world was made.
+/// Counters since the world was made.
 struct SoftCounters {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;      ///< systems solved
-  std::int64_t decompositions = 0;  ///< made for them, of bodies that are not wide
-  std::int64_t unconverged = 0;     ///< groups' sub-steps that ended without the accuracy they should have
-  std::int64_t limited = 0;  ///< bodies' sub-steps that were slowed, because they would have gained energy
-  std::int64_t stopped = 0;  ///< nodes that were held at a surface at last, as no force had done it
-  std::int64_t crowded =
-      0;  ///< bodies' sub-steps in which some contacts with others were left out (SoftCrowd)
+  std::int64_t decompositions = 0;  ///< decompositions for these, of bodies that are not wide
+  std::int64_t unconverged = 0;     ///< sub-steps of groups that did not reach the required accuracy
+  std::int64_t limited = 0;  ///< sub-steps of bodies that were slowed because they would have gained energy
+  std::int64_t stopped = 0;  ///< nodes finally stopped at a surface because forces did not do it
+  std::int64_t crowded = 0;  ///< sub-steps of bodies without some contacts, because of crowding (SoftCrowd)
   std::int64_t quarantined = 0;  ///< bodies frozen
 };
 
 enum class SoftStatus : std::uint8_t {
   kDone,
-  kQuarantined,  ///< done, and at least one body had to be frozen
-  kRefused       ///< not a time, or an obstacle that is not sound; nothing happened
+  kQuarantined,  ///< done, but at least one body had to be frozen
+  kRefused       ///< invalid time or obstacle; nothing happened
 };
 
-/// Not thread-safe. No allocation in step() once the scene has shown what it needs.
+/// Not thread-safe. After a warm-up, step() does not allocate.
 class SoftWorld {
  public:
-  static constexpr int kDefaultSubsteps = 4;  ///< of a tick
-  /// A body with a node that would go farther than this within a sub-step is frozen (cells).
+  static constexpr int kDefaultSubsteps = 4;  ///< per tick
+  /// Cells. A body with a node that would go farther than this within a sub-step is frozen.
   static constexpr double kFarthest = 1e12;
 
-  /// Returns the id, the lowest free one, or −1 if the body is not sound.
+  /// Returns the lowest free id, or −1 if the body is invalid.
   int add(const SoftBody& body);
-  /// Replaces a body, and thaws it; its contacts go on. False if there is none, or `body` is not sound; then
-  /// nothing changes.
+  /// Replaces a body and thaws it; its contacts last. Returns false and changes nothing if the id or `body`
+  /// is invalid.
   bool set(int id, const SoftBody& body);
-  /// Its contacts end without an event, and so do its attachments.
+  /// Removes a body and its attachments; its contacts end without events.
   bool remove(int id);
   bool exists(int id) const { return id >= 0 && id < idLimit() && m_states[at(id)].exists; }
   /// Offsets are from body(id).place, which follows the body in whole cells.
   const SoftBody& body(int id) const { return m_bodies[at(id)]; }
-  /// Is the body in quarantine? It is kept as it is and collides with nothing, until set().
+  /// True if the body is in quarantine: it is unchanged and collides with nothing until set().
   bool isFrozen(int id) const { return m_states[at(id)].is_frozen; }
   int idLimit() const { return static_cast<int>(m_bodies.size()); }
-  /// Leave it out of steps: it stays as it is, collides with nothing, and what it touches counts as touched.
-  /// Not kept over set().
+  /// Excludes the body from steps: it stays, collides with nothing, and its contacts last. set() resets this.
   void setOut(int id, bool is_out) { m_states[at(id)].is_out = is_out; }
-  /// Did it touch anything in the last step that it took part in?
+  /// True if it touched anything in the last step in which it took part.
   bool isTouching(int id) const;
-  /// The same of one obstacle.
+  /// Like the above, for one obstacle.
   bool isTouching(int id, int obstacle) const;
 
-  /// A force that stays until it is set again. False if it is not sound, or there is no such node.
+  /// Sets a force that acts until changed. False if the force or node is invalid.
   bool setForce(int id, int node, Vec2 force);
-  /// The node stops, and is pinned or free from now on. False if there is no such node.
+  /// Stops the node, and pins or releases it. False if the node does not exist.
   bool pin(int id, int node, bool is_pinned);
-  /// The same for a blow.
+  /// Applies an impulse to a node. False if the impulse or node is invalid.
   bool applyImpulse(int id, int node, Vec2 impulse);
-  /// Refuses what is not finite or too large.
+  /// Returns false for values that are not finite or too large.
   bool setGravity(Vec2 gravity);
-  /// Of a tick: 1 … 64.
+  /// Sets the number per tick: 1 … 64.
   bool setSubsteps(int substeps);
 
-  /// Returns the attachment's id, or −1.
+  /// Returns the attachment's id, or −1 if it is invalid.
   int attach(const SoftAttachment& attachment);
   bool detach(int attachment);
 
-  /// Goes on by `dt` > 0 ticks, in sub-steps of at most 1 / substeps tick, at most 64 of them.
+  /// Advances by `dt` > 0 ticks, in at most 64 sub-steps of at most 1 / substeps tick.
   SoftStatus step(double dt = 1, std::span<SoftObstacle> obstacles = {});
 
-  /// Of the last step, by ids.
+  /// Events of the last step, by ids.
   const std::vector<SoftEvent>& events() const { return m_events; }
   const SoftCounters& counters() const { return m_counters; }
 
  private:
   struct State {
-    double budget = 0;  // energy that it may have
+    double budget = 0;  // upper limit of its energy
     bool exists = false;
     bool is_frozen = false;
     bool is_out = false;
-    bool is_fresh = true;       // changed from outside: the budget is to be computed again
-    bool is_worked_on = false;  // in this sub-step, by what is not the body itself
+    bool is_fresh = true;       // changed from outside: the budget must be computed again
+    bool is_worked_on = false;  // in this sub-step something outside the body does work on it
     int group = -1;
   };
   struct Touch {
-    std::uint64_t key;  // body, kind, other
+    std::uint64_t key;  // body, kind and other
     double impulse;
 
     int body() const { return static_cast<int>(key >> 33); }
@@ -176,9 +174,9 @@ class SoftWorld {
   SoftCounters m_counters;
   std::vector<SoftEvent> m_events;
   std::vector<Touch> m_touching;  // in this step
-  std::vector<Touch> m_touched;   // in the last one
+  std::vector<Touch> m_touched;   // in the last step
 
-  // Of the current sub-step.
+  // State of the current sub-step.
   std::vector<SoftView> m_views;
   std::vector<Vec2> m_ends;
   std::vector<SoftPose> m_poses;
@@ -187,11 +185,11 @@ class SoftWorld {
   std::vector<SoftObstacleMotion> m_obstacle_motions;
   SoftCrowd m_crowd;
   std::vector<SoftRow> m_rows;
-  std::vector<SoftRow> m_earlier;    // of the one before, by key
-  std::vector<SoftRow> m_wide_rows;  // of wide bodies, taken out of m_rows
+  std::vector<SoftRow> m_earlier;    // rows of the previous sub-step, by key
+  std::vector<SoftRow> m_wide_rows;  // rows of wide bodies, moved from m_rows
   std::vector<SoftPush> m_pushes;
-  std::vector<int> m_sharing;  // pushes on an obstacle or on a node of another body
-  UnionFind m_links;           // bodies and obstacles
+  std::vector<int> m_sharing;  // number of pushes on an obstacle or a node of another body
+  UnionFind m_links;           // over bodies and obstacles
   std::vector<int> m_group;
   std::vector<SoftRow*> m_group_rows;
   SoftRowSolver m_solver;

@@ -1,4 +1,4 @@
-// Memory that is needed soon, fetched ahead.
+// Prefetches memory that is needed soon.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,10 @@
 namespace naiad::physics {
 
 inline constexpr std::size_t kCacheLine = 64;  // bytes
-inline constexpr std::size_t kFetched = 8;     // elements ahead of the one that is worked on
+inline constexpr std::size_t kFetched = 8;     // number of elements to prefetch ahead
 
-// GCC takes a function that does nothing but fetch for one that does nothing, and leaves its calls out. So it
-// must be inlined, and so must what calls it and does nothing else.
+// Must be inlined, like all callers that only prefetch: GCC treats such functions as having no effect and
+// removes calls of them.
 [[gnu::always_inline]] inline void fetchLines(const void* p_first, std::size_t bytes) {
   const char* const p_byte = static_cast<const char*>(p_first);
   for (std::size_t i = 0; i < bytes; i += kCacheLine) __builtin_prefetch(p_byte + i);

@@ -1,7 +1,7 @@
-// Four floats at once: what the contacts of a step are solved in.
+// Four floats in parallel, for solving contacts.
 //
-// Plain operators on the compiler's own vectors, one rounding each, so that every processor gets the same
-// bits whether it has instructions for them or not.
+// Uses plain operators on the compiler's vectors, with one rounding each, so that all processors get equal
+// bits with or without vector instructions.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ inline Lanes smaller(Lanes a, Lanes b) {
   return select(a < b, a, b);
 }
 
-/// Rows become columns.
+/// Exchanges rows and columns.
 inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
   const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   const Lanes ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);

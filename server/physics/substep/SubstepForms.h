@@ -1,5 +1,5 @@
-// The shapes of a SubstepWorld's bodies. Bodies of the same shapes share them: of a heap of crates each step
-// reads one crate, not as many as there are.
+// The shapes of a SubstepWorld's bodies. Bodies with equal shapes share them, so that a step reads the shape
+// of one crate for a whole heap.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@ namespace naiad::physics {
 
 struct SubstepForm {
   std::vector<ConvexShape> shapes;
-  double reach = 0;         ///< of all shapes, from the centre
-  double thickness = 0;     ///< the least half width of a shape
-  std::size_t corners = 0;  ///< of all shapes, as turn() writes them
+  double reach = 0;         ///< farthest point of a shape from the centre
+  double thickness = 0;     ///< smallest half width of a shape
+  std::size_t corners = 0;  ///< number for all shapes, as turn() writes them
   int users = 0;
 };
 
 class SubstepForms {
  public:
-  /// Returns its number, to be given back.
+  /// Returns the number of these shapes; release it with giveBack().
   std::int32_t take(std::span<const ConvexShape> shapes);
   void giveBack(std::int32_t form);
   const SubstepForm& operator[](std::int32_t form) const { return m_forms[static_cast<std::size_t>(form)]; }
@@ -31,7 +31,7 @@ class SubstepForms {
 
   std::vector<SubstepForm> m_forms;
   std::vector<std::int32_t> m_free;
-  std::array<std::int32_t, 4> m_recent = {-1, -1, -1, -1};  // the ones that are looked through
+  std::array<std::int32_t, 4> m_recent = {-1, -1, -1, -1};  // recently used ones, which are searched
   std::size_t m_next_recent = 0;
 };
 

@@ -1,5 +1,4 @@
-// Joints as rows of a step of soft sub-steps, solved for one after the other between the contacts
-// (ContactRows.h).
+// Joints as rows of a step of soft sub-steps, solved in turn between the contacts (ContactRows.h).
 #pragma once
 
 #include <cstdint>
@@ -15,16 +14,17 @@ namespace naiad::physics {
 
 class SubstepJoints : public JointStore {
  public:
-  /// Rows for those of which a body moves, where all are at the start; `h`: length of a sub-step.
+  /// Makes rows for joints with a moving body, at the positions of the start; `h` is the length of a
+  /// sub-step.
   void begin(std::span<SubstepBody> bodies, float h);
   bool isEmpty() const { return m_links.empty(); }
   void warmStart(std::span<SubstepState> states);
   void solveSoftly(std::span<SubstepState> states);
-  /// Where the bodies are now, without softness; `time`: since the step began.
+  /// Solves without softness at the present positions; `time` is since the step began.
   void relax(std::span<SubstepState> states, float time);
-  /// After `dt`. Writes forces; returns how many broke.
+  /// Call after `dt`: writes forces; returns the number of joints that broke.
   int end(double dt);
-  /// visit(a, b) for every joint of this step; a is −1 for a mouse.
+  /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse.
   template <class Visit>
   void visitLinks(Visit visit) const {
     for (const Link& link : m_links) visit(link.a, link.b);
@@ -36,7 +36,7 @@ class SubstepJoints : public JointStore {
     float speed = 0;  // at the velocities of the start of the step
     float mass = 0;
     float value = 0;
-    float bias = 0, mass_scale = 1, impulse_scale = 0;  // of the soft solution
+    float bias = 0, mass_scale = 1, impulse_scale = 0;  // for the soft solution
     float low = 0, high = 0;
     float impulse = 0;
     float target = 0;
@@ -47,14 +47,14 @@ class SubstepJoints : public JointStore {
   struct Link {
     int id;
     std::int32_t a, b;              // bodies
-    std::int32_t state_a, state_b;  // within the step
+    std::int32_t state_a, state_b;  // states within the step
     float inverse_mass_a, inverse_mass_b, inverse_inertia_a, inverse_inertia_b;
     int row, count;
-    JointFrame frame;  // at the start of the step; the offset from centre to centre
-    Vec2 velocity;     // of b's centre against a's, at the start of the step
+    JointFrame frame;  // at the start of the step; with the offset from centre to centre
+    Vec2 velocity;     // of b's centre relative to a's, at the start of the step
     bool is_point;     // the first two rows hold a point
-    bool is_hinge;     // and there are no others
-    float inverse_xx = 0, inverse_xy = 0, inverse_yy = 0;  // of their matrix
+    bool is_hinge;     // it has only these two rows
+    float inverse_xx = 0, inverse_xy = 0, inverse_yy = 0;  // inverse of their matrix
     Vec2 force;
     double torque = 0;
   };

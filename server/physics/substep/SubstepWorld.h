@@ -1,10 +1,9 @@
-// Bodies that stack, slide, roll and hang on joints, fast rather than exact.
+// Simulation of bodies that stack, slide, roll and hang on joints; fast rather than exact.
 //
-// What touches what is found at the beginning of a step, and solved for in soft sub-steps (ContactRows.h,
-// SubstepJoints.h), in an order that follows from the bodies' own order alone: groups that do not touch do
-// not see each other. A tick is one step, or several. A body that moves farther than its contacts were
-// searched for stops where it first touches something, until the next step. Groups at rest sleep, exactly
-// still.
+// Contacts are found at the beginning of a step and solved in soft sub-steps (ContactRows.h,
+// SubstepJoints.h). The order of solution depends only on the bodies' own order, so groups that do not touch
+// do not influence each other. A tick is one step, or several. A body that moves farther than contacts were
+// searched for stops at its first contact until the next step. Groups at rest sleep, with velocity zero.
 #pragma once
 
 #include <cstdint>
@@ -27,23 +26,23 @@
 namespace naiad::physics {
 
 struct SubstepOptions {
-  int searches = 1;  ///< times a tick that contacts are found, 1 … 64 …
-  int substeps = 4;  ///< … and sub-steps from one to the next, 1 … 64
+  int searches = 1;  ///< steps per tick, each with a search for contacts, 1 … 64
+  int substeps = 4;  ///< sub-steps per step, 1 … 64
   bool may_sleep = true;
-  double sleep_speed = 1e-3;  ///< cells per tick, of every point of a body: slower counts as still …
-  double sleep_delay = 15;  ///< … and ticks that a group must be still, and not speed up, before it sleeps
+  double sleep_speed = 1e-3;  ///< cells per tick: maximum speed of every point of a still body
+  double sleep_delay = 15;    ///< ticks that a group must be still, without gaining speed, before it sleeps
 };
 
-/// What has happened since the world was made.
+/// Counters since the world was made.
 struct SubstepCounters {
   std::int64_t ticks = 0;
-  std::int64_t contacts = 0;     ///< manifolds solved for, once per step each
-  std::int64_t blocks = 0;       ///< of rows that were solved side by side
-  std::int64_t sweeps = 0;       ///< over pairs that fly past each other (choosePairs())
-  std::int64_t near = 0;         ///< bodies that fast ones might have met, and were swept against
-  std::int64_t stopped = 0;      ///< fast bodies, where they first touched something
+  std::int64_t contacts = 0;     ///< manifolds solved, once per step each
+  std::int64_t blocks = 0;       ///< blocks of rows solved in parallel
+  std::int64_t sweeps = 0;       ///< over pairs that pass each other (choosePairs())
+  std::int64_t near = 0;         ///< bodies that fast ones might have met, tested by a sweep
+  std::int64_t stopped = 0;      ///< fast bodies stopped at their first contact
   std::int64_t quarantined = 0;  ///< bodies frozen
-  std::int64_t broken = 0;       ///< joints
+  std::int64_t broken = 0;       ///< broken joints
 };
 
 class SubstepWorld final : public RigidStepper {
@@ -52,7 +51,7 @@ class SubstepWorld final : public RigidStepper {
       : m_options(options), m_states(1), m_dt(1.0 / options.searches) {}
 
   void expect(std::size_t bodies) override;
-  /// Of two bodies the one of the lower order comes first in everything.
+  /// Bodies with a lower `order` always come first.
   int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) override;
   bool set(int id, const RigidBody& body) override;
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
@@ -69,27 +68,27 @@ class SubstepWorld final : public RigidStepper {
   void setSleeping(bool may_sleep) override;
   void step() override;
   const SubstepCounters& counters() const { return m_counters; }
-  /// How deep the deepest overlap was at the start of the last step.
+  /// Depth of the deepest overlap at the start of the last step.
   double deepest() const { return m_deepest; }
 
  private:
-  // Of a contact, from step to step. What its rows are made of comes first, in as few cache lines as can be.
+  // A contact, kept from step to step. The data for its rows comes first, in as few cache lines as possible.
   struct alignas(64) Memory {
     Manifold manifold;
     KnownImpulses known;  // of its points
-    // When the manifold was found. It is kept while its bodies hardly move against each other.
+    // When the manifold was found. It is kept while its bodies hardly move relative to each other.
     Vec2 offset;
     Rotation rotation_a, rotation_b;
     std::array<double, 2> gap = {};
-    double margin = -1;  // below 0: none has been found
+    double margin = -1;  // < 0: no manifold has been found
     std::uint32_t version_a = 0, version_b = 0;
     std::int32_t next = -1;
     std::int32_t shape_a = 0, shape_b = 0;
   };
   static_assert(sizeof(Memory) == 256);
   struct Pair {
-    std::int32_t low, high;  // ids: what the broad phase orders by
-    std::int32_t a, b;       // the same, by the order of the bodies
+    std::int32_t low, high;  // ids, the order of the broad phase
+    std::int32_t a, b;       // these ids in the order of the bodies
     std::int32_t first = -1;
     bool is_touching = false;
     bool is_pushing = false;   // in the last step
@@ -98,61 +97,61 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t event = -1;   // of this tick
     bool is_examined = false;  // in this step: they may meet
   };
-  struct Calm {     // a pair that is near, but does not meet if nothing pushes it
-    double nearer;  // the gap that is left between them then, negative
+  struct Calm {     // a near pair that does not meet unless pushed
+    double nearer;  // negative of the gap that would be left
     std::int32_t pair;
   };
-  struct Fast {  // a body that goes farther in this step than contacts were searched for
+  struct Fast {  // a body that moves farther in this step than contacts were searched for
     Vec2 path;
     double roll, thickness;
     std::int32_t id;
-    GridBounds way;          // what it sweeps
-    std::int32_t near = -1;  // what may be in its way: the first of its list in m_near
+    GridBounds way;          // area that it sweeps
+    std::int32_t near = -1;  // first of its list of possible obstacles in m_near
     bool is_stopped = false;
   };
   struct Near {
     std::int32_t id, next;
   };
   static constexpr std::int32_t kSlowNumber = -1;
-  static constexpr float kInCrowd = 1;  // value of a path
+  static constexpr float kInCrowd = 1;  // value in m_path_values
   struct Slow {
-    GridBounds bounds;  // in the broad phase
+    GridBounds bounds;  // bounds in the broad phase
     std::int32_t id;
   };
-  struct Turn {  // in the order in which contacts are solved for
+  struct Turn {  // the order in which contacts are solved
     std::uint64_t order_a, order_b;
     std::int32_t contact;
   };
   struct Contact {  // within a step
     std::int32_t pair, memory;
     std::int32_t a, b;
-    std::int32_t state;  // of one of them that has one
+    std::int32_t state;  // state of one of its movable bodies
     std::int32_t colour;
-    std::int32_t place;  // in the rows
+    std::int32_t place;  // row number
     ContactPush pushed;
   };
-  // Groups, together small enough that their rows stay in a cache for all sub-steps.
+  // Groups whose rows together fit a cache during all sub-steps.
   struct Batch {
-    std::size_t contacts = 0;  // of those in m_by_colour …
-    std::size_t states = 0;    // … and m_by_batch, that come after those of the batch before
-    std::size_t blocks = 0;    // of its rows
+    std::size_t contacts = 0;  // number of its contacts in m_by_colour, after those of the previous batch
+    std::size_t states = 0;    // number of its states in m_by_batch, after those of the previous batch
+    std::size_t blocks = 0;    // number of blocks of its rows
   };
 
-  struct Magnet {  // a body that one turns, within a step
+  struct Magnet {  // a body turned by a magnet, within a step
     std::int32_t id;
     MagnetTurn turn;  // in this sub-step
-    Vec2 given;       // to its velocity, since the step began
+    Vec2 given;       // added to its velocity since the step began
   };
   struct Group {
     double still = 1e300;
     double speed_before = 0, speed = 0;
     std::int32_t first = -1;
     bool is_held = false, is_driven = false, is_adrift = false;
-    Vec2 missing;     // momentum that rounding has taken in this step
-    double mass = 0;  // of those that it was taken from
+    Vec2 missing;     // momentum lost by rounding in this step
+    double mass = 0;  // total mass of the bodies that lost it
   };
 
-  // Thicknesses per tick: what moves by less against each other may lie for long.
+  // Thicknesses per tick: contacts with less relative movement may be lasting.
   static constexpr double kCalm = 0.05;
 
   // SubstepWorld.cpp
@@ -250,54 +249,55 @@ class SubstepWorld final : public RigidStepper {
   std::vector<SubstepBody> m_bodies;
   SubstepForms m_forms;
   std::vector<std::int32_t> m_free;
-  std::vector<std::int32_t> m_active;  // ids of those that move in this step, by order
+  std::vector<std::int32_t> m_active;  // ids of bodies that move in this step, by order
   std::vector<std::int32_t> m_changed;
   std::vector<Near> m_near;
   std::vector<Fast> m_fast;
-  std::vector<std::int32_t> m_fast_numbers;  // by id: which of these
-  std::vector<Slow> m_slow;                  // the others, if the fast ones are many
-  // Of those, then of these: in grid units about the first of them, as seen by one who flies along.
+  std::vector<std::int32_t> m_fast_numbers;  // by id: index in m_fast
+  std::vector<Slow> m_slow;                  // other bodies, if there are many fast ones
+  // Paths of fast, then slow bodies, in grid units relative to the first one, in a frame that moves with
+  // m_along.
   std::vector<SweptBox> m_paths;
-  Vec2 m_along;  // how that one flies
+  Vec2 m_along;  // middle path of the fast bodies
   std::vector<double> m_path_order;
-  std::vector<float> m_path_values;  // of each, kInCrowd or 0
-  bool m_are_many = false;           // the slow ones are among these
-  bool m_are_crowded = false;        // some of the fast ones are of a crowd
+  std::vector<float> m_path_values;  // by path: kInCrowd or 0
+  bool m_are_many = false;           // the slow bodies are included
+  bool m_are_crowded = false;        // some of the fast bodies are in a crowd
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
   std::vector<SubstepKick> m_kicks;  // by state
   std::vector<Magnet> m_magnets;
-  std::vector<double> m_turns;  // likewise: rad, since the step began
+  std::vector<double> m_turns;  // by state: rotation in rad since the step began
   std::vector<Calm> m_calm;
-  std::vector<double> m_stirs;         // by state: how far off its own path a body may come in this step
-  std::vector<SubstepState> m_states;  // the first one is of all that does not move
+  std::vector<double> m_stirs;         // by state: possible deviation from its own path in this step
+  std::vector<SubstepState> m_states;  // the first one stands for all immovable bodies
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
   std::vector<std::int32_t> m_pair_ends,
-      m_pair_numbers;  // of each body, by id; empty: not listed in this step
+      m_pair_numbers;  // by id, pairs of each body; empty: not listed in this step
   std::vector<std::int32_t> m_woken_pairs;
   std::vector<Memory> m_memory;
   std::int32_t m_free_memory = -1;
   std::vector<Contact> m_contacts;
   std::vector<Turn> m_sequence;
-  std::vector<std::int32_t> m_by_colour;  // contacts, by batch and colour
+  std::vector<std::int32_t> m_by_colour;  // contacts by batch and colour
   std::vector<Batch> m_batches;
   std::vector<std::int32_t> m_batch_of;    // by state
-  std::vector<std::int32_t> m_by_batch;    // states
+  std::vector<std::int32_t> m_by_batch;    // states by batch
   std::vector<std::size_t> m_turn_counts;  // by batch and colour
-  ContactRows m_rows;                      // of a batch
+  ContactRows m_rows;                      // rows of one batch
   SubstepJoints m_joints;
-  UnionFind m_sets;             // of states
+  UnionFind m_sets;             // over states
   std::vector<Group> m_groups;  // by root
   SubstepCounters m_counters;
   double m_deepest = 0;
-  double m_dt;        // how long a step is
-  double m_time = 0;  // in this tick, when this step began
+  double m_dt;        // length of a step in ticks
+  double m_time = 0;  // begin of this step within the tick
   float m_h = 0.25f;
   std::int64_t m_steps = 0;
   bool m_active_changed = false;
   bool m_has_stirred = false;
-  bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of what they lie on
+  bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of the bodies below them
 };
 
 }  // namespace naiad::physics
