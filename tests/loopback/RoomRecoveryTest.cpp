@@ -16,6 +16,7 @@
 #include "host/journal/OpenRound.h"
 #include "host/rounds/Journals.h"
 #include "tests/support/Processes.h"
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 namespace {
