@@ -102,26 +102,6 @@ std::string withoutName(const Option& option, const std::string& said) {
   return said.starts_with(prefix) ? said.substr(prefix.size()) : said;
 }
 
-bool isOnCommandLine(const Option& option, int argc, const char* const* argv) {
-  return std::any_of(argv + 1, argv + argc, [&option](const char* p_word) {
-    const std::string_view word(p_word);
-    return word == option.name || word.starts_with(option.name + "=");
-  });
-}
-
-/// Returns the parser's message, which names the environment variable if that set the option.
-std::string inWords(const std::vector<Option>& options, const CLI::ParseError& error, int argc,
-                    const char* const* argv) {
-  std::string said = error.what();
-  for (const Option& option : options) {
-    const bool is_meant = said.starts_with(option.name + ": ") && !option.environment.empty();
-    if (is_meant && std::getenv(option.environment.c_str()) != nullptr &&
-        !isOnCommandLine(option, argc, argv))
-      return option.environment + ": " + withoutName(option, said);
-  }
-  return said;
-}
-
 std::vector<std::string> namesOf(const Program& program, const std::vector<Option>& options) {
   std::vector<std::string> names{"--help", "--version"};
   if (program.has_config) names.push_back("--config");
@@ -168,7 +148,7 @@ std::optional<std::string> configValue(const std::string& text) {
 
 /// Stores the value of a line, unless the command line or the environment set the option. Throws OptionError.
 void storeConfigLine(const std::string& line, const std::string& place, const std::vector<Option>& options,
-                     const std::vector<CLI::Option*>& added) {
+                     const std::vector<bool>& is_given) {
   const std::size_t equals = line.find('=');
   const std::string key = trimmed(line.substr(0, equals));
   const auto found = std::find_if(options.begin(), options.end(),
@@ -186,7 +166,7 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
   if (equals == std::string::npos && !is_flag) throw OptionError(place + ": \"" + key + " = …\" is wanted");
   const auto value = equals == std::string::npos ? "true" : configValue(trimmed(line.substr(equals + 1)));
   if (!value) throw OptionError(place + ": the quotes do not end, or something stands behind them");
-  if (added[static_cast<std::size_t>(found - options.begin())]->count() > 0) return;
+  if (is_given[static_cast<std::size_t>(found - options.begin())]) return;
   const std::string before = found->joins ? currentValue(*found) : "";
   storeValue(*found, before.empty() ? *value : before + " " + *value, place + ": " + key);
   if (found->p_given != nullptr) *found->p_given = true;
@@ -195,7 +175,7 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
 
 /// Reads lines `name = value`; skips empty ones and # and ; comments. Throws OptionError: a line per error.
 void readConfig(const std::string& path, const std::vector<Option>& options,
-                const std::vector<CLI::Option*>& added) {
+                const std::vector<bool>& is_given) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
     throw OptionError("--config: " + path + " is not a regular file");  // a pipe would block
@@ -208,7 +188,7 @@ void readConfig(const std::string& path, const std::vector<Option>& options,
     line = trimmed(line);
     if (line.empty() || line.front() == '#' || line.front() == ';') continue;
     try {
-      storeConfigLine(line, place, options, added);
+      storeConfigLine(line, place, options, is_given);
     } catch (const OptionError& line_error) {
       wrong += (wrong.empty() ? "" : "\n") + std::string(line_error.what());
     }
@@ -242,17 +222,6 @@ bool clearText(const Option& option) {
   return false;
 }
 
-/// Rejects environment variables with wrong values, which CLI11 ignores since 2.2. Throws CLI::ParseError.
-void refuseWrongVariables(const std::vector<Option>& options, const std::vector<CLI::Option*>& added) {
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    const std::string& variable = options[i].environment;
-    const char* p_value = variable.empty() ? nullptr : std::getenv(variable.c_str());
-    if (p_value == nullptr || *p_value == '\0' || added[i]->count() > 0) continue;
-    added[i]->add_result(p_value);
-    added[i]->run_callback();
-  }
-}
-
 /// Reads all options. Returns false after it printed --help or --version. Throws OptionError.
 bool readAll(const Program& program, const std::vector<Option>& options, int argc, const char* const* argv) {
   CLI::App app(program.purpose, program.name);
@@ -264,25 +233,31 @@ bool readAll(const Program& program, const std::vector<Option>& options, int arg
   for (const Option& row : options) {
     added.push_back(addTo(app, row));
     describe(app, row, *added.back());
-    added.back()->envname(row.environment);
   }
   try {
     app.parse(argc, argv);
-    refuseWrongVariables(options, added);
-    if (!config.empty()) readConfig(config, options, added);
   } catch (const CLI::ExtrasError&) {
     throw OptionError(unknownArgument(program, options, app));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) throw OptionError(inWords(options, error, argc, argv));
+    if (error.get_exit_code() != 0) throw OptionError(error.what());
+    for (std::size_t i = 0; i < options.size(); ++i) added[i]->envname(options[i].environment);  // for --help
     app.exit(error);
     return false;
   }
+  std::vector<bool> is_given;
   for (std::size_t i = 0; i < options.size(); ++i) {
-    if (added[i]->count() == 0) continue;
-    if (options[i].p_given != nullptr) *options[i].p_given = true;
-    if (options[i].p_from_environment != nullptr)
-      *options[i].p_from_environment = !isOnCommandLine(options[i], argc, argv);
+    const Option& option = options[i];
+    const bool on_command_line = added[i]->count() > 0;
+    // Not read by CLI11: since 2.2 it passes over a variable whose value is wrong.
+    const char* p_value = option.environment.empty() ? nullptr : std::getenv(option.environment.c_str());
+    const bool by_variable = !on_command_line && p_value != nullptr && *p_value != '\0';
+    if (by_variable) storeValue(option, p_value, option.environment);
+    is_given.push_back(on_command_line || by_variable);
+    if (!is_given.back()) continue;
+    if (option.p_given != nullptr) *option.p_given = true;
+    if (option.p_from_environment != nullptr) *option.p_from_environment = by_variable;
   }
+  if (!config.empty()) readConfig(config, options, is_given);
   return true;
 }
 

@@ -17,6 +17,7 @@
 #include "host/auth/PasswordHash.h"
 #include "host/world/Sandbox.h"
 #include "tests/support/Processes.h"
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 namespace {

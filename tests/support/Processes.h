@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
-
-#include "tests/support/Text.h"
 
 namespace naiad::test {
 
@@ -22,7 +22,10 @@ struct ProcessFacts {
 
 /// Returns nullopt if the process does not exist.
 inline std::optional<ProcessFacts> factsOf(pid_t process) {
-  const std::string text = contentOf("/proc/" + std::to_string(process) + "/stat");
+  // One that ends while it is read makes an iterator of its stream throw.
+  std::ostringstream stat;
+  stat << std::ifstream("/proc/" + std::to_string(process) + "/stat").rdbuf();
+  const std::string text = stat.str();
   const std::size_t begin = text.find('(');
   const std::size_t end = text.rfind(')');
   if (begin == std::string::npos || end + 4 >= text.size()) return std::nullopt;

@@ -404,8 +404,9 @@ std::unique_ptr<Round> Journals::keep(std::unique_ptr<WorldProcess> world, const
   const std::string path = pathOf(header);
   Round::Book book = makeBook(path, *world);
   try {
-    book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring,
-                                             true, std::nullopt, ringFolder(m_folder), book.recording);
+    book.journal =
+        std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring, true,
+                                  std::nullopt, ringFolder(m_folder), fs::path(path).filename().string());
   } catch (const std::system_error& error) {
     m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
     return std::make_unique<Round>(std::move(world));

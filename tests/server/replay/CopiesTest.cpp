@@ -16,6 +16,7 @@
 #include "tests/server/replay/FrailRound.h"
 #include "tests/support/Processes.h"
 #include "tests/support/Sanitizers.h"
+#include "tests/support/Text.h"
 #include "tests/support/WaitUntil.h"
 
 namespace naiad {

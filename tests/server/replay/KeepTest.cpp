@@ -29,6 +29,7 @@
 #include "tests/server/replay/ServerFixture.h"
 #include "tests/support/Processes.h"
 #include "tests/support/RunProgram.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
