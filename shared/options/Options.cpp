@@ -59,26 +59,29 @@ CLI::Option* addTo(CLI::App& app, const Option& row) {
 
 /// Like CLI::Range, whose message differs between versions of CLI11.
 template <class Number>
-CLI::Validator within(Number least, Number most) {
-  const CLI::Range range(least, most);
-  const auto check = [range, least, most](const std::string& value) {
+CLI::Validator within(const OptionRange& range) {
+  const auto least = static_cast<Number>(range.least);
+  const auto most = static_cast<Number>(range.most);
+  const CLI::Range numbers(least, most);
+  const auto check = [numbers, least, most](const std::string& value) {
     std::ostringstream wrong;
-    if (!range(value).empty()) wrong << "Value " << value << " not in range " << least << " to " << most;
+    if (!numbers(value).empty()) wrong << "Value " << value << " not in range " << least << " to " << most;
     return wrong.str();
   };
-  return CLI::Validator(check, range.get_description());
+  return CLI::Validator(check, numbers.get_description());
+}
+
+/// Returns the value of the option's variable; empty if there is none.
+std::string variableOf(const Option& option) {
+  const char* p_value = option.environment.empty() ? nullptr : std::getenv(option.environment.c_str());
+  return p_value == nullptr ? "" : p_value;
 }
 
 void describe(CLI::App& app, const Option& row, CLI::Option& option) {
-  if (row.name.front() != '-') option.required(!row.is_optional);
+  if (row.name.front() != '-') option.required(!row.is_optional && variableOf(row).empty());
   const bool counts =
       std::holds_alternative<int*>(row.target) || std::holds_alternative<std::int64_t*>(row.target);
-  if (row.range && counts) {
-    option.check(
-        within(static_cast<std::int64_t>(row.range->least), static_cast<std::int64_t>(row.range->most)));
-  } else if (row.range) {
-    option.check(within(row.range->least, row.range->most));
-  }
+  if (row.range) option.check(counts ? within<std::int64_t>(*row.range) : within<double>(*row.range));
   if (!row.one_of.empty()) option.check(CLI::IsMember(row.one_of));
   if (!row.type.empty()) option.type_name(row.type);
   if (!row.excludes.empty()) option.excludes(app.get_option(row.excludes));
@@ -211,15 +214,15 @@ std::optional<Parsed> printPage(const Program& program, const std::vector<Option
 /// Empties a text or path, for a line without a value, which the parser would reject. False if it is neither.
 bool clearText(const Option& option) {
   if (!option.one_of.empty()) return false;
-  if (std::string* const* p_text = std::get_if<std::string*>(&option.target)) {
-    (*p_text)->clear();
-    return true;
-  }
-  if (std::filesystem::path* const* p_path = std::get_if<std::filesystem::path*>(&option.target)) {
-    (*p_path)->clear();
-    return true;
-  }
-  return false;
+  return std::visit(
+      [](const auto& target) {
+        constexpr bool kHolds = requires {
+          target->clear();
+        };
+        if constexpr (kHolds) target->clear();
+        return kHolds;
+      },
+      option.target);
 }
 
 /// Reads all options. Returns false after it printed --help or --version. Throws OptionError.
@@ -247,15 +250,13 @@ bool readAll(const Program& program, const std::vector<Option>& options, int arg
   std::vector<bool> is_given;
   for (std::size_t i = 0; i < options.size(); ++i) {
     const Option& option = options[i];
-    const bool on_command_line = added[i]->count() > 0;
     // Not read by CLI11: since 2.2 it passes over a variable whose value is wrong.
-    const char* p_value = option.environment.empty() ? nullptr : std::getenv(option.environment.c_str());
-    const bool by_variable = !on_command_line && p_value != nullptr && *p_value != '\0';
-    if (by_variable) storeValue(option, p_value, option.environment);
-    is_given.push_back(on_command_line || by_variable);
+    const std::string value = added[i]->count() > 0 ? "" : variableOf(option);
+    if (!value.empty()) storeValue(option, value, option.environment);
+    is_given.push_back(added[i]->count() > 0 || !value.empty());
     if (!is_given.back()) continue;
     if (option.p_given != nullptr) *option.p_given = true;
-    if (option.p_from_environment != nullptr) *option.p_from_environment = by_variable;
+    if (option.p_from_environment != nullptr) *option.p_from_environment = !value.empty();
   }
   if (!config.empty()) readConfig(config, options, is_given);
   return true;
@@ -326,8 +327,10 @@ void storeValue(const Option& option, const std::string& value, const std::strin
   if (value.empty() && clearText(option)) return;
   CLI::App app;
   describe(app, option, *addTo(app, option));
+  std::vector<std::string> words{option.name + "=" + value};
+  if (option.name.front() != '-') words = {value, "--"};  // the last is read first
   try {
-    app.parse(std::vector<std::string>{option.name + "=" + value});
+    app.parse(words);
   } catch (const CLI::ParseError& error) {
     throw OptionError(place + ": " + withoutName(option, error.what()));
   }

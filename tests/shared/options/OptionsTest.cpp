@@ -68,6 +68,26 @@ class OptionsTest : public testing::Test {
   bool from_environment = false;
 };
 
+TEST_F(OptionsTest, AVariableCanGiveAnArgument) {
+  const std::vector<Option> options{
+      {.name = "server", .target = &name, .help = "", .environment = "OPTIONS_TEST_PORT"}};
+  const std::vector<const char*> alone{"dfthing"};
+  const std::vector<const char*> named{"dfthing", "here"};
+  const auto parsed = [&](const std::vector<const char*>& words) {
+    testing::internal::CaptureStderr();
+    result = parseOptions({"dfthing", "", ""}, options, static_cast<int>(words.size()), words.data());
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(parsed(alone), said("server is required"));
+  for (const std::string value : {"there:9876", "-there"}) {
+    setenv("OPTIONS_TEST_PORT", value.c_str(), 1);
+    EXPECT_EQ(parsed(alone), "");
+    EXPECT_EQ(name, value);
+    EXPECT_EQ(parsed(named), "");
+    EXPECT_EQ(name, "here");
+  }
+}
+
 TEST_F(OptionsTest, OneThatJoinsMayBeGivenSeveralTimes) {
   EXPECT_EQ(parse({"--thing", "a=1", "--thing=b,c"}), "");
   EXPECT_EQ(things, "a=1 b,c");
