@@ -38,7 +38,7 @@ class RoomRecovery : public LobbyFixture {
            {"DRAGONFLY_CONFIG", home.identity("none")}});
     m_port = server->port();
   }
-  /// At any time: a round whose file was not begun is made from the memory that the server leaves behind.
+  /// Kills the server. If it had not yet created a round's file, the next server does so from shared memory.
   void kill() {
     server->signal(SIGKILL);
     server->wait();

@@ -15,8 +15,8 @@ struct SshDoor {
   LinkHost where;
 
   static std::optional<SshDoor> parse(std::string_view text);
-  /// "ssh OPTIONS -p 2222 play@::1": OpenSSH since 9.5 sends a decoy packet every 20 ms while keys are typed;
-  /// the options stop that, and older versions ignore them.
+  /// "ssh OPTIONS -p 2222 play@::1": OpenSSH 9.5 and later sends a decoy packet every 20 ms while the
+  /// player types. The options disable that; older versions ignore them.
   std::string command() const;
 };
 
