@@ -57,7 +57,7 @@ CLI::Option* addTo(CLI::App& app, const Option& row) {
       row.target);
 }
 
-/// Like CLI::Range, whose message differs between versions of CLI11.
+/// Like CLI::Range, with one error message for all versions of CLI11.
 template <class Number>
 CLI::Validator within(const OptionRange& range) {
   const auto least = static_cast<Number>(range.least);
@@ -250,7 +250,7 @@ bool readAll(const Program& program, const std::vector<Option>& options, int arg
   std::vector<bool> is_given;
   for (std::size_t i = 0; i < options.size(); ++i) {
     const Option& option = options[i];
-    // Not read by CLI11: since 2.2 it passes over a variable whose value is wrong.
+    // CLI11 2.4 ignores a variable with an invalid value, so variables are read here.
     const std::string value = added[i]->count() > 0 ? "" : variableOf(option);
     if (!value.empty()) storeValue(option, value, option.environment);
     is_given.push_back(added[i]->count() > 0 || !value.empty());

@@ -38,7 +38,7 @@ class RoomRecovery : public LobbyFixture {
            {"DRAGONFLY_CONFIG", home.identity("none")}});
     m_port = server->port();
   }
-  /// Kills the server at any time: the next one makes a file that was not begun from the memory that is left.
+  /// Kills the server. If it had not yet created a round's file, the next server does so from shared memory.
   void kill() {
     server->signal(SIGKILL);
     server->wait();

@@ -15,8 +15,8 @@ struct SshDoor {
   LinkHost where;
 
   static std::optional<SshDoor> parse(std::string_view text);
-  /// Returns "ssh OPTIONS -p 2222 play@::1". Since 9.5, OpenSSH sends a decoy packet every 20 ms while keys
-  /// are typed. The options stop that; older versions ignore them.
+  /// "ssh OPTIONS -p 2222 play@::1": OpenSSH 9.5 and later sends a decoy packet every 20 ms while the
+  /// player types. The options disable that; older versions ignore them.
   std::string command() const;
 };
 

@@ -163,6 +163,7 @@ class KeepTest : public test::ServerFixture {
   void installPrograms(const std::string& replay_script) {
     fs::create_directories(folder / "bin");
     fs::copy_file(NAIAD_BINARY_DIR "/dfserver", folder / "bin/dfserver");
+    fs::create_directory_symlink(NAIAD_BINARY_DIR "/../lib", folder / "lib");
     dfserver = (folder / "bin/dfserver").string();
     installScript("dfreplay", replay_script);
   }
